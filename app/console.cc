@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "console.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::app {
+namespace {
+
+void Write(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
+std::string Sentence(std::string_view kind, const std::string& subject,
+                     const std::string& message) {
+  std::string line = "lightcal: " + std::string(kind);
+  if (!subject.empty()) line += subject + ": ";
+  return line + message + "\n";
+}
+
+std::size_t DisplayWidth(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+bool LooksNumeric(std::string_view text) {
+  return !text.empty() && (text[0] == '-' || text[0] == '+' || (text[0] >= '0' && text[0] <= '9'));
+}
+
+void AppendCell(std::string& line, const std::string& cell, std::size_t width, bool right) {
+  const std::string padding(width - std::min(width, DisplayWidth(cell)), ' ');
+  line += right ? padding + cell : cell + padding;
+}
+
+int DigitsFor(double value, double u95) {
+  if (value == 0.0 || u95 <= 0.0) return 4;
+  const double digits = std::ceil(std::log10(std::abs(value) / u95)) + 2.0;
+  return static_cast<int>(std::clamp(digits, 2.0, 6.0));
+}
+
+}  // namespace
+
+void Console::Print(std::string_view text) {
+  if (!flags_.json) Write(stdout, text);
+}
+
+void Console::PrintJson(const nlohmann::ordered_json& document) {
+  if (!flags_.json) return;
+  nlohmann::ordered_json whole = document;
+  if (!warnings_.empty()) {
+    auto& list = whole["warnings"] = nlohmann::ordered_json::array();
+    for (const Warning& w : warnings_) {
+      list.push_back({{"code", w.code}, {"subject", w.subject}, {"message", w.message}});
+    }
+  }
+  Write(stdout, whole.dump(2) + "\n");
+}
+
+void Console::Note(std::string_view text) {
+  if (!flags_.quiet) Write(stderr, std::string(text) + "\n");
+}
+
+void Console::Warn(const Warning& warning) {
+  warnings_.push_back(warning);
+  Write(stderr, Sentence("warning: ", warning.subject, warning.message));
+}
+
+void Console::Warn(const Warnings& warnings) {
+  for (const Warning& warning : warnings) Warn(warning);
+}
+
+Result<void> Console::RefuseIfStrict() const {
+  if (!flags_.strict || warnings_.empty()) return {};
+  const Warning& first = warnings_.front();
+  return Refused(first.code, first.subject, first.message + " (refused because of --strict)");
+}
+
+void PrintError(const Error& error, bool json) {
+  if (json) {
+    const nlohmann::ordered_json document = {
+        {"error", {{"code", error.code}, {"subject", error.subject}, {"message", error.message}}}};
+    Write(stdout, document.dump(2) + "\n");
+  }
+  Write(stderr, Sentence("", error.subject, error.message));
+}
+
+std::string TextTable(const std::vector<std::string>& header,
+                      const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> width(header.size());
+  std::vector<bool> right(header.size(), !rows.empty());
+  for (std::size_t c = 0; c < header.size(); ++c) {
+    width[c] = DisplayWidth(header[c]);
+    for (const auto& row : rows) {
+      width[c] = std::max(width[c], DisplayWidth(row[c]));
+      if (!row[c].empty() && !LooksNumeric(row[c])) right[c] = false;
+    }
+  }
+  std::string table;
+  const auto add = [&](const std::vector<std::string>& row) {
+    std::string line;
+    for (std::size_t c = 0; c < header.size(); ++c) {
+      if (c > 0) line += "  ";
+      AppendCell(line, row[c], width[c], right[c]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    table += line + "\n";
+  };
+  add(header);
+  for (const auto& row : rows) add(row);
+  return table;
+}
+
+std::string ValueWithPercent(double value, double u95, std::string_view unit) {
+  const double percent = value == 0.0 ? 0.0 : std::abs(u95 / value) * 100.0;
+  return RoundedText(value, DigitsFor(value, u95)) + " " + std::string(unit) + " ± " +
+         RoundedText(percent, 2) + " %";
+}
+
+std::string ValueWithAbsolute(double value, double u95, std::string_view unit) {
+  const std::string u = RoundedText(u95, 2);
+  const auto point = u.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(u.size() - point - 1);
+  std::string number(64, '\0');
+  number.resize(static_cast<std::size_t>(
+      std::snprintf(number.data(), number.size(), "%.*f", decimals, value)));
+  return number + " ± " + u + " " + std::string(unit);
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two streams of every command: answers on stdout (a table for people or exactly one JSON
+// document), notes and warnings on stderr.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+
+namespace lightcal::app {
+
+class Console {
+ public:
+  struct Flags {
+    bool json = false;
+    bool quiet = false;
+    bool verbose = false;
+    bool strict = false;
+  };
+  explicit Console(Flags flags) : flags_(flags) {}
+
+  [[nodiscard]] bool json() const { return flags_.json; }
+  [[nodiscard]] bool verbose() const { return flags_.verbose; }
+
+  // Text for people on stdout; silent with --json.
+  void Print(std::string_view text);
+  // The command's one JSON document; silent without --json. Warnings given so far are added under
+  // "warnings". Call it last and once.
+  void PrintJson(const nlohmann::ordered_json& document);
+  // A note on stderr (progress, next step); silent with --quiet.
+  void Note(std::string_view text);
+  // A warning on stderr and in the JSON document.
+  void Warn(const Warning& warning);
+  void Warn(const Warnings& warnings);
+
+  // With --strict a command that warned must end refused, before it writes anything: call this
+  // between the last warning and the first output.
+  [[nodiscard]] Result<void> RefuseIfStrict() const;
+
+ private:
+  Flags flags_;
+  Warnings warnings_;
+};
+
+// Prints an error as people or machines read it.
+void PrintError(const Error& error, bool json);
+
+// A table with a header, columns aligned by display width (UTF-8), numbers to the right.
+[[nodiscard]] std::string TextTable(const std::vector<std::string>& header,
+                                    const std::vector<std::vector<std::string>>& rows);
+
+// "5585 cd ± 3.8 %": value with the digits its uncertainty leaves, and the relative half width.
+[[nodiscard]] std::string ValueWithPercent(double value, double u95, std::string_view unit);
+// "0.067 ± 0.035 m": for values near zero, where a percentage says nothing.
+[[nodiscard]] std::string ValueWithAbsolute(double value, double u95, std::string_view unit);
+
+}  // namespace lightcal::app

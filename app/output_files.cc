@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "output_files.h"
+
+#include <fcntl.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kProvenanceWindowBytes = 4096;
+
+bool CarriesOurProvenance(const std::string& path) {
+  const auto contents = ReadWholeFile(path);
+  if (!contents) return false;
+  const bool is_json = contents->starts_with("{");
+  const auto window =
+      is_json ? std::string_view(*contents)
+              : std::string_view(*contents).substr(0, kProvenanceWindowBytes);
+  return window.find("lightcal") != std::string_view::npos;
+}
+
+tl::unexpected<Error> Unwritable(const std::string& path, int error_number) {
+  return Failed("unwritable", path,
+                std::string("cannot be written: ") + std::strerror(error_number) +
+                    "; choose another -o or make room");
+}
+
+Result<void> WriteSynced(const std::string& path, const std::string& contents) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) return Unwritable(path, errno);
+  std::size_t written = 0;
+  while (written < contents.size()) {
+    const ssize_t n = ::write(fd, contents.data() + written, contents.size() - written);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      const int error_number = errno;
+      ::close(fd);
+      return Unwritable(path, error_number);
+    }
+    written += static_cast<std::size_t>(n);
+  }
+  const int synced = ::fsync(fd);
+  const int error_number = errno;
+  if (::close(fd) != 0 || synced != 0) return Unwritable(path, error_number);
+  return {};
+}
+
+std::string TemporaryName(const std::string& path) {
+  const fs::path p(path);
+  return (p.parent_path() / ("." + p.filename().string() + "." + std::to_string(::getpid()) + ".tmp"))
+      .string();
+}
+
+Result<void> CheckTargets(const std::vector<OutputFile>& files, bool force) {
+  for (const OutputFile& file : files) {
+    std::error_code error;
+    if (fs::is_directory(file.path, error)) {
+      return Failed("exists", file.path, "is a directory; name a file");
+    }
+    if (!force && fs::exists(file.path, error) && !CarriesOurProvenance(file.path)) {
+      return Failed("exists", file.path,
+                    "exists and was not written by lightcal; pass --force to replace it");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
+  if (auto checked = CheckTargets(files, force); !checked) return checked;
+  std::vector<std::string> temporaries;
+  const auto discard = [&] {
+    for (const std::string& name : temporaries) ::unlink(name.c_str());
+  };
+  for (const OutputFile& file : files) {
+    const fs::path directory = fs::path(file.path).parent_path();
+    std::error_code error;
+    if (!directory.empty()) fs::create_directories(directory, error);
+    if (error) {
+      discard();
+      return Unwritable(directory.string(), error.value());
+    }
+    temporaries.push_back(TemporaryName(file.path));
+    if (auto written = WriteSynced(temporaries.back(), file.contents); !written) {
+      discard();
+      Error failure = written.error();
+      failure.subject = file.path;
+      return tl::unexpected(failure);
+    }
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (::rename(temporaries[i].c_str(), files[i].path.c_str()) != 0) {
+      const int error_number = errno;
+      discard();
+      return Unwritable(files[i].path, error_number);
+    }
+  }
+  return {};
+}
+
+Result<std::string> ReadWholeFile(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return Failed("not_found", path, "no such file");
+  std::ifstream stream(path, std::ios::binary);
+  std::string contents{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.is_open() || stream.bad() || fs::is_directory(path, error)) {
+    return Failed("unreadable", path, "cannot be read; is it a file you may open?");
+  }
+  return contents;
+}
+
+std::string Sha256Hex(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    text += kHex[digest[i] >> 4U];
+    text += kHex[digest[i] & 0xFU];
+  }
+  return text;
+}
+
+std::string GeneratorName() { return "lightcal " LIGHTCAL_VERSION; }
+
+}  // namespace lightcal::app

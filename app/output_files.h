@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// How lightcal writes files: all of a command's outputs or none, each to a temporary name beside its
+// target, synced, then renamed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+
+namespace lightcal::app {
+
+struct OutputFile {
+  std::string path;
+  std::string contents;
+};
+
+// Fails with "exists" (exit 1) before writing anything when a target exists, does not carry
+// lightcal's own provenance (the word "lightcal" in its first 4 KiB or anywhere in a JSON file) and
+// force is off; with "unwritable" when a directory or file cannot be written. Creates directories.
+// On any failure no target has changed.
+[[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
+
+// Whole file as bytes. Fails: not_found, unreadable.
+[[nodiscard]] Result<std::string> ReadWholeFile(const std::string& path);
+
+// SHA-256 of bytes, lower-case hex.
+[[nodiscard]] std::string Sha256Hex(std::string_view bytes);
+
+// "lightcal 0.1.0"
+[[nodiscard]] std::string GeneratorName();
+
+}  // namespace lightcal::app

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A value with its 95 % interval, as every JSON answer of lightcal spells it.
+#pragma once
+
+#include <optional>
+
+namespace lightcal {
+
+// Half the width of the central 95 % interval of a normal variable, in standard deviations.
+inline constexpr double kZ95 = 1.959963984540054;
+
+// value with u95 = half the width of its 95 % interval, in the value's own unit. Where the interval
+// is not symmetric (an intensity fitted as ln I), low and high hold its true ends.
+struct Uncertain {
+  double value = 0.0;
+  double u95 = 0.0;
+  std::optional<double> low;
+  std::optional<double> high;
+};
+
+// The value exp(mean_ln) of a variable that is normal in its logarithm:
+//   low, high = value exp(-+ kZ95 sd_ln),  u95 = (high - low)/2 = value sinh(kZ95 sd_ln).
+[[nodiscard]] Uncertain UncertainFromLog(double mean_ln, double sd_ln);
+// value +- kZ95 sd.
+[[nodiscard]] Uncertain UncertainFromNormal(double value, double sd);
+
+}  // namespace lightcal

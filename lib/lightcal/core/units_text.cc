@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/core/units_text.h"
+
+#include <numbers>
+#include <span>
+#include <string>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal {
+namespace {
+
+struct UnitFactor {
+  std::string_view unit;
+  double si_per_unit;
+};
+
+constexpr UnitFactor kLengthUnits[] = {{"", 1.0},      {"m", 1.0},       {"cm", 0.01},
+                                       {"mm", 0.001},  {"km", 1000.0},   {"in", 0.0254},
+                                       {"\"", 0.0254}, {"inch", 0.0254}, {"ft", 0.3048},
+                                       {"'", 0.3048}};
+constexpr UnitFactor kIlluminanceUnits[] = {
+    {"", 1.0}, {"lx", 1.0}, {"lux", 1.0}, {"klx", 1000.0}, {"fc", kLuxPerFootcandle}};
+constexpr UnitFactor kDurationUnits[] = {
+    {"", 1.0}, {"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}};
+constexpr UnitFactor kTemperatureUnits[] = {{"", 1.0}, {"k", 1.0}};
+constexpr UnitFactor kAngleUnits[] = {{"", std::numbers::pi / 180.0},
+                                      {"deg", std::numbers::pi / 180.0},
+                                      {"\xC2\xB0", std::numbers::pi / 180.0},
+                                      {"rad", 1.0}};
+
+Result<double> ParseWith(std::string_view text, std::span<const UnitFactor> units,
+                         std::string_view what) {
+  const auto split = SplitNumberAndUnit(text);
+  if (!split) return tl::unexpected(split.error());
+  const std::string unit = LowerAscii(split->unit);
+  std::string known;
+  for (const UnitFactor& factor : units) {
+    if (factor.unit == unit) return split->number * factor.si_per_unit;
+    if (!factor.unit.empty()) known += (known.empty() ? "" : ", ") + std::string(factor.unit);
+  }
+  return WrongUsage(std::string(text), "unknown unit \"" + std::string(split->unit) + "\" for " +
+                                           std::string(what) + "; use one of: " + known);
+}
+
+template <class Unit>
+Result<Unit> Wrap(Result<double>&& number) {
+  if (!number) return Propagate(std::move(number));
+  return Unit(*number);
+}
+
+}  // namespace
+
+Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text) {
+  const std::string_view trimmed = TrimBlanks(text);
+  std::size_t end = 0;
+  while (end < trimmed.size()) {
+    const char c = trimmed[end];
+    const bool exponent = (c == 'e' || c == 'E') && end + 1 < trimmed.size() && end > 0 &&
+                          (std::string_view("+-0123456789").find(trimmed[end + 1]) != std::string_view::npos);
+    if (std::string_view("+-.0123456789/").find(c) == std::string_view::npos && !exponent) break;
+    end += exponent ? 2 : 1;
+  }
+  const std::string_view number = trimmed.substr(0, end);
+  const std::string_view unit = TrimBlanks(trimmed.substr(end));
+  const auto slash = number.find('/');
+  if (slash != std::string_view::npos) {
+    const auto above = ParseNumber(number.substr(0, slash));
+    const auto below = ParseNumber(number.substr(slash + 1));
+    if (above && below && *below != 0.0) return NumberWithUnit{*above / *below, unit};
+  } else if (const auto value = ParseNumber(number)) {
+    return NumberWithUnit{*value, unit};
+  }
+  return WrongUsage(std::string(text),
+                    "a number is needed here, with an optional unit, for example 0.5m or 192lx");
+}
+
+Result<Metres> ParseLength(std::string_view text) {
+  return Wrap<Metres>(ParseWith(text, kLengthUnits, "a length"));
+}
+Result<Lux> ParseIlluminance(std::string_view text) {
+  return Wrap<Lux>(ParseWith(text, kIlluminanceUnits, "an illuminance"));
+}
+Result<Seconds> ParseDuration(std::string_view text) {
+  return Wrap<Seconds>(ParseWith(text, kDurationUnits, "a time"));
+}
+Result<Kelvin> ParseTemperature(std::string_view text) {
+  return Wrap<Kelvin>(ParseWith(text, kTemperatureUnits, "a colour temperature"));
+}
+Result<Radians> ParseAngle(std::string_view text) {
+  return Wrap<Radians>(ParseWith(text, kAngleUnits, "an angle"));
+}
+Result<double> ParseFNumber(std::string_view text) {
+  std::string_view trimmed = TrimBlanks(text);
+  if (trimmed.starts_with("f/") || trimmed.starts_with("F/")) trimmed.remove_prefix(2);
+  const auto value = ParseNumber(trimmed);
+  if (!value || *value <= 0.0) {
+    return WrongUsage(std::string(text), "an f-number above zero is needed, for example f/2.8");
+  }
+  return *value;
+}
+
+}  // namespace lightcal

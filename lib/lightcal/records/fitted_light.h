@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a calibration found: one lamp, with the uncertainty of every number.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/core/units.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/photometry/light_kind.h"
+
+namespace lightcal {
+
+struct FittedColor {
+  std::optional<Uncertain> cct_K;   // absent where a CCT means nothing (|Duv| > .05 ...)
+  std::optional<Uncertain> duv;
+  std::optional<Xy> xy;
+};
+
+struct FitDiagnostics {
+  int readings = 0;                    // rows of this light in the session
+  int used = 0;                        // rows that carried the estimate
+  std::vector<int> rejected;           // 0-based over the light's readings
+  std::optional<double> rms_relative;  // of the used rows; absent with no degree of freedom left
+  std::optional<double> chi2_dof;
+  int degrees_of_freedom = 0;          // used rows minus learned parameters, never below 0
+  std::optional<double> leave_one_out; // rms relative error of each used row predicted by the others
+  std::optional<double> condition;     // of the scaled Jacobian
+  std::vector<std::string> learned;    // parameters the readings decided
+  std::vector<std::string> prior;      // parameters the priors decided
+};
+
+enum class EffectState { kOff, kOn, kFitted };
+struct EffectReport {
+  std::string name;
+  EffectState state = EffectState::kOff;
+  double bound = 0.0;                  // |relative contribution to E| it cannot exceed
+  std::optional<double> contribution;  // found
+  double cost_ns = 0.0;                // declared price of one evaluation
+  std::string reason;
+};
+
+// One used or rejected row against the model, for tables and plots.
+struct ResidualRow {
+  int index = 0;                       // 0-based over the light's readings
+  std::optional<double> distance_m;
+  double measured_lx = 0.0;            // direct light: off and shadow-card readings subtracted
+  double predicted_lx = 0.0;
+  double relative = 0.0;               // measured/predicted - 1
+  double sigma_relative = 0.0;
+  bool used = true;
+};
+
+// E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
+// the model); flux integrates the model. d0 is positive when the effective source lies behind the
+// point the distance was measured from.
+struct FittedLight {
+  std::string name;
+  LightKind kind = LightKind::kPoint;
+  std::optional<Uncertain> intensity_cd;
+  std::optional<Uncertain> flux_lm;
+  std::optional<Uncertain> illuminance_lx;   // directional, dome
+  std::optional<Uncertain> luminance_nits;   // sphere, disk, rect, tube
+  std::optional<Uncertain> distance_offset_m;
+  std::optional<Uncertain> ambient_lx;
+  std::optional<double> inner_deg, outer_deg;  // half angles
+  std::optional<double> diameter_m, width_m, height_m, length_m, radius_m;
+  std::optional<Vec3> position_m;
+  std::optional<Vec3> aim;
+  FittedColor color;
+  FitDiagnostics fit;
+  std::vector<EffectReport> effects;
+  std::vector<ResidualRow> residuals;
+  // Covariance of (ln I, d0, E0), for predictions: u of a reading at another distance.
+  std::optional<std::array<double, 9>> covariance_lnI_d0_E0;
+};
+
+struct InputFile {
+  std::string path;    // relative to the session where possible
+  std::string sha256;  // hex
+};
+struct Provenance {
+  std::string generator;        // "lightcal 0.1.0"
+  std::vector<InputFile> inputs;
+  std::string time;             // newest time found in the inputs, "" = none
+};
+
+// A light.json: schema lightcal.light/1.
+struct LightFile {
+  std::vector<FittedLight> lights;
+  Provenance provenance;
+};
+
+}  // namespace lightcal
