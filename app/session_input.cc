@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/records/session_codec.h"
+#include "lightcal_devices/files/import_file.h"
+#include "output_files.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string PathInSession(const Session& session, const std::string& name) {
+  return (fs::path(session.directory) / name).string();
+}
+
+Result<ImportedSpectrum> TheOneSpectrum(const std::string& path, const std::string& where,
+                                        Console& console) {
+  auto imported = ImportFile(path);
+  if (!imported) return Propagate(std::move(imported));
+  console.Warn(imported->warnings);
+  if (imported->spectra.size() != 1) {
+    return Refused("several_spectra", where,
+                   path + " holds " + std::to_string(imported->spectra.size()) +
+                       " spectra, a reading needs one; import the column you mean with "
+                       "lightcal import FILE --column NAME");
+  }
+  return std::move(imported->spectra.front());
+}
+
+// A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
+// none and the file's unit is an irradiance.
+Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& console) {
+  Reading& reading = row.reading;
+  if (reading.spectrum_file.empty()) return {};
+  const std::string path = PathInSession(session, reading.spectrum_file);
+  const auto imported = TheOneSpectrum(path, row.where, console);
+  if (!imported) return tl::unexpected(imported.error());
+  const auto xyz = XyzFromSpectrum(imported->spectrum);
+  if (!xyz) return tl::unexpected(xyz.error());
+  reading.xy = XyFromXyz(*xyz);
+  if (reading.color_source == ColorSource::kUnknown) {
+    reading.color_source = ColorSource::kSpectrometer;
+  }
+  const bool absolute = imported->spectrum.quantity == SpectralQuantity::kIrradiance;
+  if (!reading.illuminance && absolute) reading.illuminance = Lux(xyz->Y);
+  if (std::ranges::find(session.input_files, path) == session.input_files.end()) {
+    session.input_files.push_back(path);
+  }
+  return {};
+}
+
+std::string TimeFromSourceDateEpoch() {
+  const char* text = std::getenv("SOURCE_DATE_EPOCH");
+  const auto seconds = text == nullptr ? std::nullopt : ParseNumber(text);
+  if (!seconds) return {};
+  const auto time = static_cast<std::time_t>(*seconds);
+  std::tm utc{};
+  if (gmtime_r(&time, &utc) == nullptr) return {};
+  std::string formatted(32, '\0');
+  formatted.resize(std::strftime(formatted.data(), formatted.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
+  return formatted;
+}
+
+Result<Provenance> ProvenanceOf(const Session& session) {
+  Provenance provenance;
+  provenance.generator = GeneratorName();
+  for (const std::string& path : session.input_files) {
+    auto bytes = ReadWholeFile(path);
+    if (!bytes) return Propagate(std::move(bytes));
+    const fs::path relative = fs::path(path).lexically_proximate(session.directory);
+    provenance.inputs.push_back({relative.generic_string(), Sha256Hex(*bytes)});
+  }
+  provenance.time = TimeFromSourceDateEpoch();
+  if (provenance.time.empty()) {
+    for (const SessionReading& row : session.readings) {
+      provenance.time = std::max(provenance.time, row.reading.time);
+    }
+  }
+  return provenance;
+}
+
+}  // namespace
+
+Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
+                                           Console& console) {
+  auto loaded = LoadSession(path);
+  if (!loaded) return Propagate(std::move(loaded));
+  console.Warn(loaded->warnings);
+  CalibratedSession calibrated;
+  calibrated.session = std::move(loaded->session);
+  for (SessionReading& row : calibrated.session.readings) {
+    if (auto resolved = ResolveSpectrum(calibrated.session, row, console); !resolved) {
+      return Propagate(std::move(resolved));
+    }
+  }
+  auto fitted = FitSession(calibrated.session, settings);
+  if (!fitted) return Propagate(std::move(fitted));
+  console.Warn(fitted->warnings);
+  calibrated.lights = std::move(fitted->lights);
+  auto provenance = ProvenanceOf(calibrated.session);
+  if (!provenance) return Propagate(std::move(provenance));
+  calibrated.lights.provenance = std::move(*provenance);
+  return calibrated;
+}
+
+std::string DefaultOutputDirectory(const Session& session) {
+  return (fs::path(session.directory) / "out").string();
+}
+
+Result<double> ParseTolerance(const std::string& text) {
+  const auto split = SplitNumberAndUnit(text);
+  if (!split) return tl::unexpected(split.error());
+  const double tolerance = split->unit == "%" ? split->number / 100.0 : split->number;
+  const bool known_unit = split->unit.empty() || split->unit == "%";
+  if (!known_unit || !(tolerance > 0.0) || tolerance >= 1.0) {
+    return WrongUsage(text, "a tolerance is a part of one above 0 and below 1, e.g. 1% or 0.01");
+  }
+  return tolerance;
+}
+
+}  // namespace lightcal::app

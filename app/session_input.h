@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a session on disk to fitted lights: the way `fit`, `run`, `explain` and `report` share.
+#pragma once
+
+#include <string>
+
+#include "console.h"
+#include "lightcal/core/result.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::app {
+
+struct CalibratedSession {
+  Session session;     // with every reading's spectrum resolved to its colour (and illuminance)
+  LightFile lights;    // with provenance
+};
+
+// Loads the session, resolves `spectrum = "file"` of its readings through the importers, fits, and
+// notes the inputs with their hashes. Warnings go to the console as they come up.
+[[nodiscard]] Result<CalibratedSession> CalibrateSession(const std::string& path,
+                                                         const FitSettings& settings,
+                                                         Console& console);
+
+// Where a session's outputs go when the person names no place: <session directory>/out.
+[[nodiscard]] std::string DefaultOutputDirectory(const Session& session);
+
+// "1%" or "0.01" -> 0.01.
+[[nodiscard]] Result<double> ParseTolerance(const std::string& text);
+
+}  // namespace lightcal::app
