@@ -9,8 +9,6 @@ namespace lightcal::app {
 // clang-format off
 // clang-format on
 
-std::span<const CommandRow> Commands() {
-  return {};
-}
+std::span<const CommandRow> Commands() { return {}; }
 
 }  // namespace lightcal::app

@@ -23,8 +23,8 @@ std::string Sentence(std::string_view kind, const std::string& subject,
 }
 
 std::size_t DisplayWidth(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 bool LooksNumeric(std::string_view text) {

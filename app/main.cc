@@ -34,8 +34,9 @@ bool AsksForJson(int argc, char** argv) {
 }
 
 int Main(int argc, char** argv) {
-  CLI::App parser("Measure real lamps, bring them into renderers, and say how sure it is.\n"
-                  "Start with:  lightcal quick 192lx@0.5m --cct 2900K");
+  CLI::App parser(
+      "Measure real lamps, bring them into renderers, and say how sure it is.\n"
+      "Start with:  lightcal quick 192lx@0.5m --cct 2900K");
   parser.name("lightcal");
   parser.set_version_flag("--version", GeneratorName());
   parser.require_subcommand(1);
@@ -56,9 +57,9 @@ int Main(int argc, char** argv) {
     return parser.exit(e);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return parser.exit(e);
-    PrintError(Error{ErrorKind::kUsage, "usage", "",
-                     std::string(e.what()) + " (see lightcal --help)"},
-               AsksForJson(argc, argv));
+    PrintError(
+        Error{ErrorKind::kUsage, "usage", "", std::string(e.what()) + " (see lightcal --help)"},
+        AsksForJson(argc, argv));
     return kExitUsage;
   }
   Console console(parsed.flags);

@@ -23,9 +23,8 @@ bool CarriesOurProvenance(const std::string& path) {
   const auto contents = ReadWholeFile(path);
   if (!contents) return false;
   const bool is_json = contents->starts_with("{");
-  const auto window =
-      is_json ? std::string_view(*contents)
-              : std::string_view(*contents).substr(0, kProvenanceWindowBytes);
+  const auto window = is_json ? std::string_view(*contents)
+                              : std::string_view(*contents).substr(0, kProvenanceWindowBytes);
   return window.find("lightcal") != std::string_view::npos;
 }
 
@@ -57,7 +56,8 @@ Result<void> WriteSynced(const std::string& path, const std::string& contents) {
 
 std::string TemporaryName(const std::string& path) {
   const fs::path p(path);
-  return (p.parent_path() / ("." + p.filename().string() + "." + std::to_string(::getpid()) + ".tmp"))
+  return (p.parent_path() /
+          ("." + p.filename().string() + "." + std::to_string(::getpid()) + ".tmp"))
       .string();
 }
 

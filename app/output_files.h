@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How lightcal writes files: all of a command's outputs or none, each to a temporary name beside its
-// target, synced, then renamed.
+// How lightcal writes files: all of a command's outputs or none, each to a temporary name beside
+// its target, synced, then renamed.
 #pragma once
 
 #include <string>

@@ -13,8 +13,8 @@
 namespace lightcal::app {
 
 struct CalibratedSession {
-  Session session;     // with every reading's spectrum resolved to its colour (and illuminance)
-  LightFile lights;    // with provenance
+  Session session;   // with every reading's spectrum resolved to its colour (and illuminance)
+  LightFile lights;  // with provenance
 };
 
 // Loads the session, resolves `spectrum = "file"` of its readings through the importers, fits, and

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal quick: no session needed. Typed readings or a data sheet's figures become a session in
+// memory and go through the same fit.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "light_table.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/records/light_codec.h"
+#include "output_files.h"
+#include "preset_files.h"
+#include "session_input.h"
+
+namespace lightcal::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> readings;
+  std::string name = "light";
+  std::string kind;
+  std::string cct, diameter, sigma, beam, field, lumens, watts, inner, outer;
+  std::vector<std::string> predict_at;
+  std::vector<std::string> targets;
+  std::string output = "lightcal-quick";
+  bool full_angles = false;
+  bool bare = false;
+  bool force = false;
+};
+
+// "192lx@0.5m" -> a reading.
+Result<Reading> ParseTypedReading(const std::string& text, const std::string& light) {
+  const auto at = text.find('@');
+  if (at == std::string::npos) {
+    return WrongUsage(text, "a reading is written ILLUMINANCE@DISTANCE, for example 192lx@0.5m");
+  }
+  const auto illuminance = ParseIlluminance(text.substr(0, at));
+  if (!illuminance) return tl::unexpected(illuminance.error());
+  const auto distance = ParseLength(text.substr(at + 1));
+  if (!distance) return tl::unexpected(distance.error());
+  if (distance->value() <= 0.0) {
+    return Refused("bad_reading", text, "the distance must be above zero");
+  }
+  if (illuminance->value() < 0.0) {
+    return Refused("bad_reading", text, "an illuminance cannot be negative");
+  }
+  Reading reading;
+  reading.light = light;
+  reading.illuminance = *illuminance;
+  reading.distance = *distance;
+  return reading;
+}
+
+// Fills an optional quantity from an option's text; an empty text leaves it absent.
+template <class Unit, class Parse>
+Result<void> Fill(std::optional<Unit>& target, const std::string& text, Parse parse) {
+  if (text.empty()) return {};
+  const auto value = parse(text);
+  if (!value) return tl::unexpected(value.error());
+  if (!(value->value() > 0.0)) return WrongUsage(text, "must be above zero");
+  target = Unit(*value);
+  return {};
+}
+
+template <class Unit>
+Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
+                       std::string_view unit_word) {
+  return Fill(target, text, [unit_word](const std::string& t) -> Result<Unit> {
+    const auto split = SplitNumberAndUnit(t);
+    if (!split) return tl::unexpected(split.error());
+    if (!split->unit.empty() && LowerAscii(split->unit) != LowerAscii(unit_word)) {
+      return WrongUsage(t, "the unit here is " + std::string(unit_word));
+    }
+    return Unit(split->number);
+  });
+}
+
+Result<LightDescription> DescribeLight(const Options& options) {
+  LightDescription light;
+  light.name = options.name;
+  const std::string kind = !options.kind.empty()                             ? options.kind
+                           : !options.outer.empty() || !options.beam.empty() ? "spot"
+                                                                             : "point";
+  const auto known = LightKindFromName(kind);
+  if (!known) return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk or directional");
+  light.kind = *known;
+  std::optional<Radians> inner = std::nullopt;
+  std::optional<Radians> outer = std::nullopt;
+  for (const Result<void>& filled :
+       {Fill(light.diameter, options.diameter, [](const auto& t) { return ParseLength(t); }),
+        Fill(inner, options.inner, [](const auto& t) { return ParseAngle(t); }),
+        Fill(outer, options.outer, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.beam, options.beam, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.field, options.field, [](const auto& t) { return ParseAngle(t); }),
+        FillPlain(light.flux, options.lumens, "lm"),
+        FillPlain(light.electrical, options.watts, "W")}) {
+    if (!filled) return tl::unexpected(filled.error());
+  }
+  const double half = options.full_angles ? 0.5 : 1.0;
+  if (inner) light.inner = *inner * half;
+  if (outer) light.outer = *outer * half;
+  return light;
+}
+
+Result<void> AddReadings(Session& session, const Options& options) {
+  std::optional<Kelvin> cct;
+  if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
+      !filled) {
+    return filled;
+  }
+  std::optional<double> sigma;
+  if (!options.sigma.empty()) {
+    const auto parsed = ParseTolerance(options.sigma);
+    if (!parsed) return tl::unexpected(parsed.error());
+    sigma = *parsed;
+  }
+  for (const std::string& text : options.readings) {
+    auto reading = ParseTypedReading(text, options.name);
+    if (!reading) return Propagate(std::move(reading));
+    reading->cct = cct;
+    reading->sigma_relative = sigma;
+    session.readings.push_back({std::move(*reading), text});
+  }
+  if (options.readings.empty() && cct) {
+    Reading color_only;
+    color_only.light = options.name;
+    color_only.cct = cct;
+    session.readings.push_back({color_only, "--cct " + options.cct});
+  }
+  return {};
+}
+
+Result<Session> SessionFromOptions(const Options& options) {
+  if (options.readings.empty() && options.lumens.empty()) {
+    return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
+  }
+  auto light = DescribeLight(options);
+  if (!light) return Propagate(std::move(light));
+  Session session;
+  session.name = options.name;
+  session.stem = options.name;
+  session.directory = ".";
+  session.lights.push_back(std::move(*light));
+  if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
+  return session;
+}
+
+struct Prediction {
+  Metres distance;
+  PredictedIlluminance predicted;
+};
+
+Result<std::vector<Prediction>> Predict(const Options& options, const FittedLight& light) {
+  std::vector<Prediction> predictions;
+  const double sigma =
+      options.sigma.empty() ? kSigmaUnnamedMeter : ParseTolerance(options.sigma).value();
+  for (const std::string& text : options.predict_at) {
+    const auto distance = ParseLength(text);
+    if (!distance) return tl::unexpected(distance.error());
+    auto predicted = PredictIlluminance(light, *distance, sigma);
+    if (!predicted) return Propagate(std::move(predicted));
+    predictions.push_back({*distance, *predicted});
+  }
+  return predictions;
+}
+
+nlohmann::ordered_json UncertainJson(const Uncertain& u) {
+  nlohmann::ordered_json json = {{"value", u.value}, {"u95", u.u95}};
+  if (u.low) json["low95"] = *u.low;
+  if (u.high) json["high95"] = *u.high;
+  return json;
+}
+
+std::string PredictionTable(const std::vector<Prediction>& predictions) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Prediction& p : predictions) {
+    const Uncertain& lx = p.predicted.reading_lx;
+    const std::string range =
+        lx.low ? RoundedText(*lx.low, 4) + " … " + RoundedText(*lx.high, 4) + " lx" : "-";
+    rows.push_back({RoundedText(p.distance.value(), 4) + " m",
+                    ValueWithPercent(lx.value, lx.u95, "lx"), range});
+  }
+  return TextTable({"at", "a meter will read", "95 %"}, rows);
+}
+
+void PrintAnswer(const Options& options, const FittedSession& fitted, const std::string& next,
+                 const std::vector<Prediction>& predictions, const std::string& json,
+                 Console& console) {
+  const FittedLight& light = fitted.lights.lights.front();
+  console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
+  if (light.intensity_cd && light.intensity_cd->low) {
+    console.Print("\n95 % interval: " + RoundedText(*light.intensity_cd->low, 3) + " … " +
+                  RoundedText(*light.intensity_cd->high, 3) + " cd\n");
+  }
+  if (!predictions.empty()) console.Print("\n" + PredictionTable(predictions));
+  console.Print("\nnext: " + next + "\n");
+  auto document = nlohmann::ordered_json::parse(json);
+  document["next_step"] = next;
+  if (!predictions.empty()) {
+    auto& list = document["predictions"] = nlohmann::ordered_json::array();
+    for (const Prediction& p : predictions) {
+      list.push_back({{"distance_m", p.distance.value()},
+                      {"model_lx", UncertainJson(p.predicted.model_lx)},
+                      {"reading_lx", UncertainJson(p.predicted.reading_lx)}});
+    }
+  }
+  console.PrintJson(document);
+  if (options.targets.empty()) {
+    console.Note("add --to gltf,json -o DIR to write presets");
+  }
+}
+
+Result<void> RunQuick(const Options& options, Console& console) {
+  auto session = SessionFromOptions(options);
+  if (!session) return Propagate(std::move(session));
+  auto fitted = FitSession(*session, FitSettings{});
+  if (!fitted) return Propagate(std::move(fitted));
+  fitted->lights.provenance.generator = GeneratorName();
+  const FittedLight& light = fitted->lights.lights.front();
+  const auto predictions = Predict(options, light);
+  if (!predictions) return tl::unexpected(predictions.error());
+  const auto json = LightFileToJson(fitted->lights);
+  if (!json) return tl::unexpected(json.error());
+  console.Warn(fitted->warnings);
+  std::vector<OutputFile> files;
+  if (!options.targets.empty()) {
+    Warnings warnings;
+    auto presets = PresetFiles(fitted->lights, session->stem, options.targets,
+                               {.bare = options.bare}, warnings);
+    if (!presets) return Propagate(std::move(presets));
+    console.Warn(warnings);
+    for (OutputFile& file : *presets) {
+      files.push_back(
+          {(std::filesystem::path(options.output) / file.path).string(), std::move(file.contents)});
+    }
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (auto written = WriteOutputs(files, options.force); !written) return written;
+  PrintAnswer(options, *fitted, NextStep(*session, light), *predictions, *json, console);
+  for (const OutputFile& file : files) console.Note("wrote " + file.path);
+  return {};
+}
+
+}  // namespace
+
+Run BuildQuick(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("readings", options->readings,
+                    "What the meter showed and where: 192lx@0.5m, 17.8fc@20in ...");
+  parser.add_option("--name", options->name, "Name of the light")->capture_default_str();
+  parser.add_option("--kind", options->kind, "point, spot, sphere, disk, directional [point]");
+  parser.add_option("--cct", options->cct, "Colour temperature, e.g. 2900K");
+  parser.add_option("--diameter", options->diameter, "Of a sphere or disk, e.g. 6cm");
+  parser.add_option("--inner", options->inner, "Half angle where the spot starts to fall off");
+  parser.add_option("--outer", options->outer, "Half angle where the spot ends");
+  parser.add_flag("--full-angles", options->full_angles, "--inner and --outer are full angles");
+  parser.add_option("--sigma", options->sigma, "1 sigma of a reading, e.g. 3% [5%]");
+  parser.add_option("--lumens", options->lumens, "Data sheet: luminous flux, e.g. 806");
+  parser.add_option("--beam", options->beam, "Data sheet: full beam angle (50 % of the peak)");
+  parser.add_option("--field", options->field, "Data sheet: full field angle (10 % of the peak)");
+  parser.add_option("--watts", options->watts, "Data sheet: electrical power");
+  parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m");
+  parser.add_option("--to", options->targets, "Also write presets: gltf,json")->delimiter(',');
+  parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();
+  parser.add_flag("--bare", options->bare, "Presets hold the light only, no cards and camera");
+  parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
+  return [options](Console& console) { return RunQuick(*options, console); };
+}
+
+}  // namespace lightcal::app

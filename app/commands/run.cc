@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal run: the main job. Session in; light.json, presets and report out.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "light_table.h"
+#include "lightcal/records/light_codec.h"
+#include "lightcal/report/page.h"
+#include "output_files.h"
+#include "preset_files.h"
+#include "session_input.h"
+
+namespace lightcal::app {
+namespace {
+
+struct Options {
+  std::string session;
+  std::string output;
+  std::vector<std::string> targets;
+  std::string tolerance = "1%";
+  std::string effects = "auto";
+  bool bare = false;
+  bool force = false;
+};
+
+Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::string& directory,
+                                          const CalibratedSession& calibrated, Console& console) {
+  const LightFile& lights = calibrated.lights;
+  auto json = LightFileToJson(lights);
+  if (!json) return Propagate(std::move(json));
+  Warnings warnings;
+  auto presets = PresetFiles(lights, calibrated.session.stem, options.targets,
+                             {.bare = options.bare}, warnings);
+  if (!presets) return Propagate(std::move(presets));
+  console.Warn(warnings);
+  std::vector<OutputFile> files = {{"light.json", std::move(*json)},
+                                   {"report.html", ReportPage(lights, calibrated.session.name)}};
+  for (OutputFile& file : *presets) files.push_back(std::move(file));
+  for (OutputFile& file : files) {
+    file.path = (std::filesystem::path(directory) / file.path).string();
+  }
+  return files;
+}
+
+Result<void> RunRun(const Options& options, Console& console) {
+  const auto tolerance = ParseTolerance(options.tolerance);
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  auto calibrated = CalibrateSession(options.session, {*tolerance, options.effects}, console);
+  if (!calibrated) return Propagate(std::move(calibrated));
+  const std::string directory =
+      options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
+  const auto files = OutputsOf(options, directory, *calibrated, console);
+  if (!files) return tl::unexpected(files.error());
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (auto written = WriteOutputs(*files, options.force); !written) return written;
+
+  console.Print(LightTable(calibrated->lights) + "\n" + FitTable(calibrated->lights) + "\n");
+  for (const OutputFile& file : *files) console.Print("wrote " + file.path + "\n");
+  auto document = nlohmann::ordered_json::parse(files->front().contents);
+  auto& written = document["files"] = nlohmann::ordered_json::array();
+  for (const OutputFile& file : *files) written.push_back(file.path);
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace
+
+Run BuildRun(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("session", options->session, "Session directory or .toml file")->required();
+  parser.add_option("-o,--output", options->output, "Where everything goes [SESSION/out]");
+  parser.add_option("--to", options->targets, "Presets to write [all]")->delimiter(',');
+  parser.add_option("--tol", options->tolerance, "Tolerance of the effect gate")
+      ->capture_default_str();
+  parser.add_option("--effects", options->effects, "auto, all, none, or +name,-name")
+      ->capture_default_str();
+  parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");
+  parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
+  return [options](Console& console) { return RunRun(*options, console); };
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light_table.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "console.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr const char* kNone = "-";
+
+std::string Percent(const std::optional<double>& relative) {
+  return relative ? RoundedText(*relative * 100.0, 2) + " %" : kNone;
+}
+
+std::string Flux(const FittedLight& light) {
+  return light.flux_lm ? ValueWithPercent(light.flux_lm->value, light.flux_lm->u95, "lm") : kNone;
+}
+
+std::string Cct(const FittedLight& light) {
+  const auto& cct = light.color.cct_K;
+  return cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone;
+}
+
+std::string Duv(const FittedLight& light) {
+  const auto& duv = light.color.duv;
+  return duv ? ValueWithAbsolute(duv->value, duv->u95, "") : kNone;
+}
+
+bool Contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string Offset(const FittedLight& light) {
+  if (!light.distance_offset_m) return kNone;
+  std::string text =
+      ValueWithAbsolute(light.distance_offset_m->value, light.distance_offset_m->u95, "m");
+  if (light.distance_offset_m->value > 0.0) text.insert(0, "+");
+  return text + (Contains(light.fit.learned, "distance_offset") ? " learned" : " prior");
+}
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text.empty() ? kNone : text;
+}
+
+}  // namespace
+
+std::string Headline(const FittedLight& light) {
+  const auto text = [](const Uncertain& u, std::string_view unit) {
+    return ValueWithPercent(u.value, u.u95, unit);
+  };
+  if (light.intensity_cd) return text(*light.intensity_cd, "cd");
+  if (light.illuminance_lx) return text(*light.illuminance_lx, "lx");
+  if (light.luminance_nits) return text(*light.luminance_nits, "cd/m²");
+  if (light.flux_lm) return text(*light.flux_lm, "lm");
+  return kNone;
+}
+
+std::string LightTable(const LightFile& file) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FittedLight& light : file.lights) {
+    rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
+                    Flux(light), Cct(light), Duv(light), Offset(light)});
+  }
+  return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "Duv", "distance offset"},
+                   rows);
+}
+
+std::string FitTable(const LightFile& file) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FittedLight& light : file.lights) {
+    const FitDiagnostics& fit = light.fit;
+    rows.push_back({light.name, std::to_string(fit.used) + " of " + std::to_string(fit.readings),
+                    std::to_string(fit.degrees_of_freedom), Percent(fit.rms_relative),
+                    Percent(fit.leave_one_out), Join(fit.learned), Join(fit.prior)});
+  }
+  return TextTable({"light", "readings", "dof", "rms", "leave-one-out", "learned", "prior"}, rows);
+}
+
+std::string EffectTable(const FittedLight& light) {
+  constexpr const char* kStateNames[] = {"off", "on", "fitted"};
+  std::vector<std::vector<std::string>> rows;
+  for (const EffectReport& effect : light.effects) {
+    rows.push_back({effect.name, kStateNames[static_cast<int>(effect.state)],
+                    RoundedText(effect.bound * 100.0, 2) + " %", Percent(effect.contribution),
+                    RoundedText(effect.cost_ns, 3) + " ns", effect.reason});
+  }
+  return TextTable({"effect", "state", "bound", "found", "cost", "why"}, rows);
+}
+
+}  // namespace lightcal::app
