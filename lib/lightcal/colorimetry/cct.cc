@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exact locus costs 471 exponentials a point. Here it is a piecewise quintic Hermite polynomial
+// in mireds through exact points with exact first and second derivatives, searched by the sign of
+// the tangential projection (no distances: (d1^2 - d2^2) cancels) and finished by Newton.
+#include "lightcal/colorimetry/cct.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "lightcal/colorimetry/planckian.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kDuvLimit = 0.05 + 1e-9;
+constexpr double kColdest_K = 1000.0 - 1e-6;
+constexpr double kInfinity_mired =
+    1e-6;  // hotter than 1e12 K: no computed xy can tell from infinity
+constexpr double kStep_mired = 5.0;
+constexpr int kSegments = 500;  // 0 to 2500 mired, infinity to 400 K
+
+// Beyond this distance another branch of the locus may be nearer; its least radius of curvature is
+// 0.1001 (at 5192 K), within which the nearest point is unique.
+constexpr double kUniqueWithin = 0.08;
+
+struct Curve {  // position and derivatives by the segment's parameter t in [0, 1]
+  double u, v, du, dv, d2u, d2v;
+};
+
+struct Quintic {
+  std::array<double, 6> c;
+
+  [[nodiscard]] double Value(double t) const {
+    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+  }
+  [[nodiscard]] double First(double t) const {
+    return c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])));
+  }
+  [[nodiscard]] double Second(double t) const {
+    return 2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]));
+  }
+};
+
+// The quintic with given value, slope and curvature at t = 0 (p, a, e) and t = 1 (q, b, f).
+Quintic Hermite(double p, double a, double e, double q, double b, double f) {
+  const double rise = q - p - a - e / 2;
+  const double slope = b - a - e;
+  const double bend = f - e;
+  return {{p, a, e / 2, 10 * rise - 4 * slope + bend / 2, -15 * rise + 7 * slope - bend,
+           6 * rise - 3 * slope + bend / 2}};
+}
+
+struct Segment {
+  Quintic u, v;
+
+  [[nodiscard]] Curve At(double t) const {
+    return {u.Value(t), v.Value(t), u.First(t), v.First(t), u.Second(t), v.Second(t)};
+  }
+};
+
+struct Node {
+  double u, v, du, dv;
+  // Positive while the nearest point lies at more mireds.
+  [[nodiscard]] double Ahead(Uv1960 p) const { return (p.u - u) * du + (p.v - v) * dv; }
+};
+
+struct LocusTable {
+  std::array<Node, kSegments + 1> nodes;
+  std::array<Segment, kSegments> segments;
+
+  LocusTable() {
+    constexpr double h = kStep_mired;
+    LocusPoint from = PlanckianLocusAt(Mireds(0.0));
+    for (int i = 0; i <= kSegments; ++i) {
+      nodes[i] = {from.uv.u, from.uv.v, from.du, from.dv};
+      if (i == kSegments) break;
+      const LocusPoint to = PlanckianLocusAt(Mireds((i + 1) * h));
+      segments[i] = {
+          Hermite(from.uv.u, h * from.du, h * h * from.d2u, to.uv.u, h * to.du, h * h * to.d2u),
+          Hermite(from.uv.v, h * from.dv, h * h * from.d2v, to.uv.v, h * to.dv, h * h * to.d2v)};
+      from = to;
+    }
+  }
+};
+
+const LocusTable& Locus() {
+  static const LocusTable table;
+  return table;
+}
+
+// A stationary point of the distance to the locus.
+struct Nearest {
+  double mireds = 0.0;
+  double duv = 0.0;  // normal component
+  double distance = 0.0;
+  Curve curve{};
+};
+
+Nearest Describe(int segment, double t, Uv1960 p) {
+  const Curve c = Locus().segments[segment].At(t);
+  const double eu = p.u - c.u;
+  const double ev = p.v - c.v;
+  const double speed = std::sqrt(c.du * c.du + c.dv * c.dv);
+  return {(segment + t) * kStep_mired, (ev * c.du - eu * c.dv) / speed,
+          std::sqrt(eu * eu + ev * ev), c};
+}
+
+double NewtonStep(const Curve& c, Uv1960 p) {
+  const double eu = c.u - p.u;
+  const double ev = c.v - p.v;
+  const double force = eu * c.du + ev * c.dv;
+  const double stiffness = c.du * c.du + c.dv * c.dv + eu * c.d2u + ev * c.d2v;
+  return -force / stiffness;
+}
+
+// Where the straight line between the two ends' projections crosses zero.
+double FirstGuess(int segment, Uv1960 p) {
+  const double ahead = Locus().nodes[segment].Ahead(p);
+  const double behind = Locus().nodes[segment + 1].Ahead(p);
+  return ahead > behind ? std::clamp(ahead / (ahead - behind), 0.0, 1.0) : 0.5;
+}
+
+// Near the locus: the projection falls monotonically, two Newton steps reach rounding.
+Nearest NearestByBisection(Uv1960 p) {
+  const auto& nodes = Locus().nodes;
+  int low = 0;
+  int high = kSegments;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (nodes[middle].Ahead(p) > 0.0 ? low : high) = middle;
+  }
+  double t = FirstGuess(low, p);
+  for (int i = 0; i < 2; ++i) {
+    t = std::clamp(t + NewtonStep(Locus().segments[low].At(t), p), 0.0, 1.0);
+  }
+  return Describe(low, t, p);
+}
+
+// One segment whose ends pull towards its inside: Newton, safeguarded by bisection.
+Nearest NearestInSegment(int segment, Uv1960 p) {
+  const Segment& s = Locus().segments[segment];
+  double low = 0.0;
+  double high = 1.0;
+  double t = FirstGuess(segment, p);
+  for (int i = 0; i < 60; ++i) {
+    const Curve c = s.At(t);
+    ((c.u - p.u) * c.du + (c.v - p.v) * c.dv > 0.0 ? high : low) = t;
+    double next = t + NewtonStep(c, p);
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    if (std::abs(next - t) < 1e-15) break;
+    t = next;
+  }
+  return Describe(segment, t, p);
+}
+
+// Far from the locus: every local minimum, and both ends.
+Nearest NearestByScan(Uv1960 p) {
+  const auto& nodes = Locus().nodes;
+  Nearest best = Describe(0, 0.0, p);
+  const auto consider = [&best](const Nearest& candidate) {
+    if (candidate.distance < best.distance) best = candidate;
+  };
+  consider(Describe(kSegments - 1, 1.0, p));
+  for (int i = 0; i < kSegments; ++i) {
+    if (nodes[i].Ahead(p) > 0.0 && nodes[i + 1].Ahead(p) <= 0.0) consider(NearestInSegment(i, p));
+  }
+  return best;
+}
+
+Nearest NearestOnLocus(Uv1960 p) {
+  const Nearest nearest = NearestByBisection(p);
+  return nearest.distance < kUniqueWithin ? nearest : NearestByScan(p);
+}
+
+// Finite, with y > 0 and on the colours' side of the pole of u, v <-> x, y.
+bool IsChromaticity(Uv1960 uv) {
+  return std::isfinite(uv.u) && std::isfinite(uv.v) && uv.v > 0.0 &&
+         2.0 * uv.u - 8.0 * uv.v + 4.0 > 0.0;
+}
+bool IsChromaticity(Xy xy) {
+  return std::isfinite(xy.x) && std::isfinite(xy.y) && xy.y > 0.0 &&
+         -2.0 * xy.x + 12.0 * xy.y + 3.0 > 0.0;
+}
+
+}  // namespace
+
+CctResult CctFromUv(Uv1960 uv) {
+  CctResult result;
+  if (!IsChromaticity(uv)) return result;
+  const Nearest nearest = NearestOnLocus(uv);
+  result.duv = nearest.duv;
+  if (nearest.mireds < kInfinity_mired) {
+    result.temperature = Kelvin(std::numeric_limits<double>::infinity());
+    result.status = CctStatus::kBeyondInfinity;
+    return result;
+  }
+  result.temperature = KelvinFromMireds(Mireds(nearest.mireds));
+  if (nearest.distance > kDuvLimit) {
+    result.status = CctStatus::kFarFromLocus;
+  } else if (result.temperature.value() < kColdest_K) {
+    result.status = CctStatus::kBelowRange;
+  } else {
+    result.status = CctStatus::kOk;
+  }
+  return result;
+}
+
+CctResult CctFromXy(Xy xy) {
+  return IsChromaticity(xy) ? CctFromUv(Uv1960FromXy(xy)) : CctResult{};
+}
+
+std::optional<CctJacobian> CctJacobianAt(Xy xy) {
+  if (!IsChromaticity(xy)) return std::nullopt;
+  const Uv1960 uv = Uv1960FromXy(xy);
+  const Nearest nearest = NearestOnLocus(uv);
+  if (nearest.mireds < kInfinity_mired) return std::nullopt;
+  const Curve& c = nearest.curve;
+  const double speed2 = c.du * c.du + c.dv * c.dv;
+  const double stiffness = speed2 + (c.u - uv.u) * c.d2u + (c.v - uv.v) * c.d2v;
+  if (!(stiffness > 1e-9 * speed2)) return std::nullopt;
+  const double speed = std::sqrt(speed2);
+  const double dmired_du = kStep_mired * c.du / stiffness;
+  const double dmired_dv = kStep_mired * c.dv / stiffness;
+  const double dduv_du = -c.dv / speed;
+  const double dduv_dv = c.du / speed;
+  // Derivatives of u = 4x/D, v = 6y/D, D = -2x + 12y + 3.
+  const double d2 = std::pow(-2.0 * xy.x + 12.0 * xy.y + 3.0, 2);
+  const double du_dx = (48.0 * xy.y + 12.0) / d2;
+  const double du_dy = -48.0 * xy.x / d2;
+  const double dv_dx = 12.0 * xy.y / d2;
+  const double dv_dy = (18.0 - 12.0 * xy.x) / d2;
+  return CctJacobian{dmired_du * du_dx + dmired_dv * dv_dx, dmired_du * du_dy + dmired_dv * dv_dy,
+                     dduv_du * du_dx + dduv_dv * dv_dx, dduv_du * du_dy + dduv_dv * dv_dy};
+}
+
+CctUncertainty PropagateToCct(const CctJacobian& j, const XyCovariance& c) {
+  const auto product = [&c](double ax, double ay, double bx, double by) {
+    return ax * bx * c.xx + (ax * by + ay * bx) * c.xy + ay * by * c.yy;
+  };
+  const double mired2 = product(j.dmired_dx, j.dmired_dy, j.dmired_dx, j.dmired_dy);
+  const double duv2 = product(j.dduv_dx, j.dduv_dy, j.dduv_dx, j.dduv_dy);
+  return {Mireds(std::sqrt(std::max(0.0, mired2))), std::sqrt(std::max(0.0, duv2)),
+          product(j.dmired_dx, j.dmired_dy, j.dduv_dx, j.dduv_dy)};
+}
+
+Uv1960 UvFromCct(Kelvin temperature, double duv) {
+  const LocusPoint at = PlanckianLocusAt(MiredsFromKelvin(temperature));
+  const double speed = std::hypot(at.du, at.dv);
+  return {at.uv.u - duv * at.dv / speed, at.uv.v + duv * at.du / speed};
+}
+
+Xy XyFromCct(Kelvin temperature, double duv) { return XyFromUv1960(UvFromCct(temperature, duv)); }
+
+}  // namespace lightcal

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/colorimetry/planckian.h"
+
+#include <array>
+#include <cmath>
+
+#include "lightcal/colorimetry/cie_tables/tables.h"
+
+namespace lightcal {
+namespace {
+
+// g and its derivatives, times exp(x): the common factor exp(-x) would underflow for cold bodies
+// and cancels in a chromaticity.
+struct ScaledRatio {
+  double g, g1, g2;
+};
+
+ScaledRatio RatioTimesExp(double x) {
+  const double e = std::exp(x);
+  if (x < 0.05) {  // the closed forms cancel; relative error of the series below 1e-12
+    const double x2 = x * x;
+    return {e * (1.0 + x * (-0.5 + x * (1.0 / 12.0 - x2 * (1.0 / 720.0 - x2 / 30240.0)))),
+            e * (-0.5 + x * (1.0 / 6.0 - x2 * (1.0 / 180.0 - x2 / 5040.0))),
+            e * (1.0 / 6.0 - x2 * (1.0 / 60.0 - x2 * (1.0 / 1008.0 - x2 / 21600.0)))};
+  }
+  const double w = -std::expm1(-x);  // 1 - exp(-x)
+  const double q = 1.0 - w;
+  return {x / w, (w - x) / (w * w), (x * (1.0 + q) - 2.0 * w) / (w * w * w)};
+}
+
+// Sum over wavelength of l^-4 g(c2/(l T)) times each colour-matching function, and its derivatives
+// by mireds; all three share one free scale.
+struct TristimulusSums {
+  std::array<double, 3> value{}, first{}, second{};
+};
+
+struct PlanckTerm {
+  double x_per_mired;  // c2/l in K, times 1e-6
+  double weight;       // (l / 560 nm)^-4
+};
+
+const std::array<PlanckTerm, kCmfCount>& PlanckTerms() {
+  static const auto terms = [] {
+    std::array<PlanckTerm, kCmfCount> all{};
+    for (int i = 0; i < kCmfCount; ++i) {
+      const double nm = kCmfFirst_nm + i;
+      all[i] = {kC2_mK / (nm * 1e-9) * 1e-6, std::pow(nm / 560.0, -4)};
+    }
+    return all;
+  }();
+  return terms;
+}
+
+TristimulusSums SumsAt(double mireds) {
+  const auto& terms = PlanckTerms();
+  const double least_x = terms.back().x_per_mired * mireds;
+  TristimulusSums sums;
+  for (int i = 0; i < kCmfCount; ++i) {
+    const double s = terms[i].x_per_mired;
+    const double x = s * mireds;
+    const double scale = terms[i].weight * std::exp(least_x - x);
+    const ScaledRatio r = RatioTimesExp(x);
+    const std::array<double, 3> cmf = {kCie1931Cmf[i].x_bar, kCie1931Cmf[i].y_bar,
+                                       kCie1931Cmf[i].z_bar};
+    for (int k = 0; k < 3; ++k) {
+      sums.value[k] += scale * r.g * cmf[k];
+      sums.first[k] += scale * r.g1 * s * cmf[k];
+      sums.second[k] += scale * r.g2 * s * s * cmf[k];
+    }
+  }
+  return sums;
+}
+
+// u = 4X/(X+15Y+3Z), v = 6Y/(X+15Y+3Z).
+struct UvParts {
+  double u, v, denominator;
+};
+UvParts PartsOf(const std::array<double, 3>& c) {
+  return {4.0 * c[0], 6.0 * c[1], c[0] + 15.0 * c[1] + 3.0 * c[2]};
+}
+
+}  // namespace
+
+double PlanckRatio(double x) { return x < 1e-5 ? 1.0 - x / 2.0 + x * x / 12.0 : x / std::expm1(x); }
+
+LocusPoint PlanckianLocusAt(Mireds reciprocal_temperature) {
+  const TristimulusSums sums = SumsAt(reciprocal_temperature.value());
+  const UvParts p = PartsOf(sums.value);
+  const UvParts p1 = PartsOf(sums.first);
+  const UvParts p2 = PartsOf(sums.second);
+  LocusPoint at;
+  const double d = p.denominator;
+  at.uv = {p.u / d, p.v / d};
+  at.du = (p1.u - at.uv.u * p1.denominator) / d;
+  at.dv = (p1.v - at.uv.v * p1.denominator) / d;
+  at.d2u = (p2.u - 2.0 * at.du * p1.denominator - at.uv.u * p2.denominator) / d;
+  at.d2v = (p2.v - 2.0 * at.dv * p1.denominator - at.uv.v * p2.denominator) / d;
+  return at;
+}
+
+Xyz PlanckianXyz(Kelvin temperature) {
+  const TristimulusSums sums = SumsAt(MiredsFromKelvin(temperature).value());
+  return {sums.value[0] / sums.value[1], 1.0, sums.value[2] / sums.value[1]};
+}
+
+}  // namespace lightcal

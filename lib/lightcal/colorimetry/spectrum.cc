@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/colorimetry/spectrum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "lightcal/colorimetry/cie_tables/tables.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kEqualStepTolerance = 1e-3;
+constexpr double kVisibleFirst_nm = 380.0;
+constexpr double kVisibleLast_nm = 780.0;
+
+// Integrals over wavelength, without K: of S times each colour-matching function, and of S.
+struct Integrals {
+  Xyz weighted;
+  double plain = 0.0;
+
+  void Add(double wavelength, double value, double width) {
+    const Xyz cmf = ColorMatchingAt(Nanometres(wavelength));
+    weighted.X += value * cmf.X * width;
+    weighted.Y += value * cmf.Y * width;
+    weighted.Z += value * cmf.Z * width;
+    plain += value * width;
+  }
+};
+
+double MeanStep(const Spectrum& s) {
+  return (s.wavelengths_nm.back() - s.wavelengths_nm.front()) /
+         static_cast<double>(s.wavelengths_nm.size() - 1);
+}
+
+bool HasEqualSteps(const Spectrum& s) {
+  const double step = MeanStep(s);
+  for (std::size_t i = 1; i < s.wavelengths_nm.size(); ++i) {
+    const double own = s.wavelengths_nm[i] - s.wavelengths_nm[i - 1];
+    if (std::abs(own - step) > kEqualStepTolerance * step) return false;
+  }
+  return true;
+}
+
+Integrals PlainSum(const Spectrum& s) {
+  const double step = MeanStep(s);
+  Integrals sums;
+  for (std::size_t i = 0; i < s.values.size(); ++i)
+    sums.Add(s.wavelengths_nm[i], s.values[i], step);
+  return sums;
+}
+
+// Trapezoids between two neighbouring samples, cut at every whole nanometre of the CIE table. Below
+// and above the table a gap is one trapezoid.
+void AddGap(Integrals& sums, double left, double left_value, double right, double right_value) {
+  const auto value_at = [&](double l) {
+    return left_value + (right_value - left_value) * (l - left) / (right - left);
+  };
+  const auto add = [&](double from, double to) {
+    sums.Add(from, value_at(from), (to - from) / 2);
+    sums.Add(to, value_at(to), (to - from) / 2);
+  };
+  double from = left;
+  double knot = std::max<double>(std::floor(left) + 1.0, kCmfFirst_nm);
+  for (; knot < right && knot <= kCmfLast_nm; knot += 1.0) {
+    add(from, knot);
+    from = knot;
+  }
+  add(from, right);
+}
+
+Integrals TrapezoidSum(const Spectrum& s) {
+  Integrals sums;
+  for (std::size_t i = 1; i < s.values.size(); ++i) {
+    AddGap(sums, s.wavelengths_nm[i - 1], s.values[i - 1], s.wavelengths_nm[i], s.values[i]);
+  }
+  return sums;
+}
+
+tl::unexpected<Error> Bad(std::string message) {
+  return Refused("bad_spectrum", "spectrum", std::move(message));
+}
+
+Result<void> CheckSamples(const Spectrum& s) {
+  const auto& l = s.wavelengths_nm;
+  if (l.size() != s.values.size()) {
+    return Bad(std::to_string(l.size()) + " wavelengths but " + std::to_string(s.values.size()) +
+               " values; give one value for each wavelength");
+  }
+  if (l.size() < 2) return Bad("fewer than two samples; a spectrum needs at least two");
+  for (std::size_t i = 0; i < l.size(); ++i) {
+    if (!std::isfinite(l[i]) || !std::isfinite(s.values[i])) {
+      return Bad("sample " + std::to_string(i + 1) +
+                 " is not a finite number; correct or remove it");
+    }
+    if (i > 0 && l[i] <= l[i - 1]) {
+      return Bad("wavelengths must increase: " + ShortestText(l[i]) + " nm follows " +
+                 ShortestText(l[i - 1]) + " nm; sort the samples and remove repeated ones");
+    }
+  }
+  return {};
+}
+
+Result<Integrals> Integrate(const Spectrum& s) {
+  if (auto checked = CheckSamples(s); !checked) return Propagate(std::move(checked));
+  const Integrals sums = HasEqualSteps(s) ? PlainSum(s) : TrapezoidSum(s);
+  if (!(sums.weighted.Y > 0.0) || !(sums.weighted.X + sums.weighted.Y + sums.weighted.Z > 0.0)) {
+    return Bad(
+        "no light between 360 and 830 nm (the weighted sum is not positive); subtract less dark "
+        "signal or measure a brighter lamp");
+  }
+  if (!std::isfinite(sums.weighted.X + sums.weighted.Y + sums.weighted.Z) ||
+      !std::isfinite(sums.plain)) {
+    return Bad("the values are too large to add; check their unit");
+  }
+  return sums;
+}
+
+}  // namespace
+
+Xyz ColorMatchingAt(Nanometres wavelength) {
+  const double position = wavelength.value() - kCmfFirst_nm;
+  if (!(position >= 0.0 && position <= kCmfCount - 1)) return {};
+  const auto row = std::min(static_cast<std::size_t>(position), std::size_t{kCmfCount - 2});
+  const double t = position - static_cast<double>(row);
+  const CmfRow& a = kCie1931Cmf[row];
+  const CmfRow& b = kCie1931Cmf[row + 1];
+  return {a.x_bar + t * (b.x_bar - a.x_bar), a.y_bar + t * (b.y_bar - a.y_bar),
+          a.z_bar + t * (b.z_bar - a.z_bar)};
+}
+
+Result<Xyz> XyzFromSpectrum(const Spectrum& spectrum) {
+  const auto sums = Integrate(spectrum);
+  if (!sums) return tl::unexpected(sums.error());
+  const Xyz& w = sums->weighted;
+  const double k =
+      spectrum.quantity == SpectralQuantity::kIrradiance ? kMaximumLuminousEfficacy : 100.0 / w.Y;
+  return Xyz{k * w.X, k * w.Y, k * w.Z};
+}
+
+bool CoversVisibleRange(const Spectrum& spectrum) {
+  if (spectrum.wavelengths_nm.size() < 2) return false;
+  const auto& l = spectrum.wavelengths_nm;
+  const double first_step = l[1] - l[0];
+  const double last_step = l[l.size() - 1] - l[l.size() - 2];
+  return l.front() - first_step / 2 <= kVisibleFirst_nm &&
+         l.back() + last_step / 2 >= kVisibleLast_nm;
+}
+
+Result<LumensPerWatt> EfficacyOfRadiation(const Spectrum& spectrum) {
+  const auto sums = Integrate(spectrum);
+  if (!sums) return tl::unexpected(sums.error());
+  if (!(sums->plain > 0.0)) return Bad("the values add up to no radiation; check the dark signal");
+  return LumensPerWatt(kMaximumLuminousEfficacy * sums->weighted.Y / sums->plain);
+}
+
+}  // namespace lightcal
