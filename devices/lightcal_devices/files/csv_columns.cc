@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/files/csv_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+
+namespace lightcal::files {
+namespace {
+
+struct KnownName {
+  std::string_view name;
+  CsvQuantity quantity;
+  double scale = 1.0;
+};
+// The spelling to recommend first, then what other programs write.
+constexpr std::array kScalarNames = {
+    KnownName{"distance_m", CsvQuantity::kDistance},
+    KnownName{"distance_cm", CsvQuantity::kDistance, 0.01},
+    KnownName{"distance_mm", CsvQuantity::kDistance, 0.001},
+    KnownName{"distance_ft", CsvQuantity::kDistance, 0.3048},
+    KnownName{"distance_in", CsvQuantity::kDistance, 0.0254},
+    KnownName{"illuminance_lx", CsvQuantity::kIlluminance},
+    KnownName{"illuminance_klx", CsvQuantity::kIlluminance, 1000.0},
+    KnownName{"illuminance_fc", CsvQuantity::kIlluminance, kLuxPerFootcandle},
+    KnownName{"cct_K", CsvQuantity::kCct},
+    KnownName{"duv", CsvQuantity::kDuv},
+    KnownName{"x", CsvQuantity::kX},
+    KnownName{"y", CsvQuantity::kY},
+    KnownName{"tilt_deg", CsvQuantity::kTilt},
+    KnownName{"sigma_relative", CsvQuantity::kSigma},
+    KnownName{"light", CsvQuantity::kLight},
+    KnownName{"meter", CsvQuantity::kMeter},
+    KnownName{"time", CsvQuantity::kTime},
+    KnownName{"lamp", CsvQuantity::kLamp},
+    KnownName{"shadow_card", CsvQuantity::kShadowCard},
+    KnownName{"wavelength_nm", CsvQuantity::kWavelength},
+};
+constexpr std::array kOtherNames = {
+    KnownName{"lux", CsvQuantity::kIlluminance},
+    KnownName{"lx", CsvQuantity::kIlluminance},
+    KnownName{"e_lx", CsvQuantity::kIlluminance},
+    KnownName{"ev_lx", CsvQuantity::kIlluminance},
+    KnownName{"illuminance_lux", CsvQuantity::kIlluminance},
+    KnownName{"klux", CsvQuantity::kIlluminance, 1000.0},
+    KnownName{"fc", CsvQuantity::kIlluminance, kLuxPerFootcandle},
+    KnownName{"footcandles", CsvQuantity::kIlluminance, kLuxPerFootcandle},
+    KnownName{"foot_candles", CsvQuantity::kIlluminance, kLuxPerFootcandle},
+    KnownName{"cct", CsvQuantity::kCct},
+    KnownName{"tcp_k", CsvQuantity::kCct},
+    KnownName{"cie_x", CsvQuantity::kX},
+    KnownName{"cie_y", CsvQuantity::kY},
+    KnownName{"cie1931_x", CsvQuantity::kX},
+    KnownName{"cie1931_y", CsvQuantity::kY},
+    KnownName{"nm", CsvQuantity::kWavelength},
+    KnownName{"lambda_nm", CsvQuantity::kWavelength},
+    KnownName{"distance", CsvQuantity::kNeedsUnit},
+    KnownName{"dist", CsvQuantity::kNeedsUnit},
+    KnownName{"d", CsvQuantity::kNeedsUnit},
+    KnownName{"r", CsvQuantity::kNeedsUnit},
+    KnownName{"illuminance", CsvQuantity::kNeedsUnit},
+    KnownName{"e", CsvQuantity::kNeedsUnit},
+    KnownName{"ev", CsvQuantity::kNeedsUnit},
+    KnownName{"tilt", CsvQuantity::kNeedsUnit},
+    KnownName{"angle", CsvQuantity::kNeedsUnit},
+    KnownName{"wavelength", CsvQuantity::kNeedsUnit},
+    KnownName{"irradiance", CsvQuantity::kNeedsUnit},
+    KnownName{"intensity", CsvQuantity::kNeedsUnit},
+    KnownName{"power", CsvQuantity::kNeedsUnit},
+    KnownName{"value", CsvQuantity::kNeedsUnit},
+    KnownName{"spectrum", CsvQuantity::kNeedsUnit},
+};
+
+// A spectral irradiance is written as a power, an area and "nm": W_m2_nm, mW/m^2/nm, uW cm-2 nm-1.
+constexpr std::array kPowers = {KnownName{"w", CsvQuantity::kIrradiance, 1.0},
+                                KnownName{"mw", CsvQuantity::kIrradiance, 1e-3},
+                                KnownName{"uw", CsvQuantity::kIrradiance, 1e-6},
+                                KnownName{"nw", CsvQuantity::kIrradiance, 1e-9}};
+constexpr std::array kAreas = {KnownName{"m2nm", CsvQuantity::kIrradiance, 1.0},
+                               KnownName{"m2nm1", CsvQuantity::kIrradiance, 1.0},
+                               KnownName{"sqmnm", CsvQuantity::kIrradiance, 1.0},
+                               KnownName{"cm2nm", CsvQuantity::kIrradiance, 1e4},
+                               KnownName{"cm2nm1", CsvQuantity::kIrradiance, 1e4},
+                               KnownName{"sqcmnm", CsvQuantity::kIrradiance, 1e4}};
+
+void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
+    text.replace(at, from.size(), to);
+  }
+}
+
+struct Token {
+  std::string text;       // lower-case letters and digits
+  std::size_t begin = 0;  // in the simplified name
+};
+
+// The name with the signs of units spelled in ASCII.
+std::string Simplified(std::string_view name) {
+  std::string simple(TrimBlanks(name));
+  ReplaceAll(simple, "\xC2\xB2", "2");               // superscript two
+  ReplaceAll(simple, "\xC2\xB5", "u");               // micro sign
+  ReplaceAll(simple, "\xCE\xBC", "u");               // Greek mu
+  ReplaceAll(simple, "\xC2\xB7", " ");               // middle dot
+  ReplaceAll(simple, "\xE2\x81\xBB\xC2\xB9", "-1");  // superscript minus one
+  ReplaceAll(simple, "\xE2\x81\xBB", "-");           // superscript minus
+  return simple;
+}
+
+std::vector<Token> TokensOf(std::string_view simple) {
+  std::vector<Token> tokens;
+  bool in_token = false;
+  for (std::size_t i = 0; i < simple.size(); ++i) {
+    const auto c = static_cast<unsigned char>(simple[i]);
+    const bool part =
+        (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c >= 0x80;
+    if (part && !in_token) tokens.push_back({"", i});
+    if (part) tokens.back().text += LowerAscii(simple.substr(i, 1));
+    in_token = part;
+  }
+  return tokens;
+}
+
+template <class Table>
+const KnownName* Lookup(const Table& table, std::string_view name) {
+  const auto known = std::ranges::find_if(
+      table, [&](const KnownName& candidate) { return LowerAscii(candidate.name) == name; });
+  return known == table.end() ? nullptr : &*known;
+}
+
+std::string SeriesName(std::string_view before_unit) {
+  std::string series(before_unit);
+  const std::string lower = LowerAscii(series);
+  const std::size_t word = lower.rfind("irradiance");
+  if (word != std::string::npos) series.resize(word);
+  const auto last = series.find_last_not_of(" _-:,;/([");
+  series.resize(last == std::string::npos ? 0 : last + 1);
+  return series;
+}
+
+std::optional<CsvColumn> SpectralColumn(const std::string& simple,
+                                        const std::vector<Token>& tokens) {
+  if (!tokens.empty() && tokens.back().text == "relative") {
+    return CsvColumn{CsvQuantity::kRelative, 1.0, simple,
+                     SeriesName(std::string_view(simple).substr(0, tokens.back().begin))};
+  }
+  std::string area;
+  for (std::size_t i = tokens.size(); i-- > 0;) {
+    const KnownName* power = Lookup(kPowers, tokens[i].text);
+    const KnownName* known_area = Lookup(kAreas, area);
+    if (power != nullptr && known_area != nullptr) {
+      return CsvColumn{CsvQuantity::kIrradiance, power->scale * known_area->scale, simple,
+                       SeriesName(std::string_view(simple).substr(0, tokens[i].begin))};
+    }
+    area = tokens[i].text + area;
+  }
+  return std::nullopt;
+}
+
+std::string JoinedName(const std::vector<Token>& tokens) {
+  std::string joined;
+  for (const Token& token : tokens) joined += (joined.empty() ? "" : "_") + token.text;
+  return joined;
+}
+
+}  // namespace
+
+CsvColumn ColumnFromName(std::string_view name) {
+  const std::string simple = Simplified(name);
+  const std::vector<Token> tokens = TokensOf(simple);
+  if (auto spectral = SpectralColumn(simple, tokens)) {
+    spectral->written = name;
+    return *spectral;
+  }
+  const std::string joined = JoinedName(tokens);
+  const KnownName* known = Lookup(kScalarNames, joined);
+  if (known == nullptr) known = Lookup(kOtherNames, joined);
+  if (known == nullptr) return {CsvQuantity::kUnknown, 1.0, std::string(name), ""};
+  return {known->quantity, known->scale, std::string(name), ""};
+}
+
+std::string KnownColumnNames() {
+  std::string names;
+  for (const KnownName& known : kScalarNames) {
+    names += (names.empty() ? "" : ", ") + std::string(known.name);
+  }
+  return names + " with irradiance_W_m2_nm, irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative";
+}
+
+std::string NearestColumnName(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const KnownName& known : kScalarNames) names.push_back(known.name);
+  names.insert(names.end(), {"irradiance_W_m2_nm", "irradiance_mW_m2_nm", "relative"});
+  return NearestWord(name, names);
+}
+
+}  // namespace lightcal::files

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the column names of a plain CSV mean. A quantity's name carries its unit: distance_cm,
+// "Illuminance [fc]", "warm irradiance_mW_m2_nm".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace lightcal::files {
+
+enum class CsvQuantity {
+  kUnknown,
+  kNeedsUnit,  // a length, angle or irradiance whose unit the name does not say
+  kDistance,
+  kIlluminance,
+  kCct,
+  kDuv,
+  kX,
+  kY,
+  kTilt,
+  kSigma,
+  kLight,
+  kMeter,
+  kTime,
+  kLamp,
+  kShadowCard,
+  kWavelength,
+  kIrradiance,
+  kRelative,
+};
+
+struct CsvColumn {
+  CsvQuantity quantity = CsvQuantity::kUnknown;
+  double scale = 1.0;   // file value times scale = m, lx, K, degrees, nm, W m^-2 nm^-1
+  std::string written;  // the name as written
+  std::string series;   // of a spectral column: what its name says beside the unit
+};
+
+[[nodiscard]] CsvColumn ColumnFromName(std::string_view name);
+
+// For messages: every name understood, and the nearest one to a name that is not.
+[[nodiscard]] std::string KnownColumnNames();
+[[nodiscard]] std::string NearestColumnName(std::string_view name);
+
+}  // namespace lightcal::files

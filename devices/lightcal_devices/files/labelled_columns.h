@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exports with one label per row and one column per measurement (Sekonic, UPRtek, JETI): what they
+// share once the format has said how its labels read.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/files/delimited_text.h"
+#include "lightcal_devices/files/spectrum_readings.h"
+
+namespace lightcal::files {
+
+// The labels of the header rows; the first row that carries one wins. "" = the format has none;
+// a final '*' matches any ending, a leading '*' any beginning.
+struct HeaderLabels {
+  std::string_view illuminance, cct, duv, x, y, X, Y, Z, cri_Ra;
+};
+
+struct SpectralRows {
+  std::vector<double> wavelengths_nm;
+  std::vector<const Row*> rows;  // label first, then one value per measurement
+};
+
+class LabelledColumns {
+ public:
+  LabelledColumns(std::vector<Row> rows, bool decimal_comma, std::string_view file_name)
+      : rows_(std::move(rows)), decimal_comma_(decimal_comma), file_name_(file_name) {}
+
+  [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+  [[nodiscard]] std::string_view file_name() const { return file_name_; }
+  // The cell of a labelled row, "" where there is none.
+  [[nodiscard]] std::string_view Value(std::string_view label, std::size_t column) const;
+  // The same as a number; absent for "---", "Under", "Not calculated" and the like.
+  [[nodiscard]] std::optional<double> Number(std::string_view label, std::size_t column) const;
+  [[nodiscard]] ReportedColor Reported(const HeaderLabels& labels, std::size_t column) const;
+  // The columns that hold a spectrum: those filled in the first spectral row.
+  [[nodiscard]] static std::vector<std::size_t> MeasuredColumns(const SpectralRows& spectral);
+  // Values of one column times `scale`. Refused: bad_spectrum, naming the line that is no number.
+  [[nodiscard]] Result<Spectrum> SpectrumOf(const SpectralRows& spectral, std::size_t column,
+                                            double scale) const;
+
+ private:
+  [[nodiscard]] const Row* Find(std::string_view label) const;
+
+  std::vector<Row> rows_;
+  bool decimal_comma_;
+  std::string file_name_;
+};
+
+}  // namespace lightcal::files

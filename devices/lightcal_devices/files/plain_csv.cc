@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/files/plain_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal_devices/files/csv_columns.h"
+#include "lightcal_devices/files/delimited_text.h"
+#include "lightcal_devices/files/spectrum_readings.h"
+
+namespace lightcal::files {
+namespace {
+
+bool IsCommentOrEmpty(const Row& row) {
+  const bool empty = std::ranges::all_of(
+      row.cells, [](const std::string& cell) { return TrimBlanks(cell).empty(); });
+  return empty || row.cells.front().starts_with('#');
+}
+
+// The first line that is neither empty nor a comment.
+std::string_view HeaderLine(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::string_view content = TrimBlanks(line);
+    if (!content.empty() && !content.starts_with('#')) return line;
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return {};
+}
+
+char DelimiterOf(std::string_view header) {
+  for (const char delimiter : {'\t', ';'}) {
+    if (header.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return ',';
+}
+
+bool IsWord(CsvQuantity quantity) {
+  return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
+         quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
+         quantity == CsvQuantity::kShadowCard;
+}
+
+struct CsvTable {
+  std::string name;
+  std::vector<CsvColumn> columns;
+  std::vector<Row> rows;
+  bool decimal_comma = false;
+};
+
+std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_t column) {
+  return ParseNumber(CellAt(row, column), table.decimal_comma);
+}
+
+tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
+                                 std::string_view code) {
+  return Refused(std::string(code), AtLine(table.name, row.line),
+                 "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
+                     table.columns[column].written + " is no finite number");
+}
+
+bool HasDecimalComma(const CsvTable& table, char delimiter) {
+  if (delimiter == ',') return false;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    if (IsWord(table.columns[column].quantity)) continue;
+    for (const Row& row : table.rows) {
+      if (CellAt(row, column).find(',') == std::string_view::npos) continue;
+      if (ParseNumber(CellAt(row, column), true)) return true;
+    }
+  }
+  return false;
+}
+
+Result<CsvTable> ParseTable(std::string_view text, std::string_view name) {
+  const char delimiter = DelimiterOf(HeaderLine(text));
+  auto rows = ReadRows(text, delimiter);
+  if (!rows) return Propagate(std::move(rows));
+  std::erase_if(*rows, IsCommentOrEmpty);
+  CsvTable table;
+  table.name = name;
+  for (const std::string& written : rows->front().cells) {
+    table.columns.push_back(ColumnFromName(written));
+  }
+  table.rows.assign(std::make_move_iterator(rows->begin() + 1),
+                    std::make_move_iterator(rows->end()));
+  if (table.rows.empty()) {
+    return Refused("no_rows", table.name, "has a header and no row under it");
+  }
+  for (const Row& row : table.rows) {
+    if (row.cells.size() <= table.columns.size()) continue;
+    return Refused("bad_row", AtLine(table.name, row.line),
+                   "has " + std::to_string(row.cells.size()) + " cells, the header has " +
+                       std::to_string(table.columns.size()) +
+                       "; numbers with a decimal comma need ';' between the columns");
+  }
+  table.decimal_comma = HasDecimalComma(table, delimiter);
+  return table;
+}
+
+// A quantity whose unit is not said is never guessed.
+Result<Warnings> CheckColumns(const CsvTable& table) {
+  Warnings warnings;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    if (column.quantity == CsvQuantity::kNeedsUnit) {
+      return Refused("units_ambiguous", table.name + ", column " + column.written,
+                     "has no unit; put it into the name. Understood are " + KnownColumnNames());
+    }
+    if (column.quantity != CsvQuantity::kUnknown) continue;
+    const bool numbers = std::ranges::any_of(
+        table.rows, [&](const Row& row) { return NumberAt(table, row, i).has_value(); });
+    if (numbers) {
+      const std::string nearest = NearestColumnName(column.written);
+      return Refused("units_ambiguous", table.name + ", column " + column.written,
+                     "is not known" + (nearest.empty() ? "." : "; did you mean " + nearest + "?") +
+                         " Understood are " + KnownColumnNames());
+    }
+    if (!TrimBlanks(column.written).empty()) {
+      warnings.push_back({"column_ignored", table.name + ", column " + column.written,
+                          "holds words that no quantity is known for; it is left out"});
+    }
+  }
+  return warnings;
+}
+
+Result<void> CheckNoQuantityTwice(const CsvTable& table, bool spectral) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvQuantity quantity = table.columns[i].quantity;
+    const bool series = quantity == CsvQuantity::kIrradiance || quantity == CsvQuantity::kRelative;
+    if (quantity == CsvQuantity::kUnknown || (series && spectral)) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (table.columns[j].quantity != quantity) continue;
+      return Refused("units_ambiguous", table.name,
+                     "the columns " + table.columns[j].written + " and " +
+                         table.columns[i].written + " both give the same quantity; keep one");
+    }
+  }
+  return {};
+}
+
+// ---- one reading a row ----
+
+std::optional<bool> YesOrNo(std::string_view text, std::string_view yes, std::string_view no) {
+  const std::string lower = LowerAscii(text);
+  if (lower == yes || lower == "true" || lower == "1") return true;
+  if (lower == no || lower == "false" || lower == "0") return false;
+  return std::nullopt;
+}
+
+// False where the word is not understood.
+bool TakeWord(Reading& reading, CsvQuantity quantity, const std::string& word) {
+  if (quantity == CsvQuantity::kLight) reading.light = word;
+  if (quantity == CsvQuantity::kMeter) reading.meter = word;
+  if (quantity == CsvQuantity::kTime) {
+    const bool year_first = word.size() >= 10 && (word[4] == '-' || word[4] == '/');
+    if (year_first) reading.time = IsoTime(word, DateOrder::kYearFirst);
+    return !reading.time.empty();
+  }
+  if (quantity == CsvQuantity::kLamp) {
+    const auto on = YesOrNo(word, "on", "off");
+    reading.lamp = on.value_or(true) ? LampState::kOn : LampState::kOff;
+    return on.has_value();
+  }
+  if (quantity == CsvQuantity::kShadowCard) {
+    const auto shadow = YesOrNo(word, "yes", "no");
+    reading.shadow_card = shadow.value_or(false);
+    return shadow.has_value();
+  }
+  return true;
+}
+
+// False where no meter can have read such a value.
+bool TakeNumber(Reading& reading, CsvQuantity quantity, double value) {
+  switch (quantity) {
+    case CsvQuantity::kDistance:
+      reading.distance = Metres(value);
+      return value > 0.0;
+    case CsvQuantity::kIlluminance:
+      reading.illuminance = Lux(value);
+      return value >= 0.0;
+    case CsvQuantity::kCct:
+      if (value > 0.0) reading.cct = Kelvin(value);
+      return value >= 0.0;
+    case CsvQuantity::kDuv:
+      reading.duv = value;
+      return value > -1.0 && value < 1.0;
+    case CsvQuantity::kTilt:
+      reading.tilt = RadiansFromDegrees(value);
+      return value > -90.0 && value < 90.0;
+    case CsvQuantity::kSigma:
+      reading.sigma_relative = value;
+      return value > 0.0;
+    default:
+      return true;
+  }
+}
+
+Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
+  Reading reading;
+  std::optional<double> x;
+  std::optional<double> y;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvColumn& column = table.columns[i];
+    const std::string cell(TrimBlanks(CellAt(row, i)));
+    if (cell.empty() || column.quantity == CsvQuantity::kUnknown) continue;
+    if (IsWord(column.quantity)) {
+      if (TakeWord(reading, column.quantity, cell)) continue;
+      return Refused("bad_row", AtLine(table.name, row.line),
+                     "'" + cell.substr(0, 40) + "' in the column " + column.written +
+                         " is not understood; lamp is on or off, shadow_card yes or no, time "
+                         "2026-11-21T14:03:00");
+    }
+    const auto number = NumberAt(table, row, i);
+    if (!number) return NotANumber(table, row, i, "bad_row");
+    const double value = *number * column.scale;
+    if (column.quantity == CsvQuantity::kX) x = value;
+    if (column.quantity == CsvQuantity::kY) y = value;
+    if (!TakeNumber(reading, column.quantity, value)) {
+      return Refused("bad_row", AtLine(table.name, row.line),
+                     cell + " is no possible " + column.written);
+    }
+  }
+  if (x && y) {
+    const bool possible = *x >= 0.0 && *y > 0.0 && *x + *y <= 1.0;
+    if (!possible) {
+      return Refused("bad_row", AtLine(table.name, row.line), "x and y are no chromaticity");
+    }
+    reading.xy = Xy{*x, *y};
+  }
+  if (!reading.illuminance && !reading.cct && !reading.xy) {
+    return Refused("bad_row", AtLine(table.name, row.line),
+                   "holds neither an illuminance nor a colour");
+  }
+  return reading;
+}
+
+Result<ImportedFile> ReadReadings(const CsvTable& table) {
+  ImportedFile file;
+  file.format = "csv";
+  for (const Row& row : table.rows) {
+    auto reading = ReadingFromRow(table, row);
+    if (!reading) return Propagate(std::move(reading));
+    file.readings.push_back(std::move(*reading));
+  }
+  return file;
+}
+
+// ---- one spectral sample a row ----
+
+Result<FoundSpectrum> ReadSeries(const CsvTable& table, std::size_t wavelength,
+                                 std::size_t series) {
+  const CsvColumn& column = table.columns[series];
+  FoundSpectrum found;
+  found.imported.name = column.series;
+  Spectrum& spectrum = found.imported.spectrum;
+  spectrum.quantity = column.quantity == CsvQuantity::kIrradiance ? SpectralQuantity::kIrradiance
+                                                                  : SpectralQuantity::kRelative;
+  for (const Row& row : table.rows) {
+    const auto nm = NumberAt(table, row, wavelength);
+    if (!nm) return NotANumber(table, row, wavelength, "bad_spectrum");
+    const auto value = NumberAt(table, row, series);
+    if (!value) return NotANumber(table, row, series, "bad_spectrum");
+    spectrum.wavelengths_nm.push_back(*nm * table.columns[wavelength].scale);
+    spectrum.values.push_back(*value * column.scale);
+  }
+  found.file_unit_W_m2_nm = column.scale;
+  found.where = table.name + (column.series.empty() ? "" : ", column " + column.written);
+  return found;
+}
+
+Result<ImportedFile> ReadSpectra(const CsvTable& table, std::size_t wavelength) {
+  std::vector<FoundSpectrum> all;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvQuantity quantity = table.columns[i].quantity;
+    if (i == wavelength || quantity == CsvQuantity::kUnknown) continue;
+    if (quantity != CsvQuantity::kIrradiance && quantity != CsvQuantity::kRelative) {
+      return Refused("units_ambiguous", table.name + ", column " + table.columns[i].written,
+                     "does not go with wavelength_nm; beside it stand irradiance_W_m2_nm, "
+                     "irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative");
+    }
+    auto found = ReadSeries(table, wavelength, i);
+    if (!found) return Propagate(std::move(found));
+    all.push_back(std::move(*found));
+  }
+  if (all.empty()) {
+    return Refused("no_rows", table.name, "has wavelengths and no column of values");
+  }
+  return ImportedFromSpectra("csv", std::move(all));
+}
+
+}  // namespace
+
+bool IsPlainCsv(std::string_view text) {
+  const std::string_view header = HeaderLine(text);
+  const auto rows = ReadRows(header, DelimiterOf(header));
+  if (!rows || rows->empty()) return false;
+  return std::ranges::any_of(rows->front().cells, [](const std::string& name) {
+    return ColumnFromName(name).quantity != CsvQuantity::kUnknown;
+  });
+}
+
+Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name) {
+  auto table = ParseTable(text, name);
+  if (!table) return Propagate(std::move(table));
+  const auto wavelength =
+      std::ranges::find(table->columns, CsvQuantity::kWavelength, &CsvColumn::quantity);
+  const bool spectral = wavelength != table->columns.end();
+  auto warnings = CheckColumns(*table);
+  if (!warnings) return Propagate(std::move(warnings));
+  if (auto once = CheckNoQuantityTwice(*table, spectral); !once) return Propagate(std::move(once));
+  auto file =
+      spectral ? ReadSpectra(*table, static_cast<std::size_t>(wavelength - table->columns.begin()))
+               : ReadReadings(*table);
+  if (file) file->warnings.insert(file->warnings.begin(), warnings->begin(), warnings->end());
+  return file;
+}
+
+std::string PlainCsvColumns() { return KnownColumnNames(); }
+
+}  // namespace lightcal::files

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// CSV with a header whose column names carry units: either one reading a row (distance_m,
+// illuminance_lx, ...) or one spectral sample a row (wavelength_nm, irradiance_W_m2_nm, ...).
+// Separator ',' ';' or tab; with ';' or tab numbers may have a decimal comma. '#' begins a comment.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/files/import_file.h"
+
+namespace lightcal::files {
+
+// Whether the first line names at least one quantity.
+[[nodiscard]] bool IsPlainCsv(std::string_view text);
+
+// All rows or none. Refused: units_ambiguous (a quantity without a unit, an unknown column of
+// numbers, the same quantity twice), bad_row (naming the line), no_rows, bad_spectrum.
+// A column of words that no one knows is left out with the warning column_ignored.
+[[nodiscard]] Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name);
+
+// The column names understood, for messages.
+[[nodiscard]] std::string PlainCsvColumns();
+
+}  // namespace lightcal::files

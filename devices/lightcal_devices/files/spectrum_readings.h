@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last step of every spectrum importer: check each spectrum against what its file claims, and
+// make its reading.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/files/import_file.h"
+
+namespace lightcal::files {
+
+// A spectrum as a format's reader found it.
+struct FoundSpectrum {
+  ImportedSpectrum imported;       // values already in W m^-2 nm^-1 where they are an irradiance
+  double file_unit_W_m2_nm = 1.0;  // what one unit of the file's own values was taken for
+  std::string time;                // ISO 8601, "" = unknown
+  std::string device;              // "uprtek:CV600 16K00407", "" = unknown
+  std::string where;               // "lamp.xls" or "sweep.csv, column 560nm", for messages
+};
+
+// One reading per spectrum. Refused: bad_spectrum (fewer than two samples, not finite, wavelengths
+// that do not increase; nothing but darkness in the whole file).
+// Warns: spectrum_disagrees, dark_spectrum.
+[[nodiscard]] Result<ImportedFile> ImportedFromSpectra(std::string_view format,
+                                                       std::vector<FoundSpectrum> found);
+
+// The warning that a spectrum's own illuminance, 683.002 lm/W times its V(lambda) sum, is off the
+// header's by more than 1 % (or half the header's last digit), with the unit that would make it fit
+// when one does. Absent when they agree or the header claims nothing.
+[[nodiscard]] std::optional<Warning> IlluminanceDisagreement(const FoundSpectrum& found,
+                                                             double spectrum_lx);
+
+}  // namespace lightcal::files
