@@ -21,12 +21,12 @@ struct Integrals {
   Xyz weighted;
   double plain = 0.0;
 
-  void Add(double wavelength, double value, double width) {
+  // power: value times the width it stands for.
+  void AddWeighted(double wavelength, double power) {
     const Xyz cmf = ColorMatchingAt(Nanometres(wavelength));
-    weighted.X += value * cmf.X * width;
-    weighted.Y += value * cmf.Y * width;
-    weighted.Z += value * cmf.Z * width;
-    plain += value * width;
+    weighted.X += power * cmf.X;
+    weighted.Y += power * cmf.Y;
+    weighted.Z += power * cmf.Z;
   }
 };
 
@@ -47,28 +47,28 @@ bool HasEqualSteps(const Spectrum& s) {
 Integrals PlainSum(const Spectrum& s) {
   const double step = MeanStep(s);
   Integrals sums;
-  for (std::size_t i = 0; i < s.values.size(); ++i)
-    sums.Add(s.wavelengths_nm[i], s.values[i], step);
+  for (std::size_t i = 0; i < s.values.size(); ++i) {
+    sums.AddWeighted(s.wavelengths_nm[i], s.values[i] * step);
+    sums.plain += s.values[i] * step;
+  }
   return sums;
 }
 
-// Trapezoids between two neighbouring samples, cut at every whole nanometre of the CIE table. Below
-// and above the table a gap is one trapezoid.
+// Between two neighbouring samples: `plain` as one trapezoid, the weighted integrals over the part
+// inside the CIE table, cut at each of its whole nanometres.
 void AddGap(Integrals& sums, double left, double left_value, double right, double right_value) {
   const auto value_at = [&](double l) {
     return left_value + (right_value - left_value) * (l - left) / (right - left);
   };
-  const auto add = [&](double from, double to) {
-    sums.Add(from, value_at(from), (to - from) / 2);
-    sums.Add(to, value_at(to), (to - from) / 2);
-  };
-  double from = left;
-  double knot = std::max<double>(std::floor(left) + 1.0, kCmfFirst_nm);
-  for (; knot < right && knot <= kCmfLast_nm; knot += 1.0) {
-    add(from, knot);
-    from = knot;
+  sums.plain += (left_value + right_value) / 2 * (right - left);
+  const double end = std::min<double>(right, kCmfLast_nm);
+  double from = std::max<double>(left, kCmfFirst_nm);
+  while (from < end) {
+    const double to = std::min(std::floor(from) + 1.0, end);
+    sums.AddWeighted(from, value_at(from) * (to - from) / 2);
+    sums.AddWeighted(to, value_at(to) * (to - from) / 2);
+    from = to;
   }
-  add(from, right);
 }
 
 Integrals TrapezoidSum(const Spectrum& s) {
