@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions behind the rows of preset_table.cc, one file each.
+#pragma once
+
+#include "lightcal/presets/preset.h"
+
+namespace lightcal {
+
+// <stem>.gltf: glTF 2.0 text with KHR_lights_punctual (gltf.cc).
+[[nodiscard]] Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
+                                        const PresetOptions& options);
+// <stem>.preset.json: schema lightcal.preset/1, the canonical record (json.cc).
+[[nodiscard]] Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
+                                        const PresetOptions& options);
+
+}  // namespace lightcal

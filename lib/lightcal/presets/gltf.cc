@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 with KHR_lights_punctual. Intensities are cd and lx divided by the luminance of the
+// max-normalised colour (the extension's colour is a multiplier in [0,1]); every light has a range,
+// because Filament takes 10 m where none is given.
+// Sources: Khronos glTF 2.0; KHR_lights_punctual; KHR_materials_specular (the cards are matt).
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/gltf_light.h"
+#include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/rig.h"
+
+namespace lightcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using json_pieces::Array;
+using json_pieces::Put;
+
+constexpr double kNear_m = 0.01;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
+constexpr int kFloat = 5126;
+constexpr int kUnsignedShort = 5123;
+
+// ---- lights ----
+
+Json LightDefinition(const GltfLight& light, const std::string& name) {
+  Json json = {{"name", name},
+               {"type", light.type},
+               {"color", Array<Json>(light.color)},
+               {"intensity", light.intensity}};
+  Put<Json>(json, "range", light.range_m);
+  if (light.outer_cone_rad) {
+    json["spot"] = {{"innerConeAngle", *light.inner_cone_rad},
+                    {"outerConeAngle", *light.outer_cone_rad}};
+  }
+  return json;
+}
+
+// What a person who opens the file in an engine can still read off the light.
+Json LightExtras(const FittedLight& lamp, const PunctualLight& light) {
+  Json json = {{"kind", LightKindName(lamp.kind)}};
+  Put<Json>(json, "intensity_cd", lamp.intensity_cd);
+  Put<Json>(json, "illuminance_lx", lamp.illuminance_lx);
+  Put<Json>(json, "flux_lm", lamp.flux_lm);
+  Put<Json>(json, "luminance_nits", lamp.luminance_nits);
+  Put<Json>(json, "distance_offset_m", lamp.distance_offset_m);
+  if (lamp.position_m) json["reference_position_m"] = Array<Json>(*lamp.position_m);
+  Put<Json>(json, "cct_K", lamp.color.cct_K);
+  Put<Json>(json, "duv", lamp.color.duv);
+  if (light.color.xy) json["xy"] = {light.color.xy->x, light.color.xy->y};
+  json["color_luminance"] = light.color.luminance;
+  Put<Json>(json, "intensity_u95", light.intensity_u95);
+  if (!light.substitution.empty()) json["substituted"] = light.substitution;
+  return json;
+}
+
+Json LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLight& light,
+               std::size_t index) {
+  return {{"name", light.name},
+          {"translation", Array<Json>(gltf.translation)},
+          {"rotation", Array<Json>(gltf.rotation)},
+          {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}},
+          {"extras", {{"lightcal", LightExtras(lamp, light)}}}};
+}
+
+// ---- rig ----
+
+std::string Base64(const std::vector<std::uint8_t>& bytes) {
+  constexpr std::string_view kAlphabet =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < left ? bytes[i + k] : 0U);
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= left ? kAlphabet[group >> (18U - 6U * k) & 63U] : '=';
+    }
+  }
+  return text;
+}
+
+template <class T>
+void AppendLittleEndian(std::vector<std::uint8_t>& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  std::array<std::uint8_t, sizeof(T)> raw{};
+  std::memcpy(raw.data(), &value, sizeof(T));
+  bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+// A square in the local XY plane that faces +Z: 4 positions, 4 normals, 6 indices.
+struct SquareMesh {
+  float half = 0.0F;
+  std::vector<std::uint8_t> bytes;
+};
+
+SquareMesh MakeSquare(Metres side) {
+  SquareMesh mesh;
+  mesh.half = static_cast<float>(side.value() / 2.0);
+  const float h = mesh.half;
+  for (const float v : {-h, -h, 0.0F, h, -h, 0.0F, h, h, 0.0F, -h, h, 0.0F}) {
+    AppendLittleEndian(mesh.bytes, v);
+  }
+  for (int vertex = 0; vertex < 4; ++vertex) {
+    for (const float v : {0.0F, 0.0F, 1.0F}) AppendLittleEndian(mesh.bytes, v);
+  }
+  for (const int index : {0, 1, 2, 0, 2, 3}) {
+    AppendLittleEndian(mesh.bytes, static_cast<std::uint16_t>(index));
+  }
+  return mesh;
+}
+
+void AddSquareBuffer(Json& root, const SquareMesh& mesh) {
+  constexpr int kVectorBytes = 48;
+  constexpr int kIndexBytes = 12;
+  const auto h = static_cast<double>(mesh.half);
+  root["accessors"] = {
+      {{"bufferView", 0},
+       {"componentType", kFloat},
+       {"count", 4},
+       {"type", "VEC3"},
+       {"min", {-h, -h, 0.0}},
+       {"max", {h, h, 0.0}}},
+      {{"bufferView", 1}, {"componentType", kFloat}, {"count", 4}, {"type", "VEC3"}},
+      {{"bufferView", 2}, {"componentType", kUnsignedShort}, {"count", 6}, {"type", "SCALAR"}}};
+  root["bufferViews"] = {
+      {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", kVectorBytes}, {"target", kArrayBuffer}},
+      {{"buffer", 0},
+       {"byteOffset", kVectorBytes},
+       {"byteLength", kVectorBytes},
+       {"target", kArrayBuffer}},
+      {{"buffer", 0},
+       {"byteOffset", 2 * kVectorBytes},
+       {"byteLength", kIndexBytes},
+       {"target", kElementArrayBuffer}}};
+  root["buffers"] = {{{"byteLength", mesh.bytes.size()},
+                      {"uri", "data:application/octet-stream;base64," + Base64(mesh.bytes)}}};
+}
+
+Json MattMaterial(const RigCard& card) {
+  const double rho = card.reflectance;
+  return {{"name", card.name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {rho, rho, rho, 1.0}},
+            {"metallicFactor", 0.0},
+            {"roughnessFactor", 1.0}}},
+          {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.0}}}}}};
+}
+
+Json CardNode(const RigCard& card, const Quaternion& rotation, std::size_t mesh) {
+  return {{"name", card.name},
+          {"mesh", mesh},
+          {"translation", Array<Json>(GltfFromZUp(card.centre_m))},
+          {"rotation", Array<Json>(rotation)},
+          {"extras",
+           {{"lightcal",
+             {{"reflectance", card.reflectance},
+              {"illuminance_lx", card.illuminance.value()},
+              {"luminance_nits", card.luminance.value()}}}}}};
+}
+
+void AddCards(Json& root, const Rig& rig) {
+  AddSquareBuffer(root, MakeSquare(rig.side));
+  const Vec3 x = GltfFromZUp(rig.row);
+  const Vec3 z = GltfFromZUp(rig.normal);
+  const Quaternion rotation = RotationFromAxes(x, Cross(z, x), z);
+  for (std::size_t i = 0; i < rig.cards.size(); ++i) {
+    root["materials"].push_back(MattMaterial(rig.cards[i]));
+    root["meshes"].push_back(
+        {{"name", rig.cards[i].name},
+         {"primitives",
+          {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", i}}}}});
+    root["nodes"].push_back(CardNode(rig.cards[i], rotation, i));
+  }
+}
+
+void AddCamera(Json& root, const RigCamera& camera) {
+  const Vec3 from_target = GltfFromZUp(camera.position_m - camera.target_m);
+  const Vec3 back = from_target * (1.0 / Length(from_target));
+  const Vec3 up = GltfFromZUp(camera.up);
+  root["cameras"] = {{{"name", "rig camera"},
+                      {"type", "perspective"},
+                      {"perspective",
+                       {{"aspectRatio", camera.aspect_ratio},
+                        {"yfov", camera.vertical_fov.value()},
+                        {"znear", kNear_m},
+                        {"zfar", kGltfRange_m}}}}};
+  root["nodes"].push_back({{"name", "rig camera"},
+                           {"camera", 0},
+                           {"translation", Array<Json>(GltfFromZUp(camera.position_m))},
+                           {"rotation", Array<Json>(RotationFromAxes(Cross(up, back), up, back))}});
+}
+
+Json SceneExtras(const LightFile& file, const Rig& rig) {
+  Json json = {{"exposure", {{"ev100", rig.exposure.ev100}, {"exposure", rig.exposure.scale}}},
+               {"cards_at",
+                {{"light", rig.light},
+                 {"distance_m", rig.distance.value()},
+                 {"from_reading", rig.from_reading}}}};
+  json["provenance"] = json_pieces::ProvenanceJson<Json>(file.provenance);
+  return json;
+}
+
+Json Document(const LightFile& file, const std::string& stem,
+              const std::vector<PunctualLight>& lights, const PresetOptions& options) {
+  const Rig rig = BuildRig(file, lights);
+  const std::string generator =
+      file.provenance.generator.empty() ? "lightcal" : file.provenance.generator;
+  Json root = {{"asset", {{"version", "2.0"}, {"generator", generator}}}};
+  root["extensionsUsed"] = {"KHR_lights_punctual"};
+  if (!options.bare) root["extensionsUsed"].push_back("KHR_materials_specular");
+  Json definitions = Json::array();
+  Json nodes = Json::array();
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const GltfLight gltf = GltfLightFrom(lights[i]);
+    definitions.push_back(LightDefinition(gltf, lights[i].name));
+    nodes.push_back(LightNode(gltf, file.lights[i], lights[i], i));
+  }
+  root["extensions"] = {{"KHR_lights_punctual", {{"lights", std::move(definitions)}}}};
+  root["nodes"] = std::move(nodes);
+  if (!options.bare) {
+    AddCards(root, rig);
+    AddCamera(root, rig.camera);
+  }
+  Json all = Json::array();
+  for (std::size_t i = 0; i < root["nodes"].size(); ++i) all.push_back(i);
+  root["scenes"] = Json::array({{{"name", stem},
+                                 {"nodes", std::move(all)},
+                                 {"extras", {{"lightcal", SceneExtras(file, rig)}}}}});
+  root["scene"] = 0;
+  return root;
+}
+
+}  // namespace
+
+Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
+                          const PresetOptions& options) {
+  Preset preset;
+  const auto punctual = PunctualLightsFrom(lights, preset.warnings);
+  if (!punctual) return tl::unexpected(punctual.error());
+  auto text = json_pieces::TextOf(Document(lights, stem, *punctual, options), stem + ".gltf");
+  if (!text) return Propagate(std::move(text));
+  preset.files.push_back({stem + ".gltf", std::move(*text)});
+  return preset;
+}
+
+}  // namespace lightcal

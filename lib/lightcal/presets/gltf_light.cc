@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/gltf_light.h"
+
+#include <cmath>
+
+namespace lightcal {
+
+Quaternion RotationFromMinusZ(const Vec3& forward) {
+  // q = (a x f, 1 + a.f), normalised, for a = (0, 0, -1).
+  const double w = 1.0 - forward[2];
+  const double x = forward[1];
+  const double y = 0.0 - forward[0];
+  const double length = std::hypot(x, y, w);
+  if (length < 1e-12) return {0.0, 1.0, 0.0, 0.0};
+  return {x / length, y / length, 0.0, w / length};
+}
+
+Quaternion RotationFromAxes(const Vec3& x, const Vec3& y, const Vec3& z) {
+  // Shepperd's method: the largest of the four components first, so that no division is by zero.
+  const double trace = x[0] + y[1] + z[2];
+  Quaternion q{};
+  if (trace > 0.0) {
+    q = {y[2] - z[1], z[0] - x[2], x[1] - y[0], 1.0 + trace};
+  } else if (x[0] >= y[1] && x[0] >= z[2]) {
+    q = {1.0 + x[0] - y[1] - z[2], x[1] + y[0], x[2] + z[0], y[2] - z[1]};
+  } else if (y[1] >= z[2]) {
+    q = {x[1] + y[0], 1.0 - x[0] + y[1] - z[2], y[2] + z[1], z[0] - x[2]};
+  } else {
+    q = {x[2] + z[0], y[2] + z[1], 1.0 - x[0] - y[1] + z[2], x[1] - y[0]};
+  }
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  for (double& component : q) component /= length;
+  return q;
+}
+
+GltfLight GltfLightFrom(const PunctualLight& light) {
+  GltfLight gltf;
+  gltf.intensity = light.intensity;
+  gltf.intensity_u95 = light.intensity_u95;
+  const Rgb& c = light.color.max_normalised;
+  gltf.color = {c.r, c.g, c.b};
+  gltf.translation = GltfFromZUp(light.position_m);
+  gltf.rotation = RotationFromMinusZ(GltfFromZUp(light.aim));
+  if (light.type == PunctualType::kDirectional) {
+    gltf.type = "directional";
+    return gltf;
+  }
+  gltf.range_m = kGltfRange_m;
+  gltf.type = light.type == PunctualType::kSpot ? "spot" : "point";
+  if (light.type == PunctualType::kSpot) {
+    gltf.inner_cone_rad = light.cone.inner.value();
+    gltf.outer_cone_rad = light.cone.outer.value();
+  }
+  return gltf;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/preset_table.h"
+
+#include <array>
+#include <vector>
+
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/presets/exporters.h"
+
+namespace lightcal {
+namespace {
+
+constexpr std::array kTargets = {
+    PresetTarget{"gltf", &ExportGltf, "gltf-validator 2.0.0-dev.3.10: 0 errors, 0 warnings"},
+    PresetTarget{"json", &ExportJson, "JSON Schema 2020-12 lightcal.preset/1"},
+};
+
+}  // namespace
+
+std::span<const PresetTarget> PresetTargets() { return kTargets; }
+
+Result<PresetTarget> FindPresetTarget(std::string_view name) {
+  std::vector<std::string_view> known;
+  std::string list;
+  for (const PresetTarget& target : kTargets) {
+    if (target.name == name) return target;
+    known.push_back(target.name);
+    list += (list.empty() ? "" : ", ") + std::string(target.name);
+  }
+  const std::string nearest = NearestWord(name, known);
+  return WrongUsage("--to " + std::string(name),
+                    "is no preset target" +
+                        (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
+                        " (there are: " + list + ")");
+}
+
+}  // namespace lightcal

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "lightcal/photometry/exposure.h"
+#include "lightcal/photometry/lambert.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kLargestSide_m = 0.2;
+constexpr double kSideShareOfDistance = 0.1;
+constexpr double kConeShare = 0.25;
+constexpr double kCentreShareOfSide = 0.55;  // of each card from the middle of the pair
+constexpr double kCameraTiltDegrees = 35.0;
+constexpr double kCameraDistanceInSides = 4.0;
+
+std::optional<double> MedianUsedDistance(const FittedLight& lamp) {
+  std::vector<double> distances;
+  for (const ResidualRow& row : lamp.residuals) {
+    if (row.used && row.distance_m && *row.distance_m > 0.0) distances.push_back(*row.distance_m);
+  }
+  if (distances.empty()) return std::nullopt;
+  std::ranges::sort(distances);
+  return distances[(distances.size() - 1) / 2];
+}
+
+// What stands between the reading's reference point and the light's node.
+double OffsetOf(const FittedLight& lamp, const PunctualLight& light) {
+  if (light.type == PunctualType::kDirectional || !lamp.distance_offset_m) return 0.0;
+  return lamp.distance_offset_m->value;
+}
+
+Vec3 Unit(const Vec3& v) { return v * (1.0 / Length(v)); }
+
+Vec3 HorizontalAcross(const Vec3& aim) {
+  const Vec3 across = Cross(aim, {0.0, 0.0, 1.0});
+  return Length(across) > 1e-9 ? Unit(across) : Vec3{1.0, 0.0, 0.0};
+}
+
+Metres SideFor(const PunctualLight& light, double separation) {
+  double side = std::min(kLargestSide_m, kSideShareOfDistance * separation);
+  if (light.type == PunctualType::kSpot) {
+    const double angle = kConeShare * light.cone.outer.value();
+    side = std::min(side, separation * std::tan(angle) / kCentreShareOfSide);
+  }
+  return Metres(side);
+}
+
+// Looks at the pair from the lamp's side, tilted so that a shiny card would not mirror the lamp.
+RigCamera CameraFor(const Vec3& middle, const Vec3& normal, const Vec3& across, double side) {
+  Vec3 lean = Cross(across, normal);
+  if (lean[2] < -1e-9) lean = lean * -1.0;
+  const double tilt = RadiansFromDegrees(kCameraTiltDegrees).value();
+  const Vec3 back = normal * std::cos(tilt) + lean * std::sin(tilt);
+  RigCamera camera;
+  camera.target_m = middle;
+  camera.position_m = middle + back * (kCameraDistanceInSides * side);
+  camera.up = lean * std::cos(tilt) - normal * std::sin(tilt);
+  if (camera.up[2] < 0.0) camera.up = camera.up * -1.0;
+  return camera;
+}
+
+RigCard CardAt(const char* name, double reflectance, const Vec3& centre, const Vec3& normal,
+               std::span<const PunctualLight> lights) {
+  RigCard card;
+  card.name = name;
+  card.reflectance = reflectance;
+  card.centre_m = centre;
+  for (const PunctualLight& light : lights) {
+    card.illuminance = card.illuminance + IlluminanceAt(light, centre, normal);
+  }
+  card.luminance = LuminanceOfLitSurface(card.illuminance, reflectance);
+  return card;
+}
+
+RigExposure ExposureFor(Lux white) {
+  const Nits shown_as_one = LuminanceOfLitSurface(white, 1.0);
+  const Nits saturating_at_ev0 =
+      MaximumLuminance({.f_number = 1.0, .shutter = Seconds(1.0), .iso = 100.0});
+  return {std::log2(shown_as_one / saturating_at_ev0), 1.0 / shown_as_one.value()};
+}
+
+}  // namespace
+
+Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
+  std::size_t chosen = 0;
+  std::optional<double> distance;
+  for (std::size_t i = 0; i < lights.size() && !distance; ++i) {
+    distance = MedianUsedDistance(file.lights[i]);
+    if (distance) chosen = i;
+  }
+  const PunctualLight& light = lights[chosen];
+  Rig rig;
+  rig.light = light.name;
+  rig.from_reading = distance.has_value();
+  rig.distance = Metres(distance.value_or(1.0));
+  const double offset = OffsetOf(file.lights[chosen], light);
+  const double separation = rig.distance.value() + offset;
+  rig.separation = Metres(separation > 0.0 ? separation : rig.distance.value());
+  rig.normal = light.aim * -1.0;
+  rig.side = SideFor(light, rig.separation.value());
+  const Vec3 middle = light.position_m + light.aim * rig.separation.value();
+  rig.camera = CameraFor(middle, rig.normal, HorizontalAcross(light.aim), rig.side.value());
+  rig.row = Cross(Unit(rig.camera.target_m - rig.camera.position_m), rig.camera.up);
+  const Vec3 half = rig.row * (kCentreShareOfSide * rig.side.value());
+  rig.cards = {CardAt("white card", kWhiteCardReflectance, middle - half, rig.normal, lights),
+               CardAt("18 % card", kGreyCardReflectance, middle + half, rig.normal, lights)};
+  rig.exposure = ExposureFor(rig.cards[0].illuminance);
+  return rig;
+}
+
+}  // namespace lightcal
