@@ -16,7 +16,7 @@
 namespace lightcal {
 
 struct FittedColor {
-  std::optional<Uncertain> cct_K;   // absent where a CCT means nothing (|Duv| > .05 ...)
+  std::optional<Uncertain> cct_K;  // absent where a CCT means nothing (|Duv| > .05 ...)
   std::optional<Uncertain> duv;
   std::optional<Xy> xy;
 };
@@ -27,11 +27,12 @@ struct FitDiagnostics {
   std::vector<int> rejected;           // 0-based over the light's readings
   std::optional<double> rms_relative;  // of the used rows; absent with no degree of freedom left
   std::optional<double> chi2_dof;
-  int degrees_of_freedom = 0;          // used rows minus learned parameters, never below 0
-  std::optional<double> leave_one_out; // rms relative error of each used row predicted by the others
-  std::optional<double> condition;     // of the scaled Jacobian
-  std::vector<std::string> learned;    // parameters the readings decided
-  std::vector<std::string> prior;      // parameters the priors decided
+  int degrees_of_freedom = 0;  // used rows minus learned parameters, never below 0
+  std::optional<double>
+      leave_one_out;                 // rms relative error of each used row predicted by the others
+  std::optional<double> condition;   // of the scaled Jacobian
+  std::vector<std::string> learned;  // parameters the readings decided
+  std::vector<std::string> prior;    // parameters the priors decided
 };
 
 enum class EffectState { kOff, kOn, kFitted };
@@ -46,11 +47,11 @@ struct EffectReport {
 
 // One used or rejected row against the model, for tables and plots.
 struct ResidualRow {
-  int index = 0;                       // 0-based over the light's readings
+  int index = 0;  // 0-based over the light's readings
   std::optional<double> distance_m;
-  double measured_lx = 0.0;            // direct light: off and shadow-card readings subtracted
+  double measured_lx = 0.0;  // direct light: off and shadow-card readings subtracted
   double predicted_lx = 0.0;
-  double relative = 0.0;               // measured/predicted - 1
+  double relative = 0.0;  // measured/predicted - 1
   double sigma_relative = 0.0;
   bool used = true;
 };
@@ -63,8 +64,8 @@ struct FittedLight {
   LightKind kind = LightKind::kPoint;
   std::optional<Uncertain> intensity_cd;
   std::optional<Uncertain> flux_lm;
-  std::optional<Uncertain> illuminance_lx;   // directional, dome
-  std::optional<Uncertain> luminance_nits;   // sphere, disk, rect, tube
+  std::optional<Uncertain> illuminance_lx;  // directional, dome
+  std::optional<Uncertain> luminance_nits;  // sphere, disk, rect, tube
   std::optional<Uncertain> distance_offset_m;
   std::optional<Uncertain> ambient_lx;
   std::optional<double> inner_deg, outer_deg;  // half angles
@@ -84,9 +85,9 @@ struct InputFile {
   std::string sha256;  // hex
 };
 struct Provenance {
-  std::string generator;        // "lightcal 0.1.0"
+  std::string generator;  // "lightcal 0.1.0"
   std::vector<InputFile> inputs;
-  std::string time;             // newest time found in the inputs, "" = none
+  std::string time;  // newest time found in the inputs, "" = none
 };
 
 // A light.json: schema lightcal.light/1.

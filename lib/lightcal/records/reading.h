@@ -18,24 +18,24 @@ enum class ColorSource { kUnknown, kSpectrometer, kColorimeter, kCamera };
 
 // A reading as the journal and session.toml hold it. Absent = not measured.
 struct Reading {
-  std::string light;                    // name of the [[light]]
-  std::string meter;                    // name of the [[meter]], "" = none named
-  std::optional<Metres> distance;       // from the session's reference point of the lamp, > 0
-  std::optional<Vec3> position_m;       // of the meter; with normal, instead of distance
+  std::string light;               // name of the [[light]]
+  std::string meter;               // name of the [[meter]], "" = none named
+  std::optional<Metres> distance;  // from the session's reference point of the lamp, > 0
+  std::optional<Vec3> position_m;  // of the meter; with normal, instead of distance
   std::optional<Vec3> normal;
-  std::optional<Lux> illuminance;       // as read: ambient and bounce included
-  Radians tilt{0.0};                    // between the meter's normal and the lamp's direction
+  std::optional<Lux> illuminance;  // as read: ambient and bounce included
+  Radians tilt{0.0};               // between the meter's normal and the lamp's direction
   LampState lamp = LampState::kOn;
-  bool shadow_card = false;             // only the direct beam was blocked: everything but the lamp
+  bool shadow_card = false;  // only the direct beam was blocked: everything but the lamp
   std::optional<Kelvin> cct;
   std::optional<double> duv;
   std::optional<Xy> xy;
-  std::string spectrum_file;            // relative to the session directory, "" = none
-  std::optional<double> sigma_relative; // 1 sigma, overrides the meter's
-  std::string time;                     // ISO 8601 as recorded, "" = unknown
-  bool over_range = false;              // the true value is at least illuminance
+  std::string spectrum_file;             // relative to the session directory, "" = none
+  std::optional<double> sigma_relative;  // 1 sigma, overrides the meter's
+  std::string time;                      // ISO 8601 as recorded, "" = unknown
+  bool over_range = false;               // the true value is at least illuminance
   ColorSource color_source = ColorSource::kUnknown;
-  std::string device;                   // driver and serial, "sekonic:..." , "" = by hand
+  std::string device;  // driver and serial, "sekonic:..." , "" = by hand
 };
 
 }  // namespace lightcal

@@ -24,14 +24,14 @@ struct LightDescription {
   std::string name;
   LightKind kind = LightKind::kPoint;
   std::optional<Vec3> position_m;
-  std::optional<Vec3> aim;                // unit length after loading
-  std::optional<Metres> diameter;         // sphere, disk
-  std::optional<Metres> width, height;    // rect
-  std::optional<Metres> length, radius;   // tube
-  std::optional<Radians> inner, outer;    // half angles of the cone
-  std::optional<Watts> electrical;        // data sheet
-  std::optional<Lumens> flux;             // data sheet
-  std::optional<Radians> beam, field;     // data sheet: full angles at 50 % and 10 % of the peak
+  std::optional<Vec3> aim;               // unit length after loading
+  std::optional<Metres> diameter;        // sphere, disk
+  std::optional<Metres> width, height;   // rect
+  std::optional<Metres> length, radius;  // tube
+  std::optional<Radians> inner, outer;   // half angles of the cone
+  std::optional<Watts> electrical;       // data sheet
+  std::optional<Lumens> flux;            // data sheet
+  std::optional<Radians> beam, field;    // data sheet: full angles at 50 % and 10 % of the peak
 };
 
 // 1 sigma of one reading, relative.
@@ -56,8 +56,8 @@ struct SessionReading {
 
 struct Session {
   std::string name;
-  std::string directory;               // base of relative paths
-  std::string stem;                    // the directory's name (or the .toml's stem)
+  std::string directory;  // base of relative paths
+  std::string stem;       // the directory's name (or the .toml's stem)
   std::optional<Room> room;
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;

@@ -15,18 +15,30 @@ struct LoadedSession {
   Warnings warnings;  // rejected rows (bad_reading), torn_journal, ...
 };
 
-// Loads a session directory (session.toml + readings.jsonl) or a single .toml file.
-// A bad row of the journal is rejected with a warning; a torn last line is ignored with the warning
-// torn_journal. A bad session.toml is refused: bad_session (syntax, NaN, wrong type, distance <= 0),
-// unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter.
-// A missing path fails: not_found. A session with no light is refused: no_light. Readings may be
-// none: what that means is the verb's question.
+// Loads a session directory (session.toml + readings.jsonl) or a single .toml file (with
+// JournalPath's journal beside it, when there is one).
+// A bad row of the journal is rejected with the warning bad_reading, whose subject is
+// "readings.jsonl:LINE". A last line that stops in the middle is ignored with the warning
+// torn_journal; one that only lacks its newline is whole and counts. A cone whose inner_deg exceeds
+// its outer_deg is closed to the outer one with the warning cone_order.
+// A bad session.toml is refused: bad_session (syntax, NaN, wrong type, distance <= 0),
+// unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter,
+// capture_unsupported; the subject is "session.toml:LINE".
+// A missing path fails: not_found; one that is no file: unreadable. A session with no light is
+// refused: no_light. Readings may be none: what that means is the verb's question.
 [[nodiscard]] Result<LoadedSession> LoadSession(const std::string& path);
 
-// Parses the text of a session.toml. `where` names the file in messages.
+// Where the journal of a session lies: DIR/readings.jsonl of a directory or of its session.toml,
+// NAME.readings.jsonl beside any other NAME.toml. The file may not exist yet.
+[[nodiscard]] std::string JournalPath(const std::string& session_path);
+
+// Parses the text of a session.toml. `where` names the file in messages; directory, stem and
+// input_files stay empty. Refused as LoadSession says.
 [[nodiscard]] Result<Session> ParseSessionToml(std::string_view text, std::string_view where);
 
-// One journal line, without the newline, and back. Keys as in session.toml's [[reading]].
+// One journal line, without the newline, and back. Keys as in session.toml's [[reading]]; a light
+// is not asked for here (`read --once` has none). A number that is not finite is written null,
+// which reads back as bad_reading. Refused: bad_reading, unknown_key.
 [[nodiscard]] std::string ReadingToJson(const Reading& reading);
 [[nodiscard]] Result<Reading> ReadingFromJson(std::string_view line, std::string_view where);
 

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/field_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::records {
+namespace {
+
+constexpr std::size_t kLongestShown = 60;
+
+bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+std::string NumberText(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
+  return ShortestText(value);
+}
+
+std::string Assignment(std::string_view key, double value) {
+  return std::string(key) + " = " + NumberText(value);
+}
+
+}  // namespace
+
+std::string Quoted(std::string_view text) {
+  std::string shown = "\"";
+  for (const char c : text.substr(0, kLongestShown)) shown += IsControl(c) ? '?' : c;
+  if (text.size() > kLongestShown) shown += "...";
+  return shown + "\"";
+}
+
+std::string DidYouMean(std::string_view word, std::span<const std::string_view> known) {
+  const std::string nearest = word.size() <= kLongestShown ? NearestWord(word, known) : "";
+  if (!nearest.empty()) return "; did you mean \"" + nearest + "\"?";
+  if (known.empty()) return "";
+  std::string text = "; known are";
+  for (const std::string_view name : known) {
+    text += (name == known.front() ? " " : ", ") + std::string(name);
+  }
+  return text;
+}
+
+FieldReader::FieldReader(const Node& table, std::string place, ReadingOfFile& file)
+    : table_(&table), place_(std::move(place)), file_(&file) {}
+
+bool FieldReader::IsTable() {
+  if (table_->kind == Node::Kind::kTable) return true;
+  Fail("", "must be a table, not " + std::string(KindName(table_->kind)));
+  return false;
+}
+
+std::string FieldReader::PlacePrefix() const { return place_.empty() ? "" : place_ + ": "; }
+
+std::string FieldReader::PlaceOf(std::string_view key) const {
+  if (file_->style == PlaceStyle::kToml) return "[" + std::string(key) + "]";
+  return place_.empty() ? std::string(key) : place_ + "." + std::string(key);
+}
+
+std::string FieldReader::PlaceOf(std::string_view key, std::size_t index) const {
+  if (file_->style == PlaceStyle::kToml) {
+    return "[[" + std::string(key) + "]] " + std::to_string(index + 1);
+  }
+  return PlaceOf(key) + "[" + std::to_string(index) + "]";
+}
+
+void FieldReader::Fail(const std::string& code, std::string_view key, const std::string& message) {
+  if (file_->error) return;
+  const Node* value = table_->Find(key);
+  const int line = value != nullptr ? value->line : table_->line;
+  const std::string subject = line > 0 ? file_->file + ":" + std::to_string(line) : file_->file;
+  file_->error = Error{ErrorKind::kRefused, code, subject, PlacePrefix() + message};
+}
+
+const Node* FieldReader::Take(std::string_view key, std::optional<Node::Kind> kind) {
+  known_.push_back(key);
+  if (failed()) return nullptr;
+  const Node* value = table_->Find(key);
+  if (value == nullptr || !kind || value->kind == *kind) return value;
+  Fail(key, std::string(key) + " must be " + std::string(KindName(*kind)) + ", not " +
+                std::string(KindName(value->kind)));
+  return nullptr;
+}
+
+std::optional<double> FieldReader::NumberOf(const Node& node, std::string_view key,
+                                            const NumberRule& rule) {
+  if (!node.IsNumber()) {
+    Fail(key, std::string(key) + " must be a number, not " + std::string(KindName(node.kind)));
+    return std::nullopt;
+  }
+  if (!std::isfinite(node.number)) {
+    Fail(key, Assignment(key, node.number) + ": must be a finite number");
+    return std::nullopt;
+  }
+  if (!rule.holds(node.number)) {
+    Fail(key, Assignment(key, node.number) + ": " + std::string(rule.demand));
+    return std::nullopt;
+  }
+  return node.number;
+}
+
+std::optional<double> FieldReader::TakeNumber(std::string_view key, const NumberRule& rule) {
+  const Node* value = Take(key, std::nullopt);
+  return value == nullptr ? std::nullopt : NumberOf(*value, key, rule);
+}
+
+std::optional<int> FieldReader::IntegerOf(const Node& node, std::string_view key) {
+  const bool fits = node.kind == Node::Kind::kInteger &&
+                    node.integer >= std::numeric_limits<int>::min() &&
+                    node.integer <= std::numeric_limits<int>::max();
+  if (fits) return static_cast<int>(node.integer);
+  Fail(key, std::string(key) + " must be a whole number");
+  return std::nullopt;
+}
+
+void FieldReader::Integer(std::string_view key, int& out) {
+  const Node* value = Take(key, std::nullopt);
+  if (value != nullptr) out = IntegerOf(*value, key).value_or(out);
+}
+
+void FieldReader::Text(std::string_view key, std::string& out) {
+  const Node* value = Take(key, Node::Kind::kText);
+  if (value == nullptr) return;
+  if (std::ranges::any_of(value->text, IsControl)) {
+    Fail(key, std::string(key) + " = " + Quoted(value->text) + " holds a control character");
+    return;
+  }
+  out = value->text;
+}
+
+void FieldReader::Flag(std::string_view key, bool& out) {
+  const Node* value = Take(key, Node::Kind::kBoolean);
+  if (value != nullptr) out = value->boolean;
+}
+
+std::optional<std::size_t> FieldReader::TakeWord(std::string_view key,
+                                                 std::span<const std::string_view> words) {
+  const Node* value = Take(key, Node::Kind::kText);
+  if (value == nullptr) return std::nullopt;
+  const auto found = std::ranges::find(words, value->text);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  Fail(key, std::string(key) + " = " + Quoted(value->text) + " is unknown" +
+                DidYouMean(value->text, words));
+  return std::nullopt;
+}
+
+bool FieldReader::TakeNumbers(std::string_view key, std::span<double> out, const NumberRule& rule) {
+  const Node* value = Take(key, Node::Kind::kArray);
+  if (value == nullptr) return false;
+  if (value->items.size() != out.size()) {
+    Fail(key, std::string(key) + " must hold " + std::to_string(out.size()) + " numbers, not " +
+                  std::to_string(value->items.size()));
+    return false;
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto number = NumberOf(value->items[i], key, rule);
+    if (!number) return false;
+    out[i] = *number;
+  }
+  return true;
+}
+
+void FieldReader::Chromaticity(std::string_view key, std::optional<Xy>& out) {
+  std::array<double, 2> xy{};
+  if (!TakeNumbers(key, xy, kAnyNumber)) return;
+  if (xy[0] < 0.0 || xy[1] <= 0.0 || xy[0] + xy[1] > 1.0) {
+    Fail(key, std::string(key) + " = [" + ShortestText(xy[0]) + ", " + ShortestText(xy[1]) +
+                  "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1");
+    return;
+  }
+  out = Xy{xy[0], xy[1]};
+}
+
+void FieldReader::Integers(std::string_view key, std::vector<int>& out) {
+  const Node* value = Take(key, Node::Kind::kArray);
+  if (value == nullptr) return;
+  for (const Node& item : value->items) {
+    if (const auto number = IntegerOf(item, key)) out.push_back(*number);
+  }
+}
+
+void FieldReader::Texts(std::string_view key, std::vector<std::string>& out) {
+  const Node* value = Take(key, Node::Kind::kArray);
+  if (value == nullptr) return;
+  for (const Node& item : value->items) {
+    if (item.kind != Node::Kind::kText) {
+      Fail(key, std::string(key) + " must hold text only");
+      return;
+    }
+    out.push_back(item.text);
+  }
+}
+
+void FieldReader::Require(std::initializer_list<std::string_view> keys) {
+  required_.insert(required_.end(), keys);
+}
+
+void FieldReader::Finish() {
+  for (const auto& [key, value] : table_->members) {
+    if (std::ranges::find(known_, key) != known_.end()) continue;
+    Fail("unknown_key", key, "unknown key " + Quoted(key) + DidYouMean(key, known_));
+  }
+  for (const std::string_view key : required_) {
+    if (!Has(key)) Fail(key, std::string(key) + " is missing");
+  }
+}
+
+}  // namespace lightcal::records

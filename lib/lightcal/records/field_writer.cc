@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/field_writer.h"
+
+#include <cmath>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::records {
+namespace {
+
+// The roundest number of degrees that reads back as the same radians: 30, never 30.000000000000004.
+double RoundestDegrees(Radians angle) {
+  const double exact = DegreesFromRadians(angle);
+  constexpr int kEnoughDigits = 17;
+  for (int digits = 1; digits <= kEnoughDigits; ++digits) {
+    const auto rounded = ParseNumber(RoundedText(exact, digits));
+    if (rounded && RadiansFromDegrees(*rounded) == angle) return *rounded;
+  }
+  return exact;
+}
+
+}  // namespace
+
+void FieldWriter::Degrees(std::string_view key, Radians value, const NumberRule& /*rule*/) {
+  if (value.value() != 0.0) Put(key, Node::Number(RoundestDegrees(value)));
+}
+
+void FieldWriter::Integers(std::string_view key, const std::vector<int>& values) {
+  Node array = Node::Array();
+  for (const int value : values) array.items.push_back(Node::Integer(value));
+  Put(key, std::move(array));
+}
+
+void FieldWriter::Texts(std::string_view key, const std::vector<std::string>& values) {
+  Node array = Node::Array();
+  for (const std::string& value : values) array.items.push_back(Node::Text(value));
+  Put(key, std::move(array));
+}
+
+void FieldWriter::Put(std::string_view key, Node value) {
+  table_.members.emplace_back(std::string(key), std::move(value));
+}
+
+void FieldWriter::PutNumbers(std::string_view key, std::span<const double> values) {
+  Node array = Node::Array();
+  for (const double value : values) array.items.push_back(Node::Number(value));
+  Put(key, std::move(array));
+}
+
+std::optional<std::string> FindNotFinite(const Node& node) {
+  if (node.kind == Node::Kind::kNumber && !std::isfinite(node.number)) return "";
+  const auto below = [](const std::string& step, const Node& inner) -> std::optional<std::string> {
+    const auto found = FindNotFinite(inner);
+    if (!found) return std::nullopt;
+    const bool joined = found->empty() || found->front() == '[';
+    return step + (joined ? "" : ".") + *found;
+  };
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (auto found = below("[" + std::to_string(i) + "]", node.items[i])) return found;
+  }
+  for (const auto& [key, value] : node.members) {
+    if (auto found = below(key, value)) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lightcal::records

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/light_codec.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "lightcal/records/field_reader.h"
+#include "lightcal/records/field_writer.h"
+#include "lightcal/records/json_codec.h"
+
+namespace lightcal {
+namespace records {
+namespace {
+
+constexpr std::array<std::string_view, 3> kEffectStateWords = {"off", "on", "fitted"};
+
+// One visitor per record, for both directions: what is written is what is read.
+constexpr auto kVisitUncertain = [](auto& archive, auto& uncertain) {
+  archive.Number("value", uncertain.value);
+  archive.Number("u95", uncertain.u95, kNotNegative);
+  archive.Number("low95", uncertain.low);
+  archive.Number("high95", uncertain.high);
+  archive.Require({"value", "u95"});
+};
+
+// Duv is a number with its interval beside it: "duv", "duv_u95".
+void VisitDuv(FieldReader& reader, std::optional<Uncertain>& duv) {
+  if (reader.Has("duv")) duv.emplace();
+  Uncertain read;
+  reader.Number("duv", read.value);
+  reader.Number("duv_u95", read.u95, kNotNegative);
+  reader.Number("duv_low95", read.low);
+  reader.Number("duv_high95", read.high);
+  if (duv) {
+    duv = read;
+    reader.Require({"duv_u95"});
+  }
+}
+void VisitDuv(FieldWriter& writer, const std::optional<Uncertain>& duv) {
+  if (!duv) return;
+  writer.Number("duv", duv->value);
+  writer.Number("duv_u95", duv->u95);
+  writer.Number("duv_low95", duv->low);
+  writer.Number("duv_high95", duv->high);
+}
+
+template <class Archive, class SomeColor>
+void VisitColor(Archive& archive, SomeColor& color) {
+  archive.Object("cct_K", color.cct_K, kVisitUncertain);
+  VisitDuv(archive, color.duv);
+  archive.Chromaticity("xy", color.xy);
+}
+
+template <class Archive, class SomeFit>
+void VisitFit(Archive& archive, SomeFit& fit) {
+  archive.Integer("readings", fit.readings);
+  archive.Integer("used", fit.used);
+  archive.Integers("rejected", fit.rejected);
+  archive.Number("rms_relative", fit.rms_relative, kNotNegative);
+  archive.Number("chi2_dof", fit.chi2_dof, kNotNegative);
+  archive.Integer("degrees_of_freedom", fit.degrees_of_freedom);
+  archive.Number("leave_one_out", fit.leave_one_out, kNotNegative);
+  archive.Number("condition", fit.condition, kNotNegative);
+  archive.Texts("learned", fit.learned);
+  archive.Texts("prior", fit.prior);
+  archive.Require({"readings", "used", "rejected", "learned", "prior"});
+}
+
+constexpr auto kVisitEffect = [](auto& archive, auto& effect) {
+  archive.Text("name", effect.name);
+  archive.Word("state", effect.state, kEffectStateWords);
+  archive.Number("bound", effect.bound, kNotNegative);
+  archive.Number("contribution", effect.contribution);
+  archive.Number("cost_ns", effect.cost_ns, kNotNegative);
+  archive.Text("reason", effect.reason);
+  archive.Require({"name", "state", "bound", "cost_ns"});
+};
+
+constexpr auto kVisitResidual = [](auto& archive, auto& row) {
+  archive.Integer("index", row.index);
+  archive.Number("distance_m", row.distance_m);
+  archive.Number("measured_lx", row.measured_lx);
+  archive.Number("predicted_lx", row.predicted_lx);
+  archive.Number("relative", row.relative);
+  archive.Number("sigma_relative", row.sigma_relative, kNotNegative);
+  archive.Truth("used", row.used);
+  archive.Require({"index", "measured_lx", "predicted_lx", "relative", "sigma_relative", "used"});
+};
+
+template <class Archive, class SomeLight>
+void VisitMeasures(Archive& archive, SomeLight& light) {
+  archive.Object("intensity_cd", light.intensity_cd, kVisitUncertain);
+  archive.Object("flux_lm", light.flux_lm, kVisitUncertain);
+  archive.Object("illuminance_lx", light.illuminance_lx, kVisitUncertain);
+  archive.Object("luminance_nits", light.luminance_nits, kVisitUncertain);
+  archive.Object("distance_offset_m", light.distance_offset_m, kVisitUncertain);
+  archive.Object("ambient_lx", light.ambient_lx, kVisitUncertain);
+}
+
+template <class Archive, class SomeLight>
+void VisitGeometry(Archive& archive, SomeLight& light) {
+  archive.Group("cone", [&](auto& cone) {
+    cone.Number("inner_deg", light.inner_deg, kHalfAngleRule);
+    cone.Number("outer_deg", light.outer_deg, kHalfAngleRule);
+  });
+  archive.Number("diameter_m", light.diameter_m, kNotNegative);
+  archive.Number("width_m", light.width_m, kNotNegative);
+  archive.Number("height_m", light.height_m, kNotNegative);
+  archive.Number("length_m", light.length_m, kNotNegative);
+  archive.Number("radius_m", light.radius_m, kNotNegative);
+  archive.Array("position_m", light.position_m);
+  archive.Array("aim", light.aim);
+}
+
+constexpr auto kVisitLight = [](auto& archive, auto& light) {
+  archive.Text("name", light.name);
+  archive.Word("kind", light.kind, kLightKindNames);
+  VisitMeasures(archive, light);
+  VisitGeometry(archive, light);
+  archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
+  archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
+  archive.List("effects", light.effects, kVisitEffect);
+  archive.List("residuals", light.residuals, kVisitResidual);
+  archive.Array("covariance_lnI_d0_E0", light.covariance_lnI_d0_E0);
+  archive.Require({"name", "kind"});
+};
+
+constexpr auto kVisitInput = [](auto& archive, auto& input) {
+  archive.Text("path", input.path);
+  archive.Text("sha256", input.sha256);
+  archive.Require({"path", "sha256"});
+};
+
+template <class Archive, class SomeFile>
+void VisitFile(Archive& archive, SomeFile& file) {
+  archive.List("lights", file.lights, kVisitLight);
+  archive.Group("provenance", [&](auto& provenance) {
+    provenance.Text("generator", file.provenance.generator);
+    provenance.Text("time", file.provenance.time);
+    provenance.List("inputs", file.provenance.inputs, kVisitInput);
+  });
+  archive.Require({"lights"});
+}
+
+void ReadSchema(FieldReader& reader) {
+  std::string schema;
+  reader.Text("schema", schema);
+  if (!reader.Has("schema")) {
+    reader.Fail("schema", "schema is missing: this is no light.json of lightcal");
+  } else if (schema != kLightSchema) {
+    reader.Fail("schema", "schema = " + Quoted(schema) + ": this program reads " +
+                              std::string(kLightSchema) +
+                              "; fit the session again with this program, or update it");
+  }
+}
+
+}  // namespace
+}  // namespace records
+
+Result<std::string> LightFileToJson(const LightFile& file) {
+  records::FieldWriter writer;
+  writer.Text("schema", std::string(kLightSchema));
+  records::VisitFile(writer, file);
+  const records::Node node = writer.TakeTable();
+  if (const auto where = records::FindNotFinite(node)) {
+    return Failed("not_finite", *where, "is not a finite number and cannot be written");
+  }
+  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+}
+
+Result<LightFile> LightFileFromJson(std::string_view text, std::string_view where) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const auto node = records::ParseJson(text);
+  if (!node) return Refused("bad_light", std::string(where), node.error().message);
+  if (node->kind != records::Node::Kind::kTable) {
+    return Refused("bad_light", std::string(where), "a light.json must be one JSON object");
+  }
+  records::ReadingOfFile reading{std::string(where), "bad_light", records::PlaceStyle::kJson,
+                                 std::nullopt};
+  records::FieldReader reader(*node, "", reading);
+  LightFile file;
+  records::ReadSchema(reader);
+  records::VisitFile(reader, file);
+  reader.Ignore("warnings");  // `fit --json` adds them to the same document
+  reader.Finish();
+  if (reading.error) return tl::unexpected(*std::move(reading.error));
+  return file;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/reading_codec.h"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "lightcal/records/field_writer.h"
+#include "lightcal/records/json_codec.h"
+#include "lightcal/records/session_codec.h"
+
+namespace lightcal {
+namespace records {
+namespace {
+
+constexpr std::array<std::string_view, 2> kLampWords = {"on", "off"};
+constexpr std::array<std::string_view, 4> kColorSourceWords = {"unknown", "spectrometer",
+                                                               "colorimeter", "camera"};
+
+template <class Archive, class SomeReading>
+void VisitReading(Archive& archive, SomeReading& reading) {
+  archive.Text("light", reading.light);
+  archive.Text("meter", reading.meter);
+  archive.Text("device", reading.device);
+  archive.Text("time", reading.time);
+  archive.Number("distance_m", reading.distance, kDistanceRule);
+  archive.Array("position_m", reading.position_m);
+  archive.Array("normal", reading.normal);
+  archive.Number("illuminance_lx", reading.illuminance, kIlluminanceRule);
+  archive.Degrees("tilt_deg", reading.tilt, kTiltRule);
+  archive.WordUnlessFirst("lamp", reading.lamp, kLampWords);
+  archive.Flag("shadow_card", reading.shadow_card);
+  archive.Number("cct_K", reading.cct, kPositive);
+  archive.Number("duv", reading.duv);
+  archive.Chromaticity("xy", reading.xy);
+  archive.WordUnlessFirst("color_source", reading.color_source, kColorSourceWords);
+  archive.Text("spectrum", reading.spectrum_file);
+  archive.Number("sigma_relative", reading.sigma_relative, kSigmaRule);
+  archive.Flag("over_range", reading.over_range);
+}
+
+void CheckPlace(FieldReader& reader, const Reading& reading) {
+  if (reading.distance && (reading.position_m || reading.normal)) {
+    reader.Fail("distance_m", "give distance_m, or position_m with normal, not both");
+  }
+  if (reading.position_m.has_value() != reading.normal.has_value()) {
+    reader.Fail(reading.normal ? "normal" : "position_m",
+                "position_m and normal belong together: where the meter stood and where it faced");
+  }
+  if (reading.normal && Length(*reading.normal) == 0.0) {
+    reader.Fail("normal", "normal = [0, 0, 0] is no direction");
+  }
+}
+
+void CheckMeasured(FieldReader& reader, const Reading& reading) {
+  const bool measured =
+      reading.illuminance || reading.cct || reading.xy || !reading.spectrum_file.empty();
+  if (!measured) {
+    reader.Fail("light", "nothing was measured: give illuminance_lx, xy, cct_K or spectrum");
+  }
+  if (reading.duv && !reading.cct) reader.Fail("duv", "duv needs cct_K beside it");
+  if (reading.over_range && !reading.illuminance) {
+    reader.Fail("over_range", "over_range needs illuminance_lx: the largest value the meter shows");
+  }
+  if (reading.shadow_card && reading.lamp == LampState::kOff) {
+    reader.Fail("shadow_card", "shadow_card needs the lamp on; write only lamp = \"off\"");
+  }
+}
+
+LineError BadLine(std::string_view where, std::string message) {
+  return {{ErrorKind::kRefused, "bad_reading", std::string(where), std::move(message)}};
+}
+
+}  // namespace
+
+void ReadReading(FieldReader& reader, Reading& reading) {
+  VisitReading(reader, reading);
+  reader.Finish();  // a misspelt key comes before what it makes missing
+  CheckPlace(reader, reading);
+  CheckMeasured(reader, reading);
+}
+
+tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::string_view where) {
+  const auto node = ParseJson(line);
+  if (!node) {
+    LineError bad = BadLine(where, node.error().message);
+    bad.syntax = true;
+    bad.torn = node.error().at_end;
+    return tl::unexpected(std::move(bad));
+  }
+  if (node->kind != Node::Kind::kTable) {
+    return tl::unexpected(BadLine(where, "a line of the journal must be one JSON object"));
+  }
+  ReadingOfFile file{std::string(where), "bad_reading", PlaceStyle::kJson, std::nullopt};
+  FieldReader reader(*node, "", file);
+  Reading reading;
+  ReadReading(reader, reading);
+  if (file.error) return tl::unexpected(LineError{*std::move(file.error)});
+  return reading;
+}
+
+}  // namespace records
+
+std::string ReadingToJson(const Reading& reading) {
+  records::FieldWriter writer;
+  records::VisitReading(writer, reading);
+  return PrintJson(writer.TakeTable(), records::JsonLayout::kOneLine);
+}
+
+Result<Reading> ReadingFromJson(std::string_view line, std::string_view where) {
+  auto reading = records::ReadingFromLine(line, where);
+  if (!reading) return tl::unexpected(reading.error().error);
+  return *std::move(reading);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/session_codec.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "lightcal/records/reading_codec.h"
+#include "lightcal/records/session_toml.h"
+#include "lightcal/records/toml_codec.h"
+
+namespace lightcal {
+namespace records {
+namespace {
+
+constexpr int kSessionVersion = 1;
+
+template <class Named>
+void CheckName(FieldReader& reader, const std::vector<Named>& all, std::string_view what) {
+  const std::string& name = all.back().name;
+  if (reader.failed()) return;
+  if (name.empty()) reader.Fail("name", "name must not be empty");
+  const auto same = std::ranges::count_if(all, [&](const Named& n) { return n.name == name; });
+  if (same > 1) {
+    reader.Fail("duplicate_name", "name",
+                std::string(what) + " " + Quoted(name) + " is described twice; rename one");
+  }
+}
+
+std::optional<Vec3> UnitVector(FieldReader& reader, std::string_view key,
+                               const std::optional<Vec3>& given) {
+  if (!given) return given;
+  const double largest =
+      std::max({std::abs((*given)[0]), std::abs((*given)[1]), std::abs((*given)[2])});
+  if (largest == 0.0) {
+    reader.Fail(key, std::string(key) + " = [0, 0, 0] is no direction");
+    return std::nullopt;
+  }
+  const Vec3 scaled = *given * (1.0 / largest);
+  return scaled * (1.0 / Length(scaled));
+}
+
+// A pair of angles that the person gave the wrong way round.
+void CheckAngles(FieldReader& reader, LightDescription& light, std::string_view where,
+                 Warnings& warnings) {
+  if (light.beam && light.field && *light.field < *light.beam) {
+    reader.Fail("field_deg", "field_deg (10 % of the peak) is below beam_deg (50 %); swap them");
+  }
+  if (light.inner && light.outer && *light.outer < *light.inner) {
+    warnings.push_back({"cone_order", light.name,
+                        std::string(where) + ": inner_deg exceeds outer_deg; both are taken as " +
+                            "the outer half angle. Half angles are expected; write the smaller "
+                            "one as inner_deg"});
+    light.inner = light.outer;
+  }
+}
+
+class SessionReader {
+ public:
+  SessionReader(LoadedSession& out, std::string_view where) : out_(out), where_(where) {}
+
+  void Read(FieldReader& reader) {
+    ReadVersion(reader);
+    Session& session = out_.session;
+    reader.Text("name", session.name);
+    reader.Object("room", session.room, [](FieldReader& r, Room& room) { ReadRoom(r, room); });
+    reader.List("light", session.lights, [this](FieldReader& r, LightDescription& light) {
+      ReadLight(r, light);
+      CheckName(r, out_.session.lights, "light");
+    });
+    reader.List("meter", session.meters, [this](FieldReader& r, MeterDescription& meter) {
+      ReadMeter(r, meter);
+      CheckName(r, out_.session.meters, "meter");
+    });
+    reader.List("reading", session.readings,
+                [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
+    ReadCaptures(reader);
+  }
+
+ private:
+  static void ReadVersion(FieldReader& reader) {
+    int version = 0;
+    reader.Integer("lightcal", version);
+    if (!reader.Has("lightcal")) {
+      reader.Fail("lightcal", "lightcal is missing; begin the file with lightcal = 1");
+    } else if (version != kSessionVersion) {
+      reader.Fail("lightcal", "lightcal = " + std::to_string(version) +
+                                  ": this program reads sessions of version 1");
+    }
+  }
+
+  static void ReadRoom(FieldReader& reader, Room& room) {
+    reader.Array("size_m", room.size_m, kPositive);
+    reader.Number("reflectance", room.reflectance, kReflectanceRule);
+    reader.Require({"size_m"});
+  }
+
+  void ReadLight(FieldReader& reader, LightDescription& light) {
+    reader.Text("name", light.name);
+    reader.Word("kind", light.kind, kLightKindNames);
+    reader.Array("position_m", light.position_m);
+    reader.Array("aim", light.aim);
+    light.aim = UnitVector(reader, "aim", light.aim);
+    reader.Number("diameter_m", light.diameter, kPositive);
+    std::optional<std::array<double, 2>> size;
+    reader.Array("size_m", size, kPositive);
+    if (size) {
+      light.width = Metres((*size)[0]);
+      light.height = Metres((*size)[1]);
+    }
+    reader.Number("length_m", light.length, kPositive);
+    reader.Number("radius_m", light.radius, kPositive);
+    reader.Degrees("inner_deg", light.inner, kHalfAngleRule);
+    reader.Degrees("outer_deg", light.outer, kHalfAngleRule);
+    reader.Number("electrical_W", light.electrical, kPositive);
+    reader.Number("flux_lm", light.flux, kPositive);
+    reader.Degrees("beam_deg", light.beam, kFullAngleRule);
+    reader.Degrees("field_deg", light.field, kFullAngleRule);
+    reader.Require({"name", "kind"});
+    reader.Finish();
+    CheckAngles(reader, light, where_, out_.warnings);
+    if (light.name.find('/') != std::string::npos) {
+      reader.Fail("name", "name = " + Quoted(light.name) +
+                              " holds a slash; names become parts of file names");
+    }
+  }
+
+  static void ReadMeter(FieldReader& reader, MeterDescription& meter) {
+    reader.Text("name", meter.name);
+    reader.Number("sigma_relative", meter.sigma_relative, kSigmaRule);
+    reader.Number("cosine_f2", meter.cosine_f2, kErrorFractionRule);
+    reader.Number("spectral_f1", meter.spectral_f1, kErrorFractionRule);
+    reader.Number("head_radius_m", meter.head_radius, kPositive);
+    reader.Require({"name"});
+    reader.Finish();
+    if (meter.name == kDataSheetMeter) {
+      reader.Fail("name",
+                  "the name data_sheet is reserved for figures a manufacturer prints and "
+                  "needs no [[meter]]; choose another");
+    }
+  }
+
+  void ReadRow(FieldReader& reader, SessionReading& row) {
+    row.where = std::string(where_) + " " + reader.place();
+    reader.Require({"light"});
+    ReadReading(reader, row.reading);
+    if (reader.failed()) return;
+    if (const auto strange = FindStrangeName(out_.session, row.reading)) {
+      reader.Fail(strange->code, strange->key, strange->message);
+    }
+  }
+
+  static void ReadCaptures(FieldReader& reader) {
+    const bool present = reader.Has("capture");
+    reader.Ignore("capture");
+    if (present) {
+      reader.Fail("capture_unsupported", "capture",
+                  "[[capture]]: this version reads meters only and cannot use pictures yet; "
+                  "remove the [[capture]] blocks");
+    }
+  }
+
+  LoadedSession& out_;
+  std::string_view where_;
+};
+
+template <class Named>
+std::string NearestAmong(std::string_view word, const std::vector<Named>& all) {
+  std::vector<std::string_view> names;
+  for (const Named& named : all) names.push_back(named.name);
+  return DidYouMean(word, names);
+}
+
+}  // namespace
+
+std::optional<StrangeName> FindStrangeName(const Session& session, const Reading& reading) {
+  if (FindLight(session, reading.light) == nullptr) {
+    return StrangeName{"unknown_light", "light",
+                       "light = " + Quoted(reading.light) + " names no [[light]]" +
+                           NearestAmong(reading.light, session.lights)};
+  }
+  const bool known = reading.meter.empty() || reading.meter == kDataSheetMeter ||
+                     std::ranges::any_of(session.meters, [&](const MeterDescription& meter) {
+                       return meter.name == reading.meter;
+                     });
+  if (known) return std::nullopt;
+  return StrangeName{"unknown_meter", "meter",
+                     "meter = " + Quoted(reading.meter) + " names no [[meter]]" +
+                         NearestAmong(reading.meter, session.meters)};
+}
+
+Result<LoadedSession> ParseSession(std::string_view text, std::string_view where) {
+  const auto document = ParseToml(text);
+  if (!document) {
+    const int line = document.error().line;
+    return Refused("bad_session",
+                   std::string(where) + (line > 0 ? ":" + std::to_string(line) : std::string()),
+                   "not valid TOML: " + document.error().message);
+  }
+  ReadingOfFile file{std::string(where), "bad_session", PlaceStyle::kToml, std::nullopt};
+  LoadedSession loaded;
+  FieldReader reader(*document, "", file);
+  SessionReader(loaded, where).Read(reader);
+  reader.Finish();
+  if (file.error) return tl::unexpected(*std::move(file.error));
+  if (loaded.session.lights.empty()) {
+    return Refused("no_light", std::string(where),
+                   "no [[light]] is described; add one with a name and a kind");
+  }
+  return loaded;
+}
+
+}  // namespace records
+
+Result<Session> ParseSessionToml(std::string_view text, std::string_view where) {
+  auto loaded = records::ParseSession(text, where);
+  if (!loaded) return Propagate(std::move(loaded));
+  return std::move(loaded->session);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "lightcal/records/field_reader.h"
+#include "lightcal/records/reading_codec.h"
+#include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_toml.h"
+
+namespace lightcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSessionFile = "session.toml";
+constexpr std::string_view kJournalFile = "readings.jsonl";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+struct SessionPaths {
+  fs::path toml;
+  fs::path journal;
+  fs::path directory;
+  std::string stem;
+};
+
+std::string NameOfDirectory(const fs::path& directory) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(directory, error).lexically_normal();
+  const fs::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
+  return name.empty() ? "session" : name.string();
+}
+
+SessionPaths PathsOf(const std::string& path) {
+  const fs::path given(path);
+  std::error_code error;
+  if (fs::is_directory(given, error)) {
+    return {given / kSessionFile, given / kJournalFile, given, NameOfDirectory(given)};
+  }
+  const fs::path directory = given.has_parent_path() ? given.parent_path() : fs::path(".");
+  if (given.filename() == kSessionFile) {
+    return {given, directory / kJournalFile, directory, NameOfDirectory(directory)};
+  }
+  const std::string stem = given.stem().string();
+  return {given, directory / (stem + "." + std::string(kJournalFile)), directory, stem};
+}
+
+std::optional<std::string> ReadWhole(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) return std::nullopt;
+  return text;
+}
+
+Result<std::string> ReadSessionFile(const SessionPaths& paths, const std::string& given) {
+  std::error_code error;
+  if (fs::is_directory(given, error) && !fs::exists(paths.toml, error)) {
+    return Failed("not_found", given,
+                  "no session.toml in this directory; create one that begins with lightcal = 1 "
+                  "and describes a [[light]] with name and kind");
+  }
+  if (!fs::exists(paths.toml, error)) {
+    return Failed("not_found", given,
+                  "no such session; give a directory that holds a session.toml, or a .toml file");
+  }
+  auto text = ReadWhole(paths.toml);
+  if (!text) return Failed("unreadable", paths.toml.string(), "cannot be read as a file");
+  return *std::move(text);
+}
+
+// Takes the rows of a journal into a session.
+class JournalReader {
+ public:
+  JournalReader(LoadedSession& loaded, std::string file_name)
+      : loaded_(loaded), file_name_(std::move(file_name)) {}
+
+  void Read(std::string_view text) {
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    for (int number = 1; !text.empty(); ++number) {
+      const std::size_t end = text.find('\n');
+      const bool closed = end != std::string_view::npos;
+      std::string_view line = text.substr(0, end);
+      text.remove_prefix(closed ? end + 1 : text.size());
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      const bool blank = line.find_first_not_of(" \t") == std::string_view::npos;
+      if (!blank) ReadLine(line, number, closed, text.empty());
+    }
+  }
+
+ private:
+  void ReadLine(std::string_view line, int number, bool closed, bool last) {
+    const std::string where = file_name_ + ":" + std::to_string(number);
+    auto reading = records::ReadingFromLine(line, where);
+    if (reading) {
+      TakeReading(*std::move(reading), where);
+    } else if (last && (reading.error().torn || (!closed && reading.error().syntax))) {
+      WarnTorn(where);
+    } else {
+      Reject(where, reading.error().error.message);
+    }
+  }
+
+  void TakeReading(Reading reading, const std::string& where) {
+    if (reading.light.empty()) {
+      Reject(where, "light is missing");
+    } else if (const auto strange = records::FindStrangeName(loaded_.session, reading)) {
+      Reject(where, strange->message);
+    } else {
+      loaded_.session.readings.push_back({std::move(reading), where});
+    }
+  }
+
+  void Reject(const std::string& where, const std::string& reason) {
+    loaded_.warnings.push_back({"bad_reading", where, reason + "; this row is not used"});
+  }
+
+  void WarnTorn(const std::string& where) {
+    loaded_.warnings.push_back(
+        {"torn_journal", where,
+         "the last line stops in the middle, as after a crash; it is ignored. Take that reading "
+         "again if it matters"});
+  }
+
+  LoadedSession& loaded_;
+  std::string file_name_;
+};
+
+}  // namespace
+
+std::string JournalPath(const std::string& session_path) {
+  return PathsOf(session_path).journal.string();
+}
+
+Result<LoadedSession> LoadSession(const std::string& path) {
+  const SessionPaths paths = PathsOf(path);
+  const auto text = ReadSessionFile(paths, path);
+  if (!text) return tl::unexpected(text.error());
+  auto loaded = records::ParseSession(*text, paths.toml.filename().string());
+  if (!loaded) return loaded;
+  Session& session = loaded->session;
+  session.directory = paths.directory.string();
+  session.stem = paths.stem;
+  if (session.name.empty()) session.name = paths.stem;
+  session.input_files.push_back(paths.toml.string());
+  std::error_code error;
+  if (!fs::exists(paths.journal, error)) return loaded;
+  const auto journal = ReadWhole(paths.journal);
+  if (!journal) return Failed("unreadable", paths.journal.string(), "cannot be read as a file");
+  session.input_files.push_back(paths.journal.string());
+  JournalReader(*loaded, paths.journal.filename().string()).Read(*journal);
+  return loaded;
+}
+
+}  // namespace lightcal
