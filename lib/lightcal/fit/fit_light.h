@@ -2,7 +2,6 @@
 // Session -> FittedLight.
 #pragma once
 
-#include <string_view>
 #include <string>
 
 #include "lightcal/core/result.h"
@@ -23,8 +22,14 @@ struct FittedSession {
   Warnings warnings;  // prior_conflict, row_rejected, bimodal, cct_withheld, ...
 };
 
-// Fits every light of the session. Refused: no_readings, no_valid_readings, units_ambiguous (readings
-// that differ by a factor of 100 in distance or 10.76 in illuminance), increasing_with_distance, ...
+// Fits every light of the session:
+//   E = I g(r)/r^2 cos(tilt) + E0,  r = d + d0,  g the finite source's factor (1 for a point),
+// by weighted least squares of ln E with d0 ~ N(0, (0.15 d_min)^2), E0 = 0 unless lamp-off readings
+// or four distances tell it; shadow-card readings are subtracted from the readings at their
+// distance. A light that was never read answers from its data sheet (everything a prior), or,
+// beside others that were read, is left out with the warning no_readings. Refused: no_readings,
+// no_valid_readings, over_range, units_ambiguous (readings apart by a ratio of units),
+// increasing_with_distance, position_unknown, negative_distance, bad_beam, bad_effects.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval
@@ -36,5 +41,9 @@ struct PredictedIlluminance {
 [[nodiscard]] Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light,
                                                               Metres distance,
                                                               double sigma_relative);
+
+// The one next reading that helps this light most, as a sentence: "read again at 1.4 m, facing the
+// lamp: the distance offset is still a prior".
+[[nodiscard]] std::string NextStep(const Session& session, const FittedLight& light);
 
 }  // namespace lightcal

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp's data sheet as prior: the answer without readings, the check with them.
+#pragma once
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// Whether flux_lm is given for a kind that has an axial intensity.
+[[nodiscard]] bool HasDataSheet(const LightDescription& light);
+
+// Peak intensity I = Phi/Omega with Omega from the beams of beam_ensemble.h, from the cone, or from
+// the kind's own distribution (within 30 % for a point lamp, whose base shadows it, 15 % otherwise;
+// 95 % interval). value is the geometric middle of the interval. Refused: no_readings (no data
+// sheet), bad_beam.
+[[nodiscard]] Result<Uncertain> IntensityFromDataSheet(const LightDescription& light);
+
+// Fills intensity and the diagnostics of a light that was never read: everything is a prior.
+[[nodiscard]] Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out);
+
+// Adds the warning data_sheet_disagrees when the measured intensity and the data sheet's do not
+// overlap within their 95 % intervals.
+void CheckDataSheet(const LightDescription& light, const FittedLight& fitted, Warnings& warnings);
+
+}  // namespace lightcal::fit

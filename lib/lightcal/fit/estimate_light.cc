@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/estimate_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/fit/robust.h"
+#include "lightcal/fit/starts.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kPriorConflict = 2.0;      // prior standard deviations
+constexpr double kLearned = 0.8;            // of the prior standard deviation
+constexpr double kLeastOffset = -0.9;       // of the shortest distance
+constexpr double kLinearBeyondSigma = 0.3;  // relative; such a reading's logarithm is not normal
+constexpr double kConditionFull = 100.0;
+constexpr double kConditionPriors = 1000.0;
+constexpr int kDistancesForAmbient = 4;
+
+// The solver's units: geometric means of the light's own distances and illuminances, so that a lamp
+// a thousand times brighter or farther away takes the same steps.
+struct Scales {
+  double length_m = 1.0;
+  double illuminance_lx = 1.0;
+};
+
+struct Prepared {
+  Estimation estimation;
+  std::vector<int> observation;  // of each row
+  Scales scales;
+  double shortest = 1.0;  // in solver units
+  int lit_rows = 0;
+  int distances = 0;
+  bool ambient_told = false;  // by lamp-off readings
+};
+
+Scales ScalesOf(const Observations& observations) {
+  double ln_length = 0.0;
+  double ln_illuminance = 0.0;
+  int count = 0;
+  for (const Observation& row : observations.rows) {
+    if (!row.lit || !(row.measured_lx > 0.0)) continue;
+    ln_length += std::log(row.distance_m);
+    ln_illuminance += std::log(row.measured_lx);
+    ++count;
+  }
+  if (count == 0) return {};
+  return {std::exp(ln_length / count), std::exp(ln_illuminance / count)};
+}
+
+AxialShape Scaled(AxialShape shape, double length_m) {
+  shape.first /= length_m;
+  shape.second /= length_m;
+  return shape;
+}
+
+ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardModel& model,
+                 const Scales& scales) {
+  ReadingRow row;
+  const double lx = 1.0 / scales.illuminance_lx;
+  row.measured = observation.measured_lx * lx;
+  row.ambient_gain = observation.differenced ? 0.0 : 1.0;
+  row.sigma = observation.sigma_lx * lx;
+  row.form = ReadingRow::Form::kLinear;
+  if (!observation.lit) {
+    row.direct_gain = 0.0;
+    return row;
+  }
+  row.shape = Scaled(model.shape, scales.length_m);
+  const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
+  row.distance = (observation.distance_m + surface) / scales.length_m;
+  if (model.tilt) row.direct_gain = std::cos(observation.tilt_rad);
+  if (!observation.differenced && i < model.bounce_per_candela.size()) {
+    row.bounce = model.bounce_per_candela[i] * scales.length_m * scales.length_m;
+  }
+  const double relative = observation.sigma_lx / observation.measured_lx;
+  if (observation.measured_lx > 0.0 && relative < kLinearBeyondSigma) {
+    row.form = observation.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
+    row.sigma = relative;
+  }
+  return row;
+}
+
+Prepared Prepare(const Observations& observations, const ForwardModel& model) {
+  Prepared out;
+  out.scales = ScalesOf(observations);
+  out.shortest = std::numeric_limits<double>::infinity();
+  double dimmest = std::numeric_limits<double>::infinity();
+  bool offset_possible = model.distance_law;
+  bool all_from_center = true;
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    const Observation& observation = observations.rows[i];
+    out.estimation.rows.push_back(RowOf(observation, i, model, out.scales));
+    out.observation.push_back(static_cast<int>(i));
+    const ReadingRow& row = out.estimation.rows.back();
+    if (!observation.lit) {
+      out.ambient_told = true;
+      continue;
+    }
+    ++out.lit_rows;
+    all_from_center = all_from_center && observation.measured_from_center;
+    out.shortest = std::min(out.shortest, row.distance);
+    if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
+      dimmest = std::min(dimmest, row.measured);
+    }
+  }
+  out.distances = model.distance_law ? CountDistinctDistances(observations.rows) : 1;
+  offset_possible = offset_possible && out.lit_rows > 0;
+  auto& rules = out.estimation.rules;
+  rules[kLnIntensity].free = true;
+  if (offset_possible) {
+    rules[kDistanceOffset].prior_sd = kOffsetPriorRelative * out.shortest;
+    rules[kDistanceOffset].free = out.distances >= 2;
+  }
+  out.estimation.least_distance_offset = kLeastOffset * out.shortest;
+  if (out.ambient_told) {
+    rules[kAmbient].free = true;
+  } else if (model.distance_law && out.distances >= kDistancesForAmbient &&
+             std::isfinite(dimmest)) {
+    // Ambient light cannot exceed the dimmest reading.
+    rules[kAmbient] = {true, 0.0, dimmest};
+  }
+  return out;
+}
+
+// Holds parameters at their priors where the readings alone say next to nothing of them.
+double HoldUndetermined(Prepared& prepared) {
+  auto& rules = prepared.estimation.rules;
+  const auto condition = [&] {
+    const Theta at = ClosedFormStart(prepared.estimation, 0.0);
+    return ScaledCondition(prepared.estimation, at,
+                           {true, rules[kDistanceOffset].free, rules[kAmbient].free});
+  };
+  double k = condition();
+  if (k > kConditionPriors && rules[kAmbient].free && !prepared.ambient_told) {
+    rules[kAmbient] = {};
+    k = condition();
+  }
+  if (k > kConditionPriors && rules[kDistanceOffset].free) {
+    rules[kDistanceOffset].free = false;
+    k = condition();
+  }
+  return k;
+}
+
+Result<RobustEstimate> EstimateWidening(Prepared& prepared, const std::string& light,
+                                        Warnings& warnings) {
+  Result<RobustEstimate> estimate = EstimateRobustly(prepared.estimation);
+  ParameterRule& rule = prepared.estimation.rules[kDistanceOffset];
+  if (!estimate || !rule.free) return estimate;
+  const double pull = std::abs(estimate->theta[kDistanceOffset]) / rule.prior_sd;
+  if (pull <= kPriorConflict) return estimate;
+  const double stated = rule.prior_sd;
+  rule.prior_sd = 100.0 * stated;
+  Result<RobustEstimate> unguided = EstimateRobustly(prepared.estimation);
+  if (!unguided) return unguided;
+  rule.prior_sd = std::clamp(std::abs(unguided->theta[kDistanceOffset]), kPriorConflict * stated,
+                             100.0 * stated);
+  warnings.push_back(
+      {"prior_conflict", light,
+       "the readings ask for a distance offset of " +
+           RoundedText(unguided->theta[kDistanceOffset] * prepared.scales.length_m, 3) +
+           " m, more than two standard deviations of its prior (" +
+           RoundedText(stated * prepared.scales.length_m, 3) +
+           " m); the prior was widened: check the distances and the lamp's reference point"});
+  return EstimateRobustly(prepared.estimation);
+}
+
+std::string Plural(int n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
+                const Observations& observations, const std::string& light, Warnings& warnings) {
+  const auto describe = [&](int row) {
+    const Observation& o = observations.rows[prepared.observation[row]];
+    return "reading " + std::to_string(o.index) + " (" + RoundedText(o.measured_lx, 4) + " lx at " +
+           RoundedText(o.distance_m, 4) + " m)";
+  };
+  for (const int row : estimate.rejected) {
+    warnings.push_back({"row_rejected", light,
+                        describe(row) + " lies beyond 4.7 standard deviations of the others; it "
+                                        "carries nothing: read again there"});
+  }
+  if (estimate.bimodal) {
+    warnings.push_back({"bimodal", light,
+                        "two of the four readings disagree with the other two; nothing tells which "
+                        "are right: read again"});
+  }
+  for (const int row : estimate.suspicious) {
+    warnings.push_back({"suspicious_reading", light,
+                        describe(row) + " disagrees with the model; with " +
+                            Plural(prepared.lit_rows, "reading") +
+                            " none can be rejected: read again"});
+  }
+}
+
+// chi-squared of the rows alone and the degrees of freedom left.
+struct Scatter {
+  double chi_squared = 0.0;
+  double sum_squared_ln = 0.0;
+  int log_rows = 0;
+  int rows = 0;
+};
+Scatter ScatterOf(const Estimation& estimation, const Theta& theta) {
+  Scatter out;
+  for (const ReadingRow& row : estimation.rows) {
+    if (row.form == ReadingRow::Form::kCensored) continue;
+    const double r = RowResidual(row, theta);
+    out.chi_squared += r * r;
+    ++out.rows;
+    if (row.form != ReadingRow::Form::kLog) continue;
+    out.sum_squared_ln += r * row.sigma * r * row.sigma;
+    ++out.log_rows;
+  }
+  return out;
+}
+
+// Which of the parameters the readings decided.
+void NameLearned(const Estimation& estimation, const Covariance& covariance, bool distance_law,
+                 FitDiagnostics& diagnostics) {
+  const auto learned = [&](Parameter k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (!rule.free) return false;
+    return !(rule.prior_sd > 0.0) ||
+           std::sqrt(covariance[k * kParameters + k]) < kLearned * rule.prior_sd;
+  };
+  diagnostics.learned.emplace_back(distance_law ? "intensity" : "illuminance");
+  if (distance_law) {
+    (learned(kDistanceOffset) ? diagnostics.learned : diagnostics.prior)
+        .emplace_back("distance_offset");
+  }
+  (learned(kAmbient) ? diagnostics.learned : diagnostics.prior).emplace_back("ambient");
+}
+
+void FillDiagnostics(const RobustEstimate& estimate, const Prepared& prepared,
+                     const Observations& observations, LightEstimate& out) {
+  FitDiagnostics& d = out.diagnostics;
+  d.readings = observations.readings;
+  d.used = static_cast<int>(estimate.kept.rows.size() + observations.shadow_used.size());
+  d.rejected = observations.rejected;
+  for (const int row : estimate.rejected) {
+    d.rejected.push_back(observations.rows[prepared.observation[row]].index);
+  }
+  std::sort(d.rejected.begin(), d.rejected.end());
+  const Scatter scatter = ScatterOf(estimate.kept, estimate.theta);
+  d.degrees_of_freedom = std::max(0, scatter.rows - static_cast<int>(d.learned.size()));
+  if (d.degrees_of_freedom > 0) {
+    d.chi2_dof = scatter.chi_squared / d.degrees_of_freedom;
+    if (scatter.log_rows > 0) d.rms_relative = std::sqrt(scatter.sum_squared_ln / scatter.log_rows);
+    d.leave_one_out = LeaveOneOut(estimate.kept, estimate.theta);
+  }
+}
+
+// Scatter that sigma explains in fewer than one of twenty sessions widens every row by the Birge
+// ratio sqrt(chi2/dof). Widening by every ratio above 1 would make honest intervals too wide.
+double BirgeRatio(const Estimation& estimation, const Theta& theta, int dof) {
+  if (dof < 1) return 1.0;
+  const double chi_squared = ScatterOf(estimation, theta).chi_squared;
+  return chi_squared > ChiSquared95(dof) ? std::sqrt(chi_squared / dof) : 1.0;
+}
+
+void FillResiduals(const RobustEstimate& estimate, const Prepared& prepared,
+                   const Observations& observations, LightEstimate& out) {
+  for (std::size_t i = 0; i < prepared.estimation.rows.size(); ++i) {
+    const ReadingRow& row = prepared.estimation.rows[i];
+    const Observation& o = observations.rows[prepared.observation[i]];
+    if (!o.lit) continue;
+    const double predicted =
+        RowIlluminance(row, estimate.theta[kLnIntensity], estimate.theta[kDistanceOffset],
+                       estimate.theta[kAmbient]) *
+        prepared.scales.illuminance_lx;
+    ResidualRow residual;
+    residual.index = o.index;
+    residual.distance_m = o.distance_m;
+    residual.measured_lx = o.measured_lx;
+    residual.predicted_lx = predicted;
+    residual.relative = o.measured_lx / predicted - 1.0;
+    residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
+    residual.used = std::find(estimate.rejected.begin(), estimate.rejected.end(),
+                              static_cast<int>(i)) == estimate.rejected.end();
+    out.residuals.push_back(residual);
+  }
+}
+
+// From the solver's units to cd, m, lx.
+void Unscale(const Scales& scales, LightEstimate& out) {
+  out.theta[kLnIntensity] += std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
+  out.theta[kDistanceOffset] *= scales.length_m;
+  out.theta[kAmbient] *= scales.illuminance_lx;
+  const Theta unit = {1.0, scales.length_m, scales.illuminance_lx};
+  for (int i = 0; i < kParameters; ++i) {
+    for (int j = 0; j < kParameters; ++j) out.covariance[i * kParameters + j] *= unit[i] * unit[j];
+  }
+}
+
+// Weighted linear least squares of I alone, E0 from the lamp-off readings: the only estimate that
+// stays meaningful when the lamp cannot be told from nothing.
+struct LinearIntensity {
+  double value = 0.0;
+  double sd = std::numeric_limits<double>::infinity();
+};
+LinearIntensity IntensityAboveAmbient(const Prepared& prepared) {
+  double aa = 0.0, ab = 0.0, bb = 0.0, am = 0.0, bm = 0.0;
+  for (const ReadingRow& row : prepared.estimation.rows) {
+    if (row.form == ReadingRow::Form::kCensored) continue;
+    const double sigma = row.form == ReadingRow::Form::kLog ? row.sigma * row.measured : row.sigma;
+    const double a = row.direct_gain / (row.distance * row.distance) / sigma;
+    const double b = prepared.ambient_told ? row.ambient_gain / sigma : 0.0;
+    aa += a * a;
+    ab += a * b;
+    bb += b * b;
+    am += a * row.measured / sigma;
+    bm += b * row.measured / sigma;
+  }
+  const double reduced = bb > 0.0 ? aa - ab * ab / bb : aa;
+  if (!(reduced > 0.0)) return {};
+  return {(bb > 0.0 ? am - ab * bm / bb : am) / reduced, 1.0 / std::sqrt(reduced)};
+}
+
+LightEstimate UpperLimit(const Prepared& prepared, const LinearIntensity& intensity,
+                         const Observations& observations, bool distance_law,
+                         const std::string& light) {
+  LightEstimate out;
+  const double cd =
+      prepared.scales.illuminance_lx * prepared.scales.length_m * prepared.scales.length_m;
+  out.upper_limit = cd * (std::max(0.0, intensity.value) + kZ95 * intensity.sd);
+  out.diagnostics.readings = observations.readings;
+  out.diagnostics.rejected = observations.rejected;
+  out.diagnostics.used =
+      static_cast<int>(prepared.estimation.rows.size() + observations.shadow_used.size());
+  out.diagnostics.prior = {distance_law ? "intensity" : "illuminance"};
+  if (distance_law) out.diagnostics.prior.emplace_back("distance_offset");
+  out.diagnostics.prior.emplace_back("ambient");
+  out.warnings.push_back({"upper_limit", light,
+                          "the lamp's light cannot be told from the rest; only an upper limit is "
+                          "given: measure nearer or in the dark"});
+  return out;
+}
+
+void WarnOfDetermination(double condition, const RobustEstimate& estimate, const Prepared& prepared,
+                         const std::string& light, Warnings& warnings) {
+  if (condition > kConditionFull) {
+    warnings.push_back({"prior_dominated", light,
+                        "the distances lie too close together to tell the offset and the ambient "
+                        "light; their priors decide: add a distance several times farther"});
+  }
+  const double d0 = estimate.theta[kDistanceOffset];
+  if (prepared.estimation.rules[kDistanceOffset].free &&
+      d0 <= prepared.estimation.least_distance_offset * (1.0 - 1e-6)) {
+    warnings.push_back(
+        {"bound_active", light,
+         "the distance offset reached its bound of -0.9 times the shortest distance; "
+         "check the distances"});
+  }
+}
+
+}  // namespace
+
+Result<LightEstimate> EstimateLight(const Observations& observations, const ForwardModel& model,
+                                    const std::string& light) {
+  Prepared prepared = Prepare(observations, model);
+  if (prepared.lit_rows == 0) {
+    return Refused("no_valid_readings", light,
+                   "no reading of the lamp is left; measure illuminance facing it");
+  }
+  const bool any_in_range =
+      std::any_of(observations.rows.begin(), observations.rows.end(),
+                  [](const Observation& o) { return o.lit && !o.over_range; });
+  if (!any_in_range) {
+    return Refused("over_range", light,
+                   "every reading was beyond the meter's range: measure from farther away");
+  }
+  const LinearIntensity linear = IntensityAboveAmbient(prepared);
+  if (!(linear.value > 2.0 * linear.sd)) {
+    return UpperLimit(prepared, linear, observations, model.distance_law, light);
+  }
+  LightEstimate out;
+  const double condition = HoldUndetermined(prepared);
+  Result<RobustEstimate> estimate = EstimateWidening(prepared, light, out.warnings);
+  if (!estimate) return Propagate(std::move(estimate));
+  WarnOfRows(*estimate, prepared, observations, light, out.warnings);
+  WarnOfDetermination(std::isfinite(condition) ? condition : 0.0, *estimate, prepared, light,
+                      out.warnings);
+
+  UncertaintyInput input;
+  input.estimation = &estimate->kept;
+  input.theta = estimate->theta;
+  input.considered = model.considered;
+  for (Consider& influence : input.considered) {
+    influence.relative *= std::pow(prepared.scales.length_m, influence.distance_power);
+  }
+  Result<Covariance> covariance = EstimateCovariance(input);
+  if (!covariance) return Propagate(std::move(covariance));
+  NameLearned(estimate->kept, *covariance, model.distance_law, out.diagnostics);
+  FillDiagnostics(*estimate, prepared, observations, out);
+  if (std::isfinite(condition)) out.diagnostics.condition = condition;
+  input.row_scale = BirgeRatio(estimate->kept, estimate->theta, out.diagnostics.degrees_of_freedom);
+  if (input.row_scale > 1.0) covariance = EstimateCovariance(input);
+  if (!covariance) return Propagate(std::move(covariance));
+
+  out.theta = estimate->theta;
+  out.covariance = *covariance;
+  out.ambient_free = prepared.estimation.rules[kAmbient].free;
+  FillResiduals(*estimate, prepared, observations, out);
+  Unscale(prepared.scales, out);
+  return out;
+}
+
+}  // namespace lightcal::fit

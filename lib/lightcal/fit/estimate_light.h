@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Observations of one light -> (ln I, d0, E0) with covariance and diagnostics.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/observations.h"
+#include "lightcal/fit/uncertainty.h"
+#include "lightcal/light/axial_shape.h"
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal::fit {
+
+// What the effect gate decided for this light's forward model.
+struct ForwardModel {
+  bool distance_law = true;                // false: directional and dome, E = I cos(tilt) + E0
+  AxialShape shape;                        // kPoint where the finite size is off
+  double surface_radius_m = 0.0;           // added to distances taken from a sphere's surface
+  bool tilt = true;                        // cosine of the tilt
+  std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none
+  std::vector<Consider> considered;        // influences that widen the interval
+};
+
+// 1 sigma of the distance offset's prior, as a fraction of the shortest distance.
+inline constexpr double kOffsetPriorRelative = 0.15;
+
+struct LightEstimate {
+  Theta theta{};  // ln I, d0, E0 in cd, m, lx
+  Covariance covariance{};
+  FitDiagnostics diagnostics;
+  std::vector<ResidualRow> residuals;
+  bool ambient_free = false;
+  // The readings cannot tell the intensity from 0: an upper limit replaces it.
+  std::optional<double> upper_limit;
+  Warnings warnings;  // row_rejected, prior_conflict, bimodal, ...
+};
+
+// Fits E = I (cos(tilt) g(r)/r^2 + bounce) + E0, r = d + d0.
+//   d0 ~ N(0, (0.15 d_min)^2), at or above -0.9 d_min; a posterior beyond two prior standard
+//   deviations widens the prior to the offset the readings ask for, with the warning
+//   prior_conflict. E0 is 0 unless lamp-off readings or four distinct distances tell it.
+// Refused: no_valid_readings, over_range (no reading within the meter's range).
+[[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
+                                                  const ForwardModel& model,
+                                                  const std::string& light);
+
+}  // namespace lightcal::fit

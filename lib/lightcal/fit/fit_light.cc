@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/fit_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "lightcal/fit/data_sheet.h"
+#include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/fit_color.h"
+#include "lightcal/fit/input_checks.h"
+#include "lightcal/fit/observations.h"
+#include "lightcal/fit/plan_forward.h"
+#include "lightcal/photometry/source_photometry.h"
+
+namespace lightcal {
+namespace {
+
+using fit::kAmbient;
+using fit::kDistanceOffset;
+using fit::kLnIntensity;
+using fit::kParameters;
+
+void Append(Warnings& to, Warnings&& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+std::optional<double> ValueOf(const std::optional<Metres>& length) {
+  if (!length) return std::nullopt;
+  return length->value();
+}
+
+FittedLight Describe(const LightDescription& light) {
+  FittedLight out;
+  out.name = light.name;
+  out.kind = light.kind;
+  out.diameter_m = ValueOf(light.diameter);
+  out.width_m = ValueOf(light.width);
+  out.height_m = ValueOf(light.height);
+  out.length_m = ValueOf(light.length);
+  out.radius_m = ValueOf(light.radius);
+  if (light.inner) out.inner_deg = DegreesFromRadians(*light.inner);
+  if (light.outer) out.outer_deg = DegreesFromRadians(*light.outer);
+  out.position_m = light.position_m;
+  out.aim = light.aim;
+  return out;
+}
+
+SourceGeometry GeometryOf(const LightDescription& light) {
+  SourceGeometry geometry;
+  geometry.kind = light.kind;
+  if (light.radius) geometry.radius = *light.radius;
+  if (light.diameter) geometry.radius = *light.diameter / 2.0;
+  geometry.width = light.width;
+  geometry.height = light.height;
+  geometry.length = light.length;
+  if (light.outer) geometry.cone = SpotCone{light.inner.value_or(Radians(0.0)), *light.outer};
+  return geometry;
+}
+
+// Flux and luminance of the same source scale with its intensity, so they share its relative
+// interval.
+void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {
+  if (light.kind == LightKind::kPhotometric || !out.intensity_cd) return;
+  const SourceGeometry geometry = GeometryOf(light);
+  const Uncertain& intensity = *out.intensity_cd;
+  const auto photometry = ConvertSource(geometry, SourceQuantity::kIntensity, intensity.value);
+  if (!photometry) return;  // a size this kind needs is not given
+  const auto scaled = [&](double value) {
+    const double ratio = value / intensity.value;
+    Uncertain u{value, intensity.u95 * ratio, std::nullopt, std::nullopt};
+    if (intensity.low) u.low = *intensity.low * ratio;
+    if (intensity.high) u.high = *intensity.high * ratio;
+    return u;
+  };
+  if (photometry->flux) out.flux_lm = scaled(photometry->flux->value());
+  const bool has_surface = light.kind == LightKind::kSphere || light.kind == LightKind::kDisk ||
+                           light.kind == LightKind::kRect || light.kind == LightKind::kTube;
+  if (has_surface && photometry->luminance) {
+    out.luminance_nits = scaled(photometry->luminance->value());
+  }
+}
+
+double Sd(const fit::Covariance& covariance, fit::Parameter k) {
+  return std::sqrt(covariance[k * kParameters + k]);
+}
+
+void FillParameters(const fit::LightEstimate& estimate, bool distance_law, FittedLight& out) {
+  if (estimate.upper_limit) {
+    const Uncertain limit{0.5 * *estimate.upper_limit, 0.5 * *estimate.upper_limit, 0.0,
+                          *estimate.upper_limit};
+    (distance_law ? out.intensity_cd : out.illuminance_lx) = limit;
+    return;
+  }
+  const Uncertain main =
+      UncertainFromLog(estimate.theta[kLnIntensity], Sd(estimate.covariance, kLnIntensity));
+  if (distance_law) {
+    out.intensity_cd = main;
+    out.distance_offset_m = UncertainFromNormal(estimate.theta[kDistanceOffset],
+                                                Sd(estimate.covariance, kDistanceOffset));
+  } else {
+    out.illuminance_lx = main;
+  }
+  Uncertain ambient =
+      UncertainFromNormal(estimate.theta[kAmbient], Sd(estimate.covariance, kAmbient));
+  if (ambient.value < ambient.u95) {  // illuminance cannot be negative: a one-sided interval
+    ambient.low = 0.0;
+    ambient.high = ambient.value + ambient.u95;
+  }
+  out.ambient_lx = ambient;
+  out.covariance_lnI_d0_E0 = estimate.covariance;
+}
+
+Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
+                           const FitSettings& settings, Warnings& warnings) {
+  Result<fit::Observations> observations = fit::CollectObservations(session, light);
+  if (!observations) return Propagate(std::move(observations));
+  FittedLight out = Describe(light);
+  out.color = fit::FitColor(session, light, warnings);
+  if (observations->rows.empty()) {
+    if (observations->rejected.empty() && fit::HasDataSheet(light)) {
+      if (auto filled = fit::FillFromDataSheet(light, out); !filled) {
+        return Propagate(std::move(filled));
+      }
+      AddDerivedQuantities(light, out);
+      out.flux_lm = Uncertain{light.flux->value(), 0.1 * light.flux->value(), {}, {}};
+      return out;
+    }
+    return observations->rejected.empty()
+               ? Refused("no_readings", light.name,
+                         "the session holds no illuminance reading of this light; add one with "
+                         "`lightcal read`, or give flux_lm from its data sheet")
+               : Refused("no_valid_readings", light.name,
+                         "every reading of this light was rejected; the first because " +
+                             observations->warnings.front().message);
+  }
+  if (auto units = fit::CheckUnits(*observations, light.name); !units) {
+    return Propagate(std::move(units));
+  }
+  const bool distance_law = fit::HasDistanceLaw(light.kind);
+  if (distance_law) {
+    if (auto falloff = fit::CheckFalloff(*observations, light.name, warnings); !falloff) {
+      return Propagate(std::move(falloff));
+    }
+  }
+  Append(warnings, std::move(observations->warnings));
+  Result<fit::ForwardPlan> plan = fit::PlanForward(session, light, *observations, settings);
+  if (!plan) return Propagate(std::move(plan));
+  Result<fit::LightEstimate> estimate = fit::EstimateLight(*observations, plan->model, light.name);
+  if (!estimate) return Propagate(std::move(estimate));
+  Append(warnings, std::move(estimate->warnings));
+  FillParameters(*estimate, distance_law, out);
+  out.fit = estimate->diagnostics;
+  out.residuals = estimate->residuals;
+  out.effects = fit::ReportEffects(*plan, *observations, *estimate);
+  AddDerivedQuantities(light, out);
+  if (distance_law) fit::CheckDataSheet(light, out, warnings);
+  return out;
+}
+
+}  // namespace
+
+Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
+  FittedSession out;
+  std::optional<Error> nothing_read;
+  for (const LightDescription& light : session.lights) {
+    Result<FittedLight> fitted = FitOne(session, light, settings, out.warnings);
+    if (fitted) {
+      out.lights.lights.push_back(*std::move(fitted));
+      continue;
+    }
+    if (fitted.error().code != "no_readings") return Propagate(std::move(fitted));
+    out.warnings.push_back({"no_readings", light.name, fitted.error().message});
+    if (!nothing_read) nothing_read = std::move(fitted).error();
+  }
+  if (out.lights.lights.empty()) {
+    if (nothing_read) return tl::unexpected(*std::move(nothing_read));
+    return Refused("no_light", session.name, "the session describes no light");
+  }
+  return out;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/observations.h"
+
+namespace lightcal {
+namespace {
+
+// Distances in geometric steps tell offset and ambient light best; together they should span 8 : 1.
+constexpr double kStep = 2.8284271247461903;
+constexpr double kSpan = 8.0;
+
+struct Taken {
+  std::vector<double> distances_m;  // of readings with the lamp on, sorted
+  bool shadow = false;
+  bool off = false;
+};
+
+Taken TakenOf(const Session& session, const FittedLight& light) {
+  Taken taken;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light.name || !reading.illuminance) continue;
+    taken.shadow = taken.shadow || reading.shadow_card;
+    taken.off = taken.off || (reading.lamp == LampState::kOff && !reading.shadow_card);
+  }
+  for (const ResidualRow& row : light.residuals) {
+    if (row.distance_m) taken.distances_m.push_back(*row.distance_m);
+  }
+  std::sort(taken.distances_m.begin(), taken.distances_m.end());
+  return taken;
+}
+
+bool IsPrior(const FittedLight& light, std::string_view parameter) {
+  return std::find(light.fit.prior.begin(), light.fit.prior.end(), parameter) !=
+         light.fit.prior.end();
+}
+
+std::string ReadAgainAt(double distance_m, const std::string& why) {
+  return "read again at " + RoundedText(distance_m, 2) + " m, facing the lamp: " + why;
+}
+
+std::optional<std::string> AboutRejected(const FittedLight& light) {
+  for (const ResidualRow& row : light.residuals) {
+    if (row.used || !row.distance_m) continue;
+    return ReadAgainAt(*row.distance_m, "the reading there disagrees with the others");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string NextStep(const Session& session, const FittedLight& light) {
+  const Taken taken = TakenOf(session, light);
+  if (taken.distances_m.empty()) {
+    return "measure the illuminance facing the lamp, about ten times its size away: so far only "
+           "its "
+           "data sheet speaks";
+  }
+  if (!fit::HasDistanceLaw(light.kind)) {
+    return taken.off ? "read again at the same place: repeated readings lower the uncertainty"
+                     : "read once with the lamp off: it takes the other light out";
+  }
+  if (auto again = AboutRejected(light)) return *again;
+  const double nearest = taken.distances_m.front();
+  const double farthest = taken.distances_m.back();
+  if (IsPrior(light, "distance_offset")) {
+    return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,
+                       "the distance offset is still a prior");
+  }
+  if (!taken.shadow) {
+    return "add a shadow-card reading at " + RoundedText(farthest, 2) +
+           " m (block only the direct beam): it takes ambient light and the room's bounce out";
+  }
+  if (farthest / nearest < kSpan) {
+    return ReadAgainAt(farthest * kStep, "distances that span 8 : 1 tell the offset best");
+  }
+  return "read again at " + RoundedText(nearest, 2) +
+         " m with another meter: the meter's own calibration is what is left";
+}
+
+}  // namespace lightcal

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::fit {
+namespace {
+
+// A meter's reading of nothing is known to half a percent of the dimmest reading that counts: its
+// resolution and dark offset. Relative, so that the fit has no scale of its own.
+constexpr double kDarkFloor = 0.005;
+// No meter repeats better than this; keeps a sigma of 0 from deciding alone.
+constexpr double kLeastSigma = 1e-4;
+// A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
+// bounce differs from place to place.
+constexpr double kSigmaElsewhere = 0.3;
+// People point a meter within a degree, 1 sigma, once they mean a tilt.
+constexpr double kTiltSigma = std::numbers::pi / 180.0;
+
+struct Geometry {
+  double distance_m = 1.0;
+  double tilt_rad = 0.0;
+  bool from_center = false;
+};
+
+Geometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
+  const Vec3 to_lamp = lamp - meter;
+  const double distance = Length(to_lamp);
+  const double cosine = Dot(to_lamp, normal) / (distance * Length(normal));
+  return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
+}
+
+std::string RowName(const SessionReading& row, int index) {
+  return row.where.empty() ? "reading " + std::to_string(index) : row.where;
+}
+
+// The radius around the reference point inside which no meter can stand.
+double InnerRadius(const LightDescription& light) {
+  if (light.kind == LightKind::kTube && light.radius) return light.radius->value();
+  if (light.kind == LightKind::kSphere && light.diameter) return 0.5 * light.diameter->value();
+  return 0.0;
+}
+
+class Collector {
+ public:
+  Collector(const Session& session, const LightDescription& light)
+      : session_(session), light_(light) {}
+
+  Result<Observations> Collect() {
+    for (const SessionReading& row : session_.readings) {
+      if (row.reading.light != light_.name) continue;
+      const int index = out_.readings++;
+      if (auto added = Add(row, index); !added) return tl::unexpected(std::move(added).error());
+    }
+    SubtractShadows();
+    FillSigmas();
+    std::sort(out_.rejected.begin(), out_.rejected.end());
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> Add(const SessionReading& row, int index) {
+    const Reading& reading = row.reading;
+    if (!reading.illuminance) return {};  // a colour reading
+    const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
+    auto geometry = GeometryOf(row, index, lit);
+    if (!geometry) return tl::unexpected(std::move(geometry).error());
+    const std::string fault = FaultOf(reading, *geometry, lit);
+    if (!fault.empty()) {
+      out_.rejected.push_back(index);
+      out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
+      return {};
+    }
+    if (!reading.shadow_card && !lit) ++out_.off_readings;
+    if (reading.shadow_card) ++out_.shadow_readings;
+    Observation observation;
+    observation.index = index;
+    observation.lit = lit;
+    observation.distance_m = geometry->distance_m;
+    observation.tilt_rad = geometry->tilt_rad;
+    observation.measured_lx = observation.raw_lx = reading.illuminance->value();
+    observation.over_range = reading.over_range;
+    observation.measured_from_center = geometry->from_center;
+    const double sigma = std::max(kLeastSigma, SigmaRelative(session_, reading));
+    relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
+                         reading.shadow_card, !lit && !reading.distance && !reading.position_m});
+    out_.rows.push_back(observation);
+    return {};
+  }
+
+  Result<Geometry> GeometryOf(const SessionReading& row, int index, bool lit) const {
+    const Reading& reading = row.reading;
+    const std::string name = RowName(row, index);
+    if (reading.distance && reading.distance->value() < 0.0) {
+      return Refused("negative_distance", name, "a distance below 0 m has no meaning; correct it");
+    }
+    if (!HasDistanceLaw(light_.kind)) return Geometry{1.0, reading.tilt.value(), true};
+    if (reading.distance) return Geometry{reading.distance->value(), reading.tilt.value(), false};
+    if (!reading.position_m) {
+      if (!lit) return Geometry{};
+      return Refused("no_distance", name, "give distance_m, or position_m and normal");
+    }
+    if (!light_.position_m) {
+      return Refused("position_unknown", light_.name,
+                     "readings give position_m, but the lamp has none: add position_m to its "
+                     "[[light]], or give distance_m in each reading");
+    }
+    if (reading.normal) {
+      return FromPositions(*light_.position_m, *reading.position_m, *reading.normal);
+    }
+    return Geometry{Length(*light_.position_m - *reading.position_m), reading.tilt.value(), true};
+  }
+
+  std::string FaultOf(const Reading& reading, const Geometry& geometry, bool lit) const {
+    const double lux = reading.illuminance->value();
+    if (!std::isfinite(lux)) return "its illuminance is not a number";
+    if (!std::isfinite(geometry.distance_m) || !std::isfinite(geometry.tilt_rad)) {
+      return "its distance or tilt is not a number";
+    }
+    if (!lit) return {};
+    if (!(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
+    if (geometry.distance_m < InnerRadius(light_)) {
+      return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
+    }
+    if (std::abs(geometry.tilt_rad) >= 0.5 * std::numbers::pi - 1e-9) {
+      return "the meter faces away from the lamp (tilt 90 degrees or more)";
+    }
+    return {};
+  }
+
+  void SubtractShadows() {
+    if (out_.shadow_readings == 0) return;
+    std::vector<Observation> kept;
+    std::vector<Extra> kept_extra;
+    std::vector<bool> consumed(out_.rows.size(), false);
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (out_.rows[i].lit && !out_.rows[i].over_range) SubtractFrom(i, consumed);
+    }
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (consumed[i]) {
+        out_.shadow_used.push_back(out_.rows[i].index);
+        continue;
+      }
+      if (relative_[i].shadow) {
+        out_.warnings.push_back({"shadow_unmatched", light_.name,
+                                 "a shadow-card reading has no lamp-on reading at its distance; it "
+                                 "counts as ambient light, within 30 %"});
+        relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
+      }
+      kept.push_back(out_.rows[i]);
+      kept_extra.push_back(relative_[i]);
+    }
+    out_.rows = std::move(kept);
+    relative_ = std::move(kept_extra);
+  }
+
+  // Mean of the shadow-card readings at the same place, weighted by their sigmas.
+  void SubtractFrom(std::size_t i, std::vector<bool>& consumed) {
+    Observation& row = out_.rows[i];
+    double weights = 0.0;
+    double sum = 0.0;
+    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
+      if (!relative_[j].shadow || !SamePlace(row, j)) continue;
+      consumed[j] = true;
+      const double sigma = std::max(std::abs(out_.rows[j].raw_lx) * relative_[j].sigma,
+                                    kDarkFloor * std::abs(row.raw_lx));
+      weights += 1.0 / (sigma * sigma);
+      sum += out_.rows[j].raw_lx / (sigma * sigma);
+    }
+    if (!(weights > 0.0)) return;
+    row.measured_lx = row.raw_lx - sum / weights;
+    row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, 1.0 / std::sqrt(weights));
+    row.differenced = true;
+  }
+
+  [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
+    if (!HasDistanceLaw(light_.kind)) return true;
+    return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m);
+  }
+
+  void FillSigmas() {
+    double dimmest = std::numeric_limits<double>::infinity();
+    double brightest = 0.0;
+    for (const Observation& row : out_.rows) {
+      if (row.lit && row.raw_lx > 0.0) dimmest = std::min(dimmest, row.raw_lx);
+      brightest = std::max(brightest, std::abs(row.raw_lx));
+    }
+    // With no positive reading at all, the meter's last digit: 0.1 lx.
+    const double floor =
+        std::isfinite(dimmest) ? kDarkFloor * dimmest : std::max(brightest, 0.1 / std::sqrt(12.0));
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Observation& row = out_.rows[i];
+      if (row.differenced) continue;
+      const double proportional = std::abs(row.raw_lx) * relative_[i].sigma;
+      row.sigma_lx = row.lit && row.raw_lx > 0.0 ? proportional : std::hypot(proportional, floor);
+    }
+  }
+
+  struct Extra {
+    double sigma = 0.0;  // relative
+    bool shadow = false;
+    bool no_place = false;  // an off or shadow reading without a distance
+  };
+
+  const Session& session_;
+  const LightDescription& light_;
+  Observations out_;
+  std::vector<Extra> relative_;  // beside out_.rows
+};
+
+}  // namespace
+
+bool HasDistanceLaw(LightKind kind) {
+  return kind != LightKind::kDirectional && kind != LightKind::kDome;
+}
+
+bool SameDistance(double a_m, double b_m) {
+  return std::abs(a_m - b_m) <= 1e-3 * std::max(std::abs(a_m), std::abs(b_m));
+}
+
+int CountDistinctDistances(const std::vector<Observation>& rows) {
+  std::vector<double> distances;
+  for (const Observation& row : rows) {
+    if (row.lit) distances.push_back(row.distance_m);
+  }
+  std::sort(distances.begin(), distances.end());
+  int count = 0;
+  std::optional<double> last;
+  for (const double d : distances) {
+    if (last && SameDistance(*last, d)) continue;
+    last = d;
+    ++count;
+  }
+  return count;
+}
+
+Result<Observations> CollectObservations(const Session& session, const LightDescription& light) {
+  return Collector(session, light).Collect();
+}
+
+}  // namespace lightcal::fit

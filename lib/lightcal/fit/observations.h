@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readings of one light say about it: geometry resolved, lamp-off and shadow-card readings
+// put to their use, impossible rows set aside.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// A reading with the lamp on, or (lit false) one of everything but the lamp.
+struct Observation {
+  int index = 0;  // 0-based over the light's readings
+  bool lit = true;
+  double distance_m = 1.0;  // from the reference point, or of the two positions; 1 where none
+  double tilt_rad = 0.0;
+  double measured_lx = 0.0;  // a matching shadow-card reading is subtracted
+  double raw_lx = 0.0;       // as read
+  double sigma_lx = 0.0;     // 1 sigma of measured_lx
+  bool differenced = false;  // shadow card subtracted: no ambient, no bounce
+  bool over_range = false;
+  bool measured_from_center = false;  // both positions known: the distance holds no offset
+};
+
+struct Observations {
+  std::vector<Observation> rows;
+  std::vector<int> rejected;     // indices over the light's readings, ascending
+  std::vector<int> shadow_used;  // indices of shadow-card readings that were subtracted
+  int readings = 0;              // rows of this light, good or bad
+  int off_readings = 0;
+  int shadow_readings = 0;
+  Warnings warnings;
+};
+
+// Sorts the session's readings of `light`. A row that is not finite, has a distance of 0, lies
+// inside the lamp or faces away is rejected with the warning row_rejected. Refused:
+// negative_distance, position_unknown (a position without the lamp's), no_distance.
+[[nodiscard]] Result<Observations> CollectObservations(const Session& session,
+                                                       const LightDescription& light);
+
+// Whether the light's illuminance follows a distance at all (not for directional and dome).
+[[nodiscard]] bool HasDistanceLaw(LightKind kind);
+
+// Readings within a thousandth of each other stand at one distance.
+[[nodiscard]] bool SameDistance(double a_m, double b_m);
+[[nodiscard]] int CountDistinctDistances(const std::vector<Observation>& rows);
+
+}  // namespace lightcal::fit

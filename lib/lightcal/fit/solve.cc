@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/solve.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "lightcal/fit/costs/censored_illuminance_cost.h"
+#include "lightcal/fit/costs/linear_illuminance_cost.h"
+#include "lightcal/fit/costs/log_illuminance_cost.h"
+#include "lightcal/fit/costs/normal_prior_cost.h"
+
+namespace lightcal::fit {
+namespace {
+
+template <class Cost>
+ceres::CostFunction* AutoDiff(const ReadingRow& row) {
+  return new ceres::AutoDiffCostFunction<Cost, 1, 1, 1, 1>(new Cost{&row});
+}
+
+ceres::CostFunction* CostOf(const ReadingRow& row) {
+  switch (row.form) {
+    case ReadingRow::Form::kLinear:
+      return AutoDiff<LinearIlluminanceCost>(row);
+    case ReadingRow::Form::kCensored:
+      return AutoDiff<CensoredIlluminanceCost>(row);
+    case ReadingRow::Form::kLog:
+      break;
+  }
+  return AutoDiff<LogIlluminanceCost>(row);
+}
+
+std::unique_ptr<ceres::LossFunction> LossOf(Loss loss, double scale) {
+  switch (loss) {
+    case Loss::kHuber:
+      return std::make_unique<ceres::HuberLoss>(kHuberConstant * scale);
+    case Loss::kTukey:
+      return std::make_unique<ceres::TukeyLoss>(kTukeyConstant * scale);
+    case Loss::kSquared:
+      break;
+  }
+  return nullptr;
+}
+
+// Tight enough that a session scaled by any factor gives the same answer to 1e-12, which costs one
+// iteration more than 1e-6 does. The large first trust region makes the first steps Gauss-Newton.
+ceres::Solver::Options SolverOptions(Loss loss) {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = 200;
+  options.function_tolerance = loss == Loss::kSquared ? 1e-16 : 1e-9;
+  options.parameter_tolerance = loss == Loss::kSquared ? 1e-13 : 1e-7;
+  options.gradient_tolerance = 1e-13;
+  options.initial_trust_region_radius = 1e8;
+  options.max_trust_region_radius = 1e16;
+  return options;
+}
+
+template <class Cost, class T>
+T EvaluateAs(const ReadingRow& row, const T* theta) {
+  T residual(0.0);
+  if (!Cost{&row}(&theta[kLnIntensity], &theta[kDistanceOffset], &theta[kAmbient], &residual)) {
+    residual = T(std::numeric_limits<double>::infinity());
+  }
+  return residual;
+}
+
+template <class T>
+T Evaluate(const ReadingRow& row, const T* theta) {
+  switch (row.form) {
+    case ReadingRow::Form::kLinear:
+      return EvaluateAs<LinearIlluminanceCost>(row, theta);
+    case ReadingRow::Form::kCensored:
+      return EvaluateAs<CensoredIlluminanceCost>(row, theta);
+    case ReadingRow::Form::kLog:
+      break;
+  }
+  return EvaluateAs<LogIlluminanceCost>(row, theta);
+}
+
+void AddPriors(const Estimation& estimation, Theta& theta, ceres::Problem& problem) {
+  for (int k = 0; k < kParameters; ++k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (!rule.free || !(rule.prior_sd > 0.0)) continue;
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<NormalPriorCost, 1, 1>(
+                                 new NormalPriorCost{rule.prior_mean, rule.prior_sd}),
+                             nullptr, &theta[k]);
+  }
+}
+
+void AddBounds(const Estimation& estimation, Theta& theta, ceres::Problem& problem) {
+  for (int k = 0; k < kParameters; ++k) {
+    if (!estimation.rules[k].free) problem.SetParameterBlockConstant(&theta[k]);
+  }
+  if (estimation.rules[kDistanceOffset].free) {
+    problem.SetParameterLowerBound(&theta[kDistanceOffset], 0, estimation.least_distance_offset);
+  }
+  if (estimation.rules[kAmbient].free) problem.SetParameterLowerBound(&theta[kAmbient], 0, 0.0);
+}
+
+}  // namespace
+
+Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss, double scale) {
+  Theta theta = start;
+  const std::unique_ptr<ceres::LossFunction> loss_function = LossOf(loss, scale);
+  ceres::Problem::Options problem_options;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.disable_all_safety_checks = true;
+  ceres::Problem problem(problem_options);
+  for (const ReadingRow& row : estimation.rows) {
+    problem.AddResidualBlock(CostOf(row), loss_function.get(), &theta[kLnIntensity],
+                             &theta[kDistanceOffset], &theta[kAmbient]);
+  }
+  AddPriors(estimation, theta, problem);
+  AddBounds(estimation, theta, problem);
+  ceres::Solver::Summary summary;
+  ceres::Solve(SolverOptions(loss), &problem, &summary);
+  const bool finite =
+      std::all_of(theta.begin(), theta.end(), [](double x) { return std::isfinite(x); });
+  if (!summary.IsSolutionUsable() || !finite) {
+    return Failed("no_convergence", "fit", "the solver found no estimate: " + summary.message);
+  }
+  return theta;
+}
+
+double RowResidual(const ReadingRow& row, const Theta& theta) {
+  return Evaluate(row, theta.data());
+}
+
+RowDerivative DifferentiateRow(const ReadingRow& row, const Theta& theta) {
+  using Jet = ceres::Jet<double, kParameters>;
+  const std::array<Jet, kParameters> variables = {Jet(theta[0], 0), Jet(theta[1], 1),
+                                                  Jet(theta[2], 2)};
+  const Jet residual = Evaluate(row, variables.data());
+  return {residual.a, {residual.v[0], residual.v[1], residual.v[2]}};
+}
+
+double HalfChiSquared(const Estimation& estimation, const Theta& theta) {
+  double sum = 0.0;
+  for (const ReadingRow& row : estimation.rows) {
+    const double r = RowResidual(row, theta);
+    sum += r * r;
+  }
+  for (int k = 0; k < kParameters; ++k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (!rule.free || !(rule.prior_sd > 0.0)) continue;
+    const double r = (theta[k] - rule.prior_mean) / rule.prior_sd;
+    sum += r * r;
+  }
+  return 0.5 * sum;
+}
+
+}  // namespace lightcal::fit

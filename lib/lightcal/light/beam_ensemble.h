@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a data sheet's lumens and beam angle leave open about the peak intensity.
+#pragma once
+
+#include <optional>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/units.h"
+
+namespace lightcal {
+
+// Solid angle Phi/I_peak [sr] of the plausible beams, narrowest and widest.
+struct BeamSolidAngles {
+  Steradians least{0.0};
+  Steradians most{0.0};
+};
+
+// The beams whose intensity is half the peak at beam/2 from the axis (and, when given, a tenth at
+// field/2), beam and field being full angles as data sheets print them (IES LM-79, CIE 121).
+//   beam only: uniform cone of half angle beam/2; Gaussian; cos^n; cos^n that carries two thirds of
+//   the
+//     flux, the rest being spill outside the beam (reflector lamps reach that).
+//   beam and field: exp(-ln2 (t/tb)^p); 1/(1 + (t/tb)^q); a trapezoid, straight through both
+//   points.
+// Integrated numerically over 0..90 degrees. Holds for 0 < beam < field <= 180 degrees (beam alone
+// up to 170). Refused: bad_beam.
+[[nodiscard]] Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field);
+
+}  // namespace lightcal
