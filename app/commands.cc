@@ -2,13 +2,39 @@
 // The whole command line on one page. A new command is one file in commands/ and one line here.
 #include "commands.h"
 
-#include <array>
-
 namespace lightcal::app {
+namespace {
 
 // clang-format off
+constexpr CommandRow kCommands[] = {
+    {"fit", "The estimate of a session's lamps, as light.json",
+     "  lightcal fit sample_data/sessions/amaran_200x_s_bare -o light.json\n"
+     "  lightcal fit my_lamp --tol 0.5% --json", BuildFit},
+    {"explain", "Which effects this scene calls for, what each contributes and costs",
+     "  lightcal explain sample_data/sessions/amaran_200x_s_bare --tol 1%", BuildExplain},
+    {"convert", "One value of a lamp into all the others: lm, cd, lx, nits, W with lm/W",
+     "  lightcal convert 60W --efficacy 10lm/W --kind point --distance 0.5m --reflectance 0.9\n"
+     "  lightcal convert 806lm --kind spot --inner 20 --outer 35 --distance 2m\n"
+     "  lightcal convert 1500nits --kind rect --size 120x60cm --distance 3m --json\n"
+     "  lightcal convert 100klx --kind directional --angular-diameter 0.53", BuildConvert},
+    {"exposure", "Camera settings into EV, EV100, L_max, exposure, pre-exposed light values",
+     "  lightcal exposure --aperture f/2.8 --shutter 1/60 --iso 100\n"
+     "  lightcal exposure --t-stop T2.9 --angle 180 --fps 24 --iso 800\n"
+     "  lightcal exposure --aperture f/16 --shutter 1/64 --iso 100 --light 2e9nits 100klx",
+     BuildExposure},
+    {"reference", "Typical luminous flux, illuminance, luminance, efficacy, with source",
+     "  lightcal reference\n"
+     "  lightcal reference full moon\n"
+     "  lightcal reference efficacy --json", BuildReference},
+    {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
+     "  lightcal color --xy 0.4476 0.4074\n"
+     "  lightcal color --cct 3200K --duv -0.003 --json\n"
+     "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
+};
 // clang-format on
 
-std::span<const CommandRow> Commands() { return {}; }
+}  // namespace
+
+std::span<const CommandRow> Commands() { return kCommands; }
 
 }  // namespace lightcal::app

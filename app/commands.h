@@ -10,4 +10,12 @@ namespace lightcal::app {
 // Every command, in the order --help shows them.
 [[nodiscard]] std::span<const CommandRow> Commands();
 
+// One file each in commands/.
+Run BuildFit(CLI::App& parser);
+Run BuildExplain(CLI::App& parser);
+Run BuildConvert(CLI::App& parser);
+Run BuildExposure(CLI::App& parser);
+Run BuildReference(CLI::App& parser);
+Run BuildColor(CLI::App& parser);
+
 }  // namespace lightcal::app

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal reference: typical values, each with its source.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/photometry/reference_values.h"
+
+namespace lightcal::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> words;
+};
+
+// What people call a quantity, and a word that stands in every row of it.
+struct Alias {
+  std::string_view word;
+  std::string_view stands_for;
+};
+constexpr Alias kAliases[] = {
+    {"lux", "illuminance"},  {"lx", "illuminance"},    {"luminance", "luminance cd"},
+    {"nit", "luminance cd"}, {"nits", "luminance cd"}, {"lumen", "flux"},
+    {"lumens", "flux"},      {"lm", "luminous flux"}};
+
+std::string Haystack(const ReferenceValue& row) {
+  std::string text;
+  for (const std::string_view part :
+       {ReferenceQuantityName(row.quantity), ReferenceUnit(row.quantity), row.what, row.source,
+        ReferenceBasisName(row.basis), row.seed_note}) {
+    text += LowerAscii(part) + " ";
+  }
+  return text;
+}
+
+bool Matches(const ReferenceValue& row, const std::vector<std::string>& words) {
+  const std::string haystack = Haystack(row);
+  return std::ranges::all_of(words, [&haystack](const std::string& typed) {
+    const std::string word = LowerAscii(typed);
+    const auto* const alias = std::ranges::find(kAliases, word, &Alias::word);
+    return haystack.find(alias == std::end(kAliases) ? std::string_view(word)
+                                                     : alias->stands_for) != std::string::npos;
+  });
+}
+
+std::string RangeText(const ReferenceValue& row) {
+  const std::string low = RoundedText(row.low, 4);
+  return row.low == row.high ? low : low + " - " + RoundedText(row.high, 4);
+}
+
+nlohmann::ordered_json RowJson(const ReferenceValue& row) {
+  nlohmann::ordered_json json = {{"quantity", ReferenceQuantityName(row.quantity)},
+                                 {"what", row.what},
+                                 {"low", row.low},
+                                 {"high", row.high},
+                                 {"unit", ReferenceUnit(row.quantity)},
+                                 {"basis", ReferenceBasisName(row.basis)},
+                                 {"source", row.source}};
+  if (row.seed_value) json["seed_value"] = *row.seed_value;
+  if (!row.seed_note.empty()) json["seed_note"] = row.seed_note;
+  json["seed_doubtful"] = !row.seed_note.empty();
+  return json;
+}
+
+void PrintRows(const std::vector<const ReferenceValue*>& found, Console& console) {
+  std::vector<std::vector<std::string>> table;
+  std::string notes;
+  for (const ReferenceValue* row : found) {
+    const std::string what(row->what);
+    table.push_back({std::string(ReferenceQuantityName(row->quantity)), RangeText(*row),
+                     std::string(ReferenceUnit(row->quantity)),
+                     row->seed_note.empty() ? what : what + " [!]", std::string(row->source)});
+    if (!row->seed_note.empty()) notes += "[!] " + what + ": " + std::string(row->seed_note) + "\n";
+  }
+  console.Print(TextTable({"quantity", "value", "unit", "what", "source"}, table));
+  if (!notes.empty()) console.Print("\nDoubtful in the seed document:\n" + notes);
+}
+
+Result<void> RunReference(const Options& o, Console& console) {
+  std::vector<const ReferenceValue*> found;
+  for (const ReferenceValue& row : ReferenceValues()) {
+    if (Matches(row, o.words)) found.push_back(&row);
+  }
+  if (found.empty()) {
+    return WrongUsage(o.words.front(),
+                      "no value mentions this; try sun, moon, sky, office, museum, "
+                      "road, display, LED, halogen, flux, illuminance, luminance, "
+                      "efficacy, or no word for all");
+  }
+  nlohmann::ordered_json document;
+  auto& list = document["values"] = nlohmann::ordered_json::array();
+  for (const ReferenceValue* row : found) list.push_back(RowJson(*row));
+  PrintRows(found, console);
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace
+
+Run BuildReference(CLI::App& parser) {
+  auto o = std::make_shared<Options>();
+  parser.add_option("word", o->words, "Show the values that mention every one of these words");
+  return [o](Console& console) { return RunReference(*o, console); };
+}
+
+}  // namespace lightcal::app
