@@ -127,7 +127,10 @@ std::string ValueWithAbsolute(double value, double u95, std::string_view unit) {
   std::string number(64, '\0');
   number.resize(static_cast<std::size_t>(
       std::snprintf(number.data(), number.size(), "%.*f", decimals, value)));
-  return number + " ± " + u + " " + std::string(unit);
+  if (number.find_first_of("123456789") == std::string::npos && number.starts_with('-')) {
+    number.erase(0, 1);  // what rounds to zero has no sign
+  }
+  return number + " ± " + u + (unit.empty() ? "" : " " + std::string(unit));
 }
 
 }  // namespace lightcal::app
