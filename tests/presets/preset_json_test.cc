@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "lightcal/presets/exporters.h"
+#include "run_cli.h"
+#include "sample_lights.h"
+
+namespace lightcal::test {
+namespace {
+
+using nlohmann::json;
+
+json Exported(const LightFile& file, bool bare = false) {
+  const auto preset = ExportJson(file, "stem", {.bare = bare});
+  EXPECT_TRUE(preset.has_value());
+  EXPECT_EQ(preset->files.front().name, "stem.preset.json");
+  return json::parse(preset->files.front().contents);
+}
+
+// Exit code of python3-jsonschema's validator, 1 = the document breaks the schema.
+CliResult ValidateAgainstSchema(const std::string& document) {
+  const TempDir folder;
+  const std::string path = folder.Write("preset.json", document);
+  const std::string program =
+      "import json, sys, jsonschema\n"
+      "schema = json.load(open(sys.argv[1]))\n"
+      "jsonschema.Draft202012Validator.check_schema(schema)\n"
+      "errors = "
+      "list(jsonschema.Draft202012Validator(schema).iter_errors(json.load(open(sys.argv[2]))))\n"
+      "print(*errors, sep='\\n')\n"
+      "sys.exit(1 if errors else 0)\n";
+  return RunProgram({"/usr/bin/python3", "-c", program,
+                     LIGHTCAL_SOURCE_DIR "/lib/lightcal/presets/schemas/preset.schema.json", path});
+}
+
+std::vector<FittedLight> ManyKinds() {
+  FittedLight sky = Sun();
+  sky.kind = LightKind::kDome;
+  FittedLight white = SimpleLight("white", LightKind::kTube, 3.0);
+  white.color = {};
+  return {WarmPoint(), Spot(), Sun(), sky, white, SimpleLight("disk", LightKind::kDisk, 5.0)};
+}
+
+TEST(PresetJson, KeepsItsSchemaForEveryKindBareAndRig) {
+  for (const bool bare : {false, true}) {
+    const CliResult result = ValidateAgainstSchema(Exported(FileOf(ManyKinds()), bare).dump());
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  }
+}
+
+TEST(PresetJson, TheSchemaRejectsUnknownKeysAndMissingNumbers) {
+  json document = Exported(FileOf({WarmPoint()}));
+  document["lights"][0]["brightness"] = 3;
+  EXPECT_EQ(ValidateAgainstSchema(document.dump()).exit_code, 1);
+  document["lights"][0].erase("brightness");
+  EXPECT_EQ(ValidateAgainstSchema(document.dump()).exit_code, 0);
+  document["lights"][0]["derived"]["gltf"].erase("intensity");
+  EXPECT_EQ(ValidateAgainstSchema(document.dump()).exit_code, 1);
+}
+
+TEST(PresetJson, DerivedHoldsEveryNumberTheGltfFileHas) {
+  const LightFile file = FileOf(ManyKinds());
+  const json document = Exported(file);
+  const auto preset = ExportGltf(file, "stem", {});
+  ASSERT_TRUE(preset.has_value());
+  const json gltf = json::parse(preset->files.front().contents);
+  for (std::size_t i = 0; i < file.lights.size(); ++i) {
+    const json& derived = document["lights"][i]["derived"]["gltf"];
+    json light = gltf["extensions"]["KHR_lights_punctual"]["lights"][i];
+    light.erase("name");
+    if (light.contains("spot")) {
+      light.update(light["spot"]);
+      light.erase("spot");
+    }
+    light["translation"] = gltf["nodes"][i]["translation"];
+    light["rotation"] = gltf["nodes"][i]["rotation"];
+    for (const auto& [key, value] : light.items()) EXPECT_EQ(derived[key], value) << key;
+  }
+  for (int card = 0; card < 2; ++card) {
+    EXPECT_EQ(document["rig"]["cards"][card]["illuminance_lx"],
+              gltf["nodes"][file.lights.size() + card]["extras"]["lightcal"]["illuminance_lx"]);
+  }
+}
+
+TEST(PresetJson, PhotometryIsTheFitsWithItsIntervals) {
+  const json light = Exported(FileOf({WarmPoint()}))["lights"][0];
+  EXPECT_EQ(light["photometry"]["intensity_cd"]["value"], 1000.0);
+  EXPECT_EQ(light["photometry"]["intensity_cd"]["low95"], 961.0);
+  EXPECT_EQ(light["photometry"]["distance_offset_m"]["u95"], 0.02);
+  EXPECT_EQ(light["fit"]["rejected"], json::parse("[2]"));
+  EXPECT_EQ(light["color"]["cct_K"]["value"], 2700.0);
+}
+
+TEST(PresetJson, BareHasNoRigButTheExposure) {
+  const json document = Exported(FileOf({WarmPoint()}), true);
+  EXPECT_FALSE(document.contains("rig"));
+  EXPECT_TRUE(document["exposure"].contains("ev100"));
+}
+
+}  // namespace
+}  // namespace lightcal::test
