@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fake_sekonic.h"
+#include "lightcal_devices/meters/meter.h"
+#include "lightcal_devices/transport/transport.h"
+
+namespace lightcal::test {
+
+// A FakeSekonic as a Transport, without waiting.
+class FakeTransport final : public Transport {
+ public:
+  explicit FakeTransport(SekonicSetting setting) : meter_(std::move(setting)) {}
+
+  Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds) override {
+    if (meter_.Take(bytes)) return {};
+    return Failed(std::string(fault::kUnplugged), name(), "gone");
+  }
+  Result<Bytes> Read(std::size_t, std::chrono::milliseconds) override {
+    Bytes bytes;
+    switch (meter_.Give(bytes)) {
+      case FakeSekonic::Answer::kBytes:
+        return bytes;
+      case FakeSekonic::Answer::kNothing:
+        return Failed(std::string(fault::kTimeout), name(), "silent");
+      case FakeSekonic::Answer::kStall:
+        return Failed(std::string(fault::kStalled), name(), "stalled");
+      case FakeSekonic::Answer::kGone:
+        return Failed(std::string(fault::kUnplugged), name(), "gone");
+    }
+    return Bytes();
+  }
+  [[nodiscard]] std::string name() const override { return "fake"; }
+  [[nodiscard]] const FakeSekonic& meter() const { return meter_; }
+
+ private:
+  FakeSekonic meter_;
+};
+
+// No test waits longer than this for what will not come.
+inline MeterTiming QuickTiming() {
+  MeterTiming timing;
+  timing.reply = std::chrono::milliseconds(100);
+  timing.drain = std::chrono::milliseconds(10);
+  timing.poll = std::chrono::milliseconds(1);
+  timing.ready_polls = 5;
+  timing.measure_polls = 10;
+  return timing;
+}
+
+inline SekonicSetting Answering407lx() {
+  SekonicSetting setting;
+  setting.measurement = RecordedReply(kReply407lx);
+  return setting;
+}
+
+}  // namespace lightcal::test
