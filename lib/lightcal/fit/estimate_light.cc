@@ -10,6 +10,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/robust.h"
 #include "lightcal/fit/starts.h"
+#include "lightcal/light/effects/detector_size.h"
 
 namespace lightcal::fit {
 namespace {
@@ -75,6 +76,9 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
   row.distance = (observation.distance_m + surface) / scales.length_m;
   if (model.tilt) row.direct_gain = std::cos(observation.tilt_rad);
+  if (model.head_radius_m > 0.0) {
+    row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
+  }
   if (!observation.differenced && i < model.bounce_per_candela.size()) {
     row.bounce = model.bounce_per_candela[i] * scales.length_m * scales.length_m;
   }
@@ -91,10 +95,10 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   out.scales = ScalesOf(observations);
   out.shortest = std::numeric_limits<double>::infinity();
   double dimmest = std::numeric_limits<double>::infinity();
-  bool offset_possible = model.distance_law;
-  bool all_from_center = true;
+  bool offset_possible = model.distance_law && model.fit_offset;
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
     const Observation& observation = observations.rows[i];
+    if (!observation.lit && !model.fit_ambient) continue;
     out.estimation.rows.push_back(RowOf(observation, i, model, out.scales));
     out.observation.push_back(static_cast<int>(i));
     const ReadingRow& row = out.estimation.rows.back();
@@ -103,7 +107,6 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
       continue;
     }
     ++out.lit_rows;
-    all_from_center = all_from_center && observation.measured_from_center;
     out.shortest = std::min(out.shortest, row.distance);
     if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
       dimmest = std::min(dimmest, row.measured);
@@ -120,7 +123,7 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   out.estimation.least_distance_offset = kLeastOffset * out.shortest;
   if (out.ambient_told) {
     rules[kAmbient].free = true;
-  } else if (model.distance_law && out.distances >= kDistancesForAmbient &&
+  } else if (model.fit_ambient && model.distance_law && out.distances >= kDistancesForAmbient &&
              std::isfinite(dimmest)) {
     // Ambient light cannot exceed the dimmest reading.
     rules[kAmbient] = {true, 0.0, dimmest};

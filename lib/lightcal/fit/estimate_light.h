@@ -20,6 +20,9 @@ struct ForwardModel {
   AxialShape shape;                        // kPoint where the finite size is off
   double surface_radius_m = 0.0;           // added to distances taken from a sphere's surface
   bool tilt = true;                        // cosine of the tilt
+  double head_radius_m = 0.0;              // of the meter, where its size matters
+  bool fit_offset = true;                  // false: d0 = 0, exactly
+  bool fit_ambient = true;                 // false: E0 = 0, and lamp-off readings say nothing
   std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none
   std::vector<Consider> considered;        // influences that widen the interval
 };

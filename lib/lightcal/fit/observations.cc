@@ -88,6 +88,7 @@ class Collector {
     observation.measured_lx = observation.raw_lx = reading.illuminance->value();
     observation.over_range = reading.over_range;
     observation.measured_from_center = geometry->from_center;
+    observation.position_m = reading.position_m;
     const double sigma = std::max(kLeastSigma, SigmaRelative(session_, reading));
     relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
                          reading.shadow_card, !lit && !reading.distance && !reading.position_m});

@@ -3,6 +3,7 @@
 // put to their use, impossible rows set aside.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct Observation {
   double sigma_lx = 0.0;     // 1 sigma of measured_lx
   bool differenced = false;  // shadow card subtracted: no ambient, no bounce
   bool over_range = false;
-  bool measured_from_center = false;  // both positions known: the distance holds no offset
+  bool measured_from_center = false;  // both positions known
+  std::optional<Vec3> position_m;
 };
 
 struct Observations {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A meter whose response to slanting light is not the cosine.
+#pragma once
+
+#include "lightcal/light/effects/effect.h"
+
+namespace lightcal::effects {
+
+// f2 of a class B meter, DIN 5032-7.
+inline constexpr double kCosineF2Default = 0.03;
+
+//   bound = f2 x {1 below 30 degrees, 2 to 60, 5 beyond} of tilt (an engineering assumption; f2 is
+//   an average over angles). A facing meter has none: its response is normalised there.
+[[nodiscard]] inline EffectFinding FindCosineResponse(const Scene& scene) {
+  const double tilt = DegreesFromRadians(Radians(LargestTilt(scene)));
+  if (!(tilt > 0.0)) {
+    return {0.0, Treatment::kModelled, 0.0, "the meter faces the lamp, where it was calibrated"};
+  }
+  const double factor = tilt < 30.0 ? 1.0 : (tilt <= 60.0 ? 2.0 : 5.0);
+  if (scene.cosine_f2) {
+    return {factor * *scene.cosine_f2, Treatment::kWidens, 0.0, "the meter's stated f2"};
+  }
+  return {factor * kCosineF2Default, Treatment::kInsideSigma, 0.0,
+          "no cosine_f2 given (class B: 3 %); the meter's sigma is taken to hold it"};
+}
+
+}  // namespace lightcal::effects

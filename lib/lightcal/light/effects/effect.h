@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an effect is: a name, a price, and a finding for a scene.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lightcal/light/scene.h"
+
+namespace lightcal {
+
+// What is done about an effect that the tolerance cannot ignore.
+enum class Treatment : std::uint8_t {
+  kModelled,     // its parameters are known: the forward model holds it
+  kFitted,       // a fitted parameter takes it up
+  kWidens,       // a nuisance of known size: the interval carries half the bound as 1 sigma
+  kInsideSigma,  // the meter's stated sigma already holds it
+  kUnknown,      // nothing here can bound or remove it: named, and left out
+};
+
+struct EffectFinding {
+  double bound = 0.0;  // |relative contribution to E| it cannot exceed, or its class default
+  Treatment treatment = Treatment::kModelled;
+  double distance_power = 0.0;  // how it grows with distance: 0 common gain, 1, 2
+  std::string reason;           // a sentence on where the bound comes from
+};
+
+struct Effect {
+  std::string_view name;
+  double cost_ns = 0.0;  // declared price of one evaluation
+  EffectFinding (*find)(const Scene& scene);
+};
+
+}  // namespace lightcal

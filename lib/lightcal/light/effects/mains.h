@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mains voltage on a filament lamp.
+#pragma once
+
+#include <cmath>
+
+#include "lightcal/light/effects/effect.h"
+
+namespace lightcal::effects {
+
+inline constexpr double kMainsVariation = 0.01;
+
+//   bound = (1 + dV)^3.5 - 1 at dV = 1 %, for tungsten; a regulated LED follows it hardly at all.
+[[nodiscard]] inline EffectFinding FindMains(const Scene&) {
+  return {std::pow(1.0 + kMainsVariation, 3.5) - 1.0, Treatment::kUnknown, 0.0,
+          "only filament lamps follow the mains (3.5 % per 1 %), and no lamp type is stated"};
+}
+
+}  // namespace lightcal::effects

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/room_bounce.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "lightcal/photometry/spot_cone.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kPatches = 6;       // along each side of a wall
+constexpr double kInside = 0.05;  // metres between a point and the wall it was moved from
+
+// Relative intensity over directions.
+class Pattern {
+ public:
+  explicit Pattern(const Scene& scene) : aim_(scene.aim) {
+    if (scene.kind == LightKind::kDisk || scene.kind == LightKind::kRect) {
+      exponent_ = 1.0;
+    } else if (scene.outer) {
+      cone_ = SpotCone{scene.inner.value_or(Radians(0.0)), *scene.outer};
+    } else if (scene.beam && scene.beam->value() > 0.0 &&
+               scene.beam->value() < RadiansFromDegrees(170.0).value()) {
+      exponent_ = std::log(0.5) / std::log(std::cos(0.5 * scene.beam->value()));
+    }
+    even_ = !cone_ && exponent_ == 0.0;
+  }
+
+  void AimAt(const Vec3& direction) {
+    if (!aim_) aim_ = direction;
+  }
+
+  [[nodiscard]] double Toward(const Vec3& direction) const {
+    if (even_ || !aim_) return 1.0;
+    if (cone_) {
+      return SpotAttenuation(AngleFromAim(*aim_, direction), *cone_, SpotFalloff::kSquaredLinear);
+    }
+    const double cosine = Dot(*aim_, direction) / (Length(*aim_) * Length(direction));
+    return cosine > 0.0 ? std::pow(cosine, exponent_) : 0.0;
+  }
+
+  // Flux per candela on the axis.
+  [[nodiscard]] double SolidAngle() const {
+    if (even_) return 4.0 * kPi;
+    if (cone_) return SolidAngleOfSpot(*cone_, SpotFalloff::kSquaredLinear).value();
+    return 2.0 * kPi / (exponent_ + 1.0);
+  }
+
+ private:
+  std::optional<Vec3> aim_;
+  std::optional<SpotCone> cone_;
+  double exponent_ = 0.0;
+  bool even_ = true;
+};
+
+Vec3 MovedInside(Vec3 p, const Vec3& size) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = axis == 2 ? 0.0 : -0.5 * size[axis];
+    const double margin = std::min(kInside, 0.25 * size[axis]);
+    p[axis] = std::clamp(p[axis], low + margin, low + size[axis] - margin);
+  }
+  return p;
+}
+
+// Edges of patches along one side, graded about `foot` with the lamp's height over the wall.
+std::array<double, kPatches + 1> Grade(double low, double high, double foot, double height) {
+  std::array<double, kPatches + 1> edges{};
+  const double from = std::asinh((low - foot) / height);
+  const double to = std::asinh((high - foot) / height);
+  for (int i = 0; i <= kPatches; ++i) {
+    edges[i] = foot + height * std::sinh(from + (to - from) * i / kPatches);
+  }
+  return edges;
+}
+
+struct Receiver {
+  Vec3 position;
+  Vec3 normal;
+};
+
+// One wall's patches: coordinate `axis` fixed at `at`, normal `inward` along it.
+double FromWall(const Scene& scene, const Pattern& pattern, const Vec3& lamp,
+                const Receiver& receiver, int axis, double at, double inward) {
+  const Vec3& size = scene.room->size_m;
+  const double height = std::abs(lamp[axis] - at);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const auto edges = [&](int side) {
+    const double low = side == 2 ? 0.0 : -0.5 * size[side];
+    return Grade(low, low + size[side], lamp[side], height);
+  };
+  const auto u_edges = edges(u);
+  const auto v_edges = edges(v);
+  double sum = 0.0;
+  for (int i = 0; i < kPatches; ++i) {
+    for (int j = 0; j < kPatches; ++j) {
+      Vec3 patch{};
+      patch[axis] = at;
+      patch[u] = 0.5 * (u_edges[i] + u_edges[i + 1]);
+      patch[v] = 0.5 * (v_edges[j] + v_edges[j + 1]);
+      const double area = (u_edges[i + 1] - u_edges[i]) * (v_edges[j + 1] - v_edges[j]);
+      const Vec3 from_lamp = patch - lamp;
+      const double lamp_distance = Length(from_lamp);
+      const double wall_illuminance =
+          pattern.Toward(from_lamp) * height / (lamp_distance * lamp_distance * lamp_distance);
+      const Vec3 to_patch = patch - receiver.position;
+      const double distance = Length(to_patch);
+      const double at_receiver = Dot(receiver.normal, to_patch) / distance;
+      const double at_wall = -inward * to_patch[axis] / distance;
+      if (at_receiver <= 0.0 || at_wall <= 0.0) continue;
+      // A patch as large as its distance acts as a disk: pi r^2 + A instead of pi r^2.
+      sum += wall_illuminance * area * at_receiver * at_wall / (kPi * distance * distance + area);
+    }
+  }
+  return scene.room->reflectance * sum;
+}
+
+}  // namespace
+
+Bounce BounceAt(const Scene& scene, const ScenePose& pose) {
+  const Vec3& size = scene.room->size_m;
+  const Vec3 lamp = MovedInside(scene.position_m.value_or(Vec3{0.0, 0.0, 0.5 * size[2]}), size);
+  const Vec3 along = scene.aim.value_or(size[0] >= size[1] ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+  const Vec3 stated = pose.position_m.value_or(lamp + along * (pose.distance_m / Length(along)));
+  const Vec3 position = MovedInside(stated, size);
+  const Vec3 to_lamp = lamp - position;
+  const double distance = Length(to_lamp);
+  const Receiver receiver{position, distance > 0.0 ? to_lamp * (1.0 / distance) : along * -1.0};
+
+  Pattern pattern(scene);
+  pattern.AimAt(receiver.normal * -1.0);
+  Bounce out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = axis == 2 ? 0.0 : -0.5 * size[axis];
+    out.first += FromWall(scene, pattern, lamp, receiver, axis, low, 1.0);
+    out.first += FromWall(scene, pattern, lamp, receiver, axis, low + size[axis], -1.0);
+  }
+  const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  const double rho = scene.room->reflectance;
+  out.tail = rho * rho * pattern.SolidAngle() / (area * (1.0 - rho));
+  return out;
+}
+
+}  // namespace lightcal
