@@ -162,13 +162,13 @@ Result<ImportedFile> ReadArgyllSp(std::string_view text, std::string_view name) 
     found.where = name;
     all.push_back(std::move(found));
   }
-  auto file = ImportedFromSpectra("argyll_sp", std::move(all));
-  if (file && measured == Measured::kColorOnly && !measured_type.empty()) {
-    file->warnings.push_back(
+  Warnings warnings;
+  if (measured == Measured::kColorOnly && !measured_type.empty()) {
+    warnings.push_back(
         {"relative_spectrum", std::string(name),
          "its MEAS_TYPE is " + measured_type + ", not AMBIENT, so only its colour is used"});
   }
-  return file;
+  return ImportedFromSpectra("argyll_sp", std::move(all), std::move(warnings));
 }
 
 }  // namespace lightcal::files

@@ -44,8 +44,8 @@ struct ImportedFile {
   // time, device; the caller sets spectrum_file). Without: the rows of a log or table. Light and
   // distance are left to the caller unless the file names them.
   std::vector<Reading> readings;
-  // spectrum_disagrees (names the unit that would make it fit), dark_spectrum, relative_spectrum,
-  // column_ignored, bad_row
+  // spectrum_disagrees (names the unit that would make it fit), color_disagrees, dark_spectrum,
+  // relative_spectrum, column_ignored, bad_row
   Warnings warnings;
 };
 

@@ -102,9 +102,7 @@ Result<ImportedFile> ReadSekonicCsv(std::string_view text, std::string_view name
     }
     all.push_back(std::move(*found));
   }
-  auto file = ImportedFromSpectra("sekonic_csv", std::move(all));
-  if (file) file->warnings.insert(file->warnings.begin(), warnings.begin(), warnings.end());
-  return file;
+  return ImportedFromSpectra("sekonic_csv", std::move(all), std::move(warnings));
 }
 
 }  // namespace lightcal::files

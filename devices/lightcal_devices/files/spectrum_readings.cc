@@ -6,12 +6,16 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::files {
 namespace {
 
 constexpr double kTolerance = 0.01;
+constexpr double kCctTolerance = 0.01;
+constexpr double kDuvTolerance = 0.001;
+constexpr double kXyTolerance = 0.003;
 
 struct IrradianceUnit {
   std::string_view name;
@@ -104,24 +108,75 @@ std::optional<Warning> IlluminanceDisagreement(const FoundSpectrum& found, doubl
   return Warning{"spectrum_disagrees", found.where, message};
 }
 
-Result<ImportedFile> ImportedFromSpectra(std::string_view format,
-                                         std::vector<FoundSpectrum> found) {
+std::optional<Warning> HeaderContradiction(const FoundSpectrum& found) {
+  const ReportedColor& reported = found.imported.reported;
+  if (!reported.cct_K || !reported.xy) return std::nullopt;
+  const CctResult cct = CctFromXy(*reported.xy);
+  const bool same_cct = std::abs(cct.temperature.value() - *reported.cct_K) <=
+                        kCctTolerance * *reported.cct_K + 0.5 * reported.cct_last_digit_K;
+  const bool same_duv = !reported.duv || std::abs(cct.duv - *reported.duv) <=
+                                             kDuvTolerance + 0.5 * reported.duv_last_digit;
+  if (same_cct && same_duv) return std::nullopt;
+  const std::string claim = ShortestText(*reported.cct_K) + " K" +
+                            (reported.duv ? " and Duv " + ShortestText(*reported.duv) : "");
+  const std::string truth =
+      cct.valid()
+          ? RoundedText(cct.temperature.value(), 4) + " K and Duv " + RoundedText(cct.duv, 2)
+          : "no colour temperature (Duv " + RoundedText(cct.duv, 2) + ")";
+  return Warning{
+      "color_disagrees", found.where,
+      "its header says " + claim + ", but the header's own x, y have " + truth + "; x, y are used"};
+}
+
+std::optional<Warning> ColorDisagreement(const FoundSpectrum& found, Xy spectrum_xy) {
+  const auto& header = found.imported.reported.xy;
+  if (!header) return std::nullopt;
+  if (std::hypot(header->x - spectrum_xy.x, header->y - spectrum_xy.y) <= kXyTolerance) {
+    return std::nullopt;
+  }
+  return Warning{"color_disagrees", found.where,
+                 "its spectrum has x, y = " + RoundedText(spectrum_xy.x, 4) + ", " +
+                     RoundedText(spectrum_xy.y, 4) + ", its header says " +
+                     RoundedText(header->x, 4) + ", " + RoundedText(header->y, 4) +
+                     ", so one of the two is damaged"};
+}
+
+namespace {
+
+void CheckAgainstHeader(const FoundSpectrum& found, const Xyz& xyz, Reading& reading,
+                        Warnings& warnings) {
+  const auto warn = [&](std::optional<Warning> warning) {
+    if (warning) warnings.push_back(std::move(*warning));
+  };
+  warn(IlluminanceDisagreement(found, xyz.Y));
+  warn(ColorDisagreement(found, XyFromXyz(xyz)));
+  auto contradiction = HeaderContradiction(found);
+  if (contradiction) {
+    reading.cct.reset();
+    reading.duv.reset();
+  }
+  warn(std::move(contradiction));
+}
+
+}  // namespace
+
+Result<ImportedFile> ImportedFromSpectra(std::string_view format, std::vector<FoundSpectrum> found,
+                                         Warnings warnings) {
   ImportedFile file;
   file.format = format;
+  file.warnings = std::move(warnings);
   bool all_dark = true;
   for (FoundSpectrum& one : found) {
     if (auto samples = CheckSamples(one); !samples) return Propagate(std::move(samples));
     const auto xyz = Tristimulus(one);
     if (!xyz) return tl::unexpected(xyz.error());
+    file.readings.push_back(ReadingOf(one, *xyz));
     if (*xyz) {
       all_dark = false;
-      if (auto warning = IlluminanceDisagreement(one, (*xyz)->Y)) {
-        file.warnings.push_back(std::move(*warning));
-      }
+      CheckAgainstHeader(one, **xyz, file.readings.back(), file.warnings);
     } else {
       file.warnings.push_back({"dark_spectrum", one.where, "no sample is above 0, so no colour"});
     }
-    file.readings.push_back(ReadingOf(one, *xyz));
     file.spectra.push_back(std::move(one.imported));
   }
   if (all_dark) {

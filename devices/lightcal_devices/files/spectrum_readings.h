@@ -24,14 +24,24 @@ struct FoundSpectrum {
 
 // One reading per spectrum. Refused: bad_spectrum (fewer than two samples, not finite, wavelengths
 // that do not increase; nothing but darkness in the whole file).
-// Warns: spectrum_disagrees, dark_spectrum.
+// Adds to the reader's own warnings: spectrum_disagrees, color_disagrees, dark_spectrum. Where the
+// header's CCT or Duv contradicts its own x, y, the reading carries x, y only.
 [[nodiscard]] Result<ImportedFile> ImportedFromSpectra(std::string_view format,
-                                                       std::vector<FoundSpectrum> found);
+                                                       std::vector<FoundSpectrum> found,
+                                                       Warnings warnings = {});
 
 // The warning that a spectrum's own illuminance, 683.002 lm/W times its V(lambda) sum, is off the
 // header's by more than 1 % (or half the header's last digit), with the unit that would make it fit
 // when one does. Absent when they agree or the header claims nothing.
 [[nodiscard]] std::optional<Warning> IlluminanceDisagreement(const FoundSpectrum& found,
                                                              double spectrum_lx);
+
+// The warning that the header's CCT or Duv is not that of its own x, y: off by more than 1 % of the
+// CCT or 0.001 in Duv (beyond half a last digit). Instruments print such pairs for narrow-band
+// light.
+[[nodiscard]] std::optional<Warning> HeaderContradiction(const FoundSpectrum& found);
+
+// The warning that the spectrum's chromaticity is more than 0.003 from the header's x, y.
+[[nodiscard]] std::optional<Warning> ColorDisagreement(const FoundSpectrum& found, Xy spectrum_xy);
 
 }  // namespace lightcal::files

@@ -103,9 +103,7 @@ Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name) 
   if (all.empty()) {
     return Refused("bad_spectrum", std::string(name), "holds no SpectralDistribution");
   }
-  auto file = ImportedFromSpectra("tm27_spdx", std::move(all));
-  if (file) file->warnings.insert(file->warnings.begin(), warnings.begin(), warnings.end());
-  return file;
+  return ImportedFromSpectra("tm27_spdx", std::move(all), std::move(warnings));
 }
 
 }  // namespace lightcal::files

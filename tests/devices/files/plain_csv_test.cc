@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lightcal_devices/files/import_file.h"
+#include "run_cli.h"
+
+namespace lightcal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+ImportedFile Read(const std::string& text) {
+  auto file = ImportBytes(text, "table.csv");
+  EXPECT_TRUE(file) << file.error().code << ": " << file.error().message;
+  return file ? *file : ImportedFile{};
+}
+Error Refusal(const std::string& text) {
+  const auto file = ImportBytes(text, "table.csv");
+  EXPECT_FALSE(file);
+  return file ? Error{} : file.error();
+}
+
+TEST(PlainCsv, UnitsOfTheColumnNamesAreConverted) {
+  const ImportedFile file = Read("distance_cm,illuminance_fc,tilt_deg\n50,17.84,30\n");
+  ASSERT_THAT(file.readings, SizeIs(1));
+  EXPECT_DOUBLE_EQ(file.readings[0].distance->value(), 0.5);
+  EXPECT_NEAR(file.readings[0].illuminance->value(), 192.028, 0.001);  // 17.84 / 0.3048^2
+  EXPECT_NEAR(file.readings[0].tilt.value(), 0.523599, 1e-6);
+}
+
+TEST(PlainCsv, OwnSampleNamesLightDistanceColorAndTime) {
+  const auto file = ImportFile(test::SampleData("lux_tables/own/typed_readings.csv"));
+  ASSERT_TRUE(file);
+  ASSERT_THAT(file->readings, SizeIs(3));
+  EXPECT_EQ(file->readings[1].light, "key");
+  EXPECT_DOUBLE_EQ(file->readings[1].distance->value(), 1.0);
+  EXPECT_DOUBLE_EQ(file->readings[1].illuminance->value(), 48.3);
+  EXPECT_DOUBLE_EQ(file->readings[1].cct->value(), 2900.0);
+  EXPECT_EQ(file->readings[1].time, "2026-11-21T14:04:00");
+}
+
+TEST(PlainCsv, DecimalCommaIsReadBetweenSemicolons) {
+  const auto file = ImportFile(test::SampleData("lux_tables/own/typed_readings_de.csv"));
+  ASSERT_TRUE(file);
+  ASSERT_THAT(file->readings, SizeIs(3));
+  EXPECT_DOUBLE_EQ(file->readings[0].distance->value(), 0.5);
+  EXPECT_NEAR(file->readings[0].illuminance->value(), 192.028, 0.001);
+  EXPECT_EQ(file->readings[0].lamp, LampState::kOn);
+  EXPECT_EQ(file->readings[2].lamp, LampState::kOff);
+}
+
+TEST(PlainCsv, EncodingAndLineEndsDoNotMatter) {
+  const std::string expected = Read("light,lux\nB\xC3\xBChne,5\n").readings.at(0).light;
+  EXPECT_EQ(expected, "B\xC3\xBChne");
+  EXPECT_EQ(Read("\xEF\xBB\xBFlight,lux\r\nB\xC3\xBChne,5\r\n").readings.at(0).light, expected);
+  EXPECT_EQ(Read("light,lux\rB\xFChne,5\r").readings.at(0).light, expected);  // ISO 8859-1, CR
+  const std::string utf16("\xFF\xFEl\0u\0x\0\n\0005\0\n\0", 14);
+  EXPECT_DOUBLE_EQ(Read(utf16).readings.at(0).illuminance->value(), 5.0);
+}
+
+TEST(PlainCsv, QuotedCellsMayHoldSeparatorsAndLineEnds) {
+  const ImportedFile file = Read("light,lux\n\"key, left\nside\",5\n\"say \"\"hi\"\"\",6\n");
+  ASSERT_THAT(file.readings, SizeIs(2));
+  EXPECT_EQ(file.readings[0].light, "key, left\nside");
+  EXPECT_EQ(file.readings[1].light, "say \"hi\"");
+}
+
+TEST(PlainCsv, QuantityWithoutUnitIsRefused) {
+  const Error error = Refusal("distance,lux\n1,100\n");
+  EXPECT_EQ(error.code, "units_ambiguous");
+  EXPECT_EQ(error.kind, ErrorKind::kRefused);
+  EXPECT_THAT(error.subject, HasSubstr("distance"));
+  EXPECT_THAT(error.message, AllOf(HasSubstr("no unit"), HasSubstr("distance_cm")));
+}
+
+TEST(PlainCsv, UnknownColumnOfNumbersIsRefusedWithTheNearestName) {
+  const Error error = Refusal("distance_m,iluminance_lx,lux\n1,100,100\n");
+  EXPECT_EQ(error.code, "units_ambiguous");
+  EXPECT_THAT(error.message, HasSubstr("did you mean illuminance_lx?"));
+}
+
+TEST(PlainCsv, UnknownColumnOfWordsIsLeftOutWithAWarning) {
+  const ImportedFile file = Read("note,lux\nnear the window,5\n");
+  ASSERT_THAT(file.warnings, SizeIs(1));
+  EXPECT_EQ(file.warnings[0].code, "column_ignored");
+  EXPECT_THAT(file.readings, SizeIs(1));
+}
+
+TEST(PlainCsv, SameQuantityTwiceIsRefused) {
+  EXPECT_EQ(Refusal("illuminance_lx,illuminance_fc\n100,9.3\n").code, "units_ambiguous");
+}
+
+struct BadRow {
+  std::string text;
+  std::string subject;
+};
+class RefusedRow : public testing::TestWithParam<BadRow> {};
+INSTANTIATE_TEST_SUITE_P(
+    Rows, RefusedRow,
+    testing::Values(BadRow{"distance_m,lux\n1,100\n0,200\n", "table.csv:3"},
+                    BadRow{"distance_m,lux\n-1,100\n", "table.csv:2"},
+                    BadRow{"distance_m,lux\n1,-5\n", "table.csv:2"},
+                    BadRow{"distance_m,lux\n1,nan\n", "table.csv:2"},
+                    BadRow{"distance_m,lux\n1,inf\n", "table.csv:2"},
+                    BadRow{"distance_m,lux\n1,1e999\n", "table.csv:2"},
+                    BadRow{"distance_m,lux\n0,5,192\n", "table.csv:2"},    // decimal comma
+                    BadRow{"distance_m;lux\n0,5;192.0\n", "table.csv:2"},  // both decimal signs
+                    BadRow{"distance_m,lux\n1,\n", "table.csv:2"},         // nothing measured
+                    BadRow{"lux,time\n5,03/04/2026 10:00:00\n", "table.csv:2"},  // March or April?
+                    BadRow{"lux,lamp\n5,dimmed\n", "table.csv:2"},
+                    BadRow{"x,y\n0.8,0.7\n", "table.csv:2"}));
+
+TEST_P(RefusedRow, RefusesTheWholeFileAndNamesTheLine) {
+  const Error error = Refusal(GetParam().text);
+  EXPECT_EQ(error.code, "bad_row") << GetParam().text;
+  EXPECT_EQ(error.subject, GetParam().subject);
+  EXPECT_EQ(error.kind, ErrorKind::kRefused);
+}
+
+TEST(PlainCsv, LineNumbersCountCommentsEmptyLinesAndQuotedLineEnds) {
+  EXPECT_EQ(Refusal("# note\n\nlight,lux\n\"a\nb\",5\nc,oops\n").subject, "table.csv:6");
+}
+
+}  // namespace
+}  // namespace lightcal
