@@ -48,9 +48,16 @@ bool Matches(const ReferenceValue& row, const std::vector<std::string>& words) {
   });
 }
 
+// At most four digits, without zeros to fill them.
+std::string ShortText(double value) {
+  std::string rounded = RoundedText(value, 4);
+  std::string shortest = ShortestText(value);
+  return shortest.size() < rounded.size() ? shortest : rounded;
+}
+
 std::string RangeText(const ReferenceValue& row) {
-  const std::string low = RoundedText(row.low, 4);
-  return row.low == row.high ? low : low + " - " + RoundedText(row.high, 4);
+  const std::string low = ShortText(row.low);
+  return row.low == row.high ? low : low + " - " + ShortText(row.high);
 }
 
 nlohmann::ordered_json RowJson(const ReferenceValue& row) {
