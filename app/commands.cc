@@ -7,11 +7,35 @@ namespace {
 
 // clang-format off
 constexpr CommandRow kCommands[] = {
+    {"quick", "One lamp from what you typed: lux at a distance, or a data sheet's figures",
+     "  lightcal quick 192lx@0.5m --cct 2900K\n"
+     "  lightcal quick 192lx@0.5m 52lx@1m --at 3m\n"
+     "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
+     "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
+    {"devices", "Meters found, whether they may be used, how each driver was verified",
+     "  lightcal devices\n"
+     "  lightcal devices --json", BuildDevices},
+    {"read", "Live or typed readings of a lamp into a session's journal",
+     "  lightcal read -s my_lamp --light key --distance 0.5m\n"
+     "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
+     "  lightcal read --device sekonic --once --json\n"
+     "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx.tape --once", BuildRead},
+    {"import", "Meter and spectrometer exports, CSV and logs into a session's journal",
+     "  lightcal import lamp.xls -s my_lamp --light key --distance 0.5m --meter cv600\n"
+     "  lightcal import tape_measure.csv -s my_lamp --light key\n"
+     "  lightcal import sweep.csv -s my_lamp --light key --column 560nm --color-only", BuildImport},
     {"fit", "The estimate of a session's lamps, as light.json",
      "  lightcal fit sample_data/sessions/amaran_200x_s_bare -o light.json\n"
      "  lightcal fit my_lamp --tol 0.5% --json", BuildFit},
     {"explain", "Which effects this scene calls for, what each contributes and costs",
      "  lightcal explain sample_data/sessions/amaran_200x_s_bare --tol 1%", BuildExplain},
+    {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
+     "  lightcal export out/light.json --to gltf,json -o presets\n"
+     "  lightcal export out/light.json --bare -o presets --force", BuildExport},
+    {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
+     "  lightcal color --xy 0.4476 0.4074\n"
+     "  lightcal color --cct 3200K --duv -0.003 --json\n"
+     "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
     {"convert", "One value of a lamp into all the others: lm, cd, lx, nits, W with lm/W",
      "  lightcal convert 60W --efficacy 10lm/W --kind point --distance 0.5m --reflectance 0.9\n"
      "  lightcal convert 806lm --kind spot --inner 20 --outer 35 --distance 2m\n"
@@ -26,10 +50,6 @@ constexpr CommandRow kCommands[] = {
      "  lightcal reference\n"
      "  lightcal reference full moon\n"
      "  lightcal reference efficacy --json", BuildReference},
-    {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
-     "  lightcal color --xy 0.4476 0.4074\n"
-     "  lightcal color --cct 3200K --duv -0.003 --json\n"
-     "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
 };
 // clang-format on
 

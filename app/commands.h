@@ -11,11 +11,16 @@ namespace lightcal::app {
 [[nodiscard]] std::span<const CommandRow> Commands();
 
 // One file each in commands/.
+Run BuildQuick(CLI::App& parser);
+Run BuildImport(CLI::App& parser);
 Run BuildFit(CLI::App& parser);
 Run BuildExplain(CLI::App& parser);
+Run BuildExport(CLI::App& parser);
 Run BuildConvert(CLI::App& parser);
 Run BuildExposure(CLI::App& parser);
 Run BuildReference(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
+Run BuildDevices(CLI::App& parser);
+Run BuildRead(CLI::App& parser);
 
 }  // namespace lightcal::app

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "preset_files.h"
+
+#include <algorithm>
+
+#include "lightcal/presets/preset_table.h"
+
+namespace lightcal::app {
+namespace {
+
+Result<std::vector<PresetTarget>> ChosenTargets(const std::vector<std::string>& names) {
+  const auto all = PresetTargets();
+  if (names.empty()) return std::vector<PresetTarget>(all.begin(), all.end());
+  std::vector<PresetTarget> chosen;
+  for (const std::string& name : names) {
+    const auto target = FindPresetTarget(name);
+    if (!target) return tl::unexpected(target.error());
+    const bool repeated =
+        std::ranges::any_of(chosen, [&](const PresetTarget& t) { return t.name == target->name; });
+    if (!repeated) chosen.push_back(*target);
+  }
+  return chosen;
+}
+
+void AddOnce(const Warnings& from, Warnings& to) {
+  for (const Warning& warning : from) {
+    const bool known = std::ranges::any_of(to, [&](const Warning& w) {
+      return w.code == warning.code && w.subject == warning.subject && w.message == warning.message;
+    });
+    if (!known) to.push_back(warning);
+  }
+}
+
+}  // namespace
+
+Result<std::vector<OutputFile>> PresetFiles(const LightFile& lights, const std::string& stem,
+                                            const std::vector<std::string>& targets,
+                                            const PresetOptions& options, Warnings& warnings) {
+  const auto chosen = ChosenTargets(targets);
+  if (!chosen) return tl::unexpected(chosen.error());
+  std::vector<OutputFile> files;
+  for (const PresetTarget& target : *chosen) {
+    auto preset = target.exporter(lights, stem, options);
+    if (!preset) return Propagate(std::move(preset));
+    AddOnce(preset->warnings, warnings);
+    for (PresetFile& file : preset->files) {
+      files.push_back({std::move(file.name), std::move(file.contents)});
+    }
+  }
+  return files;
+}
+
+}  // namespace lightcal::app
