@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal quick, driven as a shell would.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_cli.h"
+
+namespace lightcal::test {
+namespace {
+
+using nlohmann::json;
+
+json QuickJson(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "quick");
+  arguments.emplace_back("--json");
+  const CliResult result = RunLightcal(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out);
+}
+
+TEST(Quick, OneReadingAnswers48CandelaWideAndMarkedPrior) {
+  const json document = QuickJson({"192lx@0.5m", "--cct", "2900K"});
+  const json& light = document["lights"][0];
+  EXPECT_NEAR(light["intensity_cd"]["value"], 48.0, 1e-9);
+  // The distance offset's prior alone, 0.15 d, moves ln I by 0.3: the interval must show it.
+  EXPECT_GT(double(light["intensity_cd"]["u95"]), 0.5 * 48.0);
+  EXPECT_LT(double(light["intensity_cd"]["u95"]), 0.9 * 48.0);
+  EXPECT_LT(double(light["intensity_cd"]["low95"]), 30.0);
+  EXPECT_NE(light["fit"]["prior"].dump().find("distance_offset"), std::string::npos);
+  EXPECT_NEAR(light["color"]["cct_K"]["value"], 2900.0, 1.0);
+  EXPECT_FALSE(std::string(document["next_step"]).empty());
+  EXPECT_FALSE(light["fit"].contains("rms_relative"));
+}
+
+TEST(Quick, TheTableForPeopleSaysTheSameAndOneNextStep) {
+  const CliResult result = RunLightcal({"quick", "192lx@0.5m", "--cct", "2900K"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("48 cd"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("prior"), std::string::npos) << result.out;
+  const auto first = result.out.find("next: ");
+  ASSERT_NE(first, std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("next: ", first + 1), std::string::npos);
+}
+
+struct Row {
+  double distance_m;
+  double illuminance_lx;
+};
+
+std::map<std::string, std::vector<Row>> PublishedTables() {
+  std::ifstream file(SampleData("lux_tables/lux_tables.csv"));
+  std::map<std::string, std::vector<Row>> tables;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::stringstream cells(line);
+    std::string fixture;
+    std::string accessory;
+    std::string cct;
+    std::string distance;
+    std::string lux;
+    std::getline(cells, fixture, ',');
+    std::getline(cells, accessory, ',');
+    std::getline(cells, cct, ',');
+    std::getline(cells, distance, ',');
+    std::getline(cells, lux, ',');
+    tables[fixture + "|" + accessory + "|" + cct].push_back({std::stod(distance), std::stod(lux)});
+  }
+  return tables;
+}
+
+TEST(Quick, TwoPublishedDistancesPredictTheFarthestAsOftenAsTheIntervalSays) {
+  const auto tables = PublishedTables();
+  ASSERT_EQ(tables.size(), 19U);
+  int inside = 0;
+  for (const auto& [name, rows] : tables) {
+    ASSERT_EQ(rows.size(), 3U) << name;
+    const auto typed = [](const Row& row) {
+      return std::to_string(row.illuminance_lx) + "lx@" + std::to_string(row.distance_m) + "m";
+    };
+    const json document = QuickJson(
+        {typed(rows[0]), typed(rows[1]), "--at", std::to_string(rows[2].distance_m) + "m"});
+    const json& reading = document["predictions"][0]["reading_lx"];
+    const double value = reading["value"];
+    EXPECT_LT(double(reading["u95"]) / value, 0.16) << name;
+    if (rows[2].illuminance_lx >= double(reading["low95"]) &&
+        rows[2].illuminance_lx <= double(reading["high95"])) {
+      ++inside;
+    }
+  }
+  EXPECT_GE(inside, 18) << "of 19 tables";
+}
+
+TEST(Quick, ADataSheetsLumensAndBeamAnswerPeakCandelaWithAnInterval) {
+  const json document = QuickJson({"--lumens", "806", "--beam", "36"});
+  const json& intensity = document["lights"][0]["intensity_cd"];
+  // A uniform cone of 36 degrees bounds the peak from above (2620 cd), a cos^n lobe with half its
+  // peak at 18 degrees gives 1900 cd.
+  EXPECT_GT(double(intensity["value"]), 1000.0);
+  EXPECT_LT(double(intensity["value"]), 2621.0);
+  EXPECT_LT(double(intensity["low95"]), 1900.0);
+  EXPECT_GT(double(intensity["high95"]), 1900.0);
+  EXPECT_EQ(document["lights"][0]["fit"]["learned"].size(), 0U);
+}
+
+TEST(Quick, FootcandlesAndInchesAreTheSameLamp) {
+  const json metric = QuickJson({"191.59760555lx@50.8cm"});
+  const json imperial = QuickJson({"17.8fc@20in"});
+  EXPECT_NEAR(double(metric["lights"][0]["intensity_cd"]["value"]) /
+                  double(imperial["lights"][0]["intensity_cd"]["value"]),
+              1.0, 1e-6);
+}
+
+struct BadLine {
+  std::vector<std::string> arguments;
+  int exit_code;
+  const char* says;
+};
+
+TEST(Quick, WrongLinesTeachAndWriteNothing) {
+  const BadLine lines[] = {
+      {{"quick"}, 2, "192lx@0.5m"},
+      {{"quick", "192lx"}, 2, "ILLUMINANCE@DISTANCE"},
+      {{"quick", "192lx@0m"}, 3, "above zero"},
+      {{"quick", "192lx@-1m"}, 3, "above zero"},
+      {{"quick", "-5lx@1m"}, 3, "negative"},
+      {{"quick", "nanlx@1m"}, 2, "number"},
+      {{"quick", "192lx@0.5parsec"}, 2, "unknown unit"},
+      {{"quick", "192lx@0.5m", "--kind", "laser"}, 2, "laser"},
+      {{"quick", "192lx@0.5m", "--cct", "-3K"}, 2, "above zero"},
+      {{"quick", "192lx@0.5m", "--sigma", "500%"}, 2, "tolerance"},
+      {{"quick", "192lx@0.5m", "--nonsense"}, 2, "--nonsense"},
+  };
+  for (const BadLine& bad : lines) {
+    const CliResult result = RunLightcal(bad.arguments);
+    EXPECT_EQ(result.exit_code, bad.exit_code) << bad.arguments.back() << "\n" << result.err;
+    EXPECT_NE(result.err.find(bad.says), std::string::npos) << bad.arguments.back() << "\n"
+                                                            << result.err;
+    EXPECT_EQ(result.out, "") << bad.arguments.back();
+  }
+}
+
+TEST(Quick, WithJsonAnErrorIsOneDocumentToo) {
+  const CliResult result = RunLightcal({"quick", "192lx@0m", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  const json document = json::parse(result.out);
+  EXPECT_EQ(document["error"]["code"], "bad_reading");
+  EXPECT_EQ(document["error"]["subject"], "192lx@0m");
+}
+
+}  // namespace
+}  // namespace lightcal::test
