@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/light_codec.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <string>
+
+#include "sample_lights.h"
+
+namespace lightcal {
+namespace {
+
+using test::FullLightFile;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string JsonOf(const LightFile& file) {
+  auto text = LightFileToJson(file);
+  if (!text) ADD_FAILURE() << text.error().subject << " " << text.error().message;
+  return text.value_or("");
+}
+
+LightFile Back(const std::string& text) {
+  auto file = LightFileFromJson(text, "light.json");
+  if (!file) ADD_FAILURE() << file.error().message;
+  return file.value_or(LightFile{});
+}
+
+void ExpectSame(const std::optional<Uncertain>& a, const std::optional<Uncertain>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(a->value, b->value);
+  EXPECT_EQ(a->u95, b->u95);
+  EXPECT_EQ(a->low, b->low);
+  EXPECT_EQ(a->high, b->high);
+}
+
+TEST(LightJson, QuantitiesComeBackBitForBit) {
+  const FittedLight light = FullLightFile().lights[0];
+  const FittedLight back = Back(JsonOf(FullLightFile())).lights.at(0);
+  EXPECT_EQ(back.name, light.name);
+  EXPECT_EQ(back.kind, light.kind);
+  ExpectSame(back.intensity_cd, light.intensity_cd);
+  ExpectSame(back.flux_lm, light.flux_lm);
+  ExpectSame(back.illuminance_lx, light.illuminance_lx);
+  ExpectSame(back.luminance_nits, light.luminance_nits);
+  ExpectSame(back.distance_offset_m, light.distance_offset_m);
+  ExpectSame(back.ambient_lx, light.ambient_lx);
+  ExpectSame(back.color.cct_K, light.color.cct_K);
+  ExpectSame(back.color.duv, light.color.duv);
+  EXPECT_EQ(back.color.xy.value().x, light.color.xy->x);
+  EXPECT_EQ(back.color.xy.value().y, light.color.xy->y);
+}
+
+TEST(LightJson, GeometryComesBackBitForBit) {
+  const FittedLight light = FullLightFile().lights[0];
+  const FittedLight back = Back(JsonOf(FullLightFile())).lights.at(0);
+  EXPECT_EQ(back.inner_deg, light.inner_deg);
+  EXPECT_EQ(back.outer_deg, light.outer_deg);
+  EXPECT_EQ(back.diameter_m, light.diameter_m);
+  EXPECT_EQ(back.width_m, light.width_m);
+  EXPECT_EQ(back.height_m, light.height_m);
+  EXPECT_EQ(back.length_m, light.length_m);
+  EXPECT_EQ(back.radius_m, light.radius_m);
+  EXPECT_EQ(back.position_m, light.position_m);
+  EXPECT_EQ(back.aim, light.aim);
+  EXPECT_EQ(back.covariance_lnI_d0_E0, light.covariance_lnI_d0_E0);
+}
+
+TEST(LightJson, DiagnosticsComeBack) {
+  const FitDiagnostics back = Back(JsonOf(FullLightFile())).lights.at(0).fit;
+  EXPECT_EQ(back.readings, 7);
+  EXPECT_EQ(back.used, 5);
+  EXPECT_THAT(back.rejected, ElementsAre(1, 6));
+  EXPECT_EQ(back.rms_relative, 0.012);
+  EXPECT_EQ(back.chi2_dof, 0.9);
+  EXPECT_EQ(back.degrees_of_freedom, 2);
+  EXPECT_EQ(back.leave_one_out, 0.02);
+  EXPECT_EQ(back.condition, 314.5);
+  EXPECT_THAT(back.learned, ElementsAre("intensity"));
+  EXPECT_THAT(back.prior, ElementsAre("ambient", "offset"));
+}
+
+TEST(LightJson, EffectsResidualsAndProvenanceComeBack) {
+  const LightFile back = Back(JsonOf(FullLightFile()));
+  const FittedLight& light = back.lights.at(0);
+  ASSERT_EQ(light.effects.size(), 3U);
+  EXPECT_EQ(light.effects[0].contribution, 0.011);
+  EXPECT_EQ(light.effects[1].state, EffectState::kOff);
+  EXPECT_FALSE(light.effects[1].contribution);
+  EXPECT_EQ(light.effects[2].state, EffectState::kFitted);
+  EXPECT_EQ(light.effects[2].reason, "near readings");
+  ASSERT_EQ(light.residuals.size(), 2U);
+  EXPECT_EQ(light.residuals[0].distance_m, 0.5);
+  EXPECT_TRUE(light.residuals[0].used);
+  EXPECT_FALSE(light.residuals[1].used);
+  EXPECT_FALSE(light.residuals[1].distance_m);
+  EXPECT_EQ(back.provenance.generator, "lightcal 0.1.0");
+  EXPECT_EQ(back.provenance.inputs.at(0).path, "session.toml");
+  EXPECT_EQ(back.provenance.time, "2026-01-02T03:04:05Z");
+}
+
+TEST(LightJson, WritingWhatWasReadGivesTheSameBytes) {
+  const std::string text = JsonOf(FullLightFile());
+  EXPECT_EQ(JsonOf(Back(text)), text);
+}
+
+TEST(LightJson, KeysThatDoNotApplyAreAbsent) {
+  const std::string text = JsonOf({{FullLightFile().lights[1]}, {}});
+  for (const char* key : {"intensity_cd", "color", "cone", "aim", "covariance", "rms_relative"}) {
+    EXPECT_THAT(text, Not(HasSubstr(std::string("\"") + key)));
+  }
+  EXPECT_THAT(text, Not(HasSubstr("null")));
+  EXPECT_FALSE(Back(text).lights.at(0).intensity_cd);
+}
+
+TEST(LightJson, ConeAndColourAreTablesAndDuvIsANumberBesideItsInterval) {
+  const std::string text = JsonOf(FullLightFile());
+  EXPECT_THAT(text, HasSubstr("\"cone\": {\n        \"inner_deg\": 20.1,"));
+  EXPECT_THAT(text, HasSubstr("\"duv\": -0.0012,\n        \"duv_u95\": 0.0004,"));
+  EXPECT_THAT(text, testing::EndsWith("}\n"));
+}
+
+TEST(LightJson, NumberThatIsNotFiniteIsNeverWritten) {
+  LightFile file = FullLightFile();
+  file.lights[0].fit.condition = std::numeric_limits<double>::infinity();
+  const auto text = LightFileToJson(file);
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "not_finite");
+  EXPECT_EQ(text.error().subject, "lights[0].fit.condition");
+  file = FullLightFile();
+  file.lights[0].aim = Vec3{0.0, std::numeric_limits<double>::quiet_NaN(), 0.0};
+  EXPECT_EQ(LightFileToJson(file).error().subject, "lights[0].aim[1]");
+}
+
+TEST(LightJson, WarningsOfTheFitCommandAreAccepted) {
+  std::string text = JsonOf(FullLightFile());
+  text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],)");
+  EXPECT_EQ(Back(text).lights.size(), 2U);
+}
+
+struct BadLight {
+  const char* name;
+  const char* text;
+  const char* code;
+  const char* says;
+};
+
+void PrintTo(const BadLight& bad, std::ostream* out) { *out << bad.name; }
+
+constexpr BadLight kBadLights[] = {
+    {"Empty", "", "bad_light", "not JSON"},
+    {"Array", "[]", "bad_light", "one JSON object"},
+    {"NoSchema", R"({"lights":[]})", "bad_light", "schema is missing"},
+    {"NewerSchema", R"({"schema":"lightcal.light/2","lights":[]})", "bad_light",
+     "reads lightcal.light/1"},
+    {"NoLights", R"({"schema":"lightcal.light/1"})", "bad_light", "lights is missing"},
+    {"LightsAsTable", R"({"schema":"lightcal.light/1","lights":{}})", "bad_light", "an array"},
+    {"UnknownKey", R"({"schema":"lightcal.light/1","lights":[],"provenence":{}})", "unknown_key",
+     "\"provenance\""},
+    {"UnknownKeyInLight",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point","flux":1}]})",
+     "unknown_key", "lights[0]: unknown key \"flux\""},
+    {"UnknownKind", R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"pont"}]})",
+     "bad_light", "\"point\""},
+    {"UncertainWithoutValue",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point","flux_lm":{"u95":1}}]})",
+     "bad_light", "lights[0].flux_lm: value is missing"},
+    {"TextForNumber",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point","diameter_m":"6cm"}]})",
+     "bad_light", "diameter_m must be a number"},
+};
+
+class LightJsonRefusals : public testing::TestWithParam<BadLight> {};
+
+TEST_P(LightJsonRefusals, NameCodeAndPlace) {
+  const auto file = LightFileFromJson(GetParam().text, "light.json");
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().kind, ErrorKind::kRefused);
+  EXPECT_EQ(file.error().code, GetParam().code);
+  EXPECT_EQ(file.error().subject, "light.json");
+  EXPECT_THAT(file.error().message, HasSubstr(GetParam().says));
+}
+
+INSTANTIATE_TEST_SUITE_P(Json, LightJsonRefusals, testing::ValuesIn(kBadLights),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace
+}  // namespace lightcal

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fitted lights for the tests of light.json.
+#pragma once
+
+#include <string>
+
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal::test {
+
+// Every field of every record filled, with numbers that have no short decimal form.
+inline LightFile FullLightFile() {
+  FittedLight light;
+  light.name = "Führung \"1\"";
+  light.kind = LightKind::kSpot;
+  light.intensity_cd = {1.0 / 3.0, 0.1 + 0.2, 0.1, 0.7};
+  light.flux_lm = {1e300, 1e-300, std::nullopt, std::nullopt};
+  light.illuminance_lx = {2.0 / 3.0, 0.1, std::nullopt, std::nullopt};
+  light.luminance_nits = {12345.678901234567, 5e-324, std::nullopt, std::nullopt};
+  light.distance_offset_m = {-0.067, 0.035, std::nullopt, std::nullopt};
+  light.ambient_lx = {0.0, 0.5, 0.0, 0.5};
+  light.inner_deg = 20.1;
+  light.outer_deg = 35.7;
+  light.diameter_m = 0.06;
+  light.width_m = 0.3;
+  light.height_m = 0.2;
+  light.length_m = 1.2;
+  light.radius_m = 0.013;
+  light.position_m = Vec3{0.1, -0.2, 1.2};
+  light.aim = Vec3{0.0, 0.6, -0.8};
+  light.color.cct_K = Uncertain{2900.4, 31.5, 2869.0, 2932.0};
+  light.color.duv = Uncertain{-0.0012, 0.0004, -0.0016, -0.0008};
+  light.color.xy = Xy{0.4476, 0.4074};
+  light.fit = {7, 5, {1, 6}, 0.012, 0.9, 2, 0.02, 314.5, {"intensity"}, {"ambient", "offset"}};
+  light.effects = {
+      {"cosine", EffectState::kOn, 0.03, 0.011, 2.5, "the meter was tilted"},
+      {"bounce", EffectState::kOff, 0.004, std::nullopt, 1700.0, "below the tolerance"},
+      {"source_size", EffectState::kFitted, 0.2, -0.1, 108.0, "near readings"}};
+  light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true},
+                     {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};
+  light.covariance_lnI_d0_E0 = {0.1, 0.2, 0.3, 0.2, 0.5, 0.6, 0.3, 0.6, 1.0 / 7.0};
+  FittedLight bare;
+  bare.name = "bare";
+  LightFile file;
+  file.lights = {light, bare};
+  file.provenance = {
+      "lightcal 0.1.0", {{"session.toml", std::string(64, 'a')}}, "2026-01-02T03:04:05Z"};
+  return file;
+}
+
+}  // namespace lightcal::test

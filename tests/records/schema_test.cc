@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the codecs write and accept agrees with the JSON Schemas that are installed with the
+// library.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "lightcal/records/light_codec.h"
+#include "lightcal/records/session_codec.h"
+#include "run_cli.h"
+#include "sample_lights.h"
+
+namespace lightcal {
+namespace {
+
+using test::TempDir;
+
+const std::string kSource = LIGHTCAL_SOURCE_DIR;
+
+test::CliResult Validate(const std::string& schema, const std::vector<std::string>& rest) {
+  std::vector<std::string> command = {"/usr/bin/python3", kSource + "/tests/tools/validate_json.py",
+                                      kSource + "/lib/lightcal/records/schemas", schema};
+  command.insert(command.end(), rest.begin(), rest.end());
+  return test::RunProgram(command);
+}
+
+void ExpectValid(const std::string& schema, const std::vector<std::string>& rest) {
+  const auto result = Validate(schema, rest);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+constexpr const char* kEveryKeySession = R"(lightcal = 1
+name = "all"
+[room]
+size_m = [5.0, 4.0, 2.6]
+reflectance = 0.4
+[[light]]
+name = "key"
+kind = "spot"
+position_m = [0, 0, 1.2]
+aim = [0, 0, -2]
+diameter_m = 0.06
+size_m = [0.6, 0.3]
+length_m = 1.2
+radius_m = 0.013
+inner_deg = 20
+outer_deg = 35
+electrical_W = 9
+flux_lm = 806
+beam_deg = 36
+field_deg = 60
+[[meter]]
+name = "c800"
+sigma_relative = 0.03
+cosine_f2 = 0.02
+spectral_f1 = 0.06
+head_radius_m = 0.01
+[[reading]]
+light = "key"
+meter = "c800"
+device = "sekonic:1"
+time = 2026-01-02T03:04:05Z
+distance_m = 0.5
+illuminance_lx = 192.0
+tilt_deg = 30
+lamp = "on"
+cct_K = 2900
+duv = -0.001
+xy = [0.44, 0.40]
+color_source = "camera"
+spectrum = "a.spdx"
+sigma_relative = 0.1
+over_range = true
+shadow_card = false
+[[reading]]
+light = "key"
+position_m = [0, 0, 0]
+normal = [0, 0, 1]
+illuminance_lx = 1
+)";
+
+TEST(Schemas, SessionSchemaAndParserKnowTheSameKeys) {
+  const TempDir dir;
+  const std::string path = dir.Write("session.toml", kEveryKeySession);
+  ExpectValid("session", {"--every-key", path});
+  const auto session = ParseSessionToml(kEveryKeySession, "session.toml");
+  EXPECT_TRUE(session) << session.error().message;
+}
+
+TEST(Schemas, ReadingSchemaAndWriterKnowTheSameKeys) {
+  const TempDir dir;
+  auto session = ParseSessionToml(kEveryKeySession, "session.toml");
+  ASSERT_TRUE(session) << session.error().message;
+  session->readings[0].reading.shadow_card = true;
+  session->readings[1].reading.lamp = LampState::kOff;
+  std::string journal;
+  for (const SessionReading& row : session->readings) journal += ReadingToJson(row.reading) + "\n";
+  ExpectValid("reading", {"--every-key", dir.Write("readings.jsonl", journal)});
+}
+
+TEST(Schemas, LightSchemaAndWriterKnowTheSameKeys) {
+  const TempDir dir;
+  std::string text = LightFileToJson(test::FullLightFile()).value();
+  text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],)");
+  EXPECT_TRUE(LightFileFromJson(text, "light.json"));
+  ExpectValid("light", {"--every-key", dir.Write("light.json", text)});
+}
+
+TEST(Schemas, CommittedSessionsAreValidAndLoad) {
+  std::vector<std::string> sessions;
+  std::vector<std::string> journals;
+  for (const auto& entry : std::filesystem::directory_iterator(test::SampleData("sessions"))) {
+    if (!entry.is_directory()) continue;
+    sessions.push_back((entry.path() / "session.toml").string());
+    const std::string journal = JournalPath(entry.path().string());
+    if (std::filesystem::exists(journal)) journals.push_back(journal);
+    const auto loaded = LoadSession(entry.path().string());
+    EXPECT_TRUE(loaded) << entry.path() << ": " << loaded.error().message;
+  }
+  ASSERT_FALSE(sessions.empty());
+  ExpectValid("session", sessions);
+  if (!journals.empty()) ExpectValid("reading", journals);
+}
+
+// The schemas and the parsers refuse the same rows.
+TEST(Schemas, RefuseWhatTheParserRefuses) {
+  const TempDir dir;
+  const std::vector<std::string> bad_rows = {
+      R"({"light":"a"})",
+      R"({"light":"a","distance_m":0,"illuminance_lx":1})",
+      R"({"light":"a","illuminance_lx":-1})",
+      R"({"light":"a","illuminance_lx":NaN})",
+      R"({"light":"a","illuminance_lx":"1"})",
+      R"({"light":"a","illuminance_lx":1,"lux":1})",
+      R"({"light":"a","illuminance_lx":1,"tilt_deg":90})",
+      R"({"light":"a","illuminance_lx":1,"sigma_relative":5})",
+      R"({"light":"a","illuminance_lx":1,"lamp":"dim"})",
+      R"({"light":"a","illuminance_lx":1,"normal":[0,0,1]})",
+      R"({"light":"a","illuminance_lx":1,"duv":0})",
+      R"({"light":"a","illuminance_lx":1,"illuminance_lx":2})",
+      R"({"light":"a","illuminance_lx":1,"xy":[0.3,0.3,0.4]})",
+  };
+  std::vector<std::string> files;
+  for (const std::string& row : bad_rows) {
+    EXPECT_FALSE(ReadingFromJson(row, "row")) << row;
+    files.push_back(dir.Write("row" + std::to_string(files.size()) + ".jsonl", row + "\n"));
+  }
+  const auto result = Validate("reading", files);
+  EXPECT_EQ(result.exit_code, 1);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    EXPECT_NE(result.out.find(files[i]), std::string::npos) << bad_rows[i];
+  }
+}
+
+}  // namespace
+}  // namespace lightcal
