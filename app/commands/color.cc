@@ -3,7 +3,7 @@
 // chromaticities -> XYZ, xy, uv, CCT, Duv and linear RGB.
 #include <CLI/CLI.hpp>
 #include <array>
-#include <cmath>
+#include <charconv>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -26,9 +26,6 @@ namespace lightcal::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// A header's CCT further than this from its own spectrum's is worth a warning.
-constexpr double kCctAgreement_K = 3.0;
 
 struct Options {
   std::vector<std::string> xy;
@@ -142,8 +139,10 @@ Json ToJson(const ColorAnswer& answer) {
 // ---- Tables ----
 
 std::string Fixed(double value, int decimals) {
-  const double scale = std::pow(10.0, decimals);
-  return ShortestText(std::round(value * scale) / scale);
+  std::array<char, 400> text{};  // the largest double has 309 digits before its point
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
 }
 std::string CctText(const CctResult& cct) {
   return cct.valid() ? Fixed(cct.temperature.value(), 1) : std::string(WhyNoCct(cct.status));
@@ -274,28 +273,24 @@ Result<ColorAnswer> AnswerFor(const ImportedSpectrum& imported, const std::strin
   return answer;
 }
 
-void WarnAbout(const ImportedSpectrum& imported, const ColorAnswer& answer,
-               const std::string& subject, Console& console) {
-  if (!CoversVisibleRange(imported.spectrum)) {
-    const auto& l = imported.spectrum.wavelengths_nm;
-    console.Warn(
-        {"spectrum_truncated", subject,
-         "covers " + ShortestText(l.front()) + " to " + ShortestText(l.back()) +
-             " nm only; CIE asks for 380 to 780 nm, so colour and illuminance lack the rest"});
-  }
-  const std::optional<double>& claimed = imported.reported.cct_K;
-  if (!claimed) return;
-  const double tolerance = std::max(kCctAgreement_K, 0.5 * imported.reported.cct_last_digit_K);
-  if (answer.cct.valid() && std::abs(answer.cct.temperature.value() - *claimed) <= tolerance) {
-    return;
-  }
+void WarnIfTruncated(const Spectrum& spectrum, const std::string& subject, Console& console) {
+  if (CoversVisibleRange(spectrum)) return;
+  const auto& l = spectrum.wavelengths_nm;
   console.Warn(
-      {"cct_disagrees", subject,
-       "its header says " + ShortestText(*claimed) + " K, its spectrum has " +
-           (answer.cct.valid() ? Fixed(answer.cct.temperature.value(), 1) + " K"
-                               : "no CCT (" + std::string(StatusWord(answer.cct.status)) + ")") +
-           "; the closed formulas some meters use do not hold below 1800 K and far from the "
-           "Planckian locus"});
+      {"spectrum_truncated", subject,
+       "covers " + ShortestText(l.front()) + " to " + ShortestText(l.back()) +
+           " nm only; CIE asks for 380 to 780 nm, so colour and illuminance lack the rest"});
+}
+
+// The importer's warnings, without those about columns that were not asked for.
+void WarnAboutFile(const Warnings& warnings, const std::string& chosen_name, Console& console) {
+  constexpr std::string_view kColumn = ", column ";
+  for (const Warning& warning : warnings) {
+    const auto at = warning.subject.rfind(kColumn);
+    const bool of_another = !chosen_name.empty() && at != std::string::npos &&
+                            warning.subject.substr(at + kColumn.size()) != chosen_name;
+    if (!of_another) console.Warn(warning);
+  }
 }
 
 // The spectra asked for: the one of --column, or all.
@@ -313,9 +308,9 @@ Result<std::vector<ImportedSpectrum>> Chosen(ImportedFile& file, const Options& 
 Result<void> RunSpectrum(const Options& options, Console& console) {
   auto file = ImportFile(options.spectrum);
   if (!file) return Propagate(std::move(file));
-  console.Warn(file->warnings);
   const auto chosen = Chosen(*file, options);
   if (!chosen) return tl::unexpected(chosen.error());
+  WarnAboutFile(file->warnings, options.column.empty() ? "" : chosen->front().name, console);
   std::vector<ColorAnswer> answers;
   Json spectra = Json::array();
   for (const ImportedSpectrum& imported : *chosen) {
@@ -329,7 +324,7 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
       spectra.push_back({{"name", imported.name}, {"refused", e.code}});
       continue;
     }
-    WarnAbout(imported, *answer, subject, console);
+    WarnIfTruncated(imported.spectrum, subject, console);
     spectra.push_back(ToJson(*answer));
     answers.push_back(std::move(*answer));
   }
