@@ -38,7 +38,7 @@ void AppendCell(std::string& line, const std::string& cell, std::size_t width, b
 
 int DigitsFor(double value, double u95) {
   if (value == 0.0 || u95 <= 0.0) return 4;
-  const double digits = std::ceil(std::log10(std::abs(value) / u95)) + 2.0;
+  const double digits = std::ceil(std::log10(std::abs(value) / u95)) + 1.0;
   return static_cast<int>(std::clamp(digits, 2.0, 6.0));
 }
 
