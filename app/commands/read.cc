@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal read: live readings, or typed ones, into a session's journal.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "clock.h"
+#include "commands.h"
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/records/journal.h"
+#include "lightcal/records/session_codec.h"
+#include "lightcal_devices/meters/summary.h"
+#include "meter_session.h"
+#include "terminal.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr int kDefaultMeasurements = 5;
+
+struct Options {
+  std::string session, light, distance, tilt, meter;
+  std::string lux;
+  std::string timeout = "1s";
+  MeterRequest request;
+  int measurements = 0;  // 0 = not said
+  bool shadow_card = false;
+  bool lamp_off = false;
+  bool once = false;
+  bool with_spectrum = false;
+};
+
+// What every reading of this run shares: light, place, and the state of the lamp.
+Result<Reading> ReadingTemplate(const Options& options) {
+  Reading reading;
+  reading.light = options.light;
+  reading.meter = options.meter;
+  reading.shadow_card = options.shadow_card;
+  reading.lamp = options.lamp_off ? LampState::kOff : LampState::kOn;
+  if (!options.distance.empty()) {
+    const auto distance = ParseLength(options.distance);
+    if (!distance) return tl::unexpected(distance.error());
+    reading.distance = *distance;
+  }
+  if (!options.tilt.empty()) {
+    const auto tilt = ParseAngle(options.tilt);
+    if (!tilt) return tl::unexpected(tilt.error());
+    reading.tilt = *tilt;
+  }
+  return reading;
+}
+
+Result<void> CheckOptions(const Options& options) {
+  const bool into_journal = !options.session.empty();
+  if (!options.once && !into_journal) {
+    return WrongUsage("-s", "name the session the reading goes into, or pass --once");
+  }
+  if (into_journal && options.light.empty()) {
+    return WrongUsage("--light", "name the lamp the reading is of");
+  }
+  if (into_journal && options.distance.empty()) {
+    return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
+  }
+  return {};
+}
+
+Result<void> CheckNames(const Session& session, const Options& options) {
+  std::vector<std::string_view> lights;
+  for (const LightDescription& light : session.lights) lights.push_back(light.name);
+  if (FindLight(session, options.light) == nullptr) {
+    const std::string nearest = NearestWord(options.light, lights);
+    std::string known;
+    for (const auto name : lights) known += (known.empty() ? "" : ", ") + std::string(name);
+    return Refused("unknown_light", options.light,
+                   "the session has no such light" +
+                       (nearest.empty() ? "; it has " + known : "; did you mean " + nearest + "?"));
+  }
+  const auto named = [&](const MeterDescription& m) { return m.name == options.meter; };
+  if (!options.meter.empty() && options.meter != kDataSheetMeter &&
+      std::ranges::none_of(session.meters, named)) {
+    return Refused("unknown_meter", options.meter,
+                   "the session has no such meter; describe it in a [[meter]] of session.toml");
+  }
+  return {};
+}
+
+// Everything but the lamp was measured once: shadow card in the beam, or the lamp off.
+bool HasBackground(const Session& session, const std::string& light) {
+  return std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == light &&
+           (row.reading.shadow_card || row.reading.lamp == LampState::kOff);
+  });
+}
+
+Result<Summary> TypedSummary(const std::string& text) {
+  const auto illuminance = ParseIlluminance(text);
+  if (!illuminance) return tl::unexpected(illuminance.error());
+  Summary summary;
+  summary.count = 1;
+  summary.kept.reading.illuminance = *illuminance;
+  summary.kept.reading.time = NowIso8601();
+  return summary;
+}
+
+Result<Summary> AskedSummary() {
+  const auto typed = Ask("What does the meter show? (for example 192 or 17.8fc) ");
+  if (!typed || typed->empty()) {
+    return Failed("no_device", "meter", "no meter is plugged in and no number was typed");
+  }
+  return TypedSummary(*typed);
+}
+
+Result<Summary> MeasuredSummary(const Options& options, MeterSession& meter, Console& console) {
+  const bool until_tape_ends = meter.is_replay() && options.measurements == 0 && !options.once;
+  int wanted = options.once ? 1 : options.measurements;
+  if (wanted == 0) wanted = kDefaultMeasurements;
+  std::vector<MeterReading> measured;
+  const auto more = [&] {
+    if (until_tape_ends) return measured.empty() || meter.has_more();
+    return static_cast<int>(measured.size()) < wanted;
+  };
+  while (more()) {
+    auto one = meter.Measure();
+    if (!one) return Propagate(std::move(one));
+    measured.push_back(*std::move(one));
+    if (options.once) continue;
+    console.Note("  " + std::to_string(measured.size()) + ": " +
+                 RoundedText(measured.back().reading.illuminance->value(), 5) + " lx");
+  }
+  auto summary = Summarise(measured);
+  if (!summary) return Failed("internal", "read", "a measurement came without illuminance");
+  return *std::move(summary);
+}
+
+// The measured values in the frame of this run's light and place.
+Reading Placed(const Reading& measured, const Reading& frame) {
+  Reading reading = measured;
+  reading.light = frame.light;
+  reading.meter = frame.meter;
+  reading.distance = frame.distance;
+  reading.tilt = frame.tilt;
+  reading.lamp = frame.lamp;
+  reading.shadow_card = frame.shadow_card;
+  return reading;
+}
+
+// A reading the journal would not take back is refused before anything is written.
+Result<void> CheckReading(const Reading& reading) {
+  const auto read_back = ReadingFromJson(ReadingToJson(reading), "this reading");
+  if (!read_back) return tl::unexpected(read_back.error());
+  return {};
+}
+
+nlohmann::ordered_json ToJson(const Reading& reading, const Summary& summary, bool with_spectrum) {
+  auto json = nlohmann::ordered_json::parse(ReadingToJson(reading));
+  json["measurements"] = summary.count;
+  if (summary.count > 1) json["spread_relative"] = summary.spread_relative;
+  if (summary.kept.cri_Ra) json["cri_Ra"] = *summary.kept.cri_Ra;
+  if (with_spectrum && summary.kept.spectrum) {
+    json["spectrum_nm"] = summary.kept.spectrum->wavelengths_nm;
+    json["spectrum_W_m2_nm"] = summary.kept.spectrum->values;
+  }
+  return json;
+}
+
+std::string Sentence(const Reading& reading, const Summary& summary) {
+  std::string text = RoundedText(reading.illuminance->value(), 5) + " lx";
+  if (reading.sigma_relative) {
+    text += " ± " + RoundedText(kZ95 * 100.0 * *reading.sigma_relative, 2) + " %";
+  }
+  if (reading.cct) text += ", " + RoundedText(reading.cct->value(), 4) + " K";
+  if (reading.duv) text += ", Duv " + RoundedText(*reading.duv, 2);
+  if (!reading.light.empty()) text += "  " + reading.light;
+  if (reading.distance) text += " at " + ShortestText(reading.distance->value()) + " m";
+  if (reading.shadow_card) text += ", shadow card";
+  if (reading.lamp == LampState::kOff) text += ", lamp off";
+  if (summary.count > 1) {
+    text += "  (median of " + std::to_string(summary.count) + ", spread " +
+            RoundedText(100.0 * summary.spread_relative, 2) + " %)";
+  }
+  return text + "\n";
+}
+
+// One run of the command.
+class ReadRun {
+ public:
+  ReadRun(const Options& options, Console& console) : options_(options), console_(console) {}
+
+  Result<void> Execute() {
+    if (auto checked = CheckOptions(options_); !checked) return checked;
+    auto frame = ReadingTemplate(options_);
+    if (!frame) return Propagate(std::move(frame));
+    if (auto loaded = LoadTheSession(); !loaded) return loaded;
+    if (auto opened = OpenTheMeter(); !opened) return opened;
+    auto done = TakeReadings(*frame);
+    if (meter_) {
+      const auto finished = meter_->Finish(console_);
+      if (done && !finished) return finished;
+    }
+    if (!done) return done;
+    return Publish();
+  }
+
+ private:
+  struct Taken {
+    Reading reading;
+    Summary summary;
+  };
+
+  Result<void> LoadTheSession() {
+    if (options_.session.empty()) return {};
+    auto loaded = LoadSession(options_.session);
+    if (!loaded) return Propagate(std::move(loaded));
+    console_.Warn(loaded->warnings);
+    session_ = std::move(loaded->session);
+    return CheckNames(*session_, options_);
+  }
+
+  Result<void> OpenTheMeter() {
+    if (!options_.lux.empty()) return {};
+    auto opened = MeterSession::Open(options_.request, console_);
+    if (opened) {
+      meter_ = *std::move(opened);
+      return {};
+    }
+    const bool may_type = opened.error().code == fault::kNoDevice &&
+                          options_.request.device.empty() && AsksQuestions();
+    if (!may_type) return Propagate(std::move(opened));
+    console_.Note("No meter is plugged in: type what yours shows.");
+    return {};
+  }
+
+  [[nodiscard]] bool AsksQuestions() const { return CanAsk() && !console_.json(); }
+
+  Result<void> TakeReadings(const Reading& frame) {
+    const bool is_background = frame.shadow_card || frame.lamp == LampState::kOff;
+    if (session_ && !is_background && !HasBackground(*session_, options_.light)) {
+      if (auto first = BackgroundFirst(frame); !first) return first;
+    }
+    return TakeOne(frame);
+  }
+
+  // Ambient light and bounce are known only from a reading without the direct beam.
+  Result<void> BackgroundFirst(const Reading& frame) {
+    if (!AsksQuestions() || !options_.lux.empty()) {
+      console_.Note(
+          "note: " + options_.light +
+          " has no shadow-card reading yet, so ambient light and bounce stay assumed. "
+          "Block only\nthe direct beam with a card and add --shadow-card to this command.");
+      return {};
+    }
+    const auto answer =
+        Ask("First hold a card so that only the direct beam is blocked, then press Enter "
+            "(s + Enter to skip). ");
+    if (!answer || *answer == "s") return {};
+    Reading shadow = frame;
+    shadow.shadow_card = true;
+    if (auto taken = TakeOne(shadow); !taken) return taken;
+    if (!Ask("Now take the card away and press Enter. ")) {
+      return Failed("interrupted", options_.light, "stopped by you; nothing was written");
+    }
+    return {};
+  }
+
+  Result<void> TakeOne(const Reading& frame) {
+    auto summary = !options_.lux.empty() ? TypedSummary(options_.lux)
+                   : meter_              ? MeasuredSummary(options_, *meter_, console_)
+                                         : AskedSummary();
+    if (!summary) return Propagate(std::move(summary));
+    console_.Warn(summary->kept.warnings);
+    Taken taken{Placed(summary->kept.reading, frame), *std::move(summary)};
+    if (auto checked = CheckReading(taken.reading); !checked) return checked;
+    taken_.push_back(std::move(taken));
+    return {};
+  }
+
+  Result<void> Publish() {
+    if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
+    for (const Taken& taken : taken_) {
+      if (session_) {
+        const std::string journal = JournalPath(options_.session);
+        if (auto kept = AppendToJournal(journal, taken.reading); !kept) return kept;
+      }
+      console_.Print(Sentence(taken.reading, taken.summary));
+    }
+    const Taken& last = taken_.back();
+    console_.PrintJson(ToJson(last.reading, last.summary, options_.with_spectrum));
+    return {};
+  }
+
+  const Options& options_;
+  Console& console_;
+  std::optional<Session> session_;
+  std::unique_ptr<MeterSession> meter_;
+  std::vector<Taken> taken_;
+};
+
+Result<void> RunRead(const Options& given, Console& console) {
+  Options options = given;
+  const auto timeout = ParseDuration(options.timeout);
+  if (!timeout) return tl::unexpected(timeout.error());
+  if (timeout->value() < 1e-3 || timeout->value() > 3600.0) {
+    return WrongUsage("--timeout " + options.timeout, "give between 1ms and 3600s");
+  }
+  options.request.reply_timeout =
+      std::chrono::milliseconds(static_cast<int>(timeout->value() * 1e3));
+  return ReadRun(options, console).Execute();
+}
+
+}  // namespace
+
+Run BuildRead(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("-s,--session", options->session, "Session the readings are appended to");
+  parser.add_option("--light", options->light, "Name of the lamp, as in session.toml");
+  parser.add_option("--distance", options->distance, "From the lamp to the meter: 0.5m, 50cm, 2ft");
+  parser.add_option("--tilt", options->tilt, "Between the meter's normal and the lamp, degrees");
+  parser.add_option("--meter", options->meter, "The session's [[meter]] that took the reading");
+  auto* count =
+      parser.add_option("-n", options->measurements, "Measurements to take the median of");
+  count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));
+  auto* shadow =
+      parser.add_flag("--shadow-card", options->shadow_card, "A card blocks the direct beam only");
+  parser.add_flag("--lamp-off", options->lamp_off, "The lamp is switched off")->excludes(shadow);
+  auto* lux = parser.add_option("--lux", options->lux, "A typed reading: 192, 192lx, 17.8fc");
+  auto* device =
+      parser.add_option("--device", options->request.device, "A meter's id or driver's name");
+  auto* record = parser.add_option("--record", options->request.record_file,
+                                   "Write the dialogue with the meter as a tape");
+  auto* replay =
+      parser.add_option("--replay", options->request.replay_file, "Play a tape instead of a meter");
+  lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
+  replay->excludes(device);
+  parser.add_flag("--once", options->once, "One measurement; -s, --light and --distance optional")
+      ->excludes(count);
+  parser.add_flag("--with-spectrum", options->with_spectrum, "With --json: the spectrum too");
+  parser.add_option("--timeout", options->timeout, "Longest wait for one answer of the meter")
+      ->capture_default_str();
+  return [options](Console& console) { return RunRead(*options, console); };
+}
+
+}  // namespace lightcal::app

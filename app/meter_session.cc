@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "meter_session.h"
+
+#include <array>
+#include <csignal>
+#include <utility>
+
+#include "clock.h"
+#include "lightcal_devices/transport/recording.h"
+#include "output_files.h"
+
+namespace lightcal::app {
+namespace {
+
+Cancellation& InterruptRequest() {
+  static Cancellation request;
+  return request;
+}
+
+extern "C" void OnInterrupt(int /*signal*/) { InterruptRequest().Request(); }
+
+// Turns the first Ctrl-C (or SIGTERM) into a wish to stop, for the length of a measurement.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    InterruptRequest();  // built here, not inside the handler
+    struct sigaction action = {};
+    action.sa_handler = OnInterrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      ::sigaction(kSignals[i], &action, &former_[i]);
+    }
+  }
+  ~InterruptGuard() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      ::sigaction(kSignals[i], &former_[i], nullptr);
+    }
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+ private:
+  static constexpr std::array kSignals = {SIGINT, SIGTERM};
+  std::array<struct sigaction, kSignals.size()> former_{};
+};
+
+}  // namespace
+
+MeterTiming MeterSession::Timing() const {
+  MeterTiming timing;
+  timing.reply = request_.reply_timeout;
+  if (is_replay()) timing.poll = std::chrono::milliseconds(0);
+  return timing;
+}
+
+Result<void> MeterSession::OpenDevice() {
+  const auto found = FindMeters();
+  if (!found) return tl::unexpected(found.error());
+  const auto chosen = ChooseMeter(*found, request_.device);
+  if (!chosen) return tl::unexpected(chosen.error());
+  auto line = OpenMeter(*chosen);
+  if (!line) return tl::unexpected(line.error());
+  row_ = chosen->row;
+  serial_ = chosen->usb.serial;
+  line_ = *std::move(line);
+  return {};
+}
+
+Result<void> MeterSession::OpenTape() {
+  const auto text = ReadWholeFile(request_.replay_file);
+  if (!text) return tl::unexpected(text.error());
+  auto tape = TapeFromText(*text, request_.replay_file);
+  if (!tape) return tl::unexpected(tape.error());
+  row_ = FindDriver(tape->driver);
+  if (row_ == nullptr) {
+    return Refused("bad_tape", request_.replay_file,
+                   "was recorded by the driver " + tape->driver +
+                       ", which this lightcal does not have; see lightcal devices");
+  }
+  const auto colon = tape->device.find(':');
+  if (colon != std::string::npos) serial_ = tape->device.substr(colon + 1);
+  time_ = tape->recorded;
+  auto replay = std::make_unique<ReplayTransport>(*std::move(tape));
+  replay_ = replay.get();
+  line_ = std::move(replay);
+  return {};
+}
+
+void MeterSession::Record() {
+  if (request_.record_file.empty()) return;
+  recorded_.driver = row_->driver;
+  recorded_.recorded = time_;
+  recorder_ = std::make_unique<RecordingTransport>(*line_, recorded_);
+}
+
+Result<void> MeterSession::Identify(Console& console) {
+  auto identity = meter_->Identify();
+  if (!identity) return Propagate(std::move(identity));
+  console.Warn(identity->warnings);
+  recorded_.device =
+      std::string(row_->driver) + ":" + (serial_.empty() ? identity->model : serial_);
+  return {};
+}
+
+Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& request,
+                                                         Console& console) {
+  std::unique_ptr<MeterSession> session(new MeterSession(request, NowIso8601()));
+  const auto opened = request.replay_file.empty() ? session->OpenDevice() : session->OpenTape();
+  if (!opened) return tl::unexpected(opened.error());
+  session->Record();
+  Transport& line = session->recorder_ ? *session->recorder_ : *session->line_;
+  session->meter_ = session->row_->make(line, session->serial_, session->Timing());
+  if (const auto known = session->Identify(console); !known) {
+    const auto written = session->Finish(console);
+    return tl::unexpected(written ? known.error() : written.error());
+  }
+  return session;
+}
+
+Result<MeterReading> MeterSession::Measure() {
+  const InterruptGuard guard;
+  auto measured = meter_->Measure(InterruptRequest());
+  if (!measured) return measured;
+  Reading& reading = measured->reading;
+  if (reading.over_range) {
+    return Refused("over_range", reading.device,
+                   "the light is above the meter's range; move back, or put a neutral-density "
+                   "filter of known density before it and divide");
+  }
+  reading.time = is_replay() ? time_ : NowIso8601();
+  return measured;
+}
+
+Result<void> MeterSession::Finish(Console& console) {
+  if (is_replay() && replay_->unconsumed() > 0) {
+    console.Warn({"tape_not_finished", request_.replay_file,
+                  std::to_string(replay_->unconsumed()) +
+                      " lines of the tape were not played; it holds more than was asked for"});
+  }
+  if (request_.record_file.empty() || recorded_.lines.empty()) return {};
+  return WriteOutputs({{request_.record_file, TapeToText(recorded_)}}, false);
+}
+
+}  // namespace lightcal::app

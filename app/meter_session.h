@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A meter in use by a command: plugged in or played from a tape, recorded if wished, interruptible.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "console.h"
+#include "lightcal_devices/meters/find_meters.h"
+#include "lightcal_devices/meters/meter.h"
+#include "lightcal_devices/transport/replay.h"
+#include "lightcal_devices/transport/tape.h"
+
+namespace lightcal::app {
+
+struct MeterRequest {
+  std::string device;       // an id, a driver's name, or "" = the one that is plugged in
+  std::string replay_file;  // a tape instead of a device, "" = none
+  std::string record_file;  // where to write a tape, "" = nowhere
+  std::chrono::milliseconds reply_timeout{1000};
+};
+
+class MeterSession {
+ public:
+  // Finds or loads, opens and identifies. Fails: no_device, no_permission, busy, not_found,
+  // bad_tape, and whatever the meter answers.
+  [[nodiscard]] static Result<std::unique_ptr<MeterSession>> Open(const MeterRequest& request,
+                                                                  Console& console);
+  // One measurement with its time. Ctrl-C gives the meter back and fails as interrupted; a second
+  // Ctrl-C ends the program at once. Refused: over_range.
+  [[nodiscard]] Result<MeterReading> Measure();
+
+  [[nodiscard]] bool is_replay() const { return replay_ != nullptr; }
+  // Whether the tape holds more; always so of a device.
+  [[nodiscard]] bool has_more() const { return !is_replay() || replay_->unconsumed() > 0; }
+
+  // Writes the tape, also after a failure: it is what a bug report begins with. A replay that left
+  // lines unplayed warns as tape_not_finished.
+  [[nodiscard]] Result<void> Finish(Console& console);
+
+ private:
+  MeterSession(const MeterRequest& request, std::string started)
+      : request_(request), time_(std::move(started)) {}
+  [[nodiscard]] Result<void> OpenDevice();
+  [[nodiscard]] Result<void> OpenTape();
+  [[nodiscard]] Result<void> Identify(Console& console);
+  void Record();
+  [[nodiscard]] MeterTiming Timing() const;
+
+  MeterRequest request_;
+  std::string time_;  // as the tape being played says ("" = it does not); else when this began
+  const MeterRow* row_ = nullptr;
+  std::string serial_;
+  std::unique_ptr<Transport> line_;
+  ReplayTransport* replay_ = nullptr;  // line_, when it is a tape
+  Tape recorded_;
+  std::unique_ptr<Transport> recorder_;
+  std::unique_ptr<Meter> meter_;
+};
+
+}  // namespace lightcal::app
