@@ -187,6 +187,7 @@ std::string TableOfOne(const ColorAnswer& answer) {
 
 std::string TableOfMany(const std::vector<ColorAnswer>& answers) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(answers.size());
   for (const ColorAnswer& a : answers) {
     rows.push_back({a.name, a.illuminance ? RoundedText(a.illuminance->value(), 5) : "",
                     CctText(a.cct), Fixed(a.cct.duv, 5), Fixed(a.xy.x, 5), Fixed(a.xy.y, 5)});

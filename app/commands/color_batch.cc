@@ -141,7 +141,7 @@ class Writer {
 
 Result<void> WriteRows(std::istream& stream, const std::string& name, Console& console) {
   Writer writer(console);
-  const auto done =
+  auto done =
       ForEachRow(stream, name, {[&] { writer.Names(); }, [&](const Row& row) { writer.Add(row); }});
   if (!done) {
     writer.Flush();

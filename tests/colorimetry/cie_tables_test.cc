@@ -10,7 +10,7 @@ namespace {
 // The checksums that two independent copies of the CIE table agree on to 5e-13.
 TEST(CieTables, ColumnSumsOfTheColourMatchingFunctionsAreCies) {
   CmfRow sum{};
-  for (const CmfRow& row : kCie1931Cmf) {
+  for (const CmfRow& row : Cie1931Cmf()) {
     sum = {sum.x_bar + row.x_bar, sum.y_bar + row.y_bar, sum.z_bar + row.z_bar};
   }
   EXPECT_NEAR(sum.x_bar, 106.86546949, 5e-9);
@@ -19,7 +19,7 @@ TEST(CieTables, ColumnSumsOfTheColourMatchingFunctionsAreCies) {
 }
 
 TEST(CieTables, DaylightComponentsAreCentredAt560Nanometres) {
-  const DaylightComponentRow& centre = kDaylightComponents[(560 - 300) / 5];
+  const DaylightComponentRow& centre = CieDaylightComponents()[(560 - 300) / 5];
   EXPECT_EQ(centre.s0, 100.0);
   EXPECT_EQ(centre.s1, 0.0);
   EXPECT_EQ(centre.s2, 0.0);
@@ -27,10 +27,10 @@ TEST(CieTables, DaylightComponentsAreCentredAt560Nanometres) {
 
 // The CIE tabulates every 10 nm; the rows between are the means of their neighbours.
 TEST(CieTables, OddDaylightRowsAreLinearBetweenTheirNeighbours) {
-  for (std::size_t i = 1; i + 1 < kDaylightComponents.size(); i += 2) {
-    const auto& a = kDaylightComponents[i - 1];
-    const auto& b = kDaylightComponents[i];
-    const auto& c = kDaylightComponents[i + 1];
+  for (std::size_t i = 1; i + 1 < CieDaylightComponents().size(); i += 2) {
+    const auto& a = CieDaylightComponents()[i - 1];
+    const auto& b = CieDaylightComponents()[i];
+    const auto& c = CieDaylightComponents()[i + 1];
     EXPECT_NEAR(b.s0, (a.s0 + c.s0) / 2, 1e-12) << i;
     EXPECT_NEAR(b.s1, (a.s1 + c.s1) / 2, 1e-12) << i;
     EXPECT_NEAR(b.s2, (a.s2 + c.s2) / 2, 1e-12) << i;

@@ -40,7 +40,7 @@ TEST(Planckian, ReferenceColoursAreMetToTheirLastDigit) {
 
 TEST(Planckian, LocusAgreesWithTheSumOfPlancksLaw) {
   for (const double t : {800.0, 2856.0, 6504.0, 40000.0}) {
-    const Xy sum = XyFromXyz(*XyzFromSpectrum(BlackBody(t, kC2_mK)));
+    const Xy sum = XyFromXyz(*XyzFromSpectrum(BlackBody(t, kC2MetreKelvin)));
     const Xy locus = XyFromCct(Kelvin(t));
     EXPECT_NEAR(sum.x, locus.x, 1e-13);
     EXPECT_NEAR(sum.y, locus.y, 1e-13);
@@ -49,8 +49,8 @@ TEST(Planckian, LocusAgreesWithTheSumOfPlancksLaw) {
 
 TEST(Planckian, AnotherC2IsAPureRescaleOfTemperature) {
   for (const double t : {2000.0, 2848.0, 6500.0}) {
-    EXPECT_NEAR(CctOf(BlackBody(t, kC2OfIlluminantA_mK)).temperature.value(),
-                t * kC2_mK / kC2OfIlluminantA_mK, 1e-6 * t * 1e-2);
+    EXPECT_NEAR(CctOf(BlackBody(t, kC2OfIlluminantAMetreKelvin)).temperature.value(),
+                t * kC2MetreKelvin / kC2OfIlluminantAMetreKelvin, 1e-6 * t * 1e-2);
   }
 }
 
@@ -97,17 +97,21 @@ TEST(Planckian, RatioJoinsItsSeriesWithoutAStep) {
 
 // colorimetry.md 4: what a spectrometer's range does to a black body read on the exact locus.
 TEST(Planckian, ATruncatedSpectrumReadsAShiftedTemperature) {
-  EXPECT_NEAR(CctOf(BlackBody(2856, kC2_mK, 400, 700)).temperature.value() - 2856, 9.2, 0.1);
-  const CctResult narrow = CctOf(BlackBody(6504, kC2_mK, 400, 700));
+  EXPECT_NEAR(CctOf(BlackBody(2856, kC2MetreKelvin, 400, 700)).temperature.value() - 2856, 9.2,
+              0.1);
+  const CctResult narrow = CctOf(BlackBody(6504, kC2MetreKelvin, 400, 700));
   EXPECT_NEAR(narrow.temperature.value() - 6504, -10.6, 0.1);
   EXPECT_NEAR(narrow.duv, 3e-4, 5e-5);
-  EXPECT_NEAR(CctOf(BlackBody(6504, kC2_mK, 380, 780)).temperature.value() - 6504, -1.8, 0.1);
+  EXPECT_NEAR(CctOf(BlackBody(6504, kC2MetreKelvin, 380, 780)).temperature.value() - 6504, -1.8,
+              0.1);
 }
 
 // The same section: 5 nm costs +0.045 K at 6504 K, 10 nm -4.1 K.
 TEST(Planckian, ACoarseStepReadsAShiftedTemperature) {
-  EXPECT_NEAR(CctOf(BlackBody(6504, kC2_mK, 360, 830, 5)).temperature.value() - 6504, 0.045, 0.005);
-  EXPECT_NEAR(CctOf(BlackBody(6504, kC2_mK, 360, 830, 10)).temperature.value() - 6504, -4.1, 0.1);
+  EXPECT_NEAR(CctOf(BlackBody(6504, kC2MetreKelvin, 360, 830, 5)).temperature.value() - 6504, 0.045,
+              0.005);
+  EXPECT_NEAR(CctOf(BlackBody(6504, kC2MetreKelvin, 360, 830, 10)).temperature.value() - 6504, -4.1,
+              0.1);
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(SeedErrors, Row19HotDaylightTakes19018ThousandOverTSquared) {
 // "Colour temperature to RGB" in the seed is daylight only: nothing for a lamp.
 TEST(SeedErrors, Row20LampsBelow4000KelvinHaveAColour) {
   EXPECT_FALSE(DaylightXy(Kelvin(2856)).has_value());
-  const Xy lamp = XyFromCct(Kelvin(2848.0 * kC2_mK / kC2OfIlluminantA_mK));
+  const Xy lamp = XyFromCct(Kelvin(2848.0 * kC2MetreKelvin / kC2OfIlluminantAMetreKelvin));
   EXPECT_NEAR(lamp.x, 0.4475735, 1e-7);  // illuminant A, by its own formula
   EXPECT_NEAR(lamp.y, 0.4074394, 1e-7);
   const Rgb rgb = LinearSrgbFromXyz(XyzFromXyAtUnitY(lamp));

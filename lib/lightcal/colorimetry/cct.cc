@@ -15,10 +15,10 @@ namespace lightcal {
 namespace {
 
 constexpr double kDuvLimit = 0.05 + 1e-9;
-constexpr double kColdest_K = 1000.0 - 1e-6;
-constexpr double kInfinity_mired =
+constexpr double kColdestKelvin = 1000.0 - 1e-6;
+constexpr double kInfinityMireds =
     1e-6;  // hotter than 1e12 K: no computed xy can tell from infinity
-constexpr double kStep_mired = 5.0;
+constexpr double kStepMireds = 5.0;
 constexpr int kSegments = 500;  // 0 to 2500 mired, infinity to 400 K
 
 // Beyond this distance another branch of the locus may be nearer; its least radius of curvature is
@@ -71,7 +71,7 @@ struct LocusTable {
   std::array<Segment, kSegments> segments;
 
   LocusTable() {
-    constexpr double h = kStep_mired;
+    const double h = kStepMireds;
     LocusPoint from = PlanckianLocusAt(Mireds(0.0));
     for (int i = 0; i <= kSegments; ++i) {
       nodes[i] = {from.uv.u, from.uv.v, from.du, from.dv};
@@ -103,7 +103,7 @@ Nearest Describe(int segment, double t, Uv1960 p) {
   const double eu = p.u - c.u;
   const double ev = p.v - c.v;
   const double speed = std::sqrt(c.du * c.du + c.dv * c.dv);
-  return {(segment + t) * kStep_mired, (ev * c.du - eu * c.dv) / speed,
+  return {(segment + t) * kStepMireds, (ev * c.du - eu * c.dv) / speed,
           std::sqrt(eu * eu + ev * ev), c};
 }
 
@@ -191,7 +191,7 @@ CctResult CctFromUv(Uv1960 uv) {
   if (!IsChromaticity(uv)) return result;
   const Nearest nearest = NearestOnLocus(uv);
   result.duv = nearest.duv;
-  if (nearest.mireds < kInfinity_mired) {
+  if (nearest.mireds < kInfinityMireds) {
     result.temperature = Kelvin(std::numeric_limits<double>::infinity());
     result.status = CctStatus::kBeyondInfinity;
     return result;
@@ -199,7 +199,7 @@ CctResult CctFromUv(Uv1960 uv) {
   result.temperature = KelvinFromMireds(Mireds(nearest.mireds));
   if (nearest.distance > kDuvLimit) {
     result.status = CctStatus::kFarFromLocus;
-  } else if (result.temperature.value() < kColdest_K) {
+  } else if (result.temperature.value() < kColdestKelvin) {
     result.status = CctStatus::kBelowRange;
   } else {
     result.status = CctStatus::kOk;
@@ -215,14 +215,14 @@ std::optional<CctJacobian> CctJacobianAt(Xy xy) {
   if (!IsChromaticity(xy)) return std::nullopt;
   const Uv1960 uv = Uv1960FromXy(xy);
   const Nearest nearest = NearestOnLocus(uv);
-  if (nearest.mireds < kInfinity_mired) return std::nullopt;
+  if (nearest.mireds < kInfinityMireds) return std::nullopt;
   const Curve& c = nearest.curve;
   const double speed2 = c.du * c.du + c.dv * c.dv;
   const double stiffness = speed2 + (c.u - uv.u) * c.d2u + (c.v - uv.v) * c.d2v;
   if (!(stiffness > 1e-9 * speed2)) return std::nullopt;
   const double speed = std::sqrt(speed2);
-  const double dmired_du = kStep_mired * c.du / stiffness;
-  const double dmired_dv = kStep_mired * c.dv / stiffness;
+  const double dmired_du = kStepMireds * c.du / stiffness;
+  const double dmired_dv = kStepMireds * c.dv / stiffness;
   const double dduv_du = -c.dv / speed;
   const double dduv_dv = c.du / speed;
   // Derivatives of u = 4x/D, v = 6y/D, D = -2x + 12y + 3.

@@ -12,9 +12,9 @@
 namespace lightcal {
 namespace {
 
-constexpr double kColdest_K = 4000.0;
-constexpr double kJoin_K = 7000.0;
-constexpr double kHottest_K = 25000.0;
+constexpr double kColdestKelvin = 4000.0;
+constexpr double kJoinKelvin = 7000.0;
+constexpr double kHottestKelvin = 25000.0;
 
 // ((c3/T + c2)/T + c1)/T + c0
 struct ReciprocalCubic {
@@ -30,16 +30,18 @@ double RoundedToThousandths(double value) { return std::round(value * 1000.0) / 
 
 Result<Xy> DaylightXy(Kelvin temperature) {
   const double t = temperature.value();
-  if (!(t >= kColdest_K && t <= kHottest_K)) {
+  if (!(t >= kColdestKelvin && t <= kHottestKelvin)) {
     return Refused("out_of_range", "daylight",
                    (std::isfinite(t) ? ShortestText(t) + " K" : std::string("this temperature")) +
                        " lies outside CIE daylight, 4000 to 25000 K; use the Planckian locus");
   }
-  const double x = (t <= kJoin_K ? kBelowJoin : kAboveJoin).At(t);
+  const double x = (t <= kJoinKelvin ? kBelowJoin : kAboveJoin).At(t);
   return Xy{x, (-3.0 * x + 2.870) * x - 0.275};
 }
 
-Kelvin DaylightTemperatureOfName(Kelvin named) { return named * (kC2_mK / kC2OfDaylightNames_mK); }
+Kelvin DaylightTemperatureOfName(Kelvin named) {
+  return named * (kC2MetreKelvin / kC2OfDaylightNamesMetreKelvin);
+}
 
 Result<Spectrum> DaylightSpectrum(Kelvin temperature) {
   auto xy = DaylightXy(temperature);
@@ -49,14 +51,14 @@ Result<Spectrum> DaylightSpectrum(Kelvin temperature) {
   const double m1 = RoundedToThousandths((-1.3515 - 1.7703 * x + 5.9114 * y) / m);
   const double m2 = RoundedToThousandths((0.0300 - 31.4424 * x + 30.0717 * y) / m);
   const auto power = [&](std::size_t row) {
-    const DaylightComponentRow& c = kDaylightComponents[row];
+    const DaylightComponentRow& c = CieDaylightComponents()[row];
     return c.s0 + m1 * c.s1 + m2 * c.s2;
   };
   Spectrum spectrum;
-  for (int nm = kDaylightFirst_nm; nm <= kCmfLast_nm; ++nm) {
-    const int offset = nm - kDaylightFirst_nm;
-    const auto row = static_cast<std::size_t>(offset / kDaylightStep_nm);
-    const double t = static_cast<double>(offset % kDaylightStep_nm) / kDaylightStep_nm;
+  for (int nm = kDaylightFirstNm; nm <= kCmfLastNm; ++nm) {
+    const int offset = nm - kDaylightFirstNm;
+    const auto row = static_cast<std::size_t>(offset / kDaylightStepNm);
+    const double t = static_cast<double>(offset % kDaylightStepNm) / kDaylightStepNm;
     const double here = power(row);
     spectrum.wavelengths_nm.push_back(nm);
     spectrum.values.push_back(t == 0.0 ? here : here + t * (power(row + 1) - here));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "lightcal/colorimetry/cie_tables/tables.h"
 
@@ -43,8 +44,8 @@ const std::array<PlanckTerm, kCmfCount>& PlanckTerms() {
   static const auto terms = [] {
     std::array<PlanckTerm, kCmfCount> all{};
     for (int i = 0; i < kCmfCount; ++i) {
-      const double nm = kCmfFirst_nm + i;
-      all[i] = {kC2_mK / (nm * 1e-9) * 1e-6, std::pow(nm / 560.0, -4)};
+      const double nm = kCmfFirstNm + i;
+      all[i] = {kC2MetreKelvin / (nm * 1e-9) * 1e-6, std::pow(nm / 560.0, -4)};
     }
     return all;
   }();
@@ -53,6 +54,7 @@ const std::array<PlanckTerm, kCmfCount>& PlanckTerms() {
 
 TristimulusSums SumsAt(double mireds) {
   const auto& terms = PlanckTerms();
+  const auto& table = Cie1931Cmf();
   const double least_x = terms.back().x_per_mired * mireds;
   TristimulusSums sums;
   for (int i = 0; i < kCmfCount; ++i) {
@@ -60,8 +62,8 @@ TristimulusSums SumsAt(double mireds) {
     const double x = s * mireds;
     const double scale = terms[i].weight * std::exp(least_x - x);
     const ScaledRatio r = RatioTimesExp(x);
-    const std::array<double, 3> cmf = {kCie1931Cmf[i].x_bar, kCie1931Cmf[i].y_bar,
-                                       kCie1931Cmf[i].z_bar};
+    const CmfRow& row = table[static_cast<std::size_t>(i)];
+    const std::array<double, 3> cmf = {row.x_bar, row.y_bar, row.z_bar};
     for (int k = 0; k < 3; ++k) {
       sums.value[k] += scale * r.g * cmf[k];
       sums.first[k] += scale * r.g1 * s * cmf[k];

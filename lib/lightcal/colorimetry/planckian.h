@@ -11,10 +11,10 @@ namespace lightcal {
 
 // Second radiation constant of the CCT definition. Chromaticity depends on c2/T alone: another c2
 // rescales T and nothing else (1.435e-2, illuminant A's, is 0.2648 % lower).
-inline constexpr double kC2_mK = 1.4388e-2;
+inline constexpr double kC2MetreKelvin = 1.4388e-2;
 // The same of illuminant A (CIE 15:2018 4.1.1) and of the nominal daylight temperatures.
-inline constexpr double kC2OfIlluminantA_mK = 1.435e-2;
-inline constexpr double kC2OfDaylightNames_mK = 1.4380e-2;
+inline constexpr double kC2OfIlluminantAMetreKelvin = 1.435e-2;
+inline constexpr double kC2OfDaylightNamesMetreKelvin = 1.4380e-2;
 
 // g(x) = x/(exp(x) - 1) = x/expm1(x), with g(0) = 1: what is left of Planck's law once its
 // wavelength power is taken out,

@@ -13,8 +13,8 @@ namespace lightcal {
 namespace {
 
 constexpr double kEqualStepTolerance = 1e-3;
-constexpr double kVisibleFirst_nm = 380.0;
-constexpr double kVisibleLast_nm = 780.0;
+constexpr double kVisibleFirstNm = 380.0;
+constexpr double kVisibleLastNm = 780.0;
 
 // Integrals over wavelength, without K: of S times each colour-matching function, and of S.
 struct Integrals {
@@ -61,8 +61,8 @@ void AddGap(Integrals& sums, double left, double left_value, double right, doubl
     return left_value + (right_value - left_value) * (l - left) / (right - left);
   };
   sums.plain += (left_value + right_value) / 2 * (right - left);
-  const double end = std::min<double>(right, kCmfLast_nm);
-  double from = std::max<double>(left, kCmfFirst_nm);
+  const double end = std::min<double>(right, kCmfLastNm);
+  double from = std::max<double>(left, kCmfFirstNm);
   while (from < end) {
     const double to = std::min(std::floor(from) + 1.0, end);
     sums.AddWeighted(from, value_at(from) * (to - from) / 2);
@@ -121,12 +121,12 @@ Result<Integrals> Integrate(const Spectrum& s) {
 }  // namespace
 
 Xyz ColorMatchingAt(Nanometres wavelength) {
-  const double position = wavelength.value() - kCmfFirst_nm;
+  const double position = wavelength.value() - kCmfFirstNm;
   if (!(position >= 0.0 && position <= kCmfCount - 1)) return {};
   const auto row = std::min(static_cast<std::size_t>(position), std::size_t{kCmfCount - 2});
   const double t = position - static_cast<double>(row);
-  const CmfRow& a = kCie1931Cmf[row];
-  const CmfRow& b = kCie1931Cmf[row + 1];
+  const CmfRow& a = Cie1931Cmf()[row];
+  const CmfRow& b = Cie1931Cmf()[row + 1];
   return {a.x_bar + t * (b.x_bar - a.x_bar), a.y_bar + t * (b.y_bar - a.y_bar),
           a.z_bar + t * (b.z_bar - a.z_bar)};
 }
@@ -145,8 +145,8 @@ bool CoversVisibleRange(const Spectrum& spectrum) {
   const auto& l = spectrum.wavelengths_nm;
   const double first_step = l[1] - l[0];
   const double last_step = l[l.size() - 1] - l[l.size() - 2];
-  return l.front() - first_step / 2 <= kVisibleFirst_nm &&
-         l.back() + last_step / 2 >= kVisibleLast_nm;
+  return l.front() - first_step / 2 <= kVisibleFirstNm &&
+         l.back() + last_step / 2 >= kVisibleLastNm;
 }
 
 Result<LumensPerWatt> EfficacyOfRadiation(const Spectrum& spectrum) {

@@ -20,11 +20,19 @@ HEAD = """\
 #include "lightcal/colorimetry/cie_tables/tables.h"
 
 namespace lightcal {
+namespace {
 
 // clang-format off
 """
 TAIL = """\
 // clang-format on
+
+}  // namespace
+
+const std::array<CmfRow, kCmfCount>& Cie1931Cmf() { return kCie1931Cmf; }
+const std::array<DaylightComponentRow, kDaylightCount>& CieDaylightComponents() {
+  return kDaylightComponents;
+}
 
 }  // namespace lightcal
 """
@@ -34,7 +42,7 @@ def array(name, file, row_type, size):
     with open(FOLDER / file, newline="", encoding="utf-8") as lines:
         rows = list(csv.reader(lines))[1:]
     body = "".join("    {" + ", ".join(row[1:]) + "},\n" for row in rows)
-    return f"const std::array<{row_type}, {size}> {name} = {{{{\n{body}}}}};\n"
+    return f"constexpr std::array<{row_type}, {size}> {name} = {{{{\n{body}}}}};\n"
 
 
 def source():

@@ -7,9 +7,10 @@
 #include "lightcal/colorimetry/cie_tables/tables.h"
 
 namespace lightcal {
+namespace {
 
 // clang-format off
-const std::array<CmfRow, kCmfCount> kCie1931Cmf = {{
+constexpr std::array<CmfRow, kCmfCount> kCie1931Cmf = {{
     {0.0001299, 3.917e-06, 0.0006061},
     {0.000145847, 4.393581e-06, 0.0006808792},
     {0.0001638021, 4.929604e-06, 0.0007651456},
@@ -483,7 +484,7 @@ const std::array<CmfRow, kCmfCount> kCie1931Cmf = {{
     {1.251141e-06, 4.5181e-07, 0.0},
 }};
 
-const std::array<DaylightComponentRow, kDaylightCount> kDaylightComponents = {{
+constexpr std::array<DaylightComponentRow, kDaylightCount> kDaylightComponents = {{
     {0.04, 0.02, 0},
     {3.02, 2.26, 1},
     {6, 4.5, 2},
@@ -593,5 +594,12 @@ const std::array<DaylightComponentRow, kDaylightCount> kDaylightComponents = {{
     {61.9, -9.8, 6.5},
 }};
 // clang-format on
+
+}  // namespace
+
+const std::array<CmfRow, kCmfCount>& Cie1931Cmf() { return kCie1931Cmf; }
+const std::array<DaylightComponentRow, kDaylightCount>& CieDaylightComponents() {
+  return kDaylightComponents;
+}
 
 }  // namespace lightcal
