@@ -167,6 +167,17 @@ TEST(GltfRig, CardsFaceTheLampWhereTheMedianReadingWasTaken) {
   EXPECT_NEAR(Length(white - grey), 1.1 * 0.106, 1e-12);
 }
 
+TEST(GltfRig, ASphereMeasuredFromItsSurfaceIsARadiusFartherAway) {
+  FittedLight globe = WarmPoint();
+  globe.kind = LightKind::kSphere;
+  globe.diameter_m = 0.2;
+  globe.effects = {{"sphere_surface", EffectState::kOn, 0.2, 0.2, 1.0, ""}};
+  const json nodes = Exported(FileOf({globe}))["nodes"];
+  const Vec3 middle = (Triple(nodes[1]["translation"]) + Triple(nodes[2]["translation"])) * 0.5;
+  ExpectNear(middle, {1.0, 3.0 - 1.16, -2.0}, 1e-12);
+  ExpectNear(Triple(nodes[0]["translation"]), {1.0, 3.0, -2.0}, 0.0);
+}
+
 TEST(GltfRig, TheCameraLooksAtTheCardsUprightWithWhiteOnTheLeft) {
   const json gltf = Exported(FileOf({WarmPoint()}));
   const json& nodes = gltf["nodes"];

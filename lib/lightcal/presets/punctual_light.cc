@@ -146,11 +146,8 @@ void Place(const FittedLight& lamp, PunctualLight& light) {
   light.position_m = lamp.position_m.value_or(Vec3{});
   light.aim = lamp.kind == LightKind::kDome ? kDown : UnitOr(lamp.aim, kDown);
   if (light.type == PunctualType::kDirectional || !lamp.distance_offset_m) return;
-  const double offset = lamp.distance_offset_m->value;
   if (lamp.aim || IsDirected(lamp.kind)) {
-    light.position_m = light.position_m - light.aim * offset;
-  } else {
-    light.offset_m = offset;
+    light.position_m = light.position_m - light.aim * lamp.distance_offset_m->value;
   }
 }
 
@@ -195,6 +192,15 @@ Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file, War
   }
   WarnOfStackedLights(file, warnings);
   return lights;
+}
+
+double EffectiveOffset_m(const FittedLight& lamp) {
+  if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return 0.0;
+  const bool from_surface = std::ranges::any_of(lamp.effects, [](const EffectReport& effect) {
+    return effect.name == "sphere_surface" && effect.state != EffectState::kOff;
+  });
+  return (lamp.distance_offset_m ? lamp.distance_offset_m->value : 0.0) +
+         (from_surface ? lamp.diameter_m.value_or(0.0) / 2.0 : 0.0);
 }
 
 Lux IlluminanceAt(const PunctualLight& light, const Vec3& point, const Vec3& normal) {

@@ -36,7 +36,6 @@ struct PunctualLight {
   SpotCone cone;                        // spot: 0 <= inner < outer <= pi/2
   Vec3 position_m{};
   Vec3 aim{0.0, 0.0, -1.0};
-  double offset_m = 0.0;  // d0 that a card's distance must add where the position does not hold it
   EmittedColor color;
   std::string substitution;  // what the engine's light does otherwise than the lamp; "" = nothing
 };
@@ -56,6 +55,11 @@ inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
 // (position_unknown, said once a file with several lights).
 [[nodiscard]] Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file,
                                                                     Warnings& warnings);
+
+// From the point distances were measured from to the effective source: d0, and the radius of a
+// sphere whose readings were counted from its surface (the effect sphere_surface). 0 for lights at
+// infinity.
+[[nodiscard]] double EffectiveOffset_m(const FittedLight& lamp);
 
 // Illuminance of one light at a point on a surface of unit normal `normal`, by the glTF law:
 //   E = photometric * attenuation(angle) * max(0, cos incidence) / d^2,  or photometric * cos.

@@ -30,12 +30,6 @@ std::optional<double> MedianUsedDistance(const FittedLight& lamp) {
   return distances[(distances.size() - 1) / 2];
 }
 
-// What stands between the reading's reference point and the light's node.
-double OffsetOf(const FittedLight& lamp, const PunctualLight& light) {
-  if (light.type == PunctualType::kDirectional || !lamp.distance_offset_m) return 0.0;
-  return lamp.distance_offset_m->value;
-}
-
 Vec3 Unit(const Vec3& v) { return v * (1.0 / Length(v)); }
 
 Vec3 HorizontalAcross(const Vec3& aim) {
@@ -100,8 +94,7 @@ Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
   rig.light = light.name;
   rig.from_reading = distance.has_value();
   rig.distance = Metres(distance.value_or(1.0));
-  const double offset = OffsetOf(file.lights[chosen], light);
-  const double separation = rig.distance.value() + offset;
+  const double separation = rig.distance.value() + EffectiveOffset_m(file.lights[chosen]);
   rig.separation = Metres(separation > 0.0 ? separation : rig.distance.value());
   rig.normal = light.aim * -1.0;
   rig.side = SideFor(light, rig.separation.value());

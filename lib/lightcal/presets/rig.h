@@ -42,7 +42,7 @@ struct RigExposure {
 struct Rig {
   std::string light;           // whose reading the cards stand at
   Metres distance{1.0};        // of that reading from the lamp's reference point
-  Metres separation{1.0};      // from the effective source: distance + d0
+  Metres separation{1.0};      // from the effective source: distance + EffectiveOffset_m
   bool from_reading = false;   // false: no reading had a distance; 1 m was taken
   Vec3 normal{0.0, 0.0, 1.0};  // of both cards
   Vec3 row{1.0, 0.0, 0.0};     // from the white card to the grey one
