@@ -19,7 +19,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal read -s my_lamp --light key --distance 0.5m\n"
      "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
      "  lightcal read --device sekonic --once --json\n"
-     "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx.tape --once", BuildRead},
+     "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx_4995K.tape --once", BuildRead},
     {"import", "Meter and spectrometer exports, CSV and logs into a session's journal",
      "  lightcal import lamp.xls -s my_lamp --light key --distance 0.5m --meter cv600\n"
      "  lightcal import tape_measure.csv -s my_lamp --light key\n"

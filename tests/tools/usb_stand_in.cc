@@ -54,6 +54,12 @@ void Check(gboolean done, GError* error) {
 
 }  // namespace
 
+std::string SekonicDescription(const std::string& serial) {
+  std::string description = std::string(kRootHub) + "\n" + kSekonic;
+  if (!serial.empty()) description += "A: serial=" + serial + "\\n\n";
+  return description;
+}
+
 struct UsbStandIn::Impl {
   // A submitted transfer; an IN transfer waits until the meter has something to say.
   struct Urb {
@@ -69,10 +75,12 @@ struct UsbStandIn::Impl {
     g_signal_connect(handler, "handle-ioctl", G_CALLBACK(&Impl::OnIoctl), this);
     GError* error = nullptr;
     Check(umockdev_testbed_attach_ioctl(testbed, kNode, handler, &error), error);
-    std::string description = std::string(kRootHub) + "\n" + kSekonic;
-    if (!usb.serial.empty()) description += "A: serial=" + usb.serial + "\\n\n";
+    const std::string description = SekonicDescription(usb.serial);
     Check(umockdev_testbed_add_from_string(testbed, description.c_str(), &error), error);
-    if (usb.forbidden) ::chmod(kNode, 0);
+    if (usb.forbidden) {
+      const std::string root = umockdev_testbed_get_root_dir(testbed);
+      if (::chmod((root + kNode).c_str(), 0) != 0) throw std::runtime_error("chmod");
+    }
   }
 
   ~Impl() {

@@ -17,6 +17,10 @@ struct UsbSetting {
   bool forbidden = false;        // its node belongs to nobody
 };
 
+// The device as a umockdev file describes it (for umockdev-run -d), and its place in sysfs.
+[[nodiscard]] std::string SekonicDescription(const std::string& serial);
+inline constexpr const char* kSekonicSysfs = "/sys/devices/pci0000:00/usb1/1-1";
+
 class UsbStandIn {
  public:
   UsbStandIn(SekonicSetting meter, UsbSetting usb);

@@ -25,8 +25,7 @@ tl::unexpected<Error> UnknownDriver(std::string_view wanted) {
 
 tl::unexpected<Error> NotThere(std::string_view wanted) {
   return Failed(std::string(fault::kNoDevice), std::string(wanted),
-                "no such meter is plugged in; plug it in and switch it on, or type the reading: "
-                "--lux 192");
+                "none is plugged in; plug it in and switch it on, or type the reading: --lux 192");
 }
 
 }  // namespace

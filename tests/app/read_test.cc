@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal read and devices: the built binary, through the real libusb, on a meter that umockdev
+// simulates with the replies captured from a real one; on tapes; and typed.
+#include <gmock/gmock.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_cli.h"
+#include "usb_stand_in.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::string kTape407lx = SampleData("tapes/sekonic_c800_407lx_4995K.tape");
+
+constexpr const char* kSessionToml =
+    "lightcal = 1\n"
+    "[[light]]\nname = \"key\"\nkind = \"point\"\n"
+    "[[light]]\nname = \"fill\"\nkind = \"point\"\n"
+    "[[meter]]\nname = \"c800\"\nsigma_relative = 0.05\n";
+
+SekonicSetting Sekonic(const char* reply = kReply407lx) {
+  SekonicSetting setting;
+  setting.measurement = RecordedReply(reply);
+  setting.busy_polls_after = 1;
+  return setting;
+}
+
+struct SessionDir {
+  TempDir dir;
+  SessionDir() { dir.Write("session.toml", kSessionToml); }
+  [[nodiscard]] std::vector<std::string> Read(std::vector<std::string> more) const {
+    std::vector<std::string> all = {"read", "-s",         dir.path(), "--light",
+                                    "key",  "--distance", "0.5m"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  [[nodiscard]] std::vector<json> Journal() const {
+    std::vector<json> rows;
+    std::istringstream lines(ReadFile(dir.path() + "/readings.jsonl"));
+    for (std::string line; std::getline(lines, line);) rows.push_back(json::parse(line));
+    return rows;
+  }
+};
+
+std::string ErrorCode(const CliResult& result) {
+  return json::parse(result.out)["error"]["code"].get<std::string>();
+}
+
+TEST(ReadFromMeter, TheFirstCapturedReplyIs407LuxAt4995Kelvin) {
+  const UsbStandIn meter(Sekonic());
+  const CliResult result = RunLightcal({"read", "--device", "sekonic", "--once", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json reading = json::parse(result.out);
+  EXPECT_NEAR(double(reading["illuminance_lx"]), 406.960, 5e-4);
+  EXPECT_NEAR(double(reading["cct_K"]), 4995.02, 5e-3);
+  EXPECT_NEAR(double(reading["duv"]), -0.00110, 5e-6);
+  EXPECT_EQ(reading["color_source"], "spectrometer");
+  EXPECT_EQ(reading["sigma_relative"], 0.05);
+  EXPECT_EQ(reading["device"], "sekonic:C-800");
+  EXPECT_FALSE(reading.contains("light"));
+  EXPECT_FALSE(meter.remote());
+}
+
+TEST(ReadFromMeter, ARecordedUsbTraceReplaysByteForByte) {
+  const TempDir dir;
+  const std::string device = dir.Write("sekonic.umockdev", SekonicDescription(""));
+  const std::string trace = dir.path() + "/sekonic.pcap";
+  const std::string maker = std::string(LIGHTCAL_SOURCE_DIR) + "/tests/tools/make_usbmon_pcap.py";
+  ASSERT_EQ(RunProgram({"/usr/bin/python3", maker, kTape407lx, trace}).exit_code, 0);
+  const CliResult result = RunLightcal(
+      {"read", "--device", "sekonic", "--once", "--json"}, "", {},
+      {"umockdev-run", "-d", device, "-p", std::string(kSekonicSysfs) + "=" + trace, "--"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NEAR(double(json::parse(result.out)["illuminance_lx"]), 406.960, 5e-4);
+}
+
+TEST(ReadFromMeter, TheSpectrumIsGivenWhenAskedFor) {
+  const UsbStandIn meter(Sekonic());
+  const CliResult result = RunLightcal({"read", "--once", "--json", "--with-spectrum"});
+  const json reading = json::parse(result.out);
+  EXPECT_EQ(reading["spectrum_nm"].size(), 401U);
+  EXPECT_EQ(reading["spectrum_W_m2_nm"].size(), 401U);
+}
+
+TEST(ReadFromMeter, TheMedianOfNGoesIntoTheJournalWithLightAndPlace) {
+  const UsbStandIn meter(Sekonic());
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"-n", "3"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("406.96 lx ± 9.8 %, 4995 K"));
+  EXPECT_THAT(result.out, HasSubstr("median of 3"));
+  const auto rows = session.Journal();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["light"], "key");
+  EXPECT_EQ(rows[0]["distance_m"], 0.5);
+  EXPECT_NEAR(double(rows[0]["illuminance_lx"]), 406.960, 5e-4);
+  EXPECT_TRUE(rows[0].contains("time"));
+  const auto commands = meter.commands();
+  EXPECT_EQ(std::ranges::count(commands, "NR"), 3);
+  EXPECT_EQ(std::ranges::count(commands, "RT0"), 3);
+}
+
+TEST(ReadFromMeter, FiveMeasurementsAreTheDefault) {
+  const UsbStandIn meter(Sekonic());
+  const SessionDir session;
+  const json reading = json::parse(RunLightcal(session.Read({"--json"})).out);
+  EXPECT_EQ(reading["measurements"], 5);
+  EXPECT_EQ(reading["spread_relative"], 0.0);
+}
+
+struct FaultCase {
+  const char* name;
+  SekonicSetting (*setting)();
+  const char* code;
+  int exit_code;
+};
+class ReadFault : public testing::TestWithParam<FaultCase> {};
+TEST_P(ReadFault, EndsWithItsCodeAndWritesNothing) {
+  const UsbStandIn meter(GetParam().setting());
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"--json", "--timeout", "100ms"}));
+  EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
+  EXPECT_EQ(ErrorCode(result), GetParam().code);
+  EXPECT_FALSE(fs::exists(session.dir.path() + "/readings.jsonl"));
+}
+SekonicSetting Struck(const char* command, Fault fault) {
+  auto setting = Sekonic();
+  setting.fault_command = command;
+  setting.fault = fault;
+  return setting;
+}
+INSTANTIATE_TEST_SUITE_P(
+    ReadFromMeter, ReadFault,
+    testing::Values(FaultCase{"Nak", [] { return Struck("RM0", Fault::kNak); }, "nak", 1},
+                    FaultCase{"Silent", [] { return Struck("NR", Fault::kSilent); }, "timeout", 1},
+                    FaultCase{"Short", [] { return Struck("NR", Fault::kShort); }, "bad_reply", 1},
+                    FaultCase{"Stall", [] { return Struck("NR", Fault::kStall); }, "stalled", 1},
+                    FaultCase{"Unplugged", [] { return Struck("RM0", Fault::kUnplug); },
+                              "unplugged", 1},
+                    FaultCase{"WrongRing",
+                              [] {
+                                auto setting = Sekonic();
+                                setting.ring = 1;
+                                return setting;
+                              },
+                              "wrong_ring", 1},
+                    FaultCase{"OverRange",
+                              [] {
+                                auto setting = Sekonic();
+                                setting.measurement =
+                                    WithFloat(setting.measurement, 271, 250000.0F);
+                                return setting;
+                              },
+                              "over_range", 3}),
+    [](const auto& fault_case) { return std::string(fault_case.param.name); });
+
+TEST(ReadFromMeter, AMeterHeldByAnotherProgramIsBusy) {
+  const UsbStandIn meter(Sekonic(), {.serial = "", .held_by_another = true});
+  const CliResult result = RunLightcal({"read", "--once", "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(ErrorCode(result), "busy");
+}
+
+TEST(ReadFromMeter, WithoutPermissionTheUdevRuleIsPrinted) {
+  const UsbStandIn meter(Sekonic(), {.serial = "", .forbidden = true});
+  const CliResult result =
+      RunLightcal({"read", "--once", "--json"}, "", {}, UsbStandIn::WithoutRootPowers());
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(ErrorCode(result), "no_permission");
+  EXPECT_THAT(result.err, HasSubstr("ATTR{idVendor}==\"0a41\", ATTR{idProduct}==\"7003\""));
+}
+
+TEST(ReadFromMeter, NoMeterIsADeviceErrorThatSaysWhatElseToDo) {
+  const NoUsb machine;
+  const CliResult result = RunLightcal({"read", "--once", "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(ErrorCode(result), "no_device");
+  EXPECT_THAT(result.err, HasSubstr("--lux 192"));
+}
+
+TEST(ReadFromMeter, StrictRefusesAWarnedReadingBeforeWriting) {
+  auto setting = Sekonic(kReply14lx);
+  setting.measurement = WithFloat(setting.measurement, 50, 50000.0F);  // a CCT the C-800 has not
+  const UsbStandIn meter(setting);
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"-n", "1", "--strict", "--json"}));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(ErrorCode(result), "cct_out_of_range");
+  EXPECT_THAT(session.Journal(), IsEmpty());
+}
+
+TEST(ReadFromMeter, CtrlCGivesTheMeterBackAndWritesNothing) {
+  auto setting = Sekonic();
+  setting.busy_polls_after = 1000000;
+  const UsbStandIn meter(setting);
+  const SessionDir session;
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ::execl(LIGHTCAL_BINARY, "lightcal", "read", "-s", session.dir.path().c_str(), "--light", "key",
+            "--distance", "0.5", "--quiet", nullptr);
+    ::_exit(127);
+  }
+  const bool started = meter.WaitForCommand("RM0");
+  ::kill(child, SIGINT);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(started);
+  ASSERT_TRUE(WIFEXITED(status)) << "killed instead of stopping by itself";
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_EQ(meter.commands().back(), "RT0");
+  EXPECT_FALSE(meter.remote());
+  EXPECT_THAT(session.Journal(), IsEmpty());
+}
+
+TEST(ReadTape, WhatWasRecordedReplaysToTheSameReading) {
+  const TempDir dir;
+  const std::string tape = dir.path() + "/meter.tape";
+  CliResult live;
+  {
+    const UsbStandIn meter(Sekonic(), {.serial = "J0123"});
+    live = RunLightcal({"read", "--once", "--json", "--record", tape});
+  }
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  const CliResult played = RunLightcal({"read", "--once", "--json", "--replay", tape});
+  EXPECT_EQ(played.exit_code, 0) << played.err;
+  json expected = json::parse(live.out);
+  json found = json::parse(played.out);
+  EXPECT_EQ(found["device"], "sekonic:J0123");
+  expected.erase("time");  // the tape says when it began, the reading when it was taken
+  found.erase("time");
+  EXPECT_EQ(found, expected);
+}
+
+TEST(ReadTape, AFailedDialogueIsRecordedToo) {
+  const TempDir dir;
+  const std::string tape = dir.path() + "/meter.tape";
+  {
+    const UsbStandIn meter(Struck("NR", Fault::kShort));
+    EXPECT_EQ(RunLightcal({"read", "--once", "--record", tape}).exit_code, 1);
+  }
+  const CliResult played = RunLightcal({"read", "--once", "--json", "--replay", tape});
+  EXPECT_EQ(played.exit_code, 1);
+  EXPECT_EQ(ErrorCode(played), "bad_reply");
+}
+
+struct SampleTape {
+  const char* tape;
+  const char* reply;
+  double illuminance_lx;
+  double cct_K;
+};
+class CommittedTape : public testing::TestWithParam<SampleTape> {};
+TEST_P(CommittedTape, ReadsAsItsReplyIsKnownTo) {
+  const std::string tape = SampleData(std::string("tapes/") + GetParam().tape);
+  const json reading = json::parse(RunLightcal({"read", "--once", "--json", "--replay", tape}).out);
+  EXPECT_NEAR(double(reading["illuminance_lx"]), GetParam().illuminance_lx, 5e-4);
+  EXPECT_NEAR(double(reading["cct_K"]), GetParam().cct_K, 5e-3);
+}
+TEST_P(CommittedTape, SaysWhereItComesFrom) {
+  const std::string tape = ReadFile(SampleData(std::string("tapes/") + GetParam().tape));
+  EXPECT_THAT(tape, HasSubstr(std::string("made from the captured reply ") + GetParam().reply));
+}
+INSTANTIATE_TEST_SUITE_P(
+    ReadTape, CommittedTape,
+    testing::Values(SampleTape{"sekonic_c800_407lx_4995K.tape", kReply407lx, 406.960, 4995.02},
+                    SampleTape{"sekonic_c800_14lx_3289K.tape", kReply14lx, 14.0775, 3288.61}),
+    [](const auto& sample) { return sample.index == 0 ? "Reply407lx" : "Reply14lx"; });
+
+TEST(ReadTape, IntoASessionItIsReadToItsEnd) {
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"--replay", kTape407lx, "--json"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["measurements"], 1);
+  EXPECT_EQ(session.Journal().size(), 1U);
+}
+
+TEST(ReadTape, ATapeOfAnotherDialogueShowsWhatWasExpected) {
+  const TempDir dir;
+  std::string text = ReadFile(kTape407lx);
+  text.replace(text.find("RM0"), 3, "RM1");
+  const CliResult result =
+      RunLightcal({"read", "--once", "--json", "--replay", dir.Write("other.tape", text)});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(ErrorCode(result), "tape_mismatch");
+  EXPECT_THAT(result.err, HasSubstr("expected write RM1, got write RM0"));
+}
+
+TEST(ReadTape, AnUnreadableTapeIsRefusedByItsLine) {
+  const TempDir dir;
+  const std::string bad = dir.Write("bad.tape", "lightcal-tape 1\ndriver sekonic\n> x MN\n");
+  const CliResult result = RunLightcal({"read", "--once", "--json", "--replay", bad});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(ErrorCode(result), "bad_tape");
+  EXPECT_THAT(result.err, HasSubstr("bad.tape:3"));
+  EXPECT_EQ(RunLightcal({"read", "--once", "--replay", dir.path() + "/none"}).exit_code, 1);
+}
+
+TEST(ReadTyped, ANumberBecomesARowOfTheJournal) {
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"--lux", "17.8fc", "--meter", "c800"}), "",
+                                       {"SOURCE_DATE_EPOCH=1763719200"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto rows = session.Journal();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_NEAR(double(rows[0]["illuminance_lx"]), 17.8 / (0.3048 * 0.3048), 1e-9);
+  EXPECT_EQ(rows[0]["meter"], "c800");
+  EXPECT_EQ(rows[0]["time"], "2025-11-21T10:00:00Z");
+  EXPECT_FALSE(rows[0].contains("device"));
+}
+
+TEST(ReadTyped, AShadowCardIsSuggestedUntilThereIsOne) {
+  const SessionDir session;
+  const CliResult first = RunLightcal(session.Read({"--lux", "192"}));
+  EXPECT_THAT(first.err, HasSubstr("--shadow-card"));
+  const CliResult shadow = RunLightcal(session.Read({"--lux", "3.1", "--shadow-card"}));
+  EXPECT_EQ(shadow.exit_code, 0) << shadow.err;
+  EXPECT_THAT(shadow.err, Not(HasSubstr("--shadow-card")));
+  const CliResult second = RunLightcal(session.Read({"--lux", "191"}));
+  EXPECT_THAT(second.err, Not(HasSubstr("--shadow-card")));
+  const auto rows = session.Journal();
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_FALSE(rows[0].contains("shadow_card"));
+  EXPECT_EQ(rows[1]["shadow_card"], true);
+}
+
+TEST(ReadTyped, ALampThatIsOffIsSaidSo) {
+  const SessionDir session;
+  ASSERT_EQ(RunLightcal(session.Read({"--lux", "0.4", "--lamp-off"})).exit_code, 0);
+  EXPECT_EQ(session.Journal()[0]["lamp"], "off");
+}
+
+struct BadInput {
+  std::vector<std::string> arguments;  // with @ for the session
+  int exit_code;
+};
+class BadRead : public testing::TestWithParam<BadInput> {};
+TEST_P(BadRead, IsRefusedAndNothingIsWritten) {
+  const SessionDir session;
+  std::vector<std::string> arguments = GetParam().arguments;
+  std::ranges::replace(arguments, std::string("@"), session.dir.path());
+  const CliResult result = RunLightcal(arguments);
+  EXPECT_EQ(result.exit_code, GetParam().exit_code) << result.err;
+  EXPECT_THAT(result.err, Not(IsEmpty()));
+  EXPECT_FALSE(fs::exists(session.dir.path() + "/readings.jsonl"));
+}
+INSTANTIATE_TEST_SUITE_P(
+    ReadTyped, BadRead,
+    testing::Values(
+        BadInput{{"read", "-s", "@", "--light", "kez", "--distance", "1", "--lux", "9"}, 3},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "0", "--lux", "9"}, 3},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "-1m", "--lux", "9"}, 3},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "-9"}, 3},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "nan"}, 2},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "9m"}, 2},
+        BadInput{{"read", "-s", "@", "--light", "key", "--lux", "9"}, 2},
+        BadInput{{"read", "-s", "@", "--distance", "1", "--lux", "9"}, 2},
+        BadInput{{"read", "--light", "key", "--distance", "1", "--lux", "9"}, 2},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "9", "--meter",
+                  "unknown"},
+                 3},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "9",
+                  "--shadow-card", "--lamp-off"},
+                 2},
+        BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "-n", "0"}, 2},
+        BadInput{{"read", "-s", "@/none", "--light", "key", "--distance", "1", "--lux", "9"}, 1},
+        BadInput{{"read", "--once", "--device", "sekonik"}, 2},
+        BadInput{{"read", "--once", "--timeout", "0s", "--lux", "9"}, 2}));
+
+// Runs the binary on a terminal of its own and types the answers.
+CliResult RunOnTerminal(const std::vector<std::string>& arguments, const std::string& typed) {
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    std::vector<char*> argv = {const_cast<char*>("lightcal")};
+    for (const std::string& word : arguments) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(LIGHTCAL_BINARY, argv.data());
+    ::_exit(127);
+  }
+  CliResult result;
+  EXPECT_EQ(::write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
+  std::array<char, 4096> buffer{};
+  for (ssize_t n = 0; (n = ::read(terminal, buffer.data(), buffer.size())) > 0;) {
+    result.out.append(buffer.data(), static_cast<std::size_t>(n));
+  }
+  ::close(terminal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+TEST(ReadOnTerminal, WithoutAMeterItAsksForShadowCardAndNumber) {
+  const NoUsb machine;
+  const SessionDir session;
+  const CliResult result = RunOnTerminal(session.Read({}), "\n3.1\n\n192lx\n");
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("hold a card"));
+  const auto rows = session.Journal();
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["shadow_card"], true);
+  EXPECT_EQ(rows[0]["illuminance_lx"], 3.1);
+  EXPECT_EQ(rows[1]["illuminance_lx"], 192.0);
+}
+
+TEST(ReadOnTerminal, TheShadowCardMayBeSkipped) {
+  const UsbStandIn meter(Sekonic());
+  const SessionDir session;
+  const CliResult result = RunOnTerminal(session.Read({"-n", "1"}), "s\n");
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  ASSERT_EQ(session.Journal().size(), 1U);
+  EXPECT_FALSE(session.Journal()[0].contains("shadow_card"));
+}
+
+json Devices(const std::vector<std::string>& wrapper = {}) {
+  const CliResult result = RunLightcal({"devices", "--json"}, "", {}, wrapper);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out)["devices"];
+}
+
+TEST(Devices, AMeterThatMayBeUsedIsReady) {
+  const UsbStandIn meter(Sekonic(), {.serial = "J0123"});
+  const json devices = Devices();
+  ASSERT_EQ(devices.size(), 1U);
+  EXPECT_EQ(devices[0]["id"], "sekonic:J0123");
+  EXPECT_EQ(devices[0]["driver"], "sekonic");
+  EXPECT_EQ(devices[0]["transport"], "usb");
+  EXPECT_EQ(devices[0]["usb"], "0a41:7003");
+  EXPECT_EQ(devices[0]["serial"], "J0123");
+  EXPECT_EQ(devices[0]["status"], "ready");
+  EXPECT_EQ(devices[0]["verified"], "captured_replay");
+  EXPECT_THAT(meter.commands(), IsEmpty()) << "listing says nothing to the meter";
+}
+
+TEST(Devices, AMeterInUseIsBusy) {
+  const UsbStandIn meter(Sekonic(), {.serial = "", .held_by_another = true});
+  EXPECT_EQ(Devices()[0]["status"], "busy");
+}
+
+TEST(Devices, AForbiddenMeterComesWithItsUdevRule) {
+  const UsbStandIn meter(Sekonic(), {.serial = "", .forbidden = true});
+  const auto wrapper = UsbStandIn::WithoutRootPowers();
+  EXPECT_EQ(Devices(wrapper)[0]["status"], "no_permission");
+  const CliResult people = RunLightcal({"devices"}, "", {}, wrapper);
+  EXPECT_THAT(people.out, HasSubstr("70-lightcal.rules"));
+  EXPECT_THAT(people.out, HasSubstr("ATTR{idVendor}==\"0a41\""));
+}
+
+TEST(Devices, NoneFoundIsNoErrorAndSaysWhatToDo) {
+  const NoUsb machine;
+  EXPECT_THAT(Devices(), IsEmpty());
+  const CliResult people = RunLightcal({"devices"});
+  EXPECT_EQ(people.exit_code, 0);
+  EXPECT_THAT(people.out, HasSubstr("No meter found"));
+  EXPECT_THAT(people.out, HasSubstr("--lux 192"));
+}
+
+}  // namespace
+}  // namespace lightcal::test
