@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal import: what instruments export, into a session's journal.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "import_plan.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/records/journal.h"
+#include "lightcal/records/session_codec.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr std::size_t kLongLog = 1000;      // readings from which appending is worth a note
+constexpr std::size_t kShownReadings = 20;  // rows of the table; --json lists them all
+
+struct Options {
+  std::vector<std::string> files;
+  std::string session;
+  std::string distance;
+  ImportSettings settings;
+};
+
+std::string Cell(const std::optional<double>& value, int digits, const char* unit) {
+  return value ? RoundedText(*value, digits) + unit : "";
+}
+template <class Quantity>
+std::optional<double> ValueOf(const std::optional<Quantity>& quantity) {
+  return quantity ? std::optional(quantity->value()) : std::nullopt;
+}
+
+std::string ReadingsTable(const ImportPlan& plan) {
+  std::vector<std::vector<std::string>> rows;
+  std::size_t more = 0;
+  for (const PlannedFile& file : plan.files) {
+    for (const Reading& reading : file.readings) {
+      if (rows.size() == kShownReadings) {
+        ++more;
+        continue;
+      }
+      rows.push_back(
+          {file.path, file.format, reading.light, Cell(ValueOf(reading.distance), 4, " m"),
+           Cell(ValueOf(reading.illuminance), 6, " lx"), Cell(ValueOf(reading.cct), 5, " K"),
+           Cell(reading.duv, 2, ""), reading.spectrum_file});
+    }
+  }
+  std::string text = TextTable(
+      {"file", "format", "light", "distance", "illuminance", "CCT", "Duv", "spectrum"}, rows);
+  if (more > 0) text += "... and " + std::to_string(more) + " more\n";
+  return text;
+}
+
+nlohmann::ordered_json ToJson(const ImportPlan& plan, const std::string& journal) {
+  nlohmann::ordered_json document;
+  document["journal"] = journal;
+  auto& files = document["files"] = nlohmann::ordered_json::array();
+  auto readings = nlohmann::ordered_json::array();
+  for (const PlannedFile& file : plan.files) {
+    files.push_back({{"file", file.path},
+                     {"format", file.format},
+                     {"readings", file.found},
+                     {"imported", file.readings.size()}});
+    for (const Reading& reading : file.readings) {
+      readings.push_back(nlohmann::ordered_json::parse(ReadingToJson(reading)));
+    }
+  }
+  document["imported"] = readings.size();
+  document["readings"] = std::move(readings);
+  return document;
+}
+
+std::size_t CountReadings(const ImportPlan& plan) {
+  std::size_t count = 0;
+  for (const PlannedFile& file : plan.files) count += file.readings.size();
+  return count;
+}
+
+Result<void> AppendAll(const ImportPlan& plan, const std::string& journal, Console& console) {
+  const std::size_t total = CountReadings(plan);
+  const bool progress = total >= kLongLog && ::isatty(STDERR_FILENO) == 1;
+  if (total >= kLongLog) {
+    console.Note("appending " + std::to_string(total) +
+                 " readings, each synced to the disk; stopped halfway, the same import resumes");
+  }
+  std::size_t done = 0;
+  for (const PlannedFile& file : plan.files) {
+    for (const Reading& reading : file.readings) {
+      if (auto appended = AppendToJournal(journal, reading); !appended) {
+        Error error = appended.error();
+        if (done > 0) {
+          error.message += "; " + std::to_string(done) + " of " + std::to_string(total) +
+                           " readings are in, the same import adds the rest";
+        }
+        return tl::unexpected(std::move(error));
+      }
+      ++done;
+      if (progress && done % (total / 10) == 0) {
+        console.Note(std::to_string(done) + " of " + std::to_string(total));
+      }
+    }
+  }
+  return {};
+}
+
+Result<ImportSettings> SettingsOf(const Options& options) {
+  ImportSettings settings = options.settings;
+  if (options.distance.empty()) return settings;
+  auto distance = ParseLength(options.distance);
+  if (!distance) return Propagate(std::move(distance));
+  if (distance->value() <= 0.0) {
+    return Refused("bad_distance", options.distance, "a distance is above 0, e.g. 0.5m or 20in");
+  }
+  settings.distance = *distance;
+  return settings;
+}
+
+Result<void> RunImport(const Options& options, Console& console) {
+  const auto settings = SettingsOf(options);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto loaded = LoadSession(options.session);
+  if (!loaded) return tl::unexpected(loaded.error());
+  console.Warn(loaded->warnings);
+  const auto plan = PlanImport(loaded->session, options.files, *settings);
+  if (!plan) return tl::unexpected(plan.error());
+  console.Warn(plan->warnings);
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  const std::string journal = JournalPath(options.session);
+  if (auto written = WriteOutputs(plan->captures, false); !written) return written;
+  if (auto appended = AppendAll(*plan, journal, console); !appended) return appended;
+  const std::size_t count = CountReadings(*plan);
+  if (count > 0) console.Print(ReadingsTable(*plan));
+  console.PrintJson(ToJson(*plan, journal));
+  console.Note(count == 0 ? "nothing new; " + journal + " is unchanged"
+                          : std::to_string(count) + (count == 1 ? " reading" : " readings") +
+                                " appended to " + journal);
+  return {};
+}
+
+}  // namespace
+
+Run BuildImport(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  ImportSettings& settings = options->settings;
+  parser
+      .add_option("files", options->files,
+                  "Sekonic, UPRtek, JETI, TM-27, Argyll, ActLumus exports or CSV with units in "
+                  "the column names; a .zip of one")
+      ->required();
+  parser.add_option("-s,--session", options->session, "Session directory or .toml file")
+      ->required();
+  parser.add_option("-l,--light", settings.light, "Which light was read, unless the file names it");
+  parser.add_option("-d,--distance", options->distance,
+                    "From the lamp to the meter (0.5m, 20in), unless the file gives it");
+  parser.add_option("-m,--meter", settings.meter, "Which [[meter]] of the session read it");
+  parser.add_option("--column", settings.column, "One spectrum of several: its name or number");
+  parser.add_flag("--color-only", settings.color_only,
+                  "Take the colour and leave the illuminance, which needs a distance");
+  auto* off = parser.add_flag("--lamp-off", settings.lamp_off, "Read with the lamp switched off");
+  parser.add_flag("--shadow-card", settings.shadow_card, "Read with the direct beam blocked")
+      ->excludes(off);
+  parser.add_flag("--force", settings.again, "Add readings the session holds already again");
+  return [options](Console& console) { return RunImport(*options, console); };
+}
+
+}  // namespace lightcal::app

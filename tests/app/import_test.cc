@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal import, driven as a person drives it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "run_cli.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::DoubleNear;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr const char* kSession =
+    "lightcal = 1\n"
+    "[[light]]\nname = \"key\"\nkind = \"point\"\n"
+    "[[light]]\nname = \"sun\"\nkind = \"directional\"\n"
+    "[[meter]]\nname = \"cv600\"\nsigma_relative = 0.04\n";
+const std::string kCasper = "spectra/uprtek_cv600/Casper Glow High.xls";
+
+class Import : public testing::Test {
+ protected:
+  Import() { temp_.Write("s/session.toml", kSession); }
+
+  [[nodiscard]] std::string Session() const { return temp_.path() + "/s"; }
+  [[nodiscard]] std::string InSession(const std::string& name) const {
+    return Session() + "/" + name;
+  }
+  [[nodiscard]] CliResult Run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "import");
+    arguments.insert(arguments.end(), {"-s", Session()});
+    return RunLightcal(arguments);
+  }
+  // The lines of the journal; none when it does not exist.
+  [[nodiscard]] std::vector<json> Journal() const {
+    std::vector<json> lines;
+    if (!fs::exists(InSession("readings.jsonl"))) return lines;
+    std::istringstream text(ReadFile(InSession("readings.jsonl")));
+    for (std::string line; std::getline(text, line);) lines.push_back(json::parse(line));
+    return lines;
+  }
+
+  TempDir temp_;
+};
+
+TEST_F(Import, SpectrometerFileBecomesAReadingWithItsSpectrum) {
+  const CliResult result = Run(
+      {SampleData(kCasper), "--light", "key", "--distance", "50cm", "--meter", "cv600", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_THAT(Journal(), SizeIs(1));
+  const json reading = Journal()[0];
+  EXPECT_EQ(reading["light"], "key");
+  EXPECT_EQ(reading["meter"], "cv600");
+  EXPECT_EQ(reading["distance_m"], 0.5);
+  EXPECT_EQ(reading["illuminance_lx"], 2925.355469);  // the file's LUX
+  EXPECT_EQ(reading["cct_K"], 2655.0);
+  EXPECT_EQ(reading["time"], "2017-05-05T03:58:23");
+  EXPECT_EQ(reading["spectrum"], "captures/Casper Glow High.xls");
+  EXPECT_EQ(ReadFile(InSession("captures/Casper Glow High.xls")), ReadFile(SampleData(kCasper)));
+  const json answer = json::parse(result.out);
+  EXPECT_EQ(answer["imported"], 1);
+  EXPECT_EQ(answer["files"][0]["format"], "uprtek_xls");
+  EXPECT_EQ(answer["readings"][0], reading);
+}
+
+TEST_F(Import, TableShowsWhatWasImported) {
+  const CliResult result = Run({SampleData(kCasper), "--light", "key", "--distance", "0.5m"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("uprtek_xls"), HasSubstr("0.5000 m"),
+                                HasSubstr("2925.36 lx"), HasSubstr("2655.0 K")));
+  EXPECT_THAT(result.err, HasSubstr("1 reading appended"));
+}
+
+TEST_F(Import, SameFileTwiceAddsNothingUnlessForced) {
+  const std::vector<std::string> command = {SampleData(kCasper), "--light", "key", "--distance",
+                                            "0.5m"};
+  ASSERT_EQ(Run(command).exit_code, 0);
+  const std::string before = ReadFile(InSession("readings.jsonl"));
+  std::vector<std::string> as_json = command;
+  as_json.emplace_back("--json");
+  const CliResult again = Run(as_json);
+  EXPECT_EQ(again.exit_code, 0);
+  const json answer = json::parse(again.out);
+  EXPECT_EQ(answer["imported"], 0);
+  EXPECT_EQ(answer["warnings"][0]["code"], "already_imported");
+  EXPECT_EQ(ReadFile(InSession("readings.jsonl")), before);
+  std::vector<std::string> strict = command;
+  strict.emplace_back("--strict");
+  EXPECT_EQ(Run(strict).exit_code, 3);
+  std::vector<std::string> forced = command;
+  forced.emplace_back("--force");
+  EXPECT_EQ(Run(forced).exit_code, 0);
+  EXPECT_THAT(Journal(), SizeIs(2));
+}
+
+TEST_F(Import, SameFileNamedTwiceCountsOnce) {
+  const CliResult result =
+      Run({SampleData(kCasper), SampleData(kCasper), "--light", "key", "--distance", "0.5m"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(Journal(), SizeIs(1));
+  EXPECT_THAT(result.err, HasSubstr("in the session already"));
+}
+
+TEST_F(Import, EqualReadingsWithinOneFileAreRepeatsNotDuplicates) {
+  const std::string csv = temp_.Write("two.csv", "distance_m,lux\n1,48\n1,48\n");
+  ASSERT_EQ(Run({csv, "--light", "key"}).exit_code, 0);
+  EXPECT_THAT(Journal(), SizeIs(2));
+  ASSERT_EQ(Run({csv, "--light", "key"}).exit_code, 0);
+  EXPECT_THAT(Journal(), SizeIs(2));
+}
+
+TEST_F(Import, LogThatGrewAddsOnlyWhatIsNew) {
+  const std::string head = "#ActLogModel=2.0.0\nDEVICE_ID : 7\nDATE/TIME;LIGHT\n";
+  const std::string first = head + "28/08/2023 08:47:54;1.5\n28/08/2023 08:48:04;3.5\n";
+  temp_.Write("log.txt", first);
+  ASSERT_EQ(Run({temp_.path() + "/log.txt", "--light", "sun"}).exit_code, 0);
+  temp_.Write("log.txt", first + "28/08/2023 08:48:14;7.5\n");
+  const CliResult result = Run({temp_.path() + "/log.txt", "--light", "sun"});
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("2 of its 3 readings"));
+  ASSERT_THAT(Journal(), SizeIs(3));
+  EXPECT_EQ(Journal()[2]["illuminance_lx"], 7.5);
+  EXPECT_EQ(Journal()[2]["time"], "2023-08-28T08:48:14");
+}
+
+TEST_F(Import, OneBadFileLeavesTheSessionAsItWas) {
+  const std::string bad = temp_.Write("bad.csv", "distance_m,lux\n1,48\n-2,12\n");
+  const CliResult result = Run({SampleData(kCasper), bad, "-l", "key", "-d", "0.5m", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "bad_row");
+  EXPECT_EQ(json::parse(result.out)["error"]["subject"], "bad.csv:3");
+  EXPECT_THAT(Journal(), IsEmpty());
+  EXPECT_FALSE(fs::exists(InSession("captures")));
+}
+
+TEST_F(Import, UnknownLightIsRefusedNamingTheNearest) {
+  const CliResult result = Run({SampleData(kCasper), "--light", "kez", "--distance", "1m"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("did you mean \"key\"?"));
+  const CliResult meter =
+      Run({SampleData(kCasper), "--light", "key", "-d", "1m", "--meter", "cv60"});
+  EXPECT_EQ(meter.exit_code, 3);
+  EXPECT_THAT(meter.err, HasSubstr("did you mean \"cv600\"?"));
+  EXPECT_THAT(Journal(), IsEmpty());
+}
+
+TEST_F(Import, LightMustBeNamedWhenTheSessionHasSeveral) {
+  const CliResult result = Run({SampleData(kCasper), "--distance", "1m", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "light_missing");
+}
+
+TEST_F(Import, IlluminanceWithoutDistanceIsRefusedButNotOfTheSun) {
+  const CliResult refused = Run({SampleData(kCasper), "--light", "key", "--json"});
+  EXPECT_EQ(refused.exit_code, 3);
+  const json error = json::parse(refused.out)["error"];
+  EXPECT_EQ(error["code"], "distance_missing");
+  EXPECT_THAT(error["message"].get<std::string>(),
+              AllOf(HasSubstr("--distance"), HasSubstr("--color-only")));
+  EXPECT_EQ(Run({SampleData(kCasper), "--light", "sun"}).exit_code, 0);
+  EXPECT_EQ(Run({SampleData(kCasper), "--light", "key", "--distance", "0m"}).exit_code, 3);
+}
+
+TEST_F(Import, ColorAloneNeedsNoDistanceAndCarriesNoLux) {
+  const CliResult result = Run({SampleData(kCasper), "--light", "key", "--color-only"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_THAT(Journal(), SizeIs(1));
+  EXPECT_FALSE(Journal()[0].contains("illuminance_lx"));
+  EXPECT_EQ(Journal()[0]["cct_K"], 2655.0);
+  // The copy must not bring the lux back: it is relative.
+  const std::string copy = ReadFile(InSession(Journal()[0]["spectrum"]));
+  EXPECT_THAT(copy, HasSubstr("wavelength_nm,relative"));
+}
+
+TEST_F(Import, RelativeSpectrumNeedsNoDistance) {
+  const CliResult result =
+      Run({SampleData("spectra/colour_science/Fluorescent.spdx"), "--light", "key"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Journal().at(0)["spectrum"], "captures/Fluorescent.spdx");
+}
+
+TEST_F(Import, OneColumnOfManyBecomesASpectrumFileOfItsOwn) {
+  const CliResult result = Run({SampleData("spectra/jeti/spectral_Jeti_50pct.csv"), "--light",
+                                "key", "--distance", "1m", "--column", "560nm"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_THAT(Journal(), SizeIs(1));
+  EXPECT_EQ(Journal()[0]["illuminance_lx"], 107.0);  // 1,07E+02
+  EXPECT_EQ(Journal()[0]["spectrum"], "captures/spectral_Jeti_50pct-560nm.csv");
+  // Imported again, the copy is the same spectrum: 107.386 lx is what its samples add up to.
+  const CliResult copy = Run({InSession("captures/spectral_Jeti_50pct-560nm.csv"), "--light", "key",
+                              "--distance", "2m", "--json"});
+  ASSERT_EQ(copy.exit_code, 0) << copy.err;
+  const json reading = json::parse(copy.out)["readings"][0];
+  EXPECT_THAT(reading["illuminance_lx"].get<double>(), DoubleNear(107.386, 0.01));
+  EXPECT_EQ(reading["spectrum"], "captures/spectral_Jeti_50pct-560nm.csv");  // where it lies
+}
+
+TEST_F(Import, UnknownColumnIsRefusedListingTheNames) {
+  const CliResult result = Run({SampleData("spectra/jeti/spectral_Jeti_50pct.csv"), "--light",
+                                "key", "--distance", "1m", "--column", "565nm"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("565nm"), HasSubstr("570nm")));
+}
+
+TEST_F(Import, FilesOfTheSameNameDoNotOverwriteOneAnother) {
+  const std::string a = temp_.Write("a/lamp.csv", "wavelength_nm,relative\n400,1\n500,2\n600,3\n");
+  const std::string b = temp_.Write("b/lamp.csv", "wavelength_nm,relative\n400,3\n500,2\n600,1\n");
+  ASSERT_EQ(Run({a, b, "--light", "key"}).exit_code, 0);
+  ASSERT_THAT(Journal(), SizeIs(2));
+  EXPECT_EQ(ReadFile(InSession(Journal()[0]["spectrum"])), ReadFile(a));
+  EXPECT_EQ(ReadFile(InSession(Journal()[1]["spectrum"])), ReadFile(b));
+}
+
+TEST_F(Import, TypedTableBringsItsOwnLightAndDistances) {
+  const CliResult result = Run({SampleData("lux_tables/own/typed_readings.csv")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  ASSERT_THAT(Journal(), SizeIs(3));
+  EXPECT_EQ(Journal()[2]["distance_m"], 2.0);
+  EXPECT_EQ(Journal()[2]["illuminance_lx"], 11.9);
+}
+
+TEST_F(Import, ShadowCardAndLampOffAreMarked) {
+  const std::string csv = temp_.Write("one.csv", "distance_m,lux\n1,2\n");
+  ASSERT_EQ(Run({csv, "--light", "key", "--lamp-off"}).exit_code, 0);
+  ASSERT_EQ(Run({csv, "--light", "key", "--shadow-card"}).exit_code, 0);
+  ASSERT_THAT(Journal(), SizeIs(2));
+  EXPECT_EQ(Journal()[0]["lamp"], "off");
+  EXPECT_EQ(Journal()[1]["shadow_card"], true);
+  EXPECT_EQ(Run({csv, "--light", "key", "--shadow-card", "--lamp-off"}).exit_code, 2);
+}
+
+TEST_F(Import, UnitsThatAreNotSaidAreRefused) {
+  const std::string csv = temp_.Write("one.csv", "distance,lux\n1,2\n");
+  const CliResult result = Run({csv, "--light", "key", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "units_ambiguous");
+}
+
+TEST_F(Import, MissingFileFails) {
+  const CliResult result = Run({temp_.path() + "/none.csv", "--light", "key", "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "not_found");
+  EXPECT_EQ(RunLightcal({"import"}).exit_code, 2);
+}
+
+TEST_F(Import, SessionThatIsASingleFileKeepsItsJournalBesideIt) {
+  temp_.Write("lamp.toml", kSession);
+  const std::string csv = temp_.Write("one.csv", "distance_m,lux\n1,2\n");
+  const CliResult result =
+      RunLightcal({"import", csv, "-s", temp_.path() + "/lamp.toml", "--light", "key"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(ReadFile(temp_.path() + "/lamp.readings.jsonl"), HasSubstr("\"illuminance_lx\":2"));
+}
+
+}  // namespace
+}  // namespace lightcal::test
