@@ -23,10 +23,11 @@ struct Alias {
   std::string_view word;
   std::string_view stands_for;
 };
-constexpr Alias kAliases[] = {
-    {"lux", "illuminance"},  {"lx", "illuminance"},    {"luminance", "luminance cd"},
-    {"nit", "luminance cd"}, {"nits", "luminance cd"}, {"lumen", "flux"},
-    {"lumens", "flux"},      {"lm", "luminous flux"}};
+constexpr Alias kAliases[] = {{"lux", "illuminance"},        {"lx", "illuminance"},
+                              {"luminance", "luminance cd"}, {"nit", "luminance cd"},
+                              {"nits", "luminance cd"},      {"flux", "luminous flux"},
+                              {"lumen", "luminous flux"},    {"lumens", "luminous flux"},
+                              {"lm", "luminous flux"},       {"efficacy", "luminous efficacy"}};
 
 std::string Haystack(const ReferenceValue& row) {
   std::string text;

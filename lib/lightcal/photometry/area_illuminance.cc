@@ -5,17 +5,6 @@
 #include <numbers>
 
 namespace lightcal {
-namespace {
-
-constexpr double kThinTubeDistance = 1e4;  // in radii
-
-// int over the half length t of a line of width 2R, both halves.
-double LuxPerNitOfLine(double half_length, double radius, double d) {
-  return 2.0 * radius *
-         (half_length / (d * d + half_length * half_length) + std::atan(half_length / d) / d);
-}
-
-}  // namespace
 
 double LuxPerNitOfSphere(Metres radius, Metres distance) {
   const double s = radius / distance;
@@ -37,18 +26,21 @@ double LuxPerNitOfRect(Metres width, Metres height, Metres distance) {
 
 double LuxPerNitOfTube(Metres length, Metres radius, Metres distance) {
   const double h = distance / radius;
-  if (h > kThinTubeDistance) {
-    return LuxPerNitOfLine(length.value() / 2.0, radius.value(), distance.value());
-  }
-  const double l = length.value() / (2.0 * radius.value());
-  const double x = (1.0 + h) * (1.0 + h) + l * l;
-  const double y = (1.0 - h) * (1.0 - h) + l * l;
+  const double l = length / (2.0 * radius);
+  const double to_far_edge = std::hypot(1.0 + h, l);   // sqrt(X)
+  const double to_near_edge = std::hypot(h - 1.0, l);  // sqrt(Y)
+  const double product = to_far_edge * to_near_edge;
+  const double sum = 1.0 + h * h + l * l;  // X - 2H
+  const double a = std::sqrt((h - 1.0) / (h + 1.0));
+  const double k = to_far_edge / to_near_edge;
+  // c atan(k a) - atan(a), c = sum/product, without subtracting: c - 1, k - 1 and the difference of
+  // arctangents are each written as a quotient of positive terms.
+  const double c_minus_1 = 4.0 * h * h / (product * (sum + product));
+  const double k_minus_1 = 4.0 * h / (to_near_edge * (to_far_edge + to_near_edge));
+  const double difference =
+      c_minus_1 * std::atan(k * a) + std::atan(a * k_minus_1 / (1.0 + k * a * a));
   const double root = std::sqrt((h - 1.0) * (h + 1.0));
-  const double ratio = (h - 1.0) / (h + 1.0);
-  const double mantle =
-      (x - 2.0 * h) / (h * std::sqrt(x) * std::sqrt(y)) * std::atan(std::sqrt(x / y * ratio)) -
-      std::atan(std::sqrt(ratio)) / h;
-  return 2.0 * (std::atan(l / root) / h + l * mantle);
+  return 2.0 / h * (std::atan(l / root) + l * difference);
 }
 
 }  // namespace lightcal

@@ -22,8 +22,7 @@ namespace lightcal {
 //   2 { atan(L/sqrt(H^2-1))/H + L [ (X-2H)/(H sqrt(XY)) atan sqrt(X(H-1)/(Y(H+1)))
 //                                   - (1/H) atan sqrt((H-1)/(H+1)) ] }
 // Source: Siegel & Howell, Thermal Radiation Heat Transfer, plane element to right circular
-// cylinder. Beyond H = 1e4, where that cancels, the thin line (2R [t/(d^2+t^2) +
-// atan(t/d)/d], t = l/2).
+// cylinder; evaluated without its cancellation, so it holds from touching to any distance.
 [[nodiscard]] double LuxPerNitOfTube(Metres length, Metres radius, Metres distance);
 
 }  // namespace lightcal
