@@ -144,17 +144,13 @@ class Planner {
     plan_.warnings.insert(plan_.warnings.end(), warnings.begin(), warnings.end());
     const std::size_t held = planned.found - planned.readings.size();
     if (held == 0) return;
-    const std::string held_text =
-        planned.readings.empty()
-            ? "all of its " + std::to_string(planned.found)
-            : std::to_string(held) + " of its " + std::to_string(planned.found);
     plan_.warnings.push_back({"already_imported", planned.path,
-                              held_text +
+                              std::to_string(held) + " of " + std::to_string(planned.found) +
                                   " readings are in the session already and are not added again; "
                                   "--force adds them"});
   }
 
-  Result<std::vector<Reading>> ReadingsOf(const std::string& path, const ImportedFile& imported) {
+  Result<std::vector<Reading>> ReadingsOf(const std::string& path, ImportedFile& imported) {
     if (imported.spectra.empty()) {
       if (settings_.column.empty()) return imported.readings;
       return Refused("unknown_column", path, "holds no spectra, so --column means nothing for it");
@@ -168,6 +164,7 @@ class Planner {
       }
       first = *index;
       last = first + 1;
+      imported.warnings = WarningsAbout(imported, first);
     }
     std::vector<Reading> readings;
     for (std::size_t i = first; i < last; ++i) {

@@ -46,7 +46,7 @@ std::string ReadingsTable(const ImportPlan& plan) {
       }
       rows.push_back(
           {file.path, file.format, reading.light, Cell(ValueOf(reading.distance), 4, " m"),
-           Cell(ValueOf(reading.illuminance), 6, " lx"), Cell(ValueOf(reading.cct), 5, " K"),
+           Cell(ValueOf(reading.illuminance), 4, " lx"), Cell(ValueOf(reading.cct), 4, " K"),
            Cell(reading.duv, 2, ""), reading.spectrum_file});
     }
   }

@@ -20,6 +20,7 @@ using ::testing::AllOf;
 using ::testing::DoubleNear;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 constexpr const char* kSession =
@@ -78,7 +79,7 @@ TEST_F(Import, TableShowsWhatWasImported) {
   const CliResult result = Run({SampleData(kCasper), "--light", "key", "--distance", "0.5m"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("uprtek_xls"), HasSubstr("0.5000 m"),
-                                HasSubstr("2925.36 lx"), HasSubstr("2655.0 K")));
+                                HasSubstr("2925 lx"), HasSubstr("2655 K")));
   EXPECT_THAT(result.err, HasSubstr("1 reading appended"));
 }
 
@@ -128,7 +129,7 @@ TEST_F(Import, LogThatGrewAddsOnlyWhatIsNew) {
   temp_.Write("log.txt", first + "28/08/2023 08:48:14;7.5\n");
   const CliResult result = Run({temp_.path() + "/log.txt", "--light", "sun"});
   ASSERT_EQ(result.exit_code, 0);
-  EXPECT_THAT(result.err, HasSubstr("2 of its 3 readings"));
+  EXPECT_THAT(result.err, HasSubstr("2 of 3 readings"));
   ASSERT_THAT(Journal(), SizeIs(3));
   EXPECT_EQ(Journal()[2]["illuminance_lx"], 7.5);
   EXPECT_EQ(Journal()[2]["time"], "2023-08-28T08:48:14");
@@ -194,6 +195,7 @@ TEST_F(Import, OneColumnOfManyBecomesASpectrumFileOfItsOwn) {
   const CliResult result = Run({SampleData("spectra/jeti/spectral_Jeti_50pct.csv"), "--light",
                                 "key", "--distance", "1m", "--column", "560nm"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("warning")));  // the four odd columns are others
   ASSERT_THAT(Journal(), SizeIs(1));
   EXPECT_EQ(Journal()[0]["illuminance_lx"], 107.0);  // 1,07E+02
   EXPECT_EQ(Journal()[0]["spectrum"], "captures/spectral_Jeti_50pct-560nm.csv");

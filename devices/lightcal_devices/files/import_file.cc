@@ -112,4 +112,15 @@ Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view colu
                      (names.empty() ? "" : " or its name: " + names));
 }
 
+Warnings WarningsAbout(const ImportedFile& file, std::size_t spectrum) {
+  const std::string& where = file.spectra[spectrum].where;
+  Warnings about = file.warnings;
+  std::erase_if(about, [&](const Warning& warning) {
+    const bool of_a_spectrum = std::ranges::find(file.spectra, warning.subject,
+                                                 &ImportedSpectrum::where) != file.spectra.end();
+    return of_a_spectrum && warning.subject != where;
+  });
+  return about;
+}
+
 }  // namespace lightcal

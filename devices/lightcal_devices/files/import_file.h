@@ -34,6 +34,7 @@ struct ImportedSpectrum {
   std::string name;  // column header or title, "" where the file has one spectrum without a name
   Spectrum spectrum;
   ReportedColor reported;
+  std::string where;  // what warnings about it name: "lamp.xls", "sweep.csv, column 560nm"
 };
 
 struct ImportedFile {
@@ -60,5 +61,8 @@ struct ImportedFile {
 // Which spectrum of the file a person means by "560nm" (its name, first) or "19" (its number,
 // counted from 1): an index into spectra. Refused: unknown_column (lists the names).
 [[nodiscard]] Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view column);
+
+// The file's warnings without those about its other spectra.
+[[nodiscard]] Warnings WarningsAbout(const ImportedFile& file, std::size_t spectrum);
 
 }  // namespace lightcal

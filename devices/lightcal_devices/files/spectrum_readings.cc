@@ -177,6 +177,7 @@ Result<ImportedFile> ImportedFromSpectra(std::string_view format, std::vector<Fo
     } else {
       file.warnings.push_back({"dark_spectrum", one.where, "no sample is above 0, so no colour"});
     }
+    one.imported.where = one.where;
     file.spectra.push_back(std::move(one.imported));
   }
   if (all_dark) {
