@@ -28,6 +28,11 @@ Taken TakenOf(const Session& session, const FittedLight& light) {
     if (reading.light != light.name || !reading.illuminance) continue;
     taken.shadow = taken.shadow || reading.shadow_card;
     taken.off = taken.off || (reading.lamp == LampState::kOff && !reading.shadow_card);
+    const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
+    if (!lit || !light.residuals.empty()) continue;
+    if (reading.distance && reading.distance->value() > 0.0) {
+      taken.distances_m.push_back(reading.distance->value());
+    }
   }
   for (const ResidualRow& row : light.residuals) {
     if (row.distance_m) taken.distances_m.push_back(*row.distance_m);
@@ -68,6 +73,9 @@ std::string NextStep(const Session& session, const FittedLight& light) {
   }
   if (auto again = AboutRejected(light)) return *again;
   const double nearest = taken.distances_m.front();
+  if (IsPrior(light, "intensity")) {
+    return ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light");
+  }
   const double farthest = taken.distances_m.back();
   if (IsPrior(light, "distance_offset")) {
     return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,

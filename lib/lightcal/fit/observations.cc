@@ -171,7 +171,7 @@ class Collector {
       if (!relative_[j].shadow || !SamePlace(row, j)) continue;
       consumed[j] = true;
       const double sigma = std::max(std::abs(out_.rows[j].raw_lx) * relative_[j].sigma,
-                                    kDarkFloor * std::abs(row.raw_lx));
+                                    kLeastSigma * std::abs(row.raw_lx));
       weights += 1.0 / (sigma * sigma);
       sum += out_.rows[j].raw_lx / (sigma * sigma);
     }

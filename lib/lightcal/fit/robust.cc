@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kSdPerMad = 1.4826;  // of a normal variable
 constexpr int kFewestForRejection = 5;
+constexpr int kFewestForPairs = 6;
+constexpr std::size_t kMostForLeaveOut = 9;
 
 std::vector<double> Residuals(const Estimation& estimation, const Theta& theta) {
   std::vector<double> residuals;
@@ -81,15 +83,53 @@ Result<Theta> SolveSquared(const Estimation& estimation) {
   return Solve(estimation, start);
 }
 
+// Sum of Tukey's loss, in units of its plateau: each reading beyond the constant counts 1.
+double TukeyLossOf(const Estimation& estimation, const Theta& theta, double scale) {
+  double sum = 0.0;
+  for (const ReadingRow& row : estimation.rows) {
+    const double u = RowResidual(row, theta) / (kTukeyConstant * scale);
+    const double left = std::max(0.0, 1.0 - u * u);
+    sum += 1.0 - left * left * left;
+  }
+  const ParameterRule& offset = estimation.rules[kDistanceOffset];
+  if (offset.free && offset.prior_sd > 0.0) {
+    const double z = (theta[kDistanceOffset] - offset.prior_mean) / offset.prior_sd;
+    sum += 3.0 * z * z / (kTukeyConstant * kTukeyConstant);
+  }
+  return sum;
+}
+
+// Squared-loss estimates with one reading, then each pair, left out: for few readings the only
+// starts that a blunder at the nearest or farthest distance cannot reach.
+void AddLeaveOutStarts(const Estimation& estimation, std::vector<Theta>& starts) {
+  const auto n = static_cast<int>(estimation.rows.size());
+  const auto add = [&](const std::vector<int>& left_out) {
+    Estimation rest = estimation;
+    rest.rows = Without(estimation.rows, left_out);
+    if (Result<Theta> theta = SolveSquared(rest)) starts.push_back(*theta);
+  };
+  for (int i = 0; i < n; ++i) {
+    add({i});
+    for (int j = i + 1; n >= kFewestForPairs && j < n; ++j) add({i, j});
+  }
+}
+
 Result<RobustEstimate> RejectAndRefit(const Estimation& estimation, const Theta& squared) {
-  Result<Theta> huber = Solve(estimation, MedianStart(estimation), Loss::kHuber);
+  const Theta median = MedianStart(estimation);
+  Result<Theta> huber = Solve(estimation, median, Loss::kHuber);
   if (!huber) return Propagate(std::move(huber));
-  const double scale = RobustScale(estimation, *huber);
-  Result<Theta> tukey = Solve(estimation, *huber, Loss::kTukey, scale);
+  std::vector<Theta> starts = {*huber, median};
+  if (estimation.rows.size() <= kMostForLeaveOut) AddLeaveOutStarts(estimation, starts);
+  double scale = RobustScale(estimation, starts.front());
+  for (const Theta& start : starts) scale = std::min(scale, RobustScale(estimation, start));
+  const auto best =
+      std::min_element(starts.begin(), starts.end(), [&](const Theta& a, const Theta& b) {
+        return TukeyLossOf(estimation, a, scale) < TukeyLossOf(estimation, b, scale);
+      });
+  Result<Theta> tukey = Solve(estimation, *best, Loss::kTukey, scale);
   if (!tukey) return Propagate(std::move(tukey));
   RobustEstimate out{squared, estimation, {}, {}, false};
-  out.rejected = Beyond(Residuals(estimation, *tukey),
-                        kTukeyConstant * std::min(scale, RobustScale(estimation, *tukey)));
+  out.rejected = Beyond(Residuals(estimation, *tukey), kTukeyConstant * scale);
   if (out.rejected.empty()) return out;
   out.kept.rows = Without(estimation.rows, out.rejected);
   Result<Theta> refit = Solve(out.kept, *tukey);
@@ -112,6 +152,8 @@ Result<RobustEstimate> EstimateRobustly(const Estimation& estimation) {
   out.suspicious = far;
   if (lit == 4) {
     out.bimodal = TwoAgainstTwo(estimation);
+    // Between two camps of equal weight Huber's loss is flat; the squared one stays in the middle.
+    if (out.bimodal) return out;
     Result<Theta> huber = Solve(estimation, MedianStart(estimation), Loss::kHuber);
     if (!huber) return Propagate(std::move(huber));
     out.theta = *huber;

@@ -67,29 +67,34 @@ double StandardNormalDensity(double z) {
 }
 double StandardNormalTail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
 
-// Second moment about `about` of a normal (mean, sd) truncated to x >= 0.
-double TruncatedSecondMoment(double mean, double sd, double about) {
+struct TruncatedNormal {
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
+// Moments of a normal (mean, sd) truncated to x >= 0.
+TruncatedNormal TruncateAtZero(double mean, double sd) {
   const double alpha = -mean / sd;
-  const double tail = StandardNormalTail(alpha);
-  if (alpha > 8.0 || tail <= 0.0) {  // far below the bound: exponential tail of length sd/alpha
+  if (alpha > 8.0) {  // far below the bound: an exponential tail of length sd/alpha
     const double length = sd / alpha;
-    return 2.0 * length * length + about * (about - 2.0 * length);
+    return {length, length * length};
   }
-  const double lambda = StandardNormalDensity(alpha) / tail;
-  const double truncated_mean = mean + sd * lambda;
-  const double variance = sd * sd * (1.0 + alpha * lambda - lambda * lambda);
-  const double shift = truncated_mean - about;
-  return variance + shift * shift;
+  const double lambda = StandardNormalDensity(alpha) / StandardNormalTail(alpha);
+  return {mean + sd * lambda, sd * sd * (1.0 + alpha * lambda - lambda * lambda)};
 }
 
 // Replaces the normal marginal of E0 by the one truncated at 0 and carries the change to the others
-// by their regression on E0.
+// by their regression on E0. E0's own entry is the second moment about its estimate, so that
+// [0, estimate + u95] is its 95 % interval where the estimate is 0.
 void TruncateAmbient(double unbounded_ambient, double estimate, Matrix3& covariance) {
   const double variance = covariance(kAmbient, kAmbient);
   if (!(variance > 0.0)) return;
-  const double moment = TruncatedSecondMoment(unbounded_ambient, std::sqrt(variance), estimate);
+  const TruncatedNormal truncated = TruncateAtZero(unbounded_ambient, std::sqrt(variance));
   const Vector3 column = covariance.col(kAmbient);
-  covariance += column * column.transpose() * ((moment - variance) / (variance * variance));
+  covariance +=
+      column * column.transpose() * ((truncated.variance - variance) / (variance * variance));
+  const double shift = truncated.mean - estimate;
+  covariance(kAmbient, kAmbient) += shift * shift;
 }
 
 Vector3 ConsideredShift(const Matrix3& covariance, const Rows& jacobian,

@@ -31,8 +31,8 @@ struct UncertaintyInput {
 // priors of the free parameters, by QR (weights may span 1e12), plus, for each parameter that is
 // held though uncertain (prior_sd > 0) and each considered influence, its standard deviation
 // carried through the estimate (Schmidt's consider covariance). A free E0 is bounded below by 0:
-// its row and column get the second moments of the truncated normal about the estimate. Fails:
-// underdetermined (a free parameter no row and no prior determines).
+// its marginal becomes the normal truncated there, and the others follow by their regression on it.
+// Fails: underdetermined (a free parameter no row and no prior determines).
 [[nodiscard]] Result<Covariance> EstimateCovariance(const UncertaintyInput& input);
 
 // Ratio of the largest to the smallest singular value of the whitened rows' Jacobian over the

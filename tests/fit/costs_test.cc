@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lightcal/fit/costs/normal_prior_cost.h"
+#include "lightcal/fit/solve.h"
+
+namespace lightcal::fit {
+namespace {
+
+const Theta kTruth = {std::log(7.0), 0.05, 0.3};
+
+ReadingRow RowAtTruth(ReadingRow::Form form, AxialShape shape = {}) {
+  ReadingRow row;
+  row.form = form;
+  row.shape = shape;
+  row.distance = 1.3;
+  row.direct_gain = 0.8;
+  row.bounce = 0.02;
+  row.sigma = 0.1;
+  row.measured = RowIlluminance(row, kTruth[0], kTruth[1], kTruth[2]);
+  return row;
+}
+
+class EachCost : public testing::TestWithParam<ReadingRow::Form> {};
+
+TEST_P(EachCost, IsZeroAtTheTruth) {
+  EXPECT_NEAR(RowResidual(RowAtTruth(GetParam()), kTruth), 0.0, 1e-13);
+}
+
+TEST_P(EachCost, GrowsWhenTheModelIsTooDark) {
+  const ReadingRow row = RowAtTruth(GetParam());
+  double last = 0.0;
+  for (const double step : {0.05, 0.1, 0.2, 0.4}) {
+    const double residual = std::abs(RowResidual(row, {kTruth[0] - step, kTruth[1], kTruth[2]}));
+    EXPECT_GT(residual, last);
+    last = residual;
+  }
+}
+
+TEST_P(EachCost, GrowsWhenTheModelIsTooBrightUnlessTheMeterWasOverRange) {
+  const ReadingRow row = RowAtTruth(GetParam());
+  double last = 0.0;
+  for (const double step : {0.05, 0.1, 0.2, 0.4}) {
+    const double residual = std::abs(RowResidual(row, {kTruth[0] + step, kTruth[1], kTruth[2]}));
+    if (GetParam() == ReadingRow::Form::kCensored) {
+      EXPECT_EQ(residual, 0.0);
+    } else {
+      EXPECT_GT(residual, last);
+    }
+    last = residual;
+  }
+}
+
+TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
+  for (const AxialShape& shape : {AxialShape{}, AxialShape{AxialShape::Outline::kDisk, 0.4, 0.0},
+                                  AxialShape{AxialShape::Outline::kRect, 0.3, 0.5},
+                                  AxialShape{AxialShape::Outline::kTube, 0.6, 0.0}}) {
+    ReadingRow row = RowAtTruth(GetParam(), shape);
+    row.measured *= 1.2;  // away from the censored cost's kink
+    const RowDerivative at = DifferentiateRow(row, kTruth);
+    for (int k = 0; k < kParameters; ++k) {
+      constexpr double kStep = 1e-6;
+      Theta above = kTruth;
+      Theta below = kTruth;
+      above[k] += kStep;
+      below[k] -= kStep;
+      const double slope = (RowResidual(row, above) - RowResidual(row, below)) / (2.0 * kStep);
+      EXPECT_NEAR(at.gradient[k], slope, 1e-6 * (1.0 + std::abs(slope)));
+      EXPECT_NE(at.gradient[k], 0.0);
+    }
+  }
+}
+
+TEST_P(EachCost, IsMeasuredInStandardDeviations) {
+  ReadingRow row = RowAtTruth(GetParam());
+  row.measured = GetParam() == ReadingRow::Form::kLinear ? row.measured + 2.0 * row.sigma
+                                                         : row.measured * std::exp(2.0 * row.sigma);
+  EXPECT_NEAR(RowResidual(row, kTruth), 2.0, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Forms, EachCost,
+                         testing::Values(ReadingRow::Form::kLog, ReadingRow::Form::kLinear,
+                                         ReadingRow::Form::kCensored));
+
+TEST(LinearIlluminanceCost, KeepsTheSignOfANegativeReading) {
+  ReadingRow row = RowAtTruth(ReadingRow::Form::kLinear);
+  row.measured = -0.5;
+  EXPECT_NEAR(RowResidual(row, kTruth),
+              (-0.5 - RowIlluminance(row, kTruth[0], kTruth[1], kTruth[2])) / 0.1, 1e-12);
+}
+
+TEST(LogIlluminanceCost, IsUndefinedWhereTheModelIsDark) {
+  ReadingRow row = RowAtTruth(ReadingRow::Form::kLog);
+  EXPECT_FALSE(std::isfinite(RowResidual(row, {kTruth[0], kTruth[1], -100.0})));
+}
+
+TEST(NormalPriorCost, CountsStandardDeviationsFromItsMean) {
+  const NormalPriorCost prior{0.2, 0.05};
+  double residual = 1.0;
+  const double at_mean = 0.2;
+  ASSERT_TRUE(prior(&at_mean, &residual));
+  EXPECT_EQ(residual, 0.0);
+  const double below = 0.1;
+  ASSERT_TRUE(prior(&below, &residual));
+  EXPECT_NEAR(residual, -2.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace lightcal::fit

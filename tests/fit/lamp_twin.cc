@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_twin.h"
+
+#include <cmath>
+
+namespace lightcal::test {
+
+double TrueDirect(const LampTruth& truth, double distance_m) {
+  const double path = distance_m + truth.offset_m;
+  return truth.intensity_cd * std::exp(-truth.extinction_per_m * distance_m) / (path * path);
+}
+
+TwinSession::TwinSession(const LampTruth& truth, double sigma, std::uint64_t seed)
+    : truth_(truth), sigma_(sigma), random_(seed) {
+  session_.name = "twin";
+  session_.lights.emplace_back();
+  session_.lights.back().name = "lamp";
+}
+
+Reading& TwinSession::Add(double illuminance_lx) {
+  SessionReading row;
+  row.reading.light = "lamp";
+  row.reading.illuminance = Lux(illuminance_lx * std::exp(sigma_ * normal_(random_)));
+  row.reading.sigma_relative = sigma_;
+  session_.readings.push_back(row);
+  return session_.readings.back().reading;
+}
+
+TwinSession& TwinSession::On(double distance_m, double times) {
+  Reading& reading =
+      Add(times * (TrueDirect(truth_, distance_m) + truth_.bounce_lx + truth_.ambient_lx));
+  reading.distance = Metres(distance_m);
+  return *this;
+}
+
+TwinSession& TwinSession::On(const std::vector<double>& distances_m) {
+  for (const double d : distances_m) On(d);
+  return *this;
+}
+
+TwinSession& TwinSession::Off() {
+  Add(truth_.ambient_lx).lamp = LampState::kOff;
+  return *this;
+}
+
+TwinSession& TwinSession::ShadowCard(double distance_m) {
+  Reading& reading = Add(truth_.bounce_lx + truth_.ambient_lx);
+  reading.distance = Metres(distance_m);
+  reading.shadow_card = true;
+  return *this;
+}
+
+Session TypedSession(const std::vector<TypedReading>& readings, double sigma) {
+  Session session;
+  session.lights.emplace_back();
+  session.lights.back().name = "lamp";
+  for (const TypedReading& typed : readings) {
+    SessionReading row;
+    row.reading.light = "lamp";
+    row.reading.distance = Metres(typed.distance_m);
+    row.reading.illuminance = Lux(typed.illuminance_lx);
+    row.reading.sigma_relative = sigma;
+    session.readings.push_back(row);
+  }
+  return session;
+}
+
+}  // namespace lightcal::test
