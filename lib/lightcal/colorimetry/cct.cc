@@ -20,6 +20,8 @@ constexpr double kInfinityMireds =
     1e-6;  // hotter than 1e12 K: no computed xy can tell from infinity
 constexpr double kStepMireds = 5.0;
 constexpr int kSegments = 500;  // 0 to 2500 mired, infinity to 400 K
+constexpr int kLargestStep =
+    256;  // of the binary search: a power of two, twice it at least kSegments
 
 // Beyond this distance another branch of the locus may be nearer; its least radius of curvature is
 // 0.1001 (at 5192 K), within which the nearest point is unique.
@@ -32,14 +34,17 @@ struct Curve {  // position and derivatives by the segment's parameter t in [0, 
 struct Quintic {
   std::array<double, 6> c;
 
+  // In pairs: half the depth of Horner's chain.
   [[nodiscard]] double Value(double t) const {
-    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+    const double t2 = t * t;
+    return (c[0] + c[1] * t) + t2 * ((c[2] + c[3] * t) + t2 * (c[4] + c[5] * t));
   }
   [[nodiscard]] double First(double t) const {
-    return c[1] + t * (2 * c[2] + t * (3 * c[3] + t * (4 * c[4] + t * 5 * c[5])));
+    const double t2 = t * t;
+    return (c[1] + 2 * c[2] * t) + t2 * ((3 * c[3] + 4 * c[4] * t) + t2 * (5 * c[5]));
   }
   [[nodiscard]] double Second(double t) const {
-    return 2 * c[2] + t * (6 * c[3] + t * (12 * c[4] + t * 20 * c[5]));
+    return (2 * c[2] + 6 * c[3] * t) + t * t * (12 * c[4] + 20 * c[5] * t);
   }
 };
 
@@ -92,58 +97,66 @@ const LocusTable& Locus() {
 
 // A stationary point of the distance to the locus.
 struct Nearest {
-  double mireds = 0.0;
+  int segment = 0;
+  double t = 0.0;    // within the segment
   double duv = 0.0;  // normal component
   double distance = 0.0;
-  Curve curve{};
+  [[nodiscard]] double InMireds() const { return (segment + t) * kStepMireds; }
 };
 
-Nearest Describe(int segment, double t, Uv1960 p) {
-  const Curve c = Locus().segments[segment].At(t);
+Nearest Describe(const LocusTable& locus, int segment, double t, Uv1960 p) {
+  const Curve c = locus.segments[segment].At(t);
   const double eu = p.u - c.u;
   const double ev = p.v - c.v;
   const double speed = std::sqrt(c.du * c.du + c.dv * c.dv);
-  return {(segment + t) * kStepMireds, (ev * c.du - eu * c.dv) / speed,
-          std::sqrt(eu * eu + ev * ev), c};
+  return {segment, t, (ev * c.du - eu * c.dv) / speed, std::sqrt(eu * eu + ev * ev)};
+}
+
+// Half the second derivative of the squared distance: what a Newton step divides by.
+double Stiffness(const Curve& c, Uv1960 p) {
+  return c.du * c.du + c.dv * c.dv + (c.u - p.u) * c.d2u + (c.v - p.v) * c.d2v;
 }
 
 double NewtonStep(const Curve& c, Uv1960 p) {
-  const double eu = c.u - p.u;
-  const double ev = c.v - p.v;
-  const double force = eu * c.du + ev * c.dv;
-  const double stiffness = c.du * c.du + c.dv * c.dv + eu * c.d2u + ev * c.d2v;
-  return -force / stiffness;
+  return -((c.u - p.u) * c.du + (c.v - p.v) * c.dv) / Stiffness(c, p);
 }
 
-// Where the straight line between the two ends' projections crosses zero.
-double FirstGuess(int segment, Uv1960 p) {
-  const double ahead = Locus().nodes[segment].Ahead(p);
-  const double behind = Locus().nodes[segment + 1].Ahead(p);
+// Where the straight line between the projections at the two ends crosses zero.
+double FirstGuess(const LocusTable& locus, int segment, Uv1960 p) {
+  const double ahead = locus.nodes[segment].Ahead(p);
+  const double behind = locus.nodes[segment + 1].Ahead(p);
   return ahead > behind ? std::clamp(ahead / (ahead - behind), 0.0, 1.0) : 0.5;
 }
 
-// Near the locus: the projection falls monotonically, two Newton steps reach rounding.
-Nearest NearestByBisection(Uv1960 p) {
-  const auto& nodes = Locus().nodes;
+// The last segment whose start still points ahead (the first when none does): a search that cuts
+// its range in four a round, without a branch to mispredict and with three projections side by
+// side.
+int LastSegmentAhead(const LocusTable& locus, Uv1960 p) {
   int low = 0;
-  int high = kSegments;
-  while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    (nodes[middle].Ahead(p) > 0.0 ? low : high) = middle;
+  const auto ahead = [&](int node) {
+    return static_cast<int>(locus.nodes[std::min(node, kSegments)].Ahead(p) > 0.0);
+  };
+  for (int step = kLargestStep; step > 0; step /= 4) {
+    low += step * (ahead(low + step) + ahead(low + 2 * step) + ahead(low + 3 * step));
   }
-  double t = FirstGuess(low, p);
-  for (int i = 0; i < 2; ++i) {
-    t = std::clamp(t + NewtonStep(Locus().segments[low].At(t), p), 0.0, 1.0);
-  }
-  return Describe(low, t, p);
+  return std::min(low, kSegments - 1);
+}
+
+// Near the locus: the projection falls monotonically, two Newton steps reach rounding.
+Nearest NearestByBisection(const LocusTable& locus, Uv1960 p) {
+  const int segment = LastSegmentAhead(locus, p);
+  const Segment& s = locus.segments[segment];
+  double t = FirstGuess(locus, segment, p);
+  for (int i = 0; i < 2; ++i) t = std::clamp(t + NewtonStep(s.At(t), p), 0.0, 1.0);
+  return Describe(locus, segment, t, p);
 }
 
 // One segment whose ends pull towards its inside: Newton, safeguarded by bisection.
-Nearest NearestInSegment(int segment, Uv1960 p) {
-  const Segment& s = Locus().segments[segment];
+Nearest NearestInSegment(const LocusTable& locus, int segment, Uv1960 p) {
+  const Segment& s = locus.segments[segment];
   double low = 0.0;
   double high = 1.0;
-  double t = FirstGuess(segment, p);
+  double t = FirstGuess(locus, segment, p);
   for (int i = 0; i < 60; ++i) {
     const Curve c = s.At(t);
     ((c.u - p.u) * c.du + (c.v - p.v) * c.dv > 0.0 ? high : low) = t;
@@ -152,26 +165,28 @@ Nearest NearestInSegment(int segment, Uv1960 p) {
     if (std::abs(next - t) < 1e-15) break;
     t = next;
   }
-  return Describe(segment, t, p);
+  return Describe(locus, segment, t, p);
 }
 
 // Far from the locus: every local minimum, and both ends.
-Nearest NearestByScan(Uv1960 p) {
-  const auto& nodes = Locus().nodes;
-  Nearest best = Describe(0, 0.0, p);
+Nearest NearestByScan(const LocusTable& locus, Uv1960 p) {
+  Nearest best = Describe(locus, 0, 0.0, p);
   const auto consider = [&best](const Nearest& candidate) {
     if (candidate.distance < best.distance) best = candidate;
   };
-  consider(Describe(kSegments - 1, 1.0, p));
+  consider(Describe(locus, kSegments - 1, 1.0, p));
+  double ahead = locus.nodes[0].Ahead(p);
   for (int i = 0; i < kSegments; ++i) {
-    if (nodes[i].Ahead(p) > 0.0 && nodes[i + 1].Ahead(p) <= 0.0) consider(NearestInSegment(i, p));
+    const double next_ahead = locus.nodes[i + 1].Ahead(p);
+    if (ahead > 0.0 && next_ahead <= 0.0) consider(NearestInSegment(locus, i, p));
+    ahead = next_ahead;
   }
   return best;
 }
 
-Nearest NearestOnLocus(Uv1960 p) {
-  const Nearest nearest = NearestByBisection(p);
-  return nearest.distance < kUniqueWithin ? nearest : NearestByScan(p);
+Nearest NearestOnLocus(const LocusTable& locus, Uv1960 p) {
+  const Nearest nearest = NearestByBisection(locus, p);
+  return nearest.distance < kUniqueWithin ? nearest : NearestByScan(locus, p);
 }
 
 // Finite, with y > 0 and on the colours' side of the pole of u, v <-> x, y.
@@ -189,14 +204,14 @@ bool IsChromaticity(Xy xy) {
 CctResult CctFromUv(Uv1960 uv) {
   CctResult result;
   if (!IsChromaticity(uv)) return result;
-  const Nearest nearest = NearestOnLocus(uv);
+  const Nearest nearest = NearestOnLocus(Locus(), uv);
   result.duv = nearest.duv;
-  if (nearest.mireds < kInfinityMireds) {
+  if (nearest.InMireds() < kInfinityMireds) {
     result.temperature = Kelvin(std::numeric_limits<double>::infinity());
     result.status = CctStatus::kBeyondInfinity;
     return result;
   }
-  result.temperature = KelvinFromMireds(Mireds(nearest.mireds));
+  result.temperature = KelvinFromMireds(Mireds(nearest.InMireds()));
   if (nearest.distance > kDuvLimit) {
     result.status = CctStatus::kFarFromLocus;
   } else if (result.temperature.value() < kColdestKelvin) {
@@ -214,11 +229,11 @@ CctResult CctFromXy(Xy xy) {
 std::optional<CctJacobian> CctJacobianAt(Xy xy) {
   if (!IsChromaticity(xy)) return std::nullopt;
   const Uv1960 uv = Uv1960FromXy(xy);
-  const Nearest nearest = NearestOnLocus(uv);
-  if (nearest.mireds < kInfinityMireds) return std::nullopt;
-  const Curve& c = nearest.curve;
+  const Nearest nearest = NearestOnLocus(Locus(), uv);
+  if (nearest.InMireds() < kInfinityMireds) return std::nullopt;
+  const Curve c = Locus().segments[nearest.segment].At(nearest.t);
   const double speed2 = c.du * c.du + c.dv * c.dv;
-  const double stiffness = speed2 + (c.u - uv.u) * c.d2u + (c.v - uv.v) * c.d2v;
+  const double stiffness = Stiffness(c, uv);
   if (!(stiffness > 1e-9 * speed2)) return std::nullopt;
   const double speed = std::sqrt(speed2);
   const double dmired_du = kStepMireds * c.du / stiffness;

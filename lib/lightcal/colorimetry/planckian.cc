@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/colorimetry/planckian.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -10,24 +11,49 @@
 namespace lightcal {
 namespace {
 
-// g and its derivatives, times exp(x): the common factor exp(-x) would underflow for cold bodies
-// and cancels in a chromaticity.
-struct ScaledRatio {
+// g and its first two derivatives by x.
+struct Ratio {
   double g, g1, g2;
 };
 
-ScaledRatio RatioTimesExp(double x) {
-  const double e = std::exp(x);
-  if (x < 0.05) {  // the closed forms cancel; relative error of the series below 1e-12
-    const double x2 = x * x;
-    return {e * (1.0 + x * (-0.5 + x * (1.0 / 12.0 - x2 * (1.0 / 720.0 - x2 / 30240.0)))),
-            e * (-0.5 + x * (1.0 / 6.0 - x2 * (1.0 / 180.0 - x2 / 5040.0))),
-            e * (1.0 / 6.0 - x2 * (1.0 / 60.0 - x2 * (1.0 / 1008.0 - x2 / 21600.0)))};
-  }
-  const double w = -std::expm1(-x);  // 1 - exp(-x)
-  const double q = 1.0 - w;
-  return {x / w, (w - x) / (w * w), (x * (1.0 + q) - 2.0 * w) / (w * w * w)};
+// The closed forms, with q = exp(-x) (times any scale) and w = 1 - exp(-x).
+Ratio RatioFrom(double x, double q, double w) {
+  const double r = 1.0 / w;
+  return {x * q * r, q * (w - x) * r * r, q * (x * (2.0 - w) - 2.0 * w) * r * r * r};
 }
+
+// g of every wavelength of one body, all times exp(least_x): without that common factor, which
+// cancels in a chromaticity, cold bodies underflow.
+class ScaledRatio {
+ public:
+  explicit ScaledRatio(double least_x)
+      : least_x_(least_x),
+        scale_(std::exp(std::min(least_x, kSmall))),
+        unscale_(std::exp(-least_x)) {}
+
+  // x >= least_x. One exponential each.
+  [[nodiscard]] Ratio At(double x) const {
+    if (x < kSeries) {  // the closed forms cancel; relative error of the series below 1e-12
+      const double x2 = x * x;
+      return {scale_ * (1.0 + x * (-0.5 + x * (1.0 / 12.0 - x2 * (1.0 / 720.0 - x2 / 30240.0)))),
+              scale_ * (-0.5 + x * (1.0 / 6.0 - x2 * (1.0 / 180.0 - x2 / 5040.0))),
+              scale_ * (1.0 / 6.0 - x2 * (1.0 / 60.0 - x2 * (1.0 / 1008.0 - x2 / 21600.0)))};
+    }
+    if (x < kSmall) {
+      const double w = -std::expm1(-x);
+      return RatioFrom(x, scale_ * (1.0 - w), w);
+    }
+    const double q = std::exp(least_x_ - x);
+    return RatioFrom(x, q, 1.0 - q * unscale_);
+  }
+
+ private:
+  static constexpr double kSeries = 0.05;
+  static constexpr double kSmall = 0.5;  // from here 1 - exp(-x) does not cancel
+  double least_x_;
+  double scale_;  // exp(least_x) wherever some x is below kSmall
+  double unscale_;
+};
 
 // Sum over wavelength of l^-4 g(c2/(l T)) times each colour-matching function, and its derivatives
 // by mireds; all three share one free scale.
@@ -55,19 +81,19 @@ const std::array<PlanckTerm, kCmfCount>& PlanckTerms() {
 TristimulusSums SumsAt(double mireds) {
   const auto& terms = PlanckTerms();
   const auto& table = Cie1931Cmf();
-  const double least_x = terms.back().x_per_mired * mireds;
+  const ScaledRatio ratio(terms.back().x_per_mired * mireds);
   TristimulusSums sums;
   for (int i = 0; i < kCmfCount; ++i) {
     const double s = terms[i].x_per_mired;
     const double x = s * mireds;
-    const double scale = terms[i].weight * std::exp(least_x - x);
-    const ScaledRatio r = RatioTimesExp(x);
+    const double weight = terms[i].weight;
+    const Ratio r = ratio.At(x);
     const CmfRow& row = table[static_cast<std::size_t>(i)];
     const std::array<double, 3> cmf = {row.x_bar, row.y_bar, row.z_bar};
     for (int k = 0; k < 3; ++k) {
-      sums.value[k] += scale * r.g * cmf[k];
-      sums.first[k] += scale * r.g1 * s * cmf[k];
-      sums.second[k] += scale * r.g2 * s * s * cmf[k];
+      sums.value[k] += weight * r.g * cmf[k];
+      sums.first[k] += weight * r.g1 * s * cmf[k];
+      sums.second[k] += weight * r.g2 * s * s * cmf[k];
     }
   }
   return sums;
