@@ -32,6 +32,9 @@ constexpr CommandRow kCommands[] = {
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --bare -o presets --force", BuildExport},
+    {"report", "One self-contained page: figures, plots, how sure and why, provenance",
+     "  lightcal report sample_data/sessions/amaran_200x_s_bare -o report.html\n"
+     "  lightcal report out/light.json -o report.html", BuildReport},
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"

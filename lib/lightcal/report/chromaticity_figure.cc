@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "lightcal/colorimetry/cct.h"
+#include "lightcal/report/figures.h"
+#include "lightcal/report/svg.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+// Half the height of the window in v'; the width follows, so that both axes have one scale.
+constexpr double kHalfHeight = 0.045;
+constexpr double kDuvGuide = 0.006;
+constexpr double kIsothermDuv = 0.012;
+constexpr double kHottest_mired = 40.0;    // 25 000 K
+constexpr double kColdest_mired = 1000.0;  // 1000 K
+constexpr int kLocusSteps = 160;
+constexpr int kEllipseSteps = 72;
+
+struct Window {
+  Axis u, v;
+  [[nodiscard]] PagePoint At(Uv1976 c) const { return {u.At(c.u), v.At(c.v)}; }
+  [[nodiscard]] bool Holds(Uv1976 c) const { return u.Holds(c.u) && v.Holds(c.v); }
+};
+
+Uv1976 AtMired(double mired, double duv) {
+  const Uv1960 uv = UvFromCct(KelvinFromMireds(Mireds(mired)), duv);
+  return {uv.u, 1.5 * uv.v};
+}
+
+std::optional<Uv1976> PointOf(const FittedColor& color) {
+  if (color.xy && color.xy->y > 0.0) return Uv1976FromXy(*color.xy);
+  if (!color.cct_K || !(color.cct_K->value > 0.0)) return std::nullopt;
+  return AtMired(1e6 / color.cct_K->value, color.duv ? color.duv->value : 0.0);
+}
+
+Window Around(Uv1976 centre) {
+  const PlotArea& area = Svg::Area();
+  const double half_width = kHalfHeight * (area.right - area.left) / (area.bottom - area.top);
+  return {
+      {AxisScale::kLinear, centre.u - half_width, centre.u + half_width, area.left, area.right},
+      {AxisScale::kLinear, centre.v - kHalfHeight, centre.v + kHalfHeight, area.bottom, area.top}};
+}
+
+void DrawLocus(Svg& svg, const Window& window, double duv, std::string_view css) {
+  std::vector<PagePoint> points;
+  for (int i = 0; i <= kLocusSteps; ++i) {
+    const double mired = kHottest_mired + (kColdest_mired - kHottest_mired) * i / kLocusSteps;
+    points.push_back(window.At(AtMired(mired, duv)));
+  }
+  svg.Path(css, points);
+}
+
+// Short lines across the locus; those whose label would leave the plot or touch the last one go
+// bare.
+void DrawIsotherms(Svg& svg, const Window& window) {
+  constexpr std::array<double, 18> kKelvins = {1500, 1800, 2000, 2200,  2500,  2700,
+                                               3000, 3200, 3500, 4000,  4500,  5000,
+                                               5600, 6500, 8000, 10000, 15000, 20000};
+  constexpr double kLabelGap = 46.0;
+  const PlotArea& area = Svg::Area();
+  double last_x = std::numeric_limits<double>::infinity();
+  for (const double kelvin : kKelvins) {
+    const double mired = 1e6 / kelvin;
+    if (!window.Holds(AtMired(mired, 0.0))) continue;
+    const PagePoint below = window.At(AtMired(mired, -kIsothermDuv));
+    svg.Line("isotherm", window.At(AtMired(mired, kIsothermDuv)), below);
+    const PagePoint label = {below.first, below.second + 14.0};
+    const bool inside = label.first > area.left + 22.0 && label.first < area.right - 26.0 &&
+                        label.second < area.bottom - 4.0;
+    if (!inside || last_x - label.first < kLabelGap) continue;
+    svg.Text("note", label, "middle", Figure(kelvin) + " K");
+    last_x = label.first;
+  }
+}
+
+// The 95 % region of (mired, Duv), taken as independent.
+void DrawEllipse(Svg& svg, const Window& window, const FittedColor& color) {
+  if (!color.cct_K || !(color.cct_K->u95 > 0.0)) return;
+  const double kelvin = color.cct_K->value;
+  const double half_mired = 1e6 / kelvin * std::min(color.cct_K->u95 / kelvin, 0.5);
+  const double duv = color.duv ? color.duv->value : 0.0;
+  const double half_duv = color.duv ? color.duv->u95 : 0.0;
+  std::vector<PagePoint> points;
+  for (int i = 0; i < kEllipseSteps; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kEllipseSteps;
+    const Uv1976 c =
+        AtMired(1e6 / kelvin + half_mired * std::cos(angle), duv + half_duv * std::sin(angle));
+    points.push_back(window.At(c));
+  }
+  svg.Path("ellipse", points, true);
+}
+
+}  // namespace
+
+std::string ChromaticityFigure(const FittedLight& light, std::string_view id) {
+  const auto point = PointOf(light.color);
+  if (!point) return "";
+  const Window window = Around(*point);
+  Svg svg(std::string(id), "Chromaticity",
+          "CIE 1976 u'v' around the light, with the Planckian locus and correlated colour "
+          "temperatures");
+  svg.Axes(window.u, window.v, "u′", "v′");
+  svg.BeginPlot();
+  DrawIsotherms(svg, window);
+  DrawLocus(svg, window, kDuvGuide, "guide");
+  DrawLocus(svg, window, -kDuvGuide, "guide");
+  DrawLocus(svg, window, 0.0, "locus");
+  DrawEllipse(svg, window, light.color);
+  svg.Circle("used", window.At(*point), 4.5,
+             "u′ " + Fixed(point->u, 4) + ", v′ " + Fixed(point->v, 4));
+  svg.EndPlot();
+  return svg.Finish();
+}
+
+}  // namespace lightcal::report

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/report/page.h"
+
+namespace lightcal::report {
+
+// The figure a light is known by: intensity, else illuminance, else luminance, else flux.
+struct Headline {
+  const Uncertain* value = nullptr;  // null: nothing was found
+  const char* unit = "";
+};
+[[nodiscard]] Headline HeadlineOf(const FittedLight& light);
+
+// "#ffd3a1": the light's colour at full brightness, sRGB; empty when its colour is unknown.
+[[nodiscard]] std::string SwatchOf(const FittedColor& color);
+
+// "learned", "prior" or "": who decided a parameter.
+[[nodiscard]] std::string DecidedBy(const FitDiagnostics& fit, std::string_view parameter);
+
+// The section of one light: headline, cards, what to type in, figures, tables. index makes ids
+// unique; alone says that the page has no other light.
+[[nodiscard]] std::string LightSection(const FittedLight& light, int index, bool alone,
+                                       const std::vector<EngineFigure>& figures);
+
+}  // namespace lightcal::report

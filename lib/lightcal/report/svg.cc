@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/report/svg.h"
+
+#include <cmath>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+constexpr double kTickGapX = 40.0;
+constexpr double kTickGapY = 26.0;
+constexpr PlotArea kArea;
+
+std::string Attribute(std::string_view name, std::string_view value) {
+  return " " + std::string(name) + "=\"" + std::string(value) + "\"";
+}
+
+std::string Tooltip(std::string_view text) {
+  return text.empty() ? "" : "<title>" + Escaped(text) + "</title>";
+}
+
+std::string PathData(const std::vector<PagePoint>& points, bool closed) {
+  std::string data;
+  for (const auto& [x, y] : points) data += (data.empty() ? "M" : "L") + Px(x) + " " + Px(y);
+  return data + (closed ? "Z" : "");
+}
+
+}  // namespace
+
+std::string Px(double value) { return ShortestText(std::round(value * 100.0) / 100.0); }
+
+const PlotArea& Svg::Area() { return kArea; }
+
+Svg::Svg(std::string id, std::string_view title, std::string_view description)
+    : id_(std::move(id)) {
+  body_ = "<title" + Attribute("id", id_ + "-title") + ">" + Escaped(title) + "</title>\n<desc" +
+          Attribute("id", id_ + "-desc") + ">" + Escaped(description) + "</desc>\n";
+  body_ += "<clipPath" + Attribute("id", id_ + "-clip") + "><rect" +
+           Attribute("x", Px(kArea.left)) + Attribute("y", Px(kArea.top)) +
+           Attribute("width", Px(kArea.right - kArea.left)) +
+           Attribute("height", Px(kArea.bottom - kArea.top)) + "/></clipPath>\n";
+}
+
+void Svg::Line(std::string_view css, PagePoint from, PagePoint to) {
+  body_ += "<line" + Attribute("class", css) + Attribute("x1", Px(from.first)) +
+           Attribute("y1", Px(from.second)) + Attribute("x2", Px(to.first)) +
+           Attribute("y2", Px(to.second)) + "/>\n";
+}
+
+void Svg::Path(std::string_view css, const std::vector<PagePoint>& points, bool closed) {
+  body_ += "<path" + Attribute("class", css) + Attribute("d", PathData(points, closed)) + "/>\n";
+}
+
+void Svg::Circle(std::string_view css, PagePoint centre, double radius, std::string_view tooltip) {
+  body_ += "<circle" + Attribute("class", css) + Attribute("cx", Px(centre.first)) +
+           Attribute("cy", Px(centre.second)) + Attribute("r", Px(radius)) + ">" +
+           Tooltip(tooltip) + "</circle>\n";
+}
+
+void Svg::Cross(std::string_view css, PagePoint centre, double half, std::string_view tooltip) {
+  const auto [x, y] = centre;
+  const std::string data = PathData({{x - half, y - half}, {x + half, y + half}}, false) +
+                           PathData({{x - half, y + half}, {x + half, y - half}}, false);
+  body_ += "<path" + Attribute("class", css) + Attribute("d", data) + ">" + Tooltip(tooltip) +
+           "</path>\n";
+}
+
+void Svg::Text(std::string_view css, PagePoint at, std::string_view anchor, std::string_view text) {
+  body_ += "<text" + Attribute("class", css) + Attribute("x", Px(at.first)) +
+           Attribute("y", Px(at.second)) + Attribute("text-anchor", anchor) + ">" + Escaped(text) +
+           "</text>\n";
+}
+
+void Svg::Axes(const Axis& x, const Axis& y, std::string_view x_title, std::string_view y_title) {
+  for (const double tick : TicksOf(x, kTickGapX)) {
+    Line("grid", {x.At(tick), kArea.top}, {x.At(tick), kArea.bottom});
+    Text("tick", {x.At(tick), kArea.bottom + 18.0}, "middle", Figure(tick));
+  }
+  for (const double tick : TicksOf(y, kTickGapY)) {
+    Line("grid", {kArea.left, y.At(tick)}, {kArea.right, y.At(tick)});
+    Text("tick", {kArea.left - 8.0, y.At(tick) + 4.0}, "end", Figure(tick));
+  }
+  Path("frame", {{kArea.left, kArea.top}, {kArea.left, kArea.bottom}, {kArea.right, kArea.bottom}});
+  Text("axis", {(kArea.left + kArea.right) / 2.0, kArea.bottom + 42.0}, "middle", x_title);
+  const double middle = (kArea.top + kArea.bottom) / 2.0;
+  body_ += "<text" + Attribute("class", "axis") + Attribute("text-anchor", "middle") +
+           Attribute("transform", "translate(14 " + Px(middle) + ") rotate(-90)") + ">" +
+           Escaped(y_title) + "</text>\n";
+}
+
+void Svg::BeginPlot() { body_ += "<g" + Attribute("clip-path", "url(#" + id_ + "-clip)") + ">\n"; }
+void Svg::EndPlot() { body_ += "</g>\n"; }
+
+std::string Svg::Finish() const {
+  return "<svg" + Attribute("xmlns", "http://www.w3.org/2000/svg") + Attribute("id", id_) +
+         Attribute("viewBox", "0 0 " + Px(kFigureWidth) + " " + Px(kFigureHeight)) +
+         Attribute("role", "img") + Attribute("aria-labelledby", id_ + "-title " + id_ + "-desc") +
+         ">\n" + body_ + "</svg>\n";
+}
+
+}  // namespace lightcal::report

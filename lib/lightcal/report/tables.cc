@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/report/tables.h"
+
+#include <algorithm>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+std::string Words(const std::string& name) {
+  std::string words = name;
+  std::ranges::replace(words, '_', ' ');
+  return Escaped(words);
+}
+
+std::string List(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + Words(name);
+  return text.empty() ? "—" : text;
+}
+
+std::string Numbers(const std::vector<int>& numbers) {
+  std::string text;
+  for (const int n : numbers) text += (text.empty() ? "" : ", ") + std::to_string(n);
+  return text;
+}
+
+std::string Cell(std::string_view html, bool number = false) {
+  return std::string(number ? "<td class=\"n\">" : "<td>") + std::string(html) + "</td>";
+}
+
+// Illuminance with the digits a meter shows.
+std::string Illuminance(double lux) {
+  return Figure(lux == 0.0 ? 0.0 : ParseNumber(RoundedText(lux, 4)).value_or(lux));
+}
+
+const char* StateWord(EffectState state) {
+  switch (state) {
+    case EffectState::kOff:
+      return "off";
+    case EffectState::kOn:
+      return "on";
+    case EffectState::kFitted:
+      return "fitted";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string PairTable(std::string_view heading,
+                      const std::vector<std::pair<std::string, std::string>>& rows) {
+  std::string html = "<div class=\"block\"><h3>" + Escaped(heading) + "</h3><table><tbody>\n";
+  for (const auto& [label, value] : rows) {
+    html += "<tr><th scope=\"row\">" + Escaped(label) + "</th>" + Cell(value) + "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string FitTable(const FitDiagnostics& fit) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  rows.emplace_back("Readings used",
+                    std::to_string(fit.used) + " of " + std::to_string(fit.readings));
+  if (!fit.rejected.empty()) {
+    rows.emplace_back("Rejected", "<span class=\"off\">no. " + Numbers(fit.rejected) + "</span>");
+  }
+  rows.emplace_back("Degrees of freedom", std::to_string(fit.degrees_of_freedom));
+  rows.emplace_back("Residual rms", fit.rms_relative ? Percent(fit.rms_relative)
+                                                     : "not claimed: no degree of freedom left");
+  rows.emplace_back("Leave-one-out error", Percent(fit.leave_one_out));
+  if (fit.chi2_dof) rows.emplace_back("χ² per degree of freedom", RoundedText(*fit.chi2_dof, 3));
+  if (fit.condition) rows.emplace_back("Condition number", RoundedText(*fit.condition, 3));
+  rows.emplace_back("Learned from the readings", List(fit.learned));
+  rows.emplace_back("Held by a prior", List(fit.prior));
+  return PairTable("How sure, and why", rows);
+}
+
+std::string ReadingTable(const std::vector<ResidualRow>& rows) {
+  if (rows.empty()) return "";
+  std::string html =
+      "<div class=\"block\"><h3>Readings against the model</h3><div class=\"scroll\"><table><thead>"
+      "<tr><th class=\"n\" scope=\"col\">no.</th><th class=\"n\" scope=\"col\">distance</th>"
+      "<th class=\"n\" scope=\"col\">measured</th><th class=\"n\" scope=\"col\">model</th>"
+      "<th class=\"n\" scope=\"col\">residual</th></tr></thead><tbody>\n";
+  for (const ResidualRow& row : rows) {
+    const std::string residual = SignedPercent(row.relative);
+    html +=
+        "<tr>" + Cell(std::to_string(row.index), true) +
+        Cell(row.distance_m ? Figure(*row.distance_m) + "\u00A0m" : "—", true) +
+        Cell(Illuminance(row.measured_lx) + "\u00A0lx", true) +
+        Cell(Illuminance(row.predicted_lx) + "\u00A0lx", true) +
+        Cell(row.used ? residual : "<span class=\"off\">" + residual + " rejected</span>", true) +
+        "</tr>\n";
+  }
+  return html + "</tbody></table></div></div>\n";
+}
+
+std::string EffectTable(const std::vector<EffectReport>& effects) {
+  if (effects.empty()) return "";
+  std::string html =
+      "<div class=\"block\"><h3>Effects considered</h3><div class=\"scroll\"><table><thead><tr>"
+      "<th scope=\"col\">effect</th><th scope=\"col\">state</th>"
+      "<th class=\"n\" scope=\"col\">at most</th><th class=\"n\" scope=\"col\">found</th>"
+      "<th scope=\"col\">why</th></tr></thead><tbody>\n";
+  for (const EffectReport& effect : effects) {
+    html += "<tr><th scope=\"row\">" + Words(effect.name) + "</th>" +
+            Cell(StateWord(effect.state)) + Cell(Percent(effect.bound), true) +
+            Cell(Percent(effect.contribution), true) + Cell(Escaped(effect.reason)) + "</tr>\n";
+  }
+  return html + "</tbody></table></div></div>\n";
+}
+
+}  // namespace lightcal::report

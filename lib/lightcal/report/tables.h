@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tables under a light's figures.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal::report {
+
+// A heading over a table of label and value; the values are HTML.
+[[nodiscard]] std::string PairTable(std::string_view heading,
+                                    const std::vector<std::pair<std::string, std::string>>& rows);
+
+// How sure, and why: readings, degrees of freedom, rms, leave-one-out, learned, prior.
+[[nodiscard]] std::string FitTable(const FitDiagnostics& fit);
+// Every reading against the model.
+[[nodiscard]] std::string ReadingTable(const std::vector<ResidualRow>& rows);
+// The gate: what was considered, at most how large, what came of it.
+[[nodiscard]] std::string EffectTable(const std::vector<EffectReport>& effects);
+
+}  // namespace lightcal::report
