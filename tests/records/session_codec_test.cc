@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace lightcal {
 namespace {
@@ -115,13 +116,17 @@ TEST(SessionToml, ShapesHoldTheirOwnLengths) {
   EXPECT_EQ(session.lights[3].radius, Metres(0.013));
 }
 
-TEST(SessionToml, AimHasUnitLengthEvenWhereItsSquareWouldOverflow) {
+TEST(SessionToml, AimHasUnitLengthEvenAtTheEndsOfADoublesRange) {
   EXPECT_EQ(WholeSession().lights[0].aim, (Vec3{0.0, 0.0, -1.0}));
   const auto session = ParseSessionToml(
       "lightcal = 1\n[[light]]\nname = \"a\"\nkind = \"spot\"\naim = [3e200, 0, 4e200]\n", "s");
   ASSERT_TRUE(session) << session.error().message;
   EXPECT_NEAR(session->lights[0].aim.value()[0], 0.6, 1e-15);
   EXPECT_NEAR(session->lights[0].aim.value()[2], 0.8, 1e-15);
+  const auto tiny = ParseSessionToml(
+      "lightcal = 1\n[[light]]\nname = \"a\"\nkind = \"spot\"\naim = [0, 5e-324, 0]\n", "s");
+  ASSERT_TRUE(tiny) << tiny.error().message;
+  EXPECT_EQ(tiny->lights[0].aim, (Vec3{0.0, 1.0, 0.0}));
 }
 
 TEST(SessionToml, ReadingHoldsEveryKey) {
@@ -225,6 +230,19 @@ TEST(ReadingLine, WritesWholeDegreesAsAPersonWould) {
     reading.tilt = RadiansFromDegrees(degrees);
     EXPECT_THAT(ReadingToJson(reading),
                 testing::HasSubstr("\"tilt_deg\":" + std::to_string(degrees) + ".0}"));
+  }
+}
+
+TEST(ReadingLine, AnyTiltThatWasReadIsWrittenSoThatItReadsBackTheSame) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> degrees(-90.0, 90.0);
+  for (int i = 0; i < 20000; ++i) {
+    Reading reading;
+    reading.illuminance = Lux(1.0);
+    reading.tilt = RadiansFromDegrees(degrees(random));
+    const auto back = ReadingFromJson(ReadingToJson(reading), "here");
+    ASSERT_TRUE(back) << back.error().message;
+    ASSERT_EQ(back->tilt.value(), reading.tilt.value());
   }
 }
 

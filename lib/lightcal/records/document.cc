@@ -48,8 +48,8 @@ Node Node::Boolean(bool boolean) {
 }
 
 const Node* Node::Find(std::string_view key) const {
-  const auto found = std::ranges::find_if(members, [&](const auto& m) { return m.first == key; });
-  return found == members.end() ? nullptr : &found->second;
+  const auto found = std::ranges::find(members, key, &Member::key);
+  return found == members.end() ? nullptr : &found->value;
 }
 
 std::string_view KindName(Node::Kind kind) {

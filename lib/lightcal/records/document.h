@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace lightcal::records {
+
+struct Member;
 
 struct Node {
   enum class Kind { kNull, kBoolean, kInteger, kNumber, kText, kArray, kTable };
@@ -19,9 +20,9 @@ struct Node {
   std::int64_t integer = 0;  // kInteger
   double number = 0.0;       // kNumber, and kInteger as the nearest double; may be NaN from TOML
   std::string text;
-  std::vector<Node> items;                            // kArray
-  std::vector<std::pair<std::string, Node>> members;  // kTable, in file order
-  int line = 0;                                       // 1-based; 0 = the syntax does not say
+  std::vector<Node> items;      // kArray
+  std::vector<Member> members;  // kTable, in file order
+  int line = 0;                 // 1-based; 0 = the syntax does not say
 
   [[nodiscard]] static Node Table();
   [[nodiscard]] static Node Array();
@@ -33,6 +34,11 @@ struct Node {
   [[nodiscard]] bool IsNumber() const { return kind == Kind::kNumber || kind == Kind::kInteger; }
   // The member of a table, or null.
   [[nodiscard]] const Node* Find(std::string_view key) const;
+};
+
+struct Member {
+  std::string key;
+  Node value;
 };
 
 // "a number", "a table", ... for messages.

@@ -79,7 +79,7 @@ void FieldReader::Fail(const std::string& code, std::string_view key, const std:
 
 const Node* FieldReader::Take(std::string_view key, std::optional<Node::Kind> kind) {
   known_.push_back(key);
-  if (failed()) return nullptr;
+  if (Failed()) return nullptr;
   const Node* value = table_->Find(key);
   if (value == nullptr || !kind || value->kind == *kind) return value;
   Fail(key, std::string(key) + " must be " + std::string(KindName(*kind)) + ", not " +

@@ -122,8 +122,8 @@ class FieldReader {
   void Fail(const std::string& code, std::string_view key, const std::string& message);
   // Refuses unknown and missing keys; called after the visitor.
   void Finish();
-  [[nodiscard]] bool failed() const { return file_->error.has_value(); }
-  [[nodiscard]] const std::string& place() const { return place_; }
+  [[nodiscard]] bool Failed() const { return file_->error.has_value(); }
+  [[nodiscard]] const std::string& Place() const { return place_; }
 
  private:
   [[nodiscard]] bool IsTable();

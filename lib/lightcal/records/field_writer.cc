@@ -16,6 +16,11 @@ double RoundestDegrees(Radians angle) {
     const auto rounded = ParseNumber(RoundedText(exact, digits));
     if (rounded && RadiansFromDegrees(*rounded) == angle) return *rounded;
   }
+  // Multiplying by 180/pi may land beside the number that was read.
+  for (const double end : {-360.0, 360.0}) {
+    const double neighbour = std::nextafter(exact, end);
+    if (RadiansFromDegrees(neighbour) == angle) return neighbour;
+  }
   return exact;
 }
 
@@ -38,7 +43,7 @@ void FieldWriter::Texts(std::string_view key, const std::vector<std::string>& va
 }
 
 void FieldWriter::Put(std::string_view key, Node value) {
-  table_.members.emplace_back(std::string(key), std::move(value));
+  table_.members.push_back({std::string(key), std::move(value)});
 }
 
 void FieldWriter::PutNumbers(std::string_view key, std::span<const double> values) {

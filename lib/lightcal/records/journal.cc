@@ -32,7 +32,7 @@ class File {
   }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
-  [[nodiscard]] int fd() const { return fd_; }
+  [[nodiscard]] int get() const { return fd_; }
 
  private:
   int fd_;
@@ -70,7 +70,7 @@ tl::unexpected<Error> WriteFailure(const std::string& path, int error) {
 
 Result<void> Lock(const File& file, const std::string& path) {
   const auto deadline = std::chrono::steady_clock::now() + kLockPatience;
-  while (::flock(file.fd(), LOCK_EX | LOCK_NB) != 0) {
+  while (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK && errno != EINTR) return WriteFailure(path, errno);
     if (std::chrono::steady_clock::now() >= deadline) {
       return Failed("session_locked", path,
@@ -101,8 +101,8 @@ int SyncDirectoryOf(const std::string& path) {
   const auto parent = std::filesystem::path(path).parent_path();
   const File directory(
       ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (directory.fd() < 0) return errno;
-  return ::fsync(directory.fd()) == 0 || errno == EINVAL ? 0 : errno;
+  if (directory.get() < 0) return errno;
+  return ::fsync(directory.get()) == 0 || errno == EINVAL ? 0 : errno;
 }
 
 // The line that LoadSession will take back; a reading it would reject is refused here, while the
@@ -124,17 +124,17 @@ Result<void> AppendToJournal(const std::string& journal_path, const Reading& rea
   if (!line) return Propagate(std::move(line));
   constexpr mode_t kMode = 0666;
   const File file(::open(journal_path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, kMode));
-  if (file.fd() < 0) return WriteFailure(journal_path, errno);
+  if (file.get() < 0) return WriteFailure(journal_path, errno);
   if (auto locked = Lock(file, journal_path); !locked) return locked;
   struct stat status{};
-  if (::fstat(file.fd(), &status) != 0) return WriteFailure(journal_path, errno);
+  if (::fstat(file.get(), &status) != 0) return WriteFailure(journal_path, errno);
   if (!S_ISREG(status.st_mode)) return WriteFailure(journal_path, EINVAL);
-  const std::string bytes = (EndsInsideLine(file.fd(), status.st_size) ? "\n" : "") + *line + "\n";
+  const std::string bytes = (EndsInsideLine(file.get(), status.st_size) ? "\n" : "") + *line + "\n";
   const HoldFileSizeSignal hold;
-  int error = WriteAll(file.fd(), bytes);
+  int error = WriteAll(file.get(), bytes);
   if (error == 0 && status.st_size == 0) error = SyncDirectoryOf(journal_path);
   if (error == 0) return {};
-  if (::ftruncate(file.fd(), status.st_size) != 0) {
+  if (::ftruncate(file.get(), status.st_size) != 0) {
     return Failed("journal_write", journal_path,
                   "the reading could not be written and the journal's last line may be torn; it "
                   "will be ignored");

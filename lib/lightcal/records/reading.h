@@ -22,7 +22,7 @@ struct Reading {
   std::string meter;               // name of the [[meter]], "" = none named
   std::optional<Metres> distance;  // from the session's reference point of the lamp, > 0
   std::optional<Vec3> position_m;  // of the meter; with normal, instead of distance
-  std::optional<Vec3> normal;
+  std::optional<Vec3> normal;      // any length above 0
   std::optional<Lux> illuminance;  // as read: ambient and bounce included
   Radians tilt{0.0};               // between the meter's normal and the lamp's direction
   LampState lamp = LampState::kOn;

@@ -20,7 +20,7 @@ constexpr int kSessionVersion = 1;
 template <class Named>
 void CheckName(FieldReader& reader, const std::vector<Named>& all, std::string_view what) {
   const std::string& name = all.back().name;
-  if (reader.failed()) return;
+  if (reader.Failed()) return;
   if (name.empty()) reader.Fail("name", "name must not be empty");
   const auto same = std::ranges::count_if(all, [&](const Named& n) { return n.name == name; });
   if (same > 1) {
@@ -38,7 +38,8 @@ std::optional<Vec3> UnitVector(FieldReader& reader, std::string_view key,
     reader.Fail(key, std::string(key) + " = [0, 0, 0] is no direction");
     return std::nullopt;
   }
-  const Vec3 scaled = *given * (1.0 / largest);
+  // Scaled first, so that neither tiny nor huge components leave the range of a double.
+  const Vec3 scaled{(*given)[0] / largest, (*given)[1] / largest, (*given)[2] / largest};
   return scaled * (1.0 / Length(scaled));
 }
 
@@ -143,10 +144,10 @@ class SessionReader {
   }
 
   void ReadRow(FieldReader& reader, SessionReading& row) {
-    row.where = std::string(where_) + " " + reader.place();
+    row.where = std::string(where_) + " " + reader.Place();
     reader.Require({"light"});
     ReadReading(reader, row.reading);
-    if (reader.failed()) return;
+    if (reader.Failed()) return;
     if (const auto strange = FindStrangeName(out_.session, row.reading)) {
       reader.Fail(strange->code, strange->key, strange->message);
     }
@@ -169,6 +170,7 @@ class SessionReader {
 template <class Named>
 std::string NearestAmong(std::string_view word, const std::vector<Named>& all) {
   std::vector<std::string_view> names;
+  names.reserve(all.size());
   for (const Named& named : all) names.push_back(named.name);
   return DidYouMean(word, names);
 }

@@ -65,7 +65,7 @@ Node NodeFromTable(const toml::table& from) {
   for (const auto& [key, value] : from) {
     Node member = NodeFromToml(value);
     if (key.source().begin.line != 0) member.line = LineOf(key.source());
-    node.members.emplace_back(std::string(key.str()), std::move(member));
+    node.members.push_back({std::string(key.str()), std::move(member)});
   }
   return node;
 }
