@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -138,7 +139,9 @@ Json ToJson(const ColorAnswer& answer) {
 
 // ---- Tables ----
 
+// A fixed number of decimals; what rounds to zero has no sign.
 std::string Fixed(double value, int decimals) {
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;
   std::array<char, 400> text{};  // the largest double has 309 digits before its point
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
                                  std::chars_format::fixed, decimals);

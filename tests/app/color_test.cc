@@ -114,6 +114,12 @@ TEST(ColorCommand, PeopleSeeATableWithUnits) {
   EXPECT_EQ(run.out.find('{'), std::string::npos);
 }
 
+TEST(ColorCommand, NoTableShowsANegativeZero) {
+  const test::CliResult run = RunLightcal({"color", "--cct", "3200"});
+  EXPECT_NE(run.out.find("0.000000"), std::string::npos);
+  EXPECT_EQ(run.out.find("-0.000000"), std::string::npos) << run.out;
+}
+
 // ---- Spectra: every file in sample_data/spectra against its instrument ----
 
 // Duv by the closed formula of Ohno's CORM 2011 talk, which holds above 1800 K.
