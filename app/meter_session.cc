@@ -49,7 +49,7 @@ class InterruptGuard {
 MeterTiming MeterSession::Timing() const {
   MeterTiming timing;
   timing.reply = request_.reply_timeout;
-  if (is_replay()) timing.poll = std::chrono::milliseconds(0);
+  if (IsReplay()) timing.poll = std::chrono::milliseconds(0);
   return timing;
 }
 
@@ -127,14 +127,14 @@ Result<MeterReading> MeterSession::Measure() {
                    "the light is above the meter's range; move back, or put a neutral-density "
                    "filter of known density before it and divide");
   }
-  reading.time = is_replay() ? time_ : NowIso8601();
+  reading.time = IsReplay() ? time_ : NowIso8601();
   return measured;
 }
 
 Result<void> MeterSession::Finish(Console& console) {
-  if (is_replay() && replay_->unconsumed() > 0) {
+  if (IsReplay() && replay_->Unconsumed() > 0) {
     console.Warn({"tape_not_finished", request_.replay_file,
-                  std::to_string(replay_->unconsumed()) +
+                  std::to_string(replay_->Unconsumed()) +
                       " lines of the tape were not played; it holds more than was asked for"});
   }
   if (request_.record_file.empty() || recorded_.lines.empty()) return {};

@@ -31,9 +31,9 @@ class MeterSession {
   // Ctrl-C ends the program at once. Refused: over_range.
   [[nodiscard]] Result<MeterReading> Measure();
 
-  [[nodiscard]] bool is_replay() const { return replay_ != nullptr; }
+  [[nodiscard]] bool IsReplay() const { return replay_ != nullptr; }
   // Whether the tape holds more; always so of a device.
-  [[nodiscard]] bool has_more() const { return !is_replay() || replay_->unconsumed() > 0; }
+  [[nodiscard]] bool HasMore() const { return !IsReplay() || replay_->Unconsumed() > 0; }
 
   // Writes the tape, also after a failure: it is what a bug report begins with. A replay that left
   // lines unplayed warns as tape_not_finished.

@@ -118,12 +118,12 @@ Result<Summary> AskedSummary() {
 }
 
 Result<Summary> MeasuredSummary(const Options& options, MeterSession& meter, Console& console) {
-  const bool until_tape_ends = meter.is_replay() && options.measurements == 0 && !options.once;
+  const bool until_tape_ends = meter.IsReplay() && options.measurements == 0 && !options.once;
   int wanted = options.once ? 1 : options.measurements;
   if (wanted == 0) wanted = kDefaultMeasurements;
   std::vector<MeterReading> measured;
   const auto more = [&] {
-    if (until_tape_ends) return measured.empty() || meter.has_more();
+    if (until_tape_ends) return measured.empty() || meter.HasMore();
     return static_cast<int>(measured.size()) < wanted;
   };
   while (more()) {

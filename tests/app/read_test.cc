@@ -127,6 +127,7 @@ struct FaultCase {
   const char* code;
   int exit_code;
 };
+void PrintTo(const FaultCase& fault_case, std::ostream* os) { *os << fault_case.name; }
 class ReadFault : public testing::TestWithParam<FaultCase> {};
 TEST_P(ReadFault, EndsWithItsCodeAndWritesNothing) {
   const UsbStandIn meter(GetParam().setting());
@@ -263,6 +264,7 @@ struct SampleTape {
   double illuminance_lx;
   double cct_K;
 };
+void PrintTo(const SampleTape& sample, std::ostream* os) { *os << sample.tape; }
 class CommittedTape : public testing::TestWithParam<SampleTape> {};
 TEST_P(CommittedTape, ReadsAsItsReplyIsKnownTo) {
   const std::string tape = SampleData(std::string("tapes/") + GetParam().tape);
@@ -347,6 +349,9 @@ struct BadInput {
   std::vector<std::string> arguments;  // with @ for the session
   int exit_code;
 };
+void PrintTo(const BadInput& input, std::ostream* os) {
+  for (const std::string& word : input.arguments) *os << word << ' ';
+}
 class BadRead : public testing::TestWithParam<BadInput> {};
 TEST_P(BadRead, IsRefusedAndNothingIsWritten) {
   const SessionDir session;

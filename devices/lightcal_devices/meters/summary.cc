@@ -76,6 +76,7 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
   reading.illuminance = Lux(median);
   if (median > 0.0) {
     std::vector<double> deviations;
+    deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
     summary.spread_relative = kSigmaPerMad * Median(std::move(deviations)) / median;
     reading.sigma_relative =

@@ -11,7 +11,7 @@ class Cancellation {
  public:
   // Async-signal-safe: the atomic is lock-free.
   void Request() noexcept { requested_.store(true, std::memory_order_relaxed); }
-  [[nodiscard]] bool requested() const noexcept {
+  [[nodiscard]] bool Requested() const noexcept {
     return requested_.load(std::memory_order_relaxed);
   }
 

@@ -14,7 +14,7 @@ class RecordingTransport final : public Transport {
 
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds timeout) override;
   Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
-  [[nodiscard]] std::string name() const override { return inner_.name(); }
+  [[nodiscard]] std::string Name() const override { return inner_.Name(); }
 
  private:
   void Note(TapeDirection direction, std::span<const std::byte> bytes, const std::string& code);

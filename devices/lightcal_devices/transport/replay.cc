@@ -23,19 +23,19 @@ std::string Spoken(TapeDirection direction, std::span<const std::byte> bytes) {
 
 Result<const TapeLine*> ReplayTransport::Next(const std::string& asked) const {
   if (next_ < tape_.lines.size()) return &tape_.lines[next_];
-  return Failed(std::string(fault::kTapeEnded), name(), "the tape ended before " + asked);
+  return Failed(std::string(fault::kTapeEnded), Name(), "the tape ended before " + asked);
 }
 
 tl::unexpected<Error> ReplayTransport::Mismatch(const TapeLine& line,
                                                 const std::string& asked) const {
-  return Failed(std::string(fault::kTapeMismatch), name(),
+  return Failed(std::string(fault::kTapeMismatch), Name(),
                 "exchange " + std::to_string(next_ + 1) + ": expected " +
                     Spoken(line.direction, line.bytes) + ", got " + asked);
 }
 
 tl::unexpected<Error> ReplayTransport::RecordedFault() {
   const std::string& code = tape_.lines[next_++].code;
-  return Failed(code, name(), "as recorded on the tape: " + code);
+  return Failed(code, Name(), "as recorded on the tape: " + code);
 }
 
 Result<void> ReplayTransport::Write(std::span<const std::byte> bytes,
@@ -60,7 +60,7 @@ Result<Bytes> ReplayTransport::Read(std::size_t max, std::chrono::milliseconds /
   if ((*line)->direction == TapeDirection::kReadFault) return RecordedFault();
   if ((*line)->direction != TapeDirection::kRead) return Mismatch(**line, asked);
   if ((*line)->bytes.size() > max) {
-    return Failed(std::string(fault::kIo), name(),
+    return Failed(std::string(fault::kIo), Name(),
                   "answered " + std::to_string((*line)->bytes.size()) + " bytes where at most " +
                       std::to_string(max) + " are known");
   }

@@ -15,10 +15,10 @@ class ReplayTransport final : public Transport {
 
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds timeout) override;
   Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
-  [[nodiscard]] std::string name() const override { return "tape of " + tape_.driver; }
+  [[nodiscard]] std::string Name() const override { return "tape of " + tape_.driver; }
 
   // Lines not yet played; above 0 at the end means the driver now asks less than it did.
-  [[nodiscard]] std::size_t unconsumed() const { return tape_.lines.size() - next_; }
+  [[nodiscard]] std::size_t Unconsumed() const { return tape_.lines.size() - next_; }
 
  private:
   [[nodiscard]] Result<const TapeLine*> Next(const std::string& asked) const;

@@ -42,7 +42,7 @@ class Transport {
   // message is an answer, not an error: whoever knows the protocol checks the length.
   virtual Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) = 0;
   // For messages: "usb 0a41:7003 at 1-1".
-  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::string Name() const = 0;
 };
 
 // The bytes of a text, as commands in ASCII are sent.

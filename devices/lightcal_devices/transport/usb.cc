@@ -83,6 +83,7 @@ std::vector<Device> AllDevices(libusb_context* context) {
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(context, &list);
   std::vector<Device> devices;
+  devices.reserve(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   for (ssize_t i = 0; i < count; ++i) devices.emplace_back(list[i]);
   if (count >= 0) libusb_free_device_list(list, 0);
   return devices;
@@ -223,7 +224,7 @@ class UsbTransport final : public Transport {
     return buffer;
   }
 
-  [[nodiscard]] std::string name() const override { return name_; }
+  [[nodiscard]] std::string Name() const override { return name_; }
 
  private:
   int Transfer(unsigned char endpoint, Bytes& bytes, milliseconds timeout, int& done) {

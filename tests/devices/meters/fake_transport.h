@@ -14,7 +14,7 @@ class FakeTransport final : public Transport {
 
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds) override {
     if (meter_.Take(bytes)) return {};
-    return Failed(std::string(fault::kUnplugged), name(), "gone");
+    return Failed(std::string(fault::kUnplugged), Name(), "gone");
   }
   Result<Bytes> Read(std::size_t, std::chrono::milliseconds) override {
     Bytes bytes;
@@ -22,15 +22,15 @@ class FakeTransport final : public Transport {
       case FakeSekonic::Answer::kBytes:
         return bytes;
       case FakeSekonic::Answer::kNothing:
-        return Failed(std::string(fault::kTimeout), name(), "silent");
+        return Failed(std::string(fault::kTimeout), Name(), "silent");
       case FakeSekonic::Answer::kStall:
-        return Failed(std::string(fault::kStalled), name(), "stalled");
+        return Failed(std::string(fault::kStalled), Name(), "stalled");
       case FakeSekonic::Answer::kGone:
-        return Failed(std::string(fault::kUnplugged), name(), "gone");
+        return Failed(std::string(fault::kUnplugged), Name(), "gone");
     }
     return Bytes();
   }
-  [[nodiscard]] std::string name() const override { return "fake"; }
+  [[nodiscard]] std::string Name() const override { return "fake"; }
   [[nodiscard]] const FakeSekonic& meter() const { return meter_; }
 
  private:

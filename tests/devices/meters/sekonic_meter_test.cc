@@ -110,6 +110,7 @@ struct FaultCase {
   Fault fault;
   const char* code;
 };
+void PrintTo(const FaultCase& fault_case, std::ostream* os) { *os << fault_case.code; }
 class EveryStep : public testing::TestWithParam<std::tuple<FaultCase, const char*>> {};
 TEST_P(EveryStep, FailsByNameAndGivesTheMeterBack) {
   const auto& [fault_case, command] = GetParam();
@@ -174,7 +175,7 @@ class CancellingTransport final : public Transport {
   Result<Bytes> Read(std::size_t max, std::chrono::milliseconds t) override {
     return inner_.Read(max, t);
   }
-  [[nodiscard]] std::string name() const override { return inner_.name(); }
+  [[nodiscard]] std::string Name() const override { return inner_.Name(); }
 
  private:
   Transport& inner_;
@@ -217,7 +218,7 @@ TEST_P(RecordedDialogue, ReplaysToTheSameOutcome) {
   ASSERT_TRUE(read_back) << read_back.error().message;
   ReplayTransport replay(*read_back);
   const auto again = SekonicMeter(replay, "", QuickTiming()).Measure(Cancellation());
-  EXPECT_EQ(replay.unconsumed(), 0U);
+  EXPECT_EQ(replay.Unconsumed(), 0U);
   ASSERT_EQ(first.has_value(), again.has_value());
   if (first) {
     EXPECT_EQ(first->reading.illuminance->value(), again->reading.illuminance->value());

@@ -49,6 +49,7 @@ struct FaultCase {
   Fault fault;
   const char* code;
 };
+void PrintTo(const FaultCase& fault_case, std::ostream* os) { *os << fault_case.name; }
 class UsbFault : public testing::TestWithParam<FaultCase> {};
 TEST_P(UsbFault, IsATypedErrorAndTheMeterIsNotLeftInRemoteControl) {
   auto setting = Answering407lx();

@@ -91,9 +91,9 @@ TEST(Replay, AnswersWhatWasAnsweredWithoutWaiting) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(line.Write(Text("MN"), kWait));
   EXPECT_EQ(*line.Read(64, kWait), Text("MN@@@C-800"));
-  EXPECT_EQ(line.unconsumed(), 1U);
+  EXPECT_EQ(line.Unconsumed(), 1U);
   EXPECT_EQ(line.Read(64, kWait).error().code, fault::kTimeout);
-  EXPECT_EQ(line.unconsumed(), 0U);
+  EXPECT_EQ(line.Unconsumed(), 0U);
   EXPECT_LT(std::chrono::steady_clock::now() - start, kWait);  // the tape's own took 201 ms
 }
 
@@ -129,7 +129,7 @@ TEST(Replay, AFailedWriteFailsAgain) {
   tape.lines.push_back({TapeDirection::kWriteFault, 5.0, {}, "unplugged"});
   ReplayTransport line(tape);
   EXPECT_EQ(line.Write(Text("MN"), kWait).error().code, fault::kUnplugged);
-  EXPECT_EQ(line.unconsumed(), 0U);
+  EXPECT_EQ(line.Unconsumed(), 0U);
 }
 
 TEST(Recording, WritesDownExactlyWhatPassed) {

@@ -18,7 +18,7 @@ using ByteSpan = std::span<const std::byte>;
 
 constexpr std::size_t kDataOffset = 5;  // after XX@@@
 constexpr std::size_t kStateBytes = 5;
-constexpr double kLowestChecked_lx = 5.0;  // below, the spectrum is mostly noise
+constexpr double kLowestCheckedLx = 5.0;  // below, the spectrum is mostly noise
 
 // Where the values of an NR reply stand.
 constexpr std::size_t kTitleAt = 7;
@@ -206,14 +206,14 @@ Warnings SelfCheck(const Measurement& m, std::string_view subject) {
   if (!Agrees(m.illuminance_fc * kLuxPerFootcandle, lux, 1e-4)) {
     warnings.push_back(Disagreement(subject, reads + " but other foot-candles in the same reply"));
   }
-  if (lux < kLowestChecked_lx) return warnings;
+  if (lux < kLowestCheckedLx) return warnings;
   const Xy from_xyz = XyFromXyz(m.xyz);
   if (!Agrees(from_xyz.x, m.xy.x, 1e-4) || !Agrees(from_xyz.y, m.xy.y, 1e-4)) {
     warnings.push_back(Disagreement(subject, "xy and XYZ of the same reply are different colours"));
   }
   Spectrum spectrum{{}, m.spectrum, SpectralQuantity::kIrradiance};
   for (int i = 0; i < kSpectrumSamples; ++i) {
-    spectrum.wavelengths_nm.push_back(kSpectrumStart_nm + i);
+    spectrum.wavelengths_nm.push_back(kSpectrumStartNm + i);
   }
   const auto integral = XyzFromSpectrum(spectrum);
   if (!integral || !Agrees(integral->Y, lux, 0.01)) {

@@ -52,7 +52,7 @@ struct State {
 [[nodiscard]] Result<State> DecodeState(std::span<const std::byte> bytes);
 
 inline constexpr int kSpectrumSamples = 401;  // 380 .. 780 nm, 1 nm
-inline constexpr double kSpectrumStart_nm = 380.0;
+inline constexpr double kSpectrumStartNm = 380.0;
 
 // The reply to NR, number for number; any may be non-finite where the meter had none. A float32 is
 // given as the shortest decimal that is that float (406.96, not 406.95999), as a double.

@@ -114,7 +114,7 @@ Result<void> SekonicMeter::CheckUsable(const State& state) const {
 Result<void> SekonicMeter::WaitUntilIdle(int polls, const Cancellation& cancellation) {
   std::string doing;
   for (int i = 0; i < polls; ++i) {
-    if (cancellation.requested()) {
+    if (cancellation.Requested()) {
       return Failed("interrupted", DeviceName(), "stopped by you; the meter is released");
     }
     if (i > 0) std::this_thread::sleep_for(timing_.poll);

@@ -9,9 +9,9 @@
 namespace lightcal::sekonic {
 namespace {
 
-constexpr double kLowestCct_K = 1563.0;
-constexpr double kHighestCct_K = 100000.0;
-constexpr double kCctOver_K = 50000.0;
+constexpr double kLowestCctKelvin = 1563.0;
+constexpr double kHighestCctKelvin = 100000.0;
+constexpr double kCctOverKelvin = 50000.0;
 constexpr double kFarthestDuv = 0.1;
 
 bool AllFinite(std::span<const double> values) {
@@ -19,7 +19,7 @@ bool AllFinite(std::span<const double> values) {
 }
 
 bool CctInRange(const Measurement& m) {
-  return m.cct_K >= kLowestCct_K && m.cct_K <= kHighestCct_K && m.cct_K != kCctOver_K &&
+  return m.cct_K >= kLowestCctKelvin && m.cct_K <= kHighestCctKelvin && m.cct_K != kCctOverKelvin &&
          std::abs(m.duv) <= kFarthestDuv;
 }
 
@@ -46,7 +46,7 @@ void AddSpectrum(const Measurement& m, MeterReading& result) {
   if (!AllFinite(m.spectrum)) return;
   Spectrum spectrum{{}, m.spectrum, SpectralQuantity::kIrradiance};
   for (int i = 0; i < kSpectrumSamples; ++i) {
-    spectrum.wavelengths_nm.push_back(kSpectrumStart_nm + i);
+    spectrum.wavelengths_nm.push_back(kSpectrumStartNm + i);
   }
   result.spectrum = std::move(spectrum);
 }
@@ -59,14 +59,14 @@ MeterReading ReadingFromMeasurement(const Measurement& m, const std::string& dev
   reading.device = device;
   reading.sigma_relative = kSigmaRelative;
   reading.illuminance = Lux(m.illuminance_lx);
-  reading.over_range = m.illuminance_lx > kHighestIlluminance_lx;
+  reading.over_range = m.illuminance_lx > kHighestIlluminanceLx;
   if (reading.over_range) return result;
-  if (m.illuminance_lx < kLowestIlluminance_lx) {
+  if (m.illuminance_lx < kLowestIlluminanceLx) {
     result.warnings.push_back({"below_range", device,
                                "below 1 lx the meter is not specified; move closer or measure in "
                                "the dark only to subtract it"});
   }
-  if (m.illuminance_lx < kLowestColor_lx) {
+  if (m.illuminance_lx < kLowestColorLx) {
     result.warnings.push_back({"low_light_color", device,
                                RoundedText(m.illuminance_lx, 3) +
                                    " lx: below 5 lx the meter's colour means nothing and is left "

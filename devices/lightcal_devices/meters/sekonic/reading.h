@@ -9,9 +9,9 @@
 namespace lightcal::sekonic {
 
 inline constexpr double kSigmaRelative = 0.05;  // 1 sigma of E
-inline constexpr double kLowestIlluminance_lx = 1.0;
-inline constexpr double kHighestIlluminance_lx = 200000.0;
-inline constexpr double kLowestColor_lx = 5.0;
+inline constexpr double kLowestIlluminanceLx = 1.0;
+inline constexpr double kHighestIlluminanceLx = 200000.0;
+inline constexpr double kLowestColorLx = 5.0;
 
 // What a measurement may be believed to say, by the meter's own ranges:
 //   above 200000 lx     over_range is set and colour is absent
