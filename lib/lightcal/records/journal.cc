@@ -22,7 +22,7 @@ namespace lightcal {
 namespace {
 
 constexpr std::chrono::milliseconds kLockPatience{2000};
-constexpr std::chrono::milliseconds kLockPause{5};
+constexpr std::chrono::microseconds kLockPause{500};
 
 class File {
  public:
@@ -68,11 +68,24 @@ tl::unexpected<Error> WriteFailure(const std::string& path, int error) {
                     "); the journal is as it was");
 }
 
+off_t SizeOf(const File& file) {
+  struct stat status{};
+  return ::fstat(file.get(), &status) == 0 ? status.st_size : -1;
+}
+
+// Polls, because a blocking flock cannot time out. A journal that grows meanwhile is no stuck one:
+// the patience starts again, so that busy rivals wait for one another instead of failing.
 Result<void> Lock(const File& file, const std::string& path) {
-  const auto deadline = std::chrono::steady_clock::now() + kLockPatience;
+  auto deadline = std::chrono::steady_clock::now() + kLockPatience;
+  off_t size = SizeOf(file);
   while (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK && errno != EINTR) return WriteFailure(path, errno);
-    if (std::chrono::steady_clock::now() >= deadline) {
+    const auto now = std::chrono::steady_clock::now();
+    if (const off_t grown = SizeOf(file); grown != size) {
+      size = grown;
+      deadline = now + kLockPatience;
+    }
+    if (now >= deadline) {
       return Failed("session_locked", path,
                     "another program has held the journal for 2 s; close it and try again");
     }
