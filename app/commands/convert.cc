@@ -217,7 +217,8 @@ Result<Answer> Convert(const Options& o, Console& console) {
   auto source = ConvertSource(geometry, given->quantity, given->value);
   if (!source) return tl::unexpected(source.error());
   Answer answer{*source, {}, {}, {}};
-  if (efficacy && source->flux) answer.electrical = ElectricalFromLumens(*source->flux, *efficacy);
+  const std::optional<Lumens> flux = answer.source.flux;
+  if (efficacy && flux) answer.electrical = ElectricalFromLumens(*flux, *efficacy);
   if (auto done = LightSurface(answer, o.reflectance); !done) return tl::unexpected(done.error());
   return answer;
 }
@@ -228,7 +229,7 @@ template <class Add>
 void ForEachQuantity(const Answer& a, Add add) {
   const auto give = [&add](const char* key, const char* name, const char* unit, const char* of,
                            const auto& quantity) {
-    if (quantity) add(key, name, unit, of, quantity->value());
+    if (quantity.has_value()) add(key, name, unit, of, quantity->value());
   };
   give("flux_lm", "luminous flux", "lm", "lamp", a.source.flux);
   give("intensity_cd", "axial intensity", "cd", "lamp", a.source.intensity);

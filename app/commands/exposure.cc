@@ -34,13 +34,13 @@ struct PreExposedLight {
   LightValue light;
   double pre_exposed = 0.0;
   HalfRange range = HalfRange::kFits;
-  [[nodiscard]] bool fits() const {
+  [[nodiscard]] bool Fits() const {
     return range == HalfRange::kFits || range == HalfRange::kSubnormal;
   }
 };
 
 Result<double> Positive(const std::string& option, const std::string& text) {
-  const auto number = ParsePlainNumber(option, text);
+  auto number = ParsePlainNumber(option, text);
   if (!number) return number;
   if (!(*number > 0.0)) return Refused("not_positive", option, "must be above zero");
   return number;
@@ -66,7 +66,7 @@ Result<double> RelativeAperture(const Options& o) {
 }
 
 Result<Seconds> TypedShutter(const std::string& text, Console& console) {
-  const auto time = ParseDuration(text);
+  auto time = ParseDuration(text);
   if (!time) return time;
   if (!(*time > Seconds(0.0))) {
     return Refused("not_positive", "--shutter", "an exposure takes time: above zero");
@@ -108,7 +108,7 @@ Result<Seconds> ExposureTime(const Options& o, Console& console) {
 // A factor of light, above 0 up to 1; the default where it was not given.
 Result<double> Fraction(const std::string& option, const std::string& text, double otherwise) {
   if (text.empty()) return otherwise;
-  const auto number = ParsePlainNumber(option, text);
+  auto number = ParsePlainNumber(option, text);
   if (number && !(*number > 0.0 && *number <= 1.0)) {
     return Refused("bad_fraction", option,
                    "a lens passes more than nothing and at most all: "
@@ -119,7 +119,7 @@ Result<double> Fraction(const std::string& option, const std::string& text, doub
 
 Result<Radians> FieldAngle(const std::string& text) {
   if (text.empty()) return LensTransmission{}.field_angle;
-  const auto angle = ParseAngle(text);
+  auto angle = ParseAngle(text);
   if (!angle) return angle;
   const double degrees = DegreesFromRadians(*angle);
   if (!(degrees >= 0.0 && degrees < 90.0)) {
@@ -141,10 +141,10 @@ Result<double> ChosenLensConstant(const Options& o) {
   if (o.transmittance.empty() && o.vignetting.empty() && o.field_angle.empty()) {
     return t_stop ? kIsoLensConstant / usual.transmittance : kIsoLensConstant;
   }
-  const auto transmittance =
+  auto transmittance =
       Fraction("--transmittance", o.transmittance, t_stop ? 1.0 : usual.transmittance);
   if (!transmittance) return transmittance;
-  const auto vignetting = Fraction("--vignetting", o.vignetting, usual.vignetting);
+  auto vignetting = Fraction("--vignetting", o.vignetting, usual.vignetting);
   if (!vignetting) return vignetting;
   const auto field_angle = FieldAngle(o.field_angle);
   if (!field_angle) return tl::unexpected(field_angle.error());
@@ -201,7 +201,7 @@ nlohmann::ordered_json LightsJson(const std::vector<PreExposedLight>& lights) {
     list.push_back({{"value", light.light.value},
                     {"unit", LightUnitText(light.light.unit)},
                     {"pre_exposed", light.pre_exposed},
-                    {"fits_fp16", light.fits()},
+                    {"fits_fp16", light.Fits()},
                     {"fp16", HalfRangeName(light.range)}});
   }
   return list;
@@ -209,6 +209,7 @@ nlohmann::ordered_json LightsJson(const std::vector<PreExposedLight>& lights) {
 
 std::string LightsTable(const std::vector<PreExposedLight>& lights) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(lights.size());
   for (const PreExposedLight& light : lights) {
     rows.push_back({light.typed, RoundedText(light.pre_exposed, kTableDigits),
                     std::string(HalfRangeName(light.range))});
