@@ -82,7 +82,7 @@ Result<void> FillRadius(SourceGeometry& g, const Options& o) {
   }
   if (auto done = FillLength(g.radius, o.radius.empty() ? o.diameter : o.radius); !done)
     return done;
-  if (!o.diameter.empty()) g.radius = *g.radius / 2.0;
+  if (g.radius && !o.diameter.empty()) g.radius = *g.radius / 2.0;
   return {};
 }
 
