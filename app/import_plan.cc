@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 template <class Item>
 std::string DidYouMean(std::string_view name, const std::vector<Item>& known) {
   std::vector<std::string_view> names;
+  names.reserve(known.size());
   for (const Item& item : known) names.push_back(item.name);
   const std::string nearest = NearestWord(name, names);
   if (!nearest.empty()) return "; did you mean \"" + nearest + "\"?";

@@ -156,7 +156,7 @@ std::optional<CsvColumn> SpectralColumn(const std::string& simple,
       return CsvColumn{CsvQuantity::kIrradiance, power->scale * known_area->scale, simple,
                        SeriesName(std::string_view(simple).substr(0, tokens[i].begin))};
     }
-    area = tokens[i].text + area;
+    area.insert(0, tokens[i].text);
   }
   return std::nullopt;
 }
@@ -193,6 +193,7 @@ std::string KnownColumnNames() {
 
 std::string NearestColumnName(std::string_view name) {
   std::vector<std::string_view> names;
+  names.reserve(kScalarNames.size() + 3);
   for (const KnownName& known : kScalarNames) names.push_back(known.name);
   names.insert(names.end(), {"irradiance_W_m2_nm", "irradiance_mW_m2_nm", "relative"});
   return NearestWord(name, names);

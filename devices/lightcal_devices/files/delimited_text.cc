@@ -18,6 +18,7 @@ namespace {
 // Absent where the bytes are not in that encoding.
 std::optional<std::string> Converted(std::string_view bytes, const char* encoding) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): the value POSIX defines for failure.
   if (converter == reinterpret_cast<iconv_t>(-1)) return std::nullopt;
   std::string source(bytes);
   char* in = source.data();
@@ -66,7 +67,8 @@ class RowCollector {
   static void EndRow(int /*terminator*/, void* self) {
     static_cast<RowCollector*>(self)->FinishRow();
   }
-  [[nodiscard]] Result<void>& result() { return result_; }
+  [[nodiscard]] bool GoesOn() const { return result_.has_value(); }
+  [[nodiscard]] Result<void> TakeResult() { return std::move(result_); }
 
  private:
   void AddCell(std::string_view cell) {
@@ -112,14 +114,14 @@ Result<void> ForEachRow(std::string_view text, char delimiter, const RowVisitor&
   csv_set_term_func(&parser, IsLineEnd);
   RowCollector collector(visit);
   constexpr std::size_t kChunk = 1 << 16;  // between chunks a refusal stops the parser
-  for (std::size_t at = 0; at < text.size() && collector.result(); at += kChunk) {
+  for (std::size_t at = 0; at < text.size() && collector.GoesOn(); at += kChunk) {
     const std::string_view chunk = text.substr(at, kChunk);
     csv_parse(&parser, chunk.data(), chunk.size(), RowCollector::TakeCell, RowCollector::EndRow,
               &collector);
   }
   csv_fini(&parser, RowCollector::TakeCell, RowCollector::EndRow, &collector);
   csv_free(&parser);
-  return std::move(collector.result());
+  return collector.TakeResult();
 }
 
 Result<std::vector<Row>> ReadRows(std::string_view text, char delimiter) {

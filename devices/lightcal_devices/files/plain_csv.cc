@@ -199,43 +199,51 @@ bool TakeNumber(Reading& reading, CsvQuantity quantity, double value) {
   }
 }
 
-Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
+struct RowReading {
   Reading reading;
   std::optional<double> x;
   std::optional<double> y;
-  for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    const CsvColumn& column = table.columns[i];
-    const std::string cell(TrimBlanks(CellAt(row, i)));
-    if (cell.empty() || column.quantity == CsvQuantity::kUnknown) continue;
-    if (IsWord(column.quantity)) {
-      if (TakeWord(reading, column.quantity, cell)) continue;
-      return Refused("bad_row", AtLine(table.name, row.line),
-                     "'" + cell.substr(0, 40) + "' in the column " + column.written +
-                         " is not understood; lamp is on or off, shadow_card yes or no, time "
-                         "2026-11-21T14:03:00");
-    }
-    const auto number = NumberAt(table, row, i);
-    if (!number) return NotANumber(table, row, i, "bad_row");
-    const double value = *number * column.scale;
-    if (column.quantity == CsvQuantity::kX) x = value;
-    if (column.quantity == CsvQuantity::kY) y = value;
-    if (!TakeNumber(reading, column.quantity, value)) {
-      return Refused("bad_row", AtLine(table.name, row.line),
-                     cell + " is no possible " + column.written);
-    }
+};
+
+Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, std::size_t i) {
+  const CsvColumn& column = table.columns[i];
+  const std::string cell(TrimBlanks(CellAt(row, i)));
+  if (cell.empty() || column.quantity == CsvQuantity::kUnknown) return {};
+  if (IsWord(column.quantity)) {
+    if (TakeWord(taken.reading, column.quantity, cell)) return {};
+    return Refused("bad_row", AtLine(table.name, row.line),
+                   "'" + cell.substr(0, 40) + "' in the column " + column.written +
+                       " is not understood; lamp is on or off, shadow_card yes or no, time "
+                       "2026-11-21T14:03:00");
   }
-  if (x && y) {
-    const bool possible = *x >= 0.0 && *y > 0.0 && *x + *y <= 1.0;
-    if (!possible) {
+  const auto number = NumberAt(table, row, i);
+  if (!number) return NotANumber(table, row, i, "bad_row");
+  const double value = *number * column.scale;
+  if (column.quantity == CsvQuantity::kX) taken.x = value;
+  if (column.quantity == CsvQuantity::kY) taken.y = value;
+  if (TakeNumber(taken.reading, column.quantity, value)) return {};
+  return Refused("bad_row", AtLine(table.name, row.line),
+                 cell.substr(0, 40) + " is no possible " + column.written);
+}
+
+Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
+  RowReading taken;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (auto cell = TakeCell(taken, table, row, i); !cell) return Propagate(std::move(cell));
+  }
+  Reading& reading = taken.reading;
+  if (taken.x && taken.y) {
+    const Xy xy{*taken.x, *taken.y};
+    if (!(xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0)) {
       return Refused("bad_row", AtLine(table.name, row.line), "x and y are no chromaticity");
     }
-    reading.xy = Xy{*x, *y};
+    reading.xy = xy;
   }
   if (!reading.illuminance && !reading.cct && !reading.xy) {
     return Refused("bad_row", AtLine(table.name, row.line),
                    "holds neither an illuminance nor a colour");
   }
-  return reading;
+  return std::move(reading);
 }
 
 Result<ImportedFile> ReadReadings(const CsvTable& table) {

@@ -168,12 +168,13 @@ Result<ImportedFile> ImportedFromSpectra(std::string_view format, std::vector<Fo
   bool all_dark = true;
   for (FoundSpectrum& one : found) {
     if (auto samples = CheckSamples(one); !samples) return Propagate(std::move(samples));
-    const auto xyz = Tristimulus(one);
-    if (!xyz) return tl::unexpected(xyz.error());
-    file.readings.push_back(ReadingOf(one, *xyz));
-    if (*xyz) {
+    const auto tristimulus = Tristimulus(one);
+    if (!tristimulus) return tl::unexpected(tristimulus.error());
+    const std::optional<Xyz>& xyz = *tristimulus;
+    file.readings.push_back(ReadingOf(one, xyz));
+    if (xyz) {
       all_dark = false;
-      CheckAgainstHeader(one, **xyz, file.readings.back(), file.warnings);
+      CheckAgainstHeader(one, *xyz, file.readings.back(), file.warnings);
     } else {
       file.warnings.push_back({"dark_spectrum", one.where, "no sample is above 0, so no colour"});
     }
