@@ -3,6 +3,7 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,16 +46,16 @@ std::unique_ptr<ceres::LossFunction> LossOf(Loss loss, double scale) {
   return nullptr;
 }
 
-// Tight enough that a session scaled by any factor gives the same answer to 1e-12, which costs one
-// iteration more than 1e-6 does. The large first trust region makes the first steps Gauss-Newton.
+// The polish below takes the last digits; the large first trust region makes the first steps
+// Gauss-Newton.
 ceres::Solver::Options SolverOptions(Loss loss) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = 200;
-  options.function_tolerance = loss == Loss::kSquared ? 1e-16 : 1e-9;
-  options.parameter_tolerance = loss == Loss::kSquared ? 1e-13 : 1e-7;
+  options.function_tolerance = loss == Loss::kSquared ? 1e-12 : 1e-9;
+  options.parameter_tolerance = loss == Loss::kSquared ? 1e-10 : 1e-7;
   options.gradient_tolerance = 1e-13;
   options.initial_trust_region_radius = 1e8;
   options.max_trust_region_radius = 1e16;
@@ -103,6 +104,64 @@ void AddBounds(const Estimation& estimation, Theta& theta, ceres::Problem& probl
   if (estimation.rules[kAmbient].free) problem.SetParameterLowerBound(&theta[kAmbient], 0, 0.0);
 }
 
+bool AtBound(const Estimation& estimation, const Theta& theta, int k) {
+  if (k == kAmbient) return theta[kAmbient] <= 0.0;
+  return k == kDistanceOffset && theta[k] <= estimation.least_distance_offset;
+}
+
+// One Gauss-Newton step over the free parameters that are not at a bound. Ceres stops when the cost
+// no longer falls, which leaves half of the digits of the parameters; a parameter held at its bound
+// slows it further, because the step of the others is not the one along the bound.
+Theta GaussNewtonStep(const Estimation& estimation, const Theta& theta) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  for (const ReadingRow& row : estimation.rows) {
+    const RowDerivative at = DifferentiateRow(row, theta);
+    const Eigen::Vector3d j(at.gradient[0], at.gradient[1], at.gradient[2]);
+    normal += j * j.transpose();
+    gradient += j * at.residual;
+  }
+  for (int k = 0; k < kParameters; ++k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (!rule.free || AtBound(estimation, theta, k)) {
+      normal.row(k).setZero();
+      normal.col(k).setZero();
+      normal(k, k) = 1.0;
+      gradient[k] = 0.0;
+    } else if (rule.prior_sd > 0.0) {
+      const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
+      normal(k, k) += weight;
+      gradient[k] += weight * (theta[k] - rule.prior_mean);
+    }
+  }
+  const Eigen::Vector3d scale = normal.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::Matrix3d scaled = scale.asDiagonal() * normal * scale.asDiagonal();
+  const Eigen::Vector3d step =
+      -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * gradient));
+  return {theta[0] + step[0], theta[1] + step[1], theta[2] + step[2]};
+}
+
+// A few steps more, as long as they are small and the cost does not grow beyond rounding.
+Theta Polish(const Estimation& estimation, Theta theta) {
+  constexpr int kSteps = 4;
+  constexpr double kLargestStep = 1e-3;
+  const double cost = HalfChiSquared(estimation, theta);
+  for (int i = 0; i < kSteps; ++i) {
+    const Theta next = GaussNewtonStep(estimation, theta);
+    double step = 0.0;
+    for (int k = 0; k < kParameters; ++k) step = std::max(step, std::abs(next[k] - theta[k]));
+    const bool inside = next[kAmbient] >= 0.0 || !estimation.rules[kAmbient].free;
+    if (!(step < kLargestStep) || !inside ||
+        next[kDistanceOffset] < estimation.least_distance_offset) {
+      break;
+    }
+    if (!(HalfChiSquared(estimation, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
+    theta = next;
+    if (step < 1e-15) break;
+  }
+  return theta;
+}
+
 }  // namespace
 
 Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss, double scale) {
@@ -125,7 +184,7 @@ Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss,
   if (!summary.IsSolutionUsable() || !finite) {
     return Failed("no_convergence", "fit", "the solver found no estimate: " + summary.message);
   }
-  return theta;
+  return loss == Loss::kSquared ? Polish(estimation, theta) : theta;
 }
 
 double RowResidual(const ReadingRow& row, const Theta& theta) {

@@ -18,7 +18,7 @@ namespace lightcal::fit {
 [[nodiscard]] Theta ScanStart(const Estimation& estimation);
 
 // The best of 65 values of d0 and a ladder of E0, with ln I the weighted median of each: least sum
-// of absolute whitened residuals. Half of the readings may be wrong before it follows them.
+// of absolute whitened residuals. Of many rows 24 are scanned.
 [[nodiscard]] Theta MedianStart(const Estimation& estimation);
 
 inline constexpr int kScanPoints = 65;
