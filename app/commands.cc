@@ -12,6 +12,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick 192lx@0.5m 52lx@1m --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
+    {"run", "The main job: fit a session, write light.json, every preset and report.html",
+     "  lightcal run sample_data/sessions/three_real_lights\n"
+     "  lightcal run my_lamp -o calibrated --to gltf", BuildRun},
     {"devices", "Meters found, whether they may be used, how each driver was verified",
      "  lightcal devices\n"
      "  lightcal devices --json", BuildDevices},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
-#include <csignal>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "lightcal/core/nearest_word.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -33,7 +34,23 @@ bool AsksForJson(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--json"; });
 }
 
+// A first word that is no command gets the nearest one, not a list.
+Result<void> CheckCommandWord(int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  std::vector<std::string_view> names;
+  for (const CommandRow& row : Commands()) names.push_back(row.name);
+  if (std::ranges::find(names, std::string_view(argv[1])) != names.end()) return {};
+  const std::string nearest = NearestWord(argv[1], names);
+  const std::string hint =
+      nearest.empty() ? "see lightcal --help" : "did you mean " + nearest + "?";
+  return WrongUsage(argv[1], "no such command; " + hint);
+}
+
 int Main(int argc, char** argv) {
+  if (const auto checked = CheckCommandWord(argc, argv); !checked) {
+    PrintError(checked.error(), AsksForJson(argc, argv));
+    return kExitUsage;
+  }
   CLI::App parser(
       "Measure real lamps, bring them into renderers, and say how sure it is.\n"
       "Start with:  lightcal quick 192lx@0.5m --cct 2900K");

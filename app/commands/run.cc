@@ -8,9 +8,9 @@
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/records/light_codec.h"
-#include "lightcal/report/page.h"
 #include "output_files.h"
 #include "preset_files.h"
+#include "report_html.h"
 #include "session_input.h"
 
 namespace lightcal::app {
@@ -31,13 +31,15 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   const LightFile& lights = calibrated.lights;
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
+  const Session& session = calibrated.session;
+  const std::string& title = session.name.empty() ? session.stem : session.name;
   Warnings warnings;
-  auto presets = PresetFiles(lights, calibrated.session.stem, options.targets,
-                             {.bare = options.bare}, warnings);
+  auto presets =
+      PresetFiles(lights, session.stem, options.targets, {.bare = options.bare}, warnings);
   if (!presets) return Propagate(std::move(presets));
   console.Warn(warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportPage(lights, calibrated.session.name)}};
+                                   {"report.html", ReportHtml(lights, title)}};
   for (OutputFile& file : *presets) files.push_back(std::move(file));
   for (OutputFile& file : files) {
     file.path = (std::filesystem::path(directory) / file.path).string();

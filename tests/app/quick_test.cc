@@ -135,6 +135,7 @@ TEST(Quick, WrongLinesTeachAndWriteNothing) {
       {{"quick", "192lx@0.5m", "--cct", "-3K"}, 2, "above zero"},
       {{"quick", "192lx@0.5m", "--sigma", "500%"}, 2, "tolerance"},
       {{"quick", "192lx@0.5m", "--nonsense"}, 2, "--nonsense"},
+      {{"quikc"}, 2, "did you mean quick?"},
   };
   for (const BadLine& bad : lines) {
     const CliResult result = RunLightcal(bad.arguments);

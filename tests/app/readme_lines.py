@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs every `lightcal` line of README.md, in order, in an empty folder, as a newcomer would.
+
+    readme_lines.py LIGHTCAL_BINARY
+
+The session block is written where the lines expect it. Lines that need a meter plugged in
+(--device) are left out; everything else must exit 0.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+README = pathlib.Path(__file__).resolve().parents[2] / "README.md"
+CSV = "distance_m,illuminance_lx\n1.5,23.5\n"
+
+
+def command_lines(text):
+    for block in re.findall(r"```sh\n(.*?)```", text, re.S):
+        for line in block.splitlines():
+            line = line.split("#")[0].strip()
+            if line.startswith("lightcal ") and "--device" not in line:
+                yield line
+    for line in re.findall(r"`(lightcal [a-z]+ [^`]*?-o [^`]*)`", text):
+        yield line
+
+
+def main():
+    text = README.read_text(encoding="utf-8")
+    session = re.search(r"```toml\n(.*?)```", text, re.S).group(1)
+    failures = []
+    with tempfile.TemporaryDirectory() as folder:
+        home = pathlib.Path(folder)
+        (home / "bin").mkdir()
+        (home / "bin/lightcal").symlink_to(pathlib.Path(sys.argv[1]).resolve())
+        (home / "desk_lamp").mkdir()
+        (home / "desk_lamp/session.toml").write_text(session, encoding="utf-8")
+        (home / "measurement.csv").write_text(CSV, encoding="utf-8")
+        environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}
+        lines = list(command_lines(text))
+        for line in lines:
+            if "out/light.json" in line:
+                line = line.replace("out/light.json", "desk_lamp/out/light.json")
+            done = subprocess.run(
+                ["/bin/sh", "-c", line], cwd=home, env=environment, stdin=subprocess.DEVNULL,
+                capture_output=True, text=True, timeout=60, check=False,
+            )
+            if done.returncode != 0:
+                failures.append(f"{line}\n  exit {done.returncode}: {done.stderr.strip()}")
+        if len(lines) < 15:
+            failures.append(f"only {len(lines)} lines found: has the README changed its form?")
+    if failures:
+        sys.exit("\n".join(failures))
+
+
+if __name__ == "__main__":
+    main()

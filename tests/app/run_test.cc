@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal run and fit on real published lamps, driven as a shell would.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "run_cli.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json RunJson(const std::string& session, const std::string& out) {
+  const CliResult result = RunLightcal({"run", session, "-o", out, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return json::parse(result.out);
+}
+
+struct Expectation {
+  const char* session;
+  double rms_at_most;
+  int sign_of_offset;
+};
+class FilmLight : public ::testing::TestWithParam<Expectation> {};
+
+// E d^2 as a person would compute it by hand, from the residual rows' own measured lux.
+double SpreadOfEdd(const json& light) {
+  double low = INFINITY;
+  double high = 0.0;
+  for (const json& row : light["residuals"]) {
+    const double d = row["distance_m"];
+    const double edd = double(row["measured_lx"]) * d * d;
+    low = std::min(low, edd);
+    high = std::max(high, edd);
+  }
+  return high / low - 1.0;
+}
+
+TEST_P(FilmLight, TheOffsetExplainsWhatInverseSquareCannot) {
+  const TempDir out;
+  const json document =
+      RunJson(SampleData(std::string("sessions/") + GetParam().session), out.path());
+  ASSERT_EQ(document["lights"].size(), 5U);
+  double lowest_d0 = INFINITY;
+  double highest_d0 = -INFINITY;
+  double smallest_u95 = INFINITY;
+  for (const json& light : document["lights"]) {
+    SCOPED_TRACE(light["name"]);
+    EXPECT_GT(SpreadOfEdd(light), 0.05);
+    EXPECT_LE(double(light["fit"]["rms_relative"]), GetParam().rms_at_most);
+    EXPECT_GE(int(light["fit"]["degrees_of_freedom"]), 1);
+    EXPECT_TRUE(light["fit"].contains("leave_one_out"));
+    const json& learned = light["fit"]["learned"];
+    EXPECT_NE(std::ranges::find(learned, "distance_offset"), learned.end());
+    const double d0 = light["distance_offset_m"]["value"];
+    EXPECT_GT(d0 * GetParam().sign_of_offset, 0.0);
+    lowest_d0 = std::min(lowest_d0, d0);
+    highest_d0 = std::max(highest_d0, d0);
+    smallest_u95 = std::min(smallest_u95, double(light["distance_offset_m"]["u95"]));
+  }
+  EXPECT_LT(highest_d0 - lowest_d0, smallest_u95) << "one optic, one offset";
+}
+
+INSTANTIATE_TEST_SUITE_P(Amaran200xS, FilmLight,
+                         ::testing::Values(Expectation{"amaran_200x_s_bare", 0.025, +1},
+                                           Expectation{"amaran_200x_s_hyper_reflector", 0.005, -1}),
+                         [](const auto& film_light) { return std::string(film_light.param.session); });
+
+TEST(RunCommand, WritesLightPresetsAndReportAndIsIdempotent) {
+  const TempDir out;
+  const std::string session = SampleData("sessions/three_real_lights");
+  const json document = RunJson(session, out.path());
+  for (const char* name :
+       {"light.json", "report.html", "three_real_lights.gltf", "three_real_lights.preset.json"}) {
+    EXPECT_TRUE(fs::exists(fs::path(out.path()) / name)) << name;
+  }
+  EXPECT_EQ(document["lights"].size(), 3U);
+  EXPECT_EQ(document["files"].size(), 4U);
+  const std::string first = ReadFile(out.path() + "/three_real_lights.gltf");
+  RunJson(session, out.path());
+  EXPECT_EQ(ReadFile(out.path() + "/three_real_lights.gltf"), first);
+  for (const auto& entry : fs::directory_iterator(out.path())) {
+    EXPECT_EQ(entry.path().string().find(".tmp"), std::string::npos) << entry.path();
+    EXPECT_EQ(ReadFile(entry.path().string()).find("NaN"), std::string::npos);
+  }
+}
+
+TEST(RunCommand, TheSpectrumsLampHasItsColorAndLuxButNoCandela) {
+  const TempDir out;
+  const json document = RunJson(SampleData("sessions/three_real_lights"), out.path());
+  const json& led = document["lights"][2];
+  EXPECT_EQ(led["kind"], "directional");
+  EXPECT_FALSE(led.contains("intensity_cd"));
+  EXPECT_NEAR(double(led["illuminance_lx"]["value"]), 7554.53125, 7.5);  // the file's own header
+  EXPECT_NEAR(double(led["color"]["cct_K"]["value"]), 4988.0, 3.0);
+  EXPECT_NEAR(double(led["color"]["duv"]), 0.001372, 1e-4);
+}
+
+TEST(RunCommand, TheTableNamesUnitsUncertaintyAndLearnedOrPrior) {
+  const TempDir out;
+  const CliResult result =
+      RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (const char* word : {"cob_bare", " cd ± ", " K", "learned", "dof", "leave-one-out", "rms"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+  }
+}
+
+TEST(RunCommand, NeverReplacesWhatItDidNotWrite) {
+  const TempDir out;
+  out.Write("report.html", "my holiday pictures");
+  const std::string session = SampleData("sessions/three_real_lights");
+  const CliResult refused = RunLightcal({"run", session, "-o", out.path()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+  EXPECT_EQ(ReadFile(out.path() + "/report.html"), "my holiday pictures");
+  EXPECT_FALSE(fs::exists(out.path() + "/light.json"));
+  EXPECT_EQ(RunLightcal({"run", session, "-o", out.path(), "--force"}).exit_code, 0);
+}
+
+TEST(Explain, ListsEveryEffectWithBoundStateAndCost) {
+  const CliResult result =
+      RunLightcal({"explain", SampleData("sessions/three_real_lights"), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json document = json::parse(result.out);
+  ASSERT_EQ(document["lights"].size(), 3U);
+  ASSERT_GE(document["lights"][0]["effects"].size(), 8U);
+  for (const json& effect : document["lights"][0]["effects"]) {
+    EXPECT_GE(double(effect["bound"]), 0.0) << effect;
+    EXPECT_GT(double(effect["cost_ns"]), 0.0) << effect;
+    EXPECT_FALSE(std::string(effect["reason"]).empty()) << effect;
+  }
+}
+
+}  // namespace
+}  // namespace lightcal::test
