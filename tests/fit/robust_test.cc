@@ -80,6 +80,15 @@ TEST(Robust, F08TwoOfFourDisagreeingIsSaidAndNoneIsRejected) {
   EXPECT_GT(*light.intensity_cd->high, 295.0);
 }
 
+TEST(Robust, F08TwoOfFourAtFourDistancesDoNotMoveTheOffsetsPrior) {
+  auto fitted =
+      FitSession(test::TypedSession({{0.5, 400.0}, {1.0, 100.0}, {1.5, 133.2}, {2.0, 75.0}}, 0.02),
+                 FitSettings{});
+  ASSERT_TRUE(fitted.has_value());
+  EXPECT_TRUE(HasWarning(*fitted, "bimodal"));
+  EXPECT_FALSE(HasWarning(*fitted, "prior_conflict"));
+}
+
 TEST(Robust, ThreeReadingsAreNeverRejectedYetTheirScatterWidensTheInterval) {
   auto quiet = FitSession(test::TypedSession({{1, 100}, {1, 101}, {1, 99}}, 0.02), FitSettings{});
   auto loud = FitSession(test::TypedSession({{1, 100}, {1, 130}, {1, 77}}, 0.02), FitSettings{});

@@ -157,7 +157,8 @@ Result<RobustEstimate> EstimateWidening(Prepared& prepared, const std::string& l
   ParameterRule& rule = prepared.estimation.rules[kDistanceOffset];
   if (!estimate || !rule.free) return estimate;
   const double pull = std::abs(estimate->theta[kDistanceOffset]) / rule.prior_sd;
-  if (pull <= kPriorConflict) return estimate;
+  // Two camps among four readings say nothing of the offset, however hard they pull.
+  if (pull <= kPriorConflict || estimate->bimodal) return estimate;
   const double stated = rule.prior_sd;
   rule.prior_sd = 100.0 * stated;
   Result<RobustEstimate> unguided = EstimateRobustly(prepared.estimation);

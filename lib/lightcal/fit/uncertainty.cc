@@ -200,7 +200,7 @@ std::optional<double> LeaveOneOut(const Estimation& estimation, const Theta& the
     sum += relative * relative;
     ++count;
   }
-  if (count < 3) return std::nullopt;
+  if (count < 3 || !std::isfinite(sum)) return std::nullopt;
   return std::sqrt(sum / count);
 }
 
