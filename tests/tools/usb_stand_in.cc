@@ -8,6 +8,7 @@
 #include <umockdev-1.0/umockdev.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -169,7 +170,7 @@ struct UsbStandIn::Impl {
       }
       const auto room = static_cast<std::size_t>(header->buffer_length);
       if (bytes.size() > room) bytes.resize(room);
-      std::memcpy(urb.buffer->data, bytes.data(), bytes.size());
+      std::ranges::copy(bytes, reinterpret_cast<std::byte*>(urb.buffer->data));
       header->actual_length = static_cast<int>(bytes.size());
       if (kind == FakeSekonic::Answer::kStall) header->status = -EPIPE;
       urb.done = true;
