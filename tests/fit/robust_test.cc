@@ -80,13 +80,19 @@ TEST(Robust, F08TwoOfFourDisagreeingIsSaidAndNoneIsRejected) {
   EXPECT_GT(*light.intensity_cd->high, 295.0);
 }
 
-TEST(Robust, F08TwoOfFourAtFourDistancesDoNotMoveTheOffsetsPrior) {
+TEST(Robust, F08TwoOfFourAtFourDistancesLeaveBothCampsInTheInterval) {
   auto fitted =
       FitSession(test::TypedSession({{0.5, 400.0}, {1.0, 100.0}, {1.5, 133.2}, {2.0, 75.0}}, 0.02),
                  FitSettings{});
   ASSERT_TRUE(fitted.has_value());
   EXPECT_TRUE(HasWarning(*fitted, "bimodal"));
   EXPECT_FALSE(HasWarning(*fitted, "prior_conflict"));
+  // Either camp may be right: 100 cd or 300 cd. Both stay inside the interval.
+  const FittedLight& light = fitted->lights.lights.front();
+  EXPECT_NEAR(light.intensity_cd->value, std::sqrt(100.0 * 300.0), 2.0);
+  EXPECT_LT(*light.intensity_cd->low, 100.0);
+  EXPECT_GT(*light.intensity_cd->high, 300.0);
+  EXPECT_EQ(light.distance_offset_m->value, 0.0);
 }
 
 TEST(Robust, ThreeReadingsAreNeverRejectedYetTheirScatterWidensTheInterval) {

@@ -156,9 +156,15 @@ Result<RobustEstimate> EstimateWidening(Prepared& prepared, const std::string& l
   Result<RobustEstimate> estimate = EstimateRobustly(prepared.estimation);
   ParameterRule& rule = prepared.estimation.rules[kDistanceOffset];
   if (!estimate || !rule.free) return estimate;
+  if (estimate->bimodal) {
+    // Two camps among four readings say nothing of offset and ambient light, however hard they
+    // pull.
+    rule.free = false;
+    if (!prepared.ambient_told) prepared.estimation.rules[kAmbient] = {};
+    return EstimateRobustly(prepared.estimation);
+  }
   const double pull = std::abs(estimate->theta[kDistanceOffset]) / rule.prior_sd;
-  // Two camps among four readings say nothing of the offset, however hard they pull.
-  if (pull <= kPriorConflict || estimate->bimodal) return estimate;
+  if (pull <= kPriorConflict) return estimate;
   const double stated = rule.prior_sd;
   rule.prior_sd = 100.0 * stated;
   Result<RobustEstimate> unguided = EstimateRobustly(prepared.estimation);
@@ -403,7 +409,10 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   if (!covariance) return Propagate(std::move(covariance));
   NameLearned(estimate->kept, *covariance, model.distance_law, out.diagnostics);
   FillDiagnostics(*estimate, prepared, observations, out);
-  if (std::isfinite(condition)) out.diagnostics.condition = condition;
+  const auto& rules = estimate->kept.rules;
+  const double kept_condition = ScaledCondition(
+      estimate->kept, estimate->theta, {true, rules[kDistanceOffset].free, rules[kAmbient].free});
+  if (std::isfinite(kept_condition)) out.diagnostics.condition = kept_condition;
   input.row_scale = BirgeRatio(estimate->kept, estimate->theta, out.diagnostics.degrees_of_freedom);
   if (input.row_scale > 1.0) covariance = EstimateCovariance(input);
   if (!covariance) return Propagate(std::move(covariance));
