@@ -43,13 +43,18 @@ Kelvin DaylightTemperatureOfName(Kelvin named) {
   return named * (kC2MetreKelvin / kC2OfDaylightNamesMetreKelvin);
 }
 
+DaylightWeights DaylightWeightsOf(Xy xy) {
+  const auto [x, y] = xy;
+  const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
+  return {(-1.3515 - 1.7703 * x + 5.9114 * y) / m, (0.0300 - 31.4424 * x + 30.0717 * y) / m};
+}
+
 Result<Spectrum> DaylightSpectrum(Kelvin temperature) {
   auto xy = DaylightXy(temperature);
   if (!xy) return Propagate(std::move(xy));
-  const auto [x, y] = *xy;
-  const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
-  const double m1 = RoundedToThousandths((-1.3515 - 1.7703 * x + 5.9114 * y) / m);
-  const double m2 = RoundedToThousandths((0.0300 - 31.4424 * x + 30.0717 * y) / m);
+  const DaylightWeights weights = DaylightWeightsOf(*xy);
+  const double m1 = RoundedToThousandths(weights.m1);
+  const double m2 = RoundedToThousandths(weights.m2);
   const auto power = [&](std::size_t row) {
     const DaylightComponentRow& c = CieDaylightComponents()[row];
     return c.s0 + m1 * c.s1 + m2 * c.s2;

@@ -24,9 +24,16 @@ namespace lightcal {
 // names.
 [[nodiscard]] Kelvin DaylightTemperatureOfName(Kelvin named);
 
+// Weights of the components S1 and S2 in CIE daylight of chromaticity xy, unrounded,
+//   M1 = (-1.3515 - 1.7703 x + 5.9114 y)/M, M2 = (0.0300 - 31.4424 x + 30.0717 y)/M,
+//   M = 0.0241 + 0.2562 x - 0.7341 y.   Source: CIE 15:2018, eq. 4.6 - 4.7.
+struct DaylightWeights {
+  double m1 = 0.0, m2 = 0.0;
+};
+[[nodiscard]] DaylightWeights DaylightWeightsOf(Xy xy);
+
 // Relative spectrum of CIE daylight, 300-830 nm at 1 nm, 100 at 560 nm,
-//   S = S0 + M1 S1 + M2 S2,  M1 = (-1.3515 - 1.7703 x + 5.9114 y)/M, M2 = (0.0300 - 31.4424 x +
-//   30.0717 y)/M, M = 0.0241 + 0.2562 x - 0.7341 y,  M1 and M2 rounded to three decimals,
+//   S = S0 + M1 S1 + M2 S2,  M1 and M2 of DaylightWeightsOf rounded to three decimals,
 // S0-S2 linear between the rows of CIE's table.  Source: CIE 15:2018, eq. 4.5 - 4.7.
 // Fails as DaylightXy.
 [[nodiscard]] Result<Spectrum> DaylightSpectrum(Kelvin temperature);

@@ -35,15 +35,6 @@ double MeanStep(const Spectrum& s) {
          static_cast<double>(s.wavelengths_nm.size() - 1);
 }
 
-bool HasEqualSteps(const Spectrum& s) {
-  const double step = MeanStep(s);
-  for (std::size_t i = 1; i < s.wavelengths_nm.size(); ++i) {
-    const double own = s.wavelengths_nm[i] - s.wavelengths_nm[i - 1];
-    if (std::abs(own - step) > kEqualStepTolerance * step) return false;
-  }
-  return true;
-}
-
 Integrals PlainSum(const Spectrum& s) {
   const double step = MeanStep(s);
   Integrals sums;
@@ -147,6 +138,15 @@ bool CoversVisibleRange(const Spectrum& spectrum) {
   const double last_step = l[l.size() - 1] - l[l.size() - 2];
   return l.front() - first_step / 2 <= kVisibleFirstNm &&
          l.back() + last_step / 2 >= kVisibleLastNm;
+}
+
+bool HasEqualSteps(const Spectrum& spectrum) {
+  const double step = MeanStep(spectrum);
+  for (std::size_t i = 1; i < spectrum.wavelengths_nm.size(); ++i) {
+    const double own = spectrum.wavelengths_nm[i] - spectrum.wavelengths_nm[i - 1];
+    if (std::abs(own - step) > kEqualStepTolerance * step) return false;
+  }
+  return true;
 }
 
 Result<LumensPerWatt> EfficacyOfRadiation(const Spectrum& spectrum) {

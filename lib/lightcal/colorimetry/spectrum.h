@@ -53,6 +53,9 @@ inline constexpr double kMaximumLuminousEfficacy = 683.002;
 // tolerance at each end). Outside it up to 8 K are lost at 10000 K.
 [[nodiscard]] bool CoversVisibleRange(const Spectrum& spectrum);
 
+// Whether all steps are the same within 0.1 %, as rounded wavelengths are.
+[[nodiscard]] bool HasEqualSteps(const Spectrum& spectrum);
+
 // Luminous efficacy of radiation, over the spectrum's own range,
 //   LER = 683.002 lm/W  sum S V dl / sum S dl.
 // Source: CIE S 017:2020 (e-ILV) 17-21-090.   Fails as XyzFromSpectrum.
