@@ -49,8 +49,10 @@ std::string ColorCards(const FittedColor& color) {
                  Fixed(1e6 / color.cct_K->value, 1) + " mired");
   }
   if (color.duv) {
-    const char* tint = color.duv->value > 0.0 ? "above the Planckian locus: greenish"
-                                              : "below the Planckian locus: pinkish";
+    const bool on_locus = std::abs(color.duv->value) <= color.duv->u95;
+    const char* tint = on_locus                 ? "on the Planckian locus within its uncertainty"
+                       : color.duv->value > 0.0 ? "above the Planckian locus: greenish"
+                                                : "below the Planckian locus: pinkish";
     html += Card("Duv", PlusMinus(*color.duv, ""), tint);
   }
   if (color.xy) {
@@ -120,10 +122,10 @@ std::string TypeIn(const std::string& light, const std::vector<EngineFigure>& fi
     if (figure.light != light) continue;
     rows += "<tr><th scope=\"row\">" + Escaped(figure.engine) + "</th><td>" +
             Escaped(figure.field) + "</td><td class=\"value\">" + Escaped(figure.value) +
-            "</td><td class=\"soft small\">" + Escaped(figure.note) + "</td></tr>\n";
+            "</td><td class=\"soft note\">" + Escaped(figure.note) + "</td></tr>\n";
   }
   if (rows.empty()) return "";
-  return "<div class=\"block\" style=\"margin-top:32px\"><h3>The number to type in</h3>"
+  return "<div class=\"block below\"><h3>The number to type in</h3>"
          "<div class=\"scroll\"><table class=\"typein\"><tbody>\n" +
          rows + "</tbody></table></div></div>\n";
 }
@@ -168,7 +170,11 @@ std::string Figures(const FittedLight& light, const std::string& prefix) {
                              : "") +
           Key("<line class=\"locus\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>", "Planckian locus") +
           Key("<line class=\"guide\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>", "Duv ±0.006"));
-  return html.empty() ? "" : "<div class=\"figures\">\n" + html + "</div>\n";
+  return "<div class=\"figures\">\n" + html + FitTable(light.fit) + "</div>\n";
+}
+
+std::string Below(const std::string& table) {
+  return table.empty() ? "" : "<div class=\"below\">" + table + "</div>\n";
 }
 
 }  // namespace
@@ -205,10 +211,7 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
                      "\" id=\"light-" + std::to_string(index) + "\">\n";
   html += Title(light) + Hero(light) + Cards(light) + TypeIn(light.name, figures);
   html += Figures(light, prefix);
-  html +=
-      "<div class=\"tables\">\n" + FitTable(light.fit) + ReadingTable(light.residuals) + "</div>\n";
-  const std::string effects = EffectTable(light.effects);
-  if (!effects.empty()) html += "<div style=\"margin-top:32px\">" + effects + "</div>\n";
+  html += Below(ReadingTable(light.residuals)) + Below(EffectTable(light.effects));
   return html + "</section>\n";
 }
 

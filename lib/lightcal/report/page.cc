@@ -16,10 +16,13 @@ std::string Generator(const Provenance& provenance) {
   return provenance.generator.empty() ? "lightcal" : provenance.generator;
 }
 
+// "2026-05-01" of an ISO 8601 time.
+std::string DateOf(const std::string& time) { return time.substr(0, time.find('T')); }
+
 std::string Lead(const LightFile& file) {
   const std::size_t count = file.lights.size();
   std::string text = std::to_string(count) + (count == 1 ? " light" : " lights");
-  if (!file.provenance.time.empty()) text += " · measured " + file.provenance.time;
+  if (!file.provenance.time.empty()) text += " · measured " + DateOf(file.provenance.time);
   return text + " · " + Generator(file.provenance);
 }
 

@@ -39,7 +39,7 @@ section.light { border-top: 1px solid var(--rule); margin-top: 44px; padding-top
 .hero { font-size: 52px; line-height: 1.1; font-weight: 650; letter-spacing: -.02em; margin: 18px 0 4px; }
 .hero .unit { font-size: 26px; font-weight: 500; letter-spacing: 0; }
 .hero .pm { font-size: 26px; font-weight: 400; color: var(--soft); letter-spacing: 0; white-space: nowrap; }
-.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(190px, 1fr)); gap: 12px; margin: 26px 0 0; padding: 0; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(215px, 1fr)); gap: 12px; margin: 26px 0 0; padding: 0; }
 .card { background: var(--panel); border-radius: 10px; padding: 14px 16px; }
 .card dt { color: var(--soft); font-size: 14px; }
 .card dd { margin: 2px 0 0; font-size: 19px; font-weight: 600; }
@@ -65,7 +65,7 @@ svg .isotherm { stroke: var(--soft); stroke-width: 1; }
 svg .ellipse { fill: var(--band); stroke: var(--ink); stroke-width: 1.2; }
 .key { white-space: nowrap; margin-right: 14px; }
 .key svg { display: inline-block; width: 22px; height: 12px; vertical-align: -1px; margin-right: 5px; }
-.tables { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 32px; margin-top: 40px; align-items: start; }
+.below { margin-top: 36px; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; width: 100%; font-size: 14.5px; }
 th, td { text-align: left; padding: 7px 14px 7px 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
@@ -76,8 +76,9 @@ th:last-child, td:last-child { padding-right: 0; }
 .overview { margin-top: 30px; }
 .overview td, .overview tbody th { font-size: 15.5px; padding-top: 10px; padding-bottom: 10px; }
 .overview tbody th { font-weight: 600; overflow-wrap: anywhere; }
+.overview td { white-space: nowrap; }
 .off { color: var(--warn); font-weight: 600; }
-.typein td { font-size: 16px; }
+.typein td, .typein tbody th { font-size: 16px; vertical-align: baseline; }
 .typein .value { font-weight: 650; font-size: 18px; white-space: nowrap; }
 code { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 footer { border-top: 1px solid var(--rule); margin-top: 52px; padding-top: 28px; }
@@ -92,7 +93,12 @@ a { color: var(--accent); }
   .card dd { font-size: 17px; }
   svg text { font-size: 15px; }
   svg .tick, svg .note { font-size: 14px; }
-  .overview thead { display: none; }
+  .overview thead, .effects thead { display: none; }
+  .typein tr, .effects tr { display: flex; flex-wrap: wrap; gap: 0 14px; padding: 8px 0; border-bottom: 1px solid var(--rule); }
+  .typein td, .typein tbody th, .effects td, .effects tbody th { border: 0; padding: 1px 0; }
+  .typein tbody th, .typein .note, .effects .note { flex: 1 0 100%; }
+  .effects tbody th { font-weight: 600; }
+  .effects .n::before { content: attr(data-label); color: var(--soft); }
   .overview tr { display: grid; grid-template-columns: 1fr 1fr; padding: 12px 0; border-bottom: 1px solid var(--rule); gap: 0 12px; }
   .overview td, .overview tbody th { display: block; border: 0; padding: 2px 0; text-align: left; white-space: normal; }
   .overview tbody th { grid-column: 1 / -1; }
@@ -118,7 +124,7 @@ a { color: var(--accent); }
   .card dt, .card .sub, figcaption { font-size: 11.5px; }
   .card dd { font-size: 15px; }
   .figures { grid-template-columns: 1fr 1fr; gap: 20px; margin-top: 22px; }
-  .tables { grid-template-columns: 1fr 1fr; gap: 22px; margin-top: 24px; }
+  .below { margin-top: 22px; }
   table { font-size: 12px; }
   thead th { font-size: 11.5px; }
   code { font-size: 10.5px; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/report/svg.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "lightcal/core/numbers_text.h"
@@ -19,6 +20,22 @@ std::string Attribute(std::string_view name, std::string_view value) {
 
 std::string Tooltip(std::string_view text) {
   return text.empty() ? "" : "<title>" + Escaped(text) + "</title>";
+}
+
+// Linear axes show every tick with the same decimals (0.50, 0.52); logarithmic ones as they come.
+std::vector<std::string> TickLabels(const Axis& axis, const std::vector<double>& ticks) {
+  std::vector<std::string> labels;
+  std::size_t decimals = 0;
+  for (const double tick : ticks) {
+    labels.push_back(Figure(tick));
+    const std::size_t point = labels.back().find('.');
+    if (point != std::string::npos) decimals = std::max(decimals, labels.back().size() - point - 1);
+  }
+  if (axis.scale == AxisScale::kLog || decimals > 6) return labels;
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    labels[i] = Fixed(ticks[i], static_cast<int>(decimals));
+  }
+  return labels;
 }
 
 std::string PathData(const std::vector<PagePoint>& points, bool closed) {
@@ -74,13 +91,19 @@ void Svg::Text(std::string_view css, PagePoint at, std::string_view anchor, std:
 }
 
 void Svg::Axes(const Axis& x, const Axis& y, std::string_view x_title, std::string_view y_title) {
-  for (const double tick : TicksOf(x, kTickGapX)) {
-    Line("grid", {x.At(tick), kArea.top}, {x.At(tick), kArea.bottom});
-    Text("tick", {x.At(tick), kArea.bottom + 18.0}, "middle", Figure(tick));
+  const auto x_ticks = TicksOf(x, kTickGapX);
+  const auto x_labels = TickLabels(x, x_ticks);
+  for (std::size_t i = 0; i < x_ticks.size(); ++i) {
+    const double at = x.At(x_ticks[i]);
+    Line("grid", {at, kArea.top}, {at, kArea.bottom});
+    Text("tick", {at, kArea.bottom + 18.0}, "middle", x_labels[i]);
   }
-  for (const double tick : TicksOf(y, kTickGapY)) {
-    Line("grid", {kArea.left, y.At(tick)}, {kArea.right, y.At(tick)});
-    Text("tick", {kArea.left - 8.0, y.At(tick) + 4.0}, "end", Figure(tick));
+  const auto y_ticks = TicksOf(y, kTickGapY);
+  const auto y_labels = TickLabels(y, y_ticks);
+  for (std::size_t i = 0; i < y_ticks.size(); ++i) {
+    const double at = y.At(y_ticks[i]);
+    Line("grid", {kArea.left, at}, {kArea.right, at});
+    Text("tick", {kArea.left - 8.0, at + 4.0}, "end", y_labels[i]);
   }
   Path("frame", {{kArea.left, kArea.top}, {kArea.left, kArea.bottom}, {kArea.right, kArea.bottom}});
   Text("axis", {(kArea.left + kArea.right) / 2.0, kArea.bottom + 42.0}, "middle", x_title);

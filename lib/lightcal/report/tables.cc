@@ -100,14 +100,17 @@ std::string ReadingTable(const std::vector<ResidualRow>& rows) {
 std::string EffectTable(const std::vector<EffectReport>& effects) {
   if (effects.empty()) return "";
   std::string html =
-      "<div class=\"block\"><h3>Effects considered</h3><div class=\"scroll\"><table><thead><tr>"
+      "<div class=\"block\"><h3>Effects considered</h3><div class=\"scroll\"><table "
+      "class=\"effects\"><thead><tr>"
       "<th scope=\"col\">effect</th><th scope=\"col\">state</th>"
       "<th class=\"n\" scope=\"col\">at most</th><th class=\"n\" scope=\"col\">found</th>"
       "<th scope=\"col\">why</th></tr></thead><tbody>\n";
   for (const EffectReport& effect : effects) {
     html += "<tr><th scope=\"row\">" + Words(effect.name) + "</th>" +
-            Cell(StateWord(effect.state)) + Cell(Percent(effect.bound), true) +
-            Cell(Percent(effect.contribution), true) + Cell(Escaped(effect.reason)) + "</tr>\n";
+            Cell(StateWord(effect.state)) + "<td class=\"n\" data-label=\"at most \">" +
+            Percent(effect.bound) + "</td>" + "<td class=\"n\" data-label=\"found \">" +
+            Percent(effect.contribution) + "</td>" + "<td class=\"note\">" +
+            Escaped(effect.reason) + "</td></tr>\n";
   }
   return html + "</tbody></table></div></div>\n";
 }
