@@ -231,8 +231,11 @@ TEST(FitLight, ADataSheetAloneAnswersAsAPrior) {
   session.lights.front().flux = Lumens(806.0);
   session.lights.front().beam = RadiansFromDegrees(36.0);
   const FittedLight light = FitOk(session);
-  EXPECT_NEAR(*light.intensity_cd->low, 1266.0, 5.0);
-  EXPECT_NEAR(*light.intensity_cd->high, 2621.0, 5.0);
+  // From two thirds of 806 lm in a cos^n lobe, n = ln .5/ln cos 18 deg (1266 cd), to a uniform
+  // cone, 806/(2 pi (1 - cos 18 deg)) (2621 cd); the printed flux's own tenth in quadrature.
+  const double half = std::hypot(0.5 * std::log(2621.0 / 1266.0), std::log(1.1));
+  EXPECT_NEAR(*light.intensity_cd->low, std::sqrt(1266.0 * 2621.0) * std::exp(-half), 5.0);
+  EXPECT_NEAR(*light.intensity_cd->high, std::sqrt(1266.0 * 2621.0) * std::exp(half), 5.0);
   EXPECT_TRUE(light.fit.learned.empty());
   EXPECT_THAT(light.fit.prior, Contains("intensity"));
   EXPECT_THAT(NextStep(session, light), HasSubstr("measure"));

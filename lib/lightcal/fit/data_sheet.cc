@@ -16,8 +16,11 @@ namespace {
 constexpr double kPointSpread = 0.30;
 constexpr double kKindSpread = 0.15;
 
+// Both ends come from the same printed flux, whose own tolerance widens them.
 Uncertain FromInterval(double low, double high) {
-  return UncertainFromLog(0.5 * std::log(low * high), std::log(high / low) / (2.0 * kZ95));
+  const double shape_sd = std::log(high / low) / (2.0 * kZ95);
+  const double flux_sd = std::log1p(kFluxToleranceRelative) / kZ95;
+  return UncertainFromLog(0.5 * std::log(low * high), std::hypot(shape_sd, flux_sd));
 }
 
 // Phi/I of the kind's own distribution, independent of its size.

@@ -8,13 +8,17 @@
 
 namespace lightcal::fit {
 
+// Half width of the 95 % interval of a printed luminous flux: about what lamp standards allow it
+// (IEC 62612, a tenth below the rated flux; from memory, not re-read).
+inline constexpr double kFluxToleranceRelative = 0.10;
+
 // Whether flux_lm is given for a kind that has an axial intensity.
 [[nodiscard]] bool HasDataSheet(const LightDescription& light);
 
 // Peak intensity I = Phi/Omega with Omega from the beams of beam_ensemble.h, from the cone, or from
 // the kind's own distribution (within 30 % for a point lamp, whose base shadows it, 15 % otherwise;
-// 95 % interval). value is the geometric middle of the interval. Refused: no_readings (no data
-// sheet), bad_beam.
+// 95 % interval), widened by the flux's own tolerance. value is the geometric middle of the
+// interval. Refused: no_readings (no data sheet), bad_beam.
 [[nodiscard]] Result<Uncertain> IntensityFromDataSheet(const LightDescription& light);
 
 // Fills intensity and the diagnostics of a light that was never read: everything is a prior.

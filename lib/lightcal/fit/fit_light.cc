@@ -124,7 +124,8 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
         return Propagate(std::move(filled));
       }
       AddDerivedQuantities(light, out);
-      out.flux_lm = Uncertain{light.flux->value(), 0.1 * light.flux->value(), {}, {}};
+      out.flux_lm =
+          Uncertain{light.flux->value(), fit::kFluxToleranceRelative * light.flux->value(), {}, {}};
       return out;
     }
     return observations->rejected.empty()

@@ -19,6 +19,7 @@ struct Taken {
   std::vector<double> distances_m;  // of readings with the lamp on, sorted
   bool shadow = false;
   bool off = false;
+  bool own = false;  // someone held a meter: not every figure is the manufacturer's
 };
 
 Taken TakenOf(const Session& session, const FittedLight& light) {
@@ -28,6 +29,7 @@ Taken TakenOf(const Session& session, const FittedLight& light) {
     if (reading.light != light.name || !reading.illuminance) continue;
     taken.shadow = taken.shadow || reading.shadow_card;
     taken.off = taken.off || (reading.lamp == LampState::kOff && !reading.shadow_card);
+    taken.own = taken.own || reading.meter != kDataSheetMeter;
     const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
     if (!lit || !light.residuals.empty()) continue;
     if (reading.distance && reading.distance->value() > 0.0) {
@@ -77,6 +79,10 @@ std::string NextStep(const Session& session, const FittedLight& light) {
     return ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light");
   }
   const double farthest = taken.distances_m.back();
+  if (!taken.own) {
+    return "measure your own lamp once at " + RoundedText(nearest, 2) +
+           " m: so far only the manufacturer's figures speak";
+  }
   if (IsPrior(light, "distance_offset")) {
     return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,
                        "the distance offset is still a prior");

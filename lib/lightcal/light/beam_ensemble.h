@@ -17,11 +17,9 @@ struct BeamSolidAngles {
 
 // The beams whose intensity is half the peak at beam/2 from the axis (and, when given, a tenth at
 // field/2), beam and field being full angles as data sheets print them (IES LM-79, CIE 121).
-//   beam only: uniform cone of half angle beam/2; Gaussian; cos^n; cos^n that carries two thirds of
-//   the
-//     flux, the rest being spill outside the beam (reflector lamps reach that).
-//   beam and field: exp(-ln2 (t/tb)^p); 1/(1 + (t/tb)^q); a trapezoid, straight through both
-//   points.
+//   beam only: uniform cone of half angle beam/2; Gaussian; cos^n; cos^n that carries two thirds
+//     of the flux, the rest being spill outside the beam (reflector lamps reach that).
+//   beam and field: exp(-ln2 (t/tb)^p); 1/(1 + (t/tb)^q); a trapezoid, straight through both.
 // Integrated numerically over 0..90 degrees. Holds for 0 < beam < field <= 180 degrees (beam alone
 // up to 170). Refused: bad_beam.
 [[nodiscard]] Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field);
