@@ -16,6 +16,7 @@ HEAD = """\
 # Written by tests/tools/make_lux_sessions.py from sample_data/lux_tables/lux_tables.csv.
 # Illuminance as the manufacturer publishes it, distances from the front of the fixture. The meter
 # name "data_sheet" is reserved: 2 % (1 sigma) a figure. cct_K is the nominal value on the fixture.
+# The kind is spot: candela on the axis are known; the beam's angles are not, so no lumens are claimed.
 lightcal = 1
 name = "{name}"
 """
@@ -35,7 +36,7 @@ def sessions():
     for (fixture, accessory), by_cct in tables.items():
         text = HEAD.format(name=f"{fixture}, {accessory}")
         for cct in by_cct:
-            text += f'\n[[light]]\nname = "{cct}K"\nkind = "point"\n'
+            text += f'\n[[light]]\nname = "{cct}K"\nkind = "spot"\n'
         for cct, rows in by_cct.items():
             for row in rows:
                 text += (
