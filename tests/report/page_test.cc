@@ -88,9 +88,9 @@ TEST(ReportPage, SaysWhatAnArtistAndAnAuditorAsk) {
                             "4.0\u00A0%",
                             "961 … 1041\u00A0cd",
                             "from 4 of 5 readings",
-                            "2700\u00A0±\u00A035\u00A0K",
+                            "2700 ±\u00A035\u00A0K",
                             "370.4 mired",
-                            "6.0\u00A0±\u00A02.0\u00A0cm",
+                            "6.0 ±\u00A02.0\u00A0cm",
                             "behind the reference point, learned",
                             "The number to type in",
                             "1928.4 cd",
@@ -151,9 +151,9 @@ pugi::xml_document Parsed(const std::string& svg) {
 }
 
 // Readings from 0.5 to 3 m with a quarter of room on each side: x is logarithmic from 0.4 to 3.75 m
-// over the 404 px between 64 and 468.
+// over the 384 px between 84 and 468.
 double ExpectedX(double distance) {
-  return 64.0 + 404.0 * std::log(distance / 0.4) / std::log(3.75 / 0.4);
+  return 84.0 + 384.0 * std::log(distance / 0.4) / std::log(3.75 / 0.4);
 }
 
 TEST(DistanceFigure, PutsReadingsWhereTheirDistanceAndLuxBelong) {
@@ -209,7 +209,7 @@ TEST(ResidualFigure, PutsPercentOnALinearAxisAndNamesWhatLiesBeyond) {
 TEST(ChromaticityFigure, HasTheLightInTheMiddleAndOneScaleOnBothAxes) {
   const auto svg = Parsed(report::ChromaticityFigure(WarmPoint(), "c"));
   const auto dot = svg.select_node("//circle[@class='used']").node();
-  EXPECT_NEAR(dot.attribute("cx").as_double(), 266.0, 0.01);
+  EXPECT_NEAR(dot.attribute("cx").as_double(), 276.0, 0.01);
   EXPECT_NEAR(dot.attribute("cy").as_double(), 151.0, 0.01);
   EXPECT_EQ(svg.select_nodes("//path[@class='ellipse']").size(), 1U);
   FittedLight colorless = WarmPoint();

@@ -20,10 +20,10 @@ TEST(Escaped, BytesThatAreNoTextBecomeTheReplacementCharacter) {
 }
 
 TEST(PlusMinusText, KeepsTheDigitsTheUncertaintyLeaves) {
-  EXPECT_EQ(PlusMinus({1000.4, 40.2, {}, {}}, "cd"), "1000\u00A0±\u00A040\u00A0cd");
-  EXPECT_EQ(PlusMinus({12566.4, 502.7, {}, {}}, "lm"), "12\u202F570\u00A0±\u00A0500\u00A0lm");
-  EXPECT_EQ(PlusMinus({-0.0012, 0.0008, {}, {}}, ""), "\u22120.00120\u00A0±\u00A00.00080");
-  EXPECT_EQ(PlusMinus({0.06, 0.02, {}, {}}, "cm", 100.0), "6.0\u00A0±\u00A02.0\u00A0cm");
+  EXPECT_EQ(PlusMinus({1000.4, 40.2, {}, {}}, "cd"), "1000 ±\u00A040\u00A0cd");
+  EXPECT_EQ(PlusMinus({12566.4, 502.7, {}, {}}, "lm"), "12\u202F570 ±\u00A0500\u00A0lm");
+  EXPECT_EQ(PlusMinus({-0.0012, 0.0008, {}, {}}, ""), "\u22120.00120 ±\u00A00.00080");
+  EXPECT_EQ(PlusMinus({0.06, 0.02, {}, {}}, "cm", 100.0), "6.0 ±\u00A02.0\u00A0cm");
 }
 
 TEST(FigureText, DropsTrailingZerosAndGroupsThousands) {

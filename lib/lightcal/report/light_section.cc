@@ -74,7 +74,7 @@ std::string Cards(const FittedLight& light) {
   html += PhotometryCard("Illuminance", light.illuminance_lx, "lx", headline);
   html += PhotometryCard("Luminance", light.luminance_nits, "cd/m²", headline);
   html += OffsetCard(light);
-  if (light.ambient_lx) {
+  if (light.ambient_lx && (light.ambient_lx->value != 0.0 || light.ambient_lx->u95 > 0.0)) {
     html +=
         Card("Ambient light", PlusMinus(*light.ambient_lx, "lx"), DecidedBy(light.fit, "ambient"));
   }

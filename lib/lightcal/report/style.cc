@@ -125,7 +125,9 @@ a { color: var(--accent); }
   .card dd { font-size: 15px; }
   .figures { grid-template-columns: 1fr 1fr; gap: 20px; margin-top: 22px; }
   .below { margin-top: 22px; }
-  table { font-size: 12px; }
+  table, .overview td, .overview tbody th, .typein td, .typein tbody th { font-size: 12px; }
+  .typein .value { font-size: 14px; }
+  .overview td, .overview tbody th { padding-top: 6px; padding-bottom: 6px; }
   thead th { font-size: 11.5px; }
   code { font-size: 10.5px; }
 }

@@ -22,7 +22,7 @@ inline constexpr double kFigureHeight = 340.0;
 
 // The area inside the axes, in figure coordinates.
 struct PlotArea {
-  double left = 64.0, right = 468.0, top = 16.0, bottom = 286.0;
+  double left = 84.0, right = 468.0, top = 16.0, bottom = 286.0;
 };
 
 class Svg {

@@ -128,7 +128,7 @@ int DecimalsOf(const Uncertain& u, double scale) {
 std::string PlusMinus(const Uncertain& u, std::string_view unit, double scale) {
   const int decimals = DecimalsOf(u, scale);
   std::string text = Fixed(u.value * scale, decimals);
-  if (u.u95 > 0.0) text += "\u00A0±\u00A0" + Fixed(u.u95 * scale, decimals);
+  if (u.u95 > 0.0) text += " ±\u00A0" + Fixed(u.u95 * scale, decimals);
   return WithUnit(text, unit);
 }
 
