@@ -8,128 +8,17 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/fit/prepare.h"
 #include "lightcal/fit/robust.h"
 #include "lightcal/fit/starts.h"
-#include "lightcal/light/effects/detector_size.h"
 
 namespace lightcal::fit {
 namespace {
 
-constexpr double kPriorConflict = 2.0;      // prior standard deviations
-constexpr double kLearned = 0.8;            // of the prior standard deviation
-constexpr double kLeastOffset = -0.9;       // of the shortest distance
-constexpr double kLinearBeyondSigma = 0.3;  // relative; such a reading's logarithm is not normal
+constexpr double kPriorConflict = 2.0;  // prior standard deviations
+constexpr double kLearned = 0.8;        // of the prior standard deviation
 constexpr double kConditionFull = 100.0;
 constexpr double kConditionPriors = 1000.0;
-constexpr int kDistancesForAmbient = 4;
-
-// The solver's units: geometric means of the light's own distances and illuminances, so that a lamp
-// a thousand times brighter or farther away takes the same steps.
-struct Scales {
-  double length_m = 1.0;
-  double illuminance_lx = 1.0;
-};
-
-struct Prepared {
-  Estimation estimation;
-  std::vector<int> observation;  // of each row
-  Scales scales;
-  double shortest = 1.0;  // in solver units
-  int lit_rows = 0;
-  int distances = 0;
-  bool ambient_told = false;  // by lamp-off readings
-};
-
-Scales ScalesOf(const Observations& observations) {
-  double ln_length = 0.0;
-  double ln_illuminance = 0.0;
-  int count = 0;
-  for (const Observation& row : observations.rows) {
-    if (!row.lit || !(row.measured_lx > 0.0)) continue;
-    ln_length += std::log(row.distance_m);
-    ln_illuminance += std::log(row.measured_lx);
-    ++count;
-  }
-  if (count == 0) return {};
-  return {std::exp(ln_length / count), std::exp(ln_illuminance / count)};
-}
-
-AxialShape Scaled(AxialShape shape, double length_m) {
-  shape.first /= length_m;
-  shape.second /= length_m;
-  return shape;
-}
-
-ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardModel& model,
-                 const Scales& scales) {
-  ReadingRow row;
-  const double lx = 1.0 / scales.illuminance_lx;
-  row.measured = observation.measured_lx * lx;
-  row.ambient_gain = observation.differenced ? 0.0 : 1.0;
-  row.sigma = observation.sigma_lx * lx;
-  row.form = ReadingRow::Form::kLinear;
-  if (!observation.lit) {
-    row.direct_gain = 0.0;
-    return row;
-  }
-  row.shape = Scaled(model.shape, scales.length_m);
-  const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
-  row.distance = (observation.distance_m + surface) / scales.length_m;
-  if (model.tilt) row.direct_gain = std::cos(observation.tilt_rad);
-  if (model.head_radius_m > 0.0) {
-    row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
-  }
-  if (!observation.differenced && i < model.bounce_per_candela.size()) {
-    row.bounce = model.bounce_per_candela[i] * scales.length_m * scales.length_m;
-  }
-  const double relative = observation.sigma_lx / observation.measured_lx;
-  if (observation.measured_lx > 0.0 && relative < kLinearBeyondSigma) {
-    row.form = observation.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
-    row.sigma = relative;
-  }
-  return row;
-}
-
-Prepared Prepare(const Observations& observations, const ForwardModel& model) {
-  Prepared out;
-  out.scales = ScalesOf(observations);
-  out.shortest = std::numeric_limits<double>::infinity();
-  double dimmest = std::numeric_limits<double>::infinity();
-  bool offset_possible = model.distance_law && model.fit_offset;
-  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
-    const Observation& observation = observations.rows[i];
-    if (!observation.lit && !model.fit_ambient) continue;
-    out.estimation.rows.push_back(RowOf(observation, i, model, out.scales));
-    out.observation.push_back(static_cast<int>(i));
-    const ReadingRow& row = out.estimation.rows.back();
-    if (!observation.lit) {
-      out.ambient_told = true;
-      continue;
-    }
-    ++out.lit_rows;
-    out.shortest = std::min(out.shortest, row.distance);
-    if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
-      dimmest = std::min(dimmest, row.measured);
-    }
-  }
-  out.distances = model.distance_law ? CountDistinctDistances(observations.rows) : 1;
-  offset_possible = offset_possible && out.lit_rows > 0;
-  auto& rules = out.estimation.rules;
-  rules[kLnIntensity].free = true;
-  if (offset_possible) {
-    rules[kDistanceOffset].prior_sd = kOffsetPriorRelative * out.shortest;
-    rules[kDistanceOffset].free = out.distances >= 2;
-  }
-  out.estimation.least_distance_offset = kLeastOffset * out.shortest;
-  if (out.ambient_told) {
-    rules[kAmbient].free = true;
-  } else if (model.fit_ambient && model.distance_law && out.distances >= kDistancesForAmbient &&
-             std::isfinite(dimmest)) {
-    // Ambient light cannot exceed the dimmest reading.
-    rules[kAmbient] = {true, 0.0, dimmest};
-  }
-  return out;
-}
 
 // Holds parameters at their priors where the readings alone say next to nothing of them.
 double HoldUndetermined(Prepared& prepared) {
