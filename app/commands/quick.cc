@@ -263,8 +263,11 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("--beam", options->beam, "Data sheet: full beam angle (50 % of the peak)");
   parser.add_option("--field", options->field, "Data sheet: full field angle (10 % of the peak)");
   parser.add_option("--watts", options->watts, "Data sheet: electrical power");
-  parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m");
-  parser.add_option("--to", options->targets, "Also write presets: gltf,json")->delimiter(',');
+  parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m")
+      ->allow_extra_args(false);
+  parser.add_option("--to", options->targets, "Also write presets: gltf,json")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();
   parser.add_flag("--bare", options->bare, "Presets hold the light only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");

@@ -74,7 +74,9 @@ Run BuildRun(CLI::App& parser) {
   auto options = std::make_shared<Options>();
   parser.add_option("session", options->session, "Session directory or .toml file")->required();
   parser.add_option("-o,--output", options->output, "Where everything goes [SESSION/out]");
-  parser.add_option("--to", options->targets, "Presets to write [all]")->delimiter(',');
+  parser.add_option("--to", options->targets, "Presets to write [all]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   parser.add_option("--tol", options->tolerance, "Tolerance of the effect gate")
       ->capture_default_str();
   parser.add_option("--effects", options->effects, "auto, all, none, or +name,-name")

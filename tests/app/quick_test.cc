@@ -116,6 +116,12 @@ TEST(Quick, FootcandlesAndInchesAreTheSameLamp) {
               1.0, 1e-6);
 }
 
+TEST(Quick, ReadingsMayFollowTheOptionsThatTakeLists) {
+  const json document = QuickJson({"192lx@0.5m", "--at", "3m", "48lx@1m"});
+  EXPECT_EQ(document["lights"][0]["fit"]["used"], 2);
+  EXPECT_EQ(document["predictions"].size(), 1U);
+}
+
 struct BadLine {
   std::vector<std::string> arguments;
   int exit_code;

@@ -101,9 +101,9 @@ Result<void> CheckUnits(const Observations& observations, const std::string& lig
     return Refused(
         "units_ambiguous", light,
         odd +
-            (high_is_odd ? " (counted from 0) give about " + ratio +
+            (high_is_odd ? " (counted from 0): about " + ratio +
                                " times the E d^2 of the others: " + std::string(slip.question_high)
-                         : " (counted from 0) give about 1/" + ratio +
+                         : " (counted from 0): about 1/" + ratio +
                                " of the E d^2 of the others: " + std::string(slip.question_low)) +
             " Write units, or correct the rows; if it is ambient light, add a lamp-off "
             "reading");
