@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -11,9 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/cct_batch.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
@@ -28,19 +31,19 @@ struct Columns {
   bool named = false;
 };
 
-std::vector<std::string_view> Cells(std::string_view line) {
-  std::vector<std::string_view> cells;
+void CellsInto(std::vector<std::string_view>& cells, std::string_view line) {
+  cells.clear();
   for (std::size_t from = 0; from <= line.size();) {
     const std::size_t comma = std::min(line.find(',', from), line.size());
     cells.push_back(TrimBlanks(line.substr(from, comma - from)));
     from = comma + 1;
   }
-  return cells;
 }
 
 // The columns that a line of names names; absent for a line of anything else.
 std::optional<Columns> NamedColumns(std::string_view line) {
-  const auto cells = Cells(line);
+  std::vector<std::string_view> cells;
+  CellsInto(cells, line);
   const auto x = std::ranges::find(cells, "x");
   const auto y = std::ranges::find(cells, "y");
   if (x == cells.end() || y == cells.end()) return std::nullopt;
@@ -49,36 +52,77 @@ std::optional<Columns> NamedColumns(std::string_view line) {
 }
 
 struct Row {
-  std::string_view x_text, y_text;
+  std::string_view typed;  // "x,y" as it stands in the input
   Xy xy;
   CctResult cct;
 };
-
-Result<Row> RowFromLine(std::string_view line, const Columns& columns, const std::string& where) {
-  const auto cells = Cells(line);
-  const bool fits =
-      columns.named ? cells.size() > std::max(columns.x, columns.y) : cells.size() == 2;
-  if (!fits) {
-    return Refused("bad_row", where,
-                   "a line is x,y; other columns need a first line that names x and y");
-  }
-  Row row{cells[columns.x], cells[columns.y], {}, {}};
-  const auto x = ParseNumber(row.x_text);
-  const auto y = ParseNumber(row.y_text);
-  if (!x || !y) return Refused("bad_row", where, "x and y must be finite numbers");
-  row.xy = {*x, *y};
-  row.cct = CctFromXy(row.xy);
-  if (row.cct.status == CctStatus::kNotAChromaticity) return NotAChromaticity(where);
-  return row;
-}
 
 struct Sink {
   std::function<void()> names;
   std::function<void(const Row&)> row;
 };
 
+// Some thousand rows at a time, so that their temperatures are found side by side.
+class RowBlock {
+ public:
+  RowBlock(const std::string& name, const Sink& sink) : name_(name), sink_(sink) {}
+
+  Result<void> Add(std::string_view line, const Columns& columns, std::size_t number) {
+    CellsInto(cells_, line);
+    const bool fits =
+        columns.named ? cells_.size() > std::max(columns.x, columns.y) : cells_.size() == 2;
+    if (!fits) {
+      return Refused("bad_row", Where(number),
+                     "a line is x,y; other columns need a first line that names x and y");
+    }
+    const auto x = ParseNumber(cells_[columns.x]);
+    const auto y = ParseNumber(cells_[columns.y]);
+    if (!x || !y) return Refused("bad_row", Where(number), "x and y must be finite numbers");
+    typed_.append(cells_[columns.x]).append(1, ',').append(cells_[columns.y]);
+    typed_ends_.push_back(typed_.size());
+    colors_.push_back({*x, *y});
+    numbers_.push_back(number);
+    return colors_.size() < kRowsInBlock ? Result<void>{} : Answer();
+  }
+
+  // Hands every row added so far to the sink, up to one that is no colour.
+  Result<void> Answer() {
+    results_.resize(colors_.size());
+    CctBatch(colors_, results_);
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < colors_.size(); ++i) {
+      if (results_[i].status == CctStatus::kNotAChromaticity) {
+        return NotAChromaticity(Where(numbers_[i]));
+      }
+      const auto typed = std::string_view(typed_).substr(from, typed_ends_[i] - from);
+      sink_.row({typed, colors_[i], results_[i]});
+      from = typed_ends_[i];
+    }
+    typed_.clear();
+    typed_ends_.clear();
+    colors_.clear();
+    numbers_.clear();
+    return {};
+  }
+
+ private:
+  static constexpr std::size_t kRowsInBlock = 2048;
+  [[nodiscard]] std::string Where(std::size_t number) const {
+    return name_ + ":" + std::to_string(number);
+  }
+
+  const std::string& name_;
+  const Sink& sink_;
+  std::vector<std::string_view> cells_;
+  std::string typed_;
+  std::vector<std::size_t> typed_ends_, numbers_;
+  std::vector<Xy> colors_;
+  std::vector<CctResult> results_;
+};
+
 Result<void> ForEachRow(std::istream& stream, const std::string& name, const Sink& sink) {
   Columns columns;
+  RowBlock block(name, sink);
   std::string line;
   std::size_t rows = 0;
   for (std::size_t number = 1; std::getline(stream, line); ++number) {
@@ -91,11 +135,13 @@ Result<void> ForEachRow(std::istream& stream, const std::string& name, const Sin
       sink.names();
       continue;
     }
-    auto row = RowFromLine(text, columns, name + ":" + std::to_string(number));
-    if (!row) return Propagate(std::move(row));
-    sink.row(*row);
+    if (auto added = block.Add(text, columns, number); !added) {
+      auto before = block.Answer();  // an earlier row may be the first bad one
+      return before ? added : before;
+    }
     ++rows;
   }
+  if (auto last = block.Answer(); !last) return last;
   if (stream.bad()) return Failed("unreadable", name, "cannot be read");
   if (rows == 0) return Refused("no_rows", name, "holds no x,y line");
   return {};
@@ -106,7 +152,10 @@ class Writer {
  public:
   explicit Writer(Console& console) : console_(console) {}
 
-  void Names() { Line("x,y,cct_K,duv"); }
+  void Names() {
+    buffer_ += "x,y,cct_K,duv";
+    EndLine();
+  }
   void Add(const Row& row) {
     if (console_.json()) {
       nlohmann::ordered_json json = {{"xy", {row.xy.x, row.xy.y}}};
@@ -115,9 +164,11 @@ class Writer {
       rows_.push_back(std::move(json));
       return;
     }
-    std::string line = std::string(row.x_text) + "," + std::string(row.y_text) + ",";
-    if (row.cct.valid()) line += ShortestText(row.cct.temperature.value());
-    Line(line + "," + ShortestText(row.cct.duv));
+    buffer_.append(row.typed).append(1, ',');
+    if (row.cct.valid()) AppendShortest(row.cct.temperature.value());
+    buffer_ += ',';
+    AppendShortest(row.cct.duv);
+    EndLine();
   }
   void Flush() {
     console_.Print(buffer_);
@@ -129,8 +180,14 @@ class Writer {
   }
 
  private:
-  void Line(const std::string& line) {
-    buffer_ += line + "\n";
+  void AppendShortest(double value) {
+    std::array<char, 32> text{};  // the shortest form of a double has at most 24 characters
+    const auto end =
+        std::to_chars(text.data(), text.data() + text.size(), value == 0.0 ? 0.0 : value);
+    buffer_.append(text.data(), end.ptr);
+  }
+  void EndLine() {
+    buffer_ += '\n';
     if (buffer_.size() >= kFlushBytes) Flush();
   }
 

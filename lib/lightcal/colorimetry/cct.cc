@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact locus costs 471 exponentials a point. Here it is a piecewise quintic Hermite polynomial
-// in mireds through exact points with exact first and second derivatives, searched by the sign of
-// the tangential projection (no distances: (d1^2 - d2^2) cancels) and finished by Newton.
+// The locus of locus_table.h, searched by the sign of the tangential projection (no distances:
+// (d1^2 - d2^2) cancels) and finished by Newton.
 #include "lightcal/colorimetry/cct.h"
 
 #include <algorithm>
@@ -9,91 +8,29 @@
 #include <cmath>
 #include <limits>
 
+#include "lightcal/colorimetry/locus_table.h"
 #include "lightcal/colorimetry/planckian.h"
 
 namespace lightcal {
+
+using locus::Curve;
+using locus::kColdestKelvin;
+using locus::kDuvLimit;
+using locus::kInfinityMireds;
+using locus::kSegments;
+using locus::kStepMireds;
+using locus::Locus;
+using locus::LocusTable;
+using locus::Segment;
+
 namespace {
 
-constexpr double kDuvLimit = 0.05 + 1e-9;
-constexpr double kColdestKelvin = 1000.0 - 1e-6;
-constexpr double kInfinityMireds =
-    1e-6;  // hotter than 1e12 K: no computed xy can tell from infinity
-constexpr double kStepMireds = 5.0;
-constexpr int kSegments = 500;  // 0 to 2500 mired, infinity to 400 K
 constexpr int kLargestStep =
     256;  // of the binary search: a power of two, twice it at least kSegments
 
 // Beyond this distance another branch of the locus may be nearer; its least radius of curvature is
 // 0.1001 (at 5192 K), within which the nearest point is unique.
 constexpr double kUniqueWithin = 0.08;
-
-struct Curve {  // position and derivatives by the segment's parameter t in [0, 1]
-  double u, v, du, dv, d2u, d2v;
-};
-
-struct Quintic {
-  std::array<double, 6> c;
-
-  // In pairs: half the depth of Horner's chain.
-  [[nodiscard]] double Value(double t) const {
-    const double t2 = t * t;
-    return (c[0] + c[1] * t) + t2 * ((c[2] + c[3] * t) + t2 * (c[4] + c[5] * t));
-  }
-  [[nodiscard]] double First(double t) const {
-    const double t2 = t * t;
-    return (c[1] + 2 * c[2] * t) + t2 * ((3 * c[3] + 4 * c[4] * t) + t2 * (5 * c[5]));
-  }
-  [[nodiscard]] double Second(double t) const {
-    return (2 * c[2] + 6 * c[3] * t) + t * t * (12 * c[4] + 20 * c[5] * t);
-  }
-};
-
-// The quintic with given value, slope and curvature at t = 0 (p, a, e) and t = 1 (q, b, f).
-Quintic Hermite(double p, double a, double e, double q, double b, double f) {
-  const double rise = q - p - a - e / 2;
-  const double slope = b - a - e;
-  const double bend = f - e;
-  return {{p, a, e / 2, 10 * rise - 4 * slope + bend / 2, -15 * rise + 7 * slope - bend,
-           6 * rise - 3 * slope + bend / 2}};
-}
-
-struct Segment {
-  Quintic u, v;
-
-  [[nodiscard]] Curve At(double t) const {
-    return {u.Value(t), v.Value(t), u.First(t), v.First(t), u.Second(t), v.Second(t)};
-  }
-};
-
-struct Node {
-  double u, v, du, dv;
-  // Positive while the nearest point lies at more mireds.
-  [[nodiscard]] double Ahead(Uv1960 p) const { return (p.u - u) * du + (p.v - v) * dv; }
-};
-
-struct LocusTable {
-  std::array<Node, kSegments + 1> nodes;
-  std::array<Segment, kSegments> segments;
-
-  LocusTable() {
-    const double h = kStepMireds;
-    LocusPoint from = PlanckianLocusAt(Mireds(0.0));
-    for (int i = 0; i <= kSegments; ++i) {
-      nodes[i] = {from.uv.u, from.uv.v, from.du, from.dv};
-      if (i == kSegments) break;
-      const LocusPoint to = PlanckianLocusAt(Mireds((i + 1) * h));
-      segments[i] = {
-          Hermite(from.uv.u, h * from.du, h * h * from.d2u, to.uv.u, h * to.du, h * h * to.d2u),
-          Hermite(from.uv.v, h * from.dv, h * h * from.d2v, to.uv.v, h * to.dv, h * h * to.d2v)};
-      from = to;
-    }
-  }
-};
-
-const LocusTable& Locus() {
-  static const LocusTable table;
-  return table;
-}
 
 // A stationary point of the distance to the locus.
 struct Nearest {
