@@ -14,14 +14,18 @@
 #include <vector>
 
 #include "color_batch.h"
+#include "color_metrics.h"
 #include "commands.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/daylight.h"
+#include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/report/color_vector_graphic.h"
 #include "lightcal_devices/files/import_file.h"
+#include "output_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -31,7 +35,8 @@ using Json = nlohmann::ordered_json;
 struct Options {
   std::vector<std::string> xy;
   std::string cct, duv, locus = "planck";
-  std::string spectrum, column;
+  std::string spectrum, column, vector_graphic;
+  bool force = false;
   std::string batch;
 };
 
@@ -44,6 +49,7 @@ struct ColorAnswer {
   std::optional<Lux> illuminance;  // of an irradiance
   std::optional<LumensPerWatt> efficacy;
   std::optional<ReportedColor> reported;
+  ColorMetrics metrics;  // of a spectrum
 };
 
 struct NamedSpace {
@@ -113,7 +119,7 @@ Json ReportedJson(const ReportedColor& reported) {
   if (reported.duv) json["duv"] = *reported.duv;
   if (reported.xy) json["xy"] = Pair(reported.xy->x, reported.xy->y);
   if (reported.xyz) json["XYZ"] = Triple(reported.xyz->X, reported.xyz->Y, reported.xyz->Z);
-  if (reported.cri_Ra) json["cri_Ra"] = *reported.cri_Ra;
+  AddReportedMetrics(json, reported);
   return json;
 }
 
@@ -132,7 +138,8 @@ Json ToJson(const ColorAnswer& answer) {
   json["rgb"] = RgbJson(answer.xy);
   if (answer.xyz) json["XYZ"] = Triple(answer.xyz->X, answer.xyz->Y, answer.xyz->Z);
   if (answer.illuminance) json["illuminance_lx"] = answer.illuminance->value();
-  if (answer.efficacy) json["radiation_efficacy_lm_W"] = answer.efficacy->value();
+  if (answer.efficacy) json["ler_lm_per_W"] = answer.efficacy->value();
+  AddMetrics(json, answer.metrics);
   if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
   return json;
 }
@@ -182,6 +189,9 @@ std::string TableOfOne(const ColorAnswer& answer) {
   }
   if (answer.efficacy) {
     row("efficacy of radiation", Fixed(answer.efficacy->value(), 1), "lm/W");
+  }
+  for (const MetricRow& metric : MetricRows(answer.metrics, reported)) {
+    row(metric.what, metric.value, "", metric.claim);
   }
   std::vector<std::string> header = {"quantity", "value", "unit"};
   if (reports) header.emplace_back("file says");
@@ -309,8 +319,37 @@ Result<std::vector<ImportedSpectrum>> Chosen(ImportedFile& file, const Options& 
   return std::vector<ImportedSpectrum>{std::move(file.spectra[*index])};
 }
 
+constexpr std::string_view kIlluminant = "illuminant:";
+
+// A file, or "illuminant:FL11".
+Result<ImportedFile> SpectrumSource(const std::string& source) {
+  if (!source.starts_with(kIlluminant)) return ImportFile(source);
+  const std::string name = source.substr(kIlluminant.size());
+  auto spectrum = IlluminantSpectrum(name);
+  if (!spectrum) return Propagate(std::move(spectrum));
+  ImportedFile file;
+  file.spectra.push_back({name, std::move(*spectrum), {}, source});
+  return file;
+}
+
+Result<void> WriteVectorGraphic(const Options& options, const std::vector<ColorAnswer>& answers) {
+  if (answers.size() != 1) {
+    return WrongUsage("--vector-graphic", "is drawn of one spectrum; choose it with --column");
+  }
+  const auto& rendering = answers.front().metrics.rendering;
+  if (!rendering) {
+    return Refused("no_color_rendering", options.spectrum,
+                   "has no colour rendering to draw: the spectrum is too narrow or too coarse, or "
+                   "its colour has no temperature");
+  }
+  const std::string title = answers.front().name.empty() ? options.spectrum : answers.front().name;
+  return WriteOutputs({{options.vector_graphic,
+                        report::ColorVectorGraphic(rendering->fidelity, rendering->gamut, title)}},
+                      options.force);
+}
+
 Result<void> RunSpectrum(const Options& options, Console& console) {
-  auto file = ImportFile(options.spectrum);
+  auto file = SpectrumSource(options.spectrum);
   if (!file) return Propagate(std::move(file));
   const auto chosen = Chosen(*file, options);
   if (!chosen) return tl::unexpected(chosen.error());
@@ -329,10 +368,17 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
       continue;
     }
     WarnIfTruncated(imported.spectrum, subject, console);
+    if (options.spectrum.starts_with(kIlluminant)) answer->reported.reset();
+    Warnings warnings;
+    answer->metrics = ColorMetricsOf(imported.spectrum, subject, warnings);
+    console.Warn(warnings);
     spectra.push_back(ToJson(*answer));
     answers.push_back(std::move(*answer));
   }
   if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
+  if (!options.vector_graphic.empty()) {
+    if (auto written = WriteVectorGraphic(options, answers); !written) return written;
+  }
   if (chosen->size() == 1) {
     console.Print(TableOfOne(answers.front()));
     console.PrintJson(spectra.front());
@@ -352,8 +398,8 @@ Result<void> CheckOptions(const Options& o) {
   if (o.cct.empty() && (!o.duv.empty() || o.locus != "planck")) {
     return WrongUsage("color", "--duv and --locus go with --cct");
   }
-  if (o.spectrum.empty() && !o.column.empty()) {
-    return WrongUsage("--column", "goes with --spectrum");
+  if (o.spectrum.empty() && !(o.column.empty() && o.vector_graphic.empty() && !o.force)) {
+    return WrongUsage("color", "--column, --vector-graphic and --force go with --spectrum");
   }
   return {};
 }
@@ -369,11 +415,19 @@ Run BuildColor(CLI::App& parser) {
   parser.add_option("--locus", o->locus, "Where --cct lies")
       ->check(CLI::IsMember({"planck", "daylight"}))
       ->capture_default_str();
-  parser.add_option("--spectrum", o->spectrum, "A spectrometer's export")->type_name("FILE");
+  parser
+      .add_option("--spectrum", o->spectrum,
+                  "A spectrometer's export, or illuminant:FL11 and the like")
+      ->type_name("FILE");
   parser
       .add_option("--column", o->column,
                   "Which spectrum of the file: its name, or its number from 1")
       ->type_name("NAME|N");
+  parser
+      .add_option("--vector-graphic", o->vector_graphic,
+                  "Write the TM-30 colour vector graphic of the spectrum")
+      ->type_name("FILE.svg");
+  parser.add_flag("--force", o->force, "Replace a file that lightcal did not write");
   parser.add_option("--batch", o->batch, "Lines of x,y; - reads standard input")
       ->type_name("FILE.csv");
   return [o](Console& console) -> Result<void> {

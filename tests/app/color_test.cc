@@ -189,8 +189,31 @@ bool FormulaHolds(const json& answer) {
   return answer["cct_valid"].get<bool>() && answer["cct_K"].get<double>() > 1800.0;
 }
 
+void ExpectColorRendering(const json& answer, const ReportedColor& reported) {
+  if (!reported.cri_Ra) return;
+  ASSERT_TRUE(answer.contains("cri"));
+  EXPECT_NEAR(answer["cri"]["Ra"].get<double>(), *reported.cri_Ra, 0.5);
+  for (std::size_t i = 0; i < reported.cri_R.size(); ++i) {
+    if (reported.cri_R[i]) {
+      EXPECT_NEAR(answer["cri"]["R"][i].get<double>(), *reported.cri_R[i], 3.0) << "R" << i + 1;
+    }
+  }
+}
+
+// The UPRtek CV600 computes the first edition of TM-30, whose Rf lies up to 5.5 below CIE 224's;
+// the Sekonic prints whole numbers of the present one.
+void ExpectFidelityAndGamut(const json& answer, const ReportedColor& reported, bool first_edition) {
+  if (!reported.tm30_rf) return;
+  ASSERT_TRUE(answer.contains("tm30"));
+  const json& found = first_edition ? answer["tm30_2015"] : answer["tm30"];
+  EXPECT_NEAR(found["rf"].get<double>(), *reported.tm30_rf, first_edition ? 0.1 : 0.5);
+  ASSERT_TRUE(reported.tm30_rg.has_value());
+  EXPECT_NEAR(found["rg"].get<double>(), *reported.tm30_rg, 0.5);
+}
+
 void ExpectAsReported(const json& answer, const ReportedColor& reported, bool jeti) {
   ExpectIlluminance(answer, reported, jeti);
+  if (!jeti || FormulaHolds(answer)) ExpectColorRendering(answer, reported);
   if (jeti && reported.cct_K && !FormulaHolds(answer)) {
     ExpectFormulaOutOfRange(answer, reported);
   } else {
@@ -232,6 +255,7 @@ TEST_P(SpectrumFile, AgreesWithItsInstrument) {
     EXPECT_EQ(answer.contains("illuminance_lx"),
               imported.spectrum.quantity == SpectralQuantity::kIrradiance);
     ExpectAsReported(answer, imported.reported, file->format == "jeti_csv");
+    ExpectFidelityAndGamut(answer, imported.reported, file->format == "uprtek_xls");
   }
 }
 
@@ -255,6 +279,82 @@ TEST(ColorCommand, MostJetiColumnsBelowADuvOfFiveHundredthsAreCompared) {
   }
   EXPECT_EQ(compared, 13);
   EXPECT_EQ(out_of_range, 4);
+}
+
+TEST(ColorCommand, ColourRenderingIsComparedWithTwelveFilesOfTwoMakers) {
+  int rendering = 0, fidelity = 0;
+  for (const std::string& path : SpectrumFiles()) {
+    const auto file = ImportFile(path);
+    ASSERT_TRUE(file.has_value());
+    for (const ImportedSpectrum& imported : file->spectra) {
+      rendering += file->format != "jeti_csv" && imported.reported.cri_R[14] ? 1 : 0;
+      fidelity += imported.reported.tm30_rf && imported.reported.tm30_rg ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(rendering, 12);
+  EXPECT_EQ(fidelity, 12);
+}
+
+// The Sekonic prints SSI as whole numbers: SSIt 76 (to P3200), SSId 59 (to D55).
+TEST(ColorCommand, SpectralSimilarityIsTheSekonics) {
+  const json a = Color({"--spectrum", test::SampleData("spectra/colour_science/"
+                                                       "sekonic_RANDOM_001_02deg_3262K.csv")});
+  EXPECT_EQ(std::round(a["ssi"]["P3200"].get<double>()), 76.0);
+  EXPECT_EQ(std::round(a["ssi"]["D55"].get<double>()), 59.0);
+  EXPECT_GT(a["ssi"]["matching"].get<double>(), 76.0);
+}
+
+TEST(ColorCommand, AnIlluminantIsNamedInsteadOfAFile) {
+  const json a = Color({"--spectrum", "illuminant:FL11"});
+  EXPECT_EQ(a["name"], "FL11");
+  EXPECT_NEAR(a["cri"]["Ra"].get<double>(), 82.86, 0.1);
+  EXPECT_NEAR(a["cie2017_rf"].get<double>(), 80.04, 0.01);
+  EXPECT_EQ(a["tm30"]["rf"], a["cie2017_rf"]);
+  EXPECT_EQ(a["tm30"]["bins"].size(), 16u);
+  EXPECT_EQ(a["cri"]["R"].size(), 15u);
+  EXPECT_GT(a["ler_lm_per_W"].get<double>(), 300.0);
+  EXPECT_FALSE(a.contains("reported"));
+  EXPECT_FALSE(a.contains("illuminance_lx"));
+  ExpectRefused({"--spectrum", "illuminant:FL13"}, "unknown_illuminant");
+}
+
+TEST(ColorCommand, ANarrowSpectrumHasAColourButNoRendering) {
+  const test::TempDir dir;
+  std::string text = "wavelength_nm,relative\n";
+  for (int nm = 420; nm <= 680; nm += 5) text += std::to_string(nm) + ",1\n";
+  const json a = Color({"--spectrum", dir.Write("narrow.csv", text)});
+  EXPECT_TRUE(a.contains("cct_K"));
+  for (const char* key : {"cri", "cie2017_rf", "tm30", "ssi"}) EXPECT_FALSE(a.contains(key)) << key;
+  EXPECT_EQ(a["warnings"].back()["code"], "truncated_spectrum");
+}
+
+TEST(ColorCommand, ALightWithoutATemperatureHasNoRendering) {
+  const json a = Color({"--spectrum", kJeti, "--column", "450nm"});
+  EXPECT_FALSE(a["cct_valid"].get<bool>());
+  EXPECT_FALSE(a.contains("cri"));
+  EXPECT_FALSE(a["ssi"].contains("matching"));
+  EXPECT_TRUE(a["ssi"].contains("P3200"));
+}
+
+TEST(ColorCommand, TheVectorGraphicIsWrittenOnceAndReplacedFreely) {
+  const test::TempDir dir;
+  const std::string file = dir.path() + "/lamp.svg";
+  const std::vector<std::string> command = {"color", "--spectrum", "illuminant:FL4",
+                                            "--vector-graphic", file};
+  EXPECT_EQ(RunLightcal(command).exit_code, 0);
+  const std::string first = test::ReadFile(file);
+  EXPECT_NE(first.find("Colour vector graphic of FL4"), std::string::npos);
+  EXPECT_EQ(RunLightcal(command).exit_code, 0);
+  EXPECT_EQ(test::ReadFile(file), first);
+  const std::string other = dir.Write("mine.svg", "<svg/>");
+  EXPECT_EQ(
+      RunLightcal({"color", "--spectrum", "illuminant:FL4", "--vector-graphic", other}).exit_code,
+      1);
+  EXPECT_EQ(test::ReadFile(other), "<svg/>");
+  EXPECT_EQ(RunLightcal({"color", "--xy", "0.3", "0.3", "--vector-graphic", file}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"color", "--spectrum", kJeti, "--vector-graphic", file}).exit_code, 2);
+  ExpectRefused({"--spectrum", kJeti, "--column", "450nm", "--vector-graphic", file},
+                "no_color_rendering");
 }
 
 TEST(ColorCommand, AColumnIsChosenByNameOrByNumber) {

@@ -2,6 +2,7 @@
 // Files that instruments and their apps export -> spectra and readings.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -23,6 +24,8 @@ struct ReportedColor {
   std::optional<Xy> xy;  // CIE 1931 2 degree, as is xyz
   std::optional<Xyz> xyz;
   std::optional<double> cri_Ra;
+  std::array<std::optional<double>, 15> cri_R;  // R1 to R15
+  std::optional<double> tm30_rf, tm30_rg;
   // One unit of the last digit the file prints, 0 = not claimed: a comparison with a recomputed
   // value cannot be sharper than half of it.
   double illuminance_last_digit_lx = 0.0;

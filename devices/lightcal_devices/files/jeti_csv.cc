@@ -14,7 +14,7 @@ constexpr std::string_view kSpectrumHead = "Wavelength [nm]";
 constexpr std::string_view kIrradiance = "Ee [W/(sqm*nm)]";
 // x, y and X, Y, Z are printed for eight observers; the first is CIE 1931 2 degree.
 constexpr HeaderLabels kLabels{
-    "Ev [lx] (CIE1931*", "CCT [K]", "Duv", "x", "y", "X", "Y", "Z", "Ra"};
+    "Ev [lx] (CIE1931*", "CCT [K]", "Duv", "x", "y", "X", "Y", "Z", "Ra", "R", "", ""};
 
 // The first table of spectra; raw counts and references follow under the same head.
 struct SpectralTable {

@@ -53,8 +53,18 @@ ReportedColor LabelledColumns::Reported(const HeaderLabels& labels, std::size_t 
   const auto Y = Number(labels.Y, column);
   const auto Z = Number(labels.Z, column);
   if (X && Y && Z) reported.xyz = Xyz{*X, *Y, *Z};
-  reported.cri_Ra = Number(labels.cri_Ra, column);
+  if (reported.cct_K) ReadRendering(labels, column, reported);
   return reported;
+}
+
+void LabelledColumns::ReadRendering(const HeaderLabels& labels, std::size_t column,
+                                    ReportedColor& reported) const {
+  reported.cri_Ra = Number(labels.cri_Ra, column);
+  for (std::size_t i = 0; i < reported.cri_R.size(); ++i) {
+    reported.cri_R[i] = Number(std::string(labels.cri_R) + std::to_string(i + 1), column);
+  }
+  reported.tm30_rf = Number(labels.tm30_rf, column);
+  reported.tm30_rg = Number(labels.tm30_rg, column);
 }
 
 std::vector<std::size_t> LabelledColumns::MeasuredColumns(const SpectralRows& spectral) {

@@ -18,6 +18,8 @@ namespace lightcal::files {
 // a final '*' matches any ending, a leading '*' any beginning.
 struct HeaderLabels {
   std::string_view illuminance, cct, duv, x, y, X, Y, Z, cri_Ra;
+  std::string_view cri_R;  // what stands before the 1 of R1
+  std::string_view tm30_rf, tm30_rg;
 };
 
 struct SpectralRows {
@@ -36,6 +38,7 @@ class LabelledColumns {
   [[nodiscard]] std::string_view Value(std::string_view label, std::size_t column) const;
   // The same as a number; absent for "---", "Under", "Not calculated" and the like.
   [[nodiscard]] std::optional<double> Number(std::string_view label, std::size_t column) const;
+  // Colour rendering is absent where no CCT is reported: instruments then print 0 for it too.
   [[nodiscard]] ReportedColor Reported(const HeaderLabels& labels, std::size_t column) const;
   // The columns that hold a spectrum: those filled in the first spectral row.
   [[nodiscard]] static std::vector<std::size_t> MeasuredColumns(const SpectralRows& spectral);
@@ -44,6 +47,7 @@ class LabelledColumns {
                                             double scale) const;
 
  private:
+  void ReadRendering(const HeaderLabels& labels, std::size_t column, ReportedColor& reported) const;
   [[nodiscard]] const Row* Find(std::string_view label) const;
 
   std::vector<Row> rows_;

@@ -22,7 +22,10 @@ constexpr HeaderLabels kLabels{"Illuminance [lx]",
                                "Tristimulus Value X",
                                "Tristimulus Value Y",
                                "Tristimulus Value Z",
-                               "CRI Ra"};
+                               "CRI Ra",
+                               "CRI R",
+                               "TM-30 Rf",
+                               "TM-30 Rg"};
 
 std::optional<double> SampleWavelength(std::string_view label) {
   if (!label.starts_with(kSample) || !label.ends_with(kSampleEnd)) return std::nullopt;

@@ -10,7 +10,8 @@
 namespace lightcal::files {
 namespace {
 
-constexpr HeaderLabels kLabels{"LUX", "CCT", "Duv", "x", "y", "X", "Y", "Z", "CRI"};
+constexpr HeaderLabels kLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
+                               "Y",   "Z",   "CRI", "R", "Rf", "Rg"};
 constexpr double kMilliwatt = 1e-3;
 
 SpectralRows FindSpectralRows(const std::vector<Row>& rows) {

@@ -12,10 +12,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kLastBlackBodyKelvin = 4000.0;
-constexpr double kFirstDaylightKelvin = 5000.0;
-constexpr double kScale = 6.73;
-
 const SampleSet& Samples() {
   static const SampleSet samples({CfiSamples().front().data(), kCfiRowCount * kCfiSampleCount},
                                  kCfiFirstNm, kCfiSampleCount);
@@ -30,18 +26,18 @@ double TenDegreeY(const NanometrePowers& powers) {
   return sum;
 }
 
-NanometrePowers Reference(const RenderingInput& light) {
+NanometrePowers Reference(const RenderingInput& light, const FidelityEdition& edition) {
   const Kelvin t = light.color.temperature;
   const auto black_body = [&] {
     return ReferencePowers(light, BlackBodyAt(t, light.reference_nm));
   };
   const auto daylight = [&] { return ReferencePowers(light, DaylightAt(t, light.reference_nm)); };
-  if (t.value() <= kLastBlackBodyKelvin) return black_body();
-  if (t.value() >= kFirstDaylightKelvin) return daylight();
+  if (t <= edition.last_black_body) return black_body();
+  if (t >= edition.first_daylight) return daylight();
   NanometrePowers mixed = black_body();
   const NanometrePowers day = daylight();
   const double share =
-      (t.value() - kLastBlackBodyKelvin) / (kFirstDaylightKelvin - kLastBlackBodyKelvin);
+      (t - edition.last_black_body) / (edition.first_daylight - edition.last_black_body);
   const double of_black_body = (1.0 - share) / TenDegreeY(mixed);
   const double of_daylight = share / TenDegreeY(day);
   for (std::size_t k = 0; k < mixed.size(); ++k) {
@@ -50,8 +46,8 @@ NanometrePowers Reference(const RenderingInput& light) {
   return mixed;
 }
 
-double FidelityOf(double difference) {
-  return 10.0 * std::log1p(std::exp((100.0 - kScale * difference) / 10.0));
+double FidelityOf(double difference, double scale) {
+  return 10.0 * std::log1p(std::exp((100.0 - scale * difference) / 10.0));
 }
 
 std::size_t BinOf(const Cam02Ucs& color) {
@@ -61,13 +57,13 @@ std::size_t BinOf(const Cam02Ucs& color) {
 }
 
 // Sums of (a', b') become means, and what follows from them.
-void Finish(HueBin& bin, std::size_t index, double summed_difference) {
+void Finish(HueBin& bin, std::size_t index, double Rf) {
   const double n = bin.samples;
   bin.test_a /= n;
   bin.test_b /= n;
   bin.reference_a /= n;
   bin.reference_b /= n;
-  bin.Rf = FidelityOf(summed_difference / n);
+  bin.Rf = Rf;
   const double centre = (static_cast<double>(index) + 0.5) * 2.0 * std::numbers::pi / kHueBinCount;
   const double chroma = std::hypot(bin.reference_a, bin.reference_b);
   const double da = (bin.test_a - bin.reference_a) / chroma;
@@ -98,11 +94,13 @@ Areas AreasOf(const std::array<HueBin, kHueBinCount>& bins) {
 
 }  // namespace
 
-ColorFidelity ColorFidelityOf(const RenderingInput& light) {
-  const auto [test, reference] = Samples().Under(light.powers, Reference(light), Cie1964Cmf());
+ColorFidelity ColorFidelityOf(const RenderingInput& light, const FidelityEdition& edition) {
+  const auto [test, reference] =
+      Samples().Under(light.powers, Reference(light, edition), Cie1964Cmf());
   const Cam02UcsUnder under_test(test.white);
   const Cam02UcsUnder under_reference(reference.white);
   ColorFidelity result;
+  result.scale = edition.scale;
   double sum = 0.0;
   for (std::size_t i = 0; i < result.test.size(); ++i) {
     const Cam02Ucs a = under_test.Of(test.samples[i]);
@@ -110,10 +108,10 @@ ColorFidelity ColorFidelityOf(const RenderingInput& light) {
     result.test[i] = a;
     result.reference[i] = b;
     result.difference[i] = std::hypot(a.J - b.J, a.a - b.a, a.b - b.b);
-    result.sample_Rf[i] = FidelityOf(result.difference[i]);
+    result.sample_Rf[i] = FidelityOf(result.difference[i], edition.scale);
     sum += result.difference[i];
   }
-  result.Rf = FidelityOf(sum / kFidelitySampleCount);
+  result.Rf = FidelityOf(sum / kFidelitySampleCount, edition.scale);
   return result;
 }
 
@@ -131,7 +129,9 @@ GamutAndBins GamutAndBinsOf(const ColorFidelity& fidelity) {
     summed_difference[index] += fidelity.difference[i];
   }
   for (std::size_t i = 0; i < result.bins.size(); ++i) {
-    if (result.bins[i].samples > 0) Finish(result.bins[i], i, summed_difference[i]);
+    HueBin& bin = result.bins[i];
+    if (bin.samples == 0) continue;
+    Finish(bin, i, FidelityOf(summed_difference[i] / bin.samples, fidelity.scale));
   }
   const Areas areas = AreasOf(result.bins);
   result.Rg = 100.0 * areas.test / areas.reference;
