@@ -78,6 +78,13 @@ std::string Joined(std::span<const std::optional<double>> values) {
   return text;
 }
 
+std::string RaText(const ColorRendering& cri) {
+  const std::string text = OneDecimal(cri.Ra);
+  if (cri.chromaticity_difference <= kLargestCriChromaticityDifference) return text;
+  return text + " (" + RoundedText(cri.chromaticity_difference, 2) +
+         " uv from white; CIE 13.3 ends at 0.0054)";
+}
+
 std::string SimilarityText(const ColorMetrics& metrics) {
   std::string text;
   const auto add = [&](const char* reference, const std::optional<double>& value) {
@@ -141,7 +148,7 @@ std::vector<MetricRow> MetricRows(const ColorMetrics& metrics, const ReportedCol
   if (const auto& rendering = metrics.rendering) {
     const std::span<const double> r(rendering->cri.R);
     const std::span<const std::optional<double>> claimed(reported.cri_R);
-    rows.push_back({"CRI Ra", OneDecimal(rendering->cri.Ra), OneDecimal(reported.cri_Ra)});
+    rows.push_back({"CRI Ra", RaText(rendering->cri), OneDecimal(reported.cri_Ra)});
     rows.push_back({"R1 to R8", Joined(r.first(8)), Joined(claimed.first(8))});
     rows.push_back({"R9 to R15", Joined(r.subspan(8)), Joined(claimed.subspan(8))});
     rows.push_back(

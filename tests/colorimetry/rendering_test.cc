@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -253,6 +253,39 @@ TEST(RenderingInput, WhatCannotBeJudgedIsRefused) {
     red.values[i] = red.wavelengths_nm[i] < 650.0 ? 0.0 : 1.0;
   }
   EXPECT_EQ(PrepareRendering(red).error().code, "no_reference");
+}
+
+// Dim readings are noisy and partly negative: refused, or finite throughout.
+TEST(RenderingInput, NoiseNeverMakesAnIndexThatIsNoNumber) {
+  std::mt19937 random(5);
+  int judged = 0, refused = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::normal_distribution<double> noise(0.0, 0.01 * (trial % 100));
+    Spectrum light = Light(trial % 2 == 0 ? "LED-B1" : "HP1");
+    for (double& value : light.values) value = value / 100.0 + noise(random);
+    const auto input = PrepareRendering(light);
+    refused += input ? 0 : 1;
+    if (!input) continue;
+    ++judged;
+    const ColorRendering cri = ColorRenderingOf(*input);
+    const ColorFidelity fidelity = ColorFidelityOf(*input);
+    const GamutAndBins gamut = GamutAndBinsOf(fidelity);
+    for (const double r : cri.R) ASSERT_TRUE(std::isfinite(r)) << trial;
+    for (const double rf : fidelity.sample_Rf) ASSERT_TRUE(std::isfinite(rf)) << trial;
+    ASSERT_TRUE(std::isfinite(cri.Ra + fidelity.Rf + gamut.Rg)) << trial;
+  }
+  EXPECT_GT(judged, 50);
+  EXPECT_GT(refused, 50);
+}
+
+TEST(RenderingInput, TheLargestAndSmallestNumbersAreJudgedToo) {
+  const double ra = ColorRenderingOf(Prepared(Light("FL2"))).Ra;
+  for (const double scale : {1e-300, 1e300}) {
+    Spectrum light = Light("FL2");
+    for (double& value : light.values) value *= scale;
+    EXPECT_NEAR(ColorRenderingOf(Prepared(light)).Ra, ra, 1e-9);
+    EXPECT_TRUE(std::isfinite(ColorFidelityOf(Prepared(light)).Rf));
+  }
 }
 
 // ---- SSI ----

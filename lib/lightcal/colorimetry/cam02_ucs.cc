@@ -100,13 +100,13 @@ Cam02Ucs Cam02UcsUnder::Of(const Xyz& color) const {
       std::pow(std::max(Achromatic(r), 0.0) / white_response_, v.exponent);  // J / 100
   const double J = 100.0 * lightness;
   Cam02Ucs ucs{1.7 * J / (1.0 + 0.007 * J), 0.0, 0.0};
-  if (length == 0.0) return ucs;
+  const double sum = r[0] + r[1] + 1.05 * r[2];
+  if (!(length > 0.0 && sum > 0.0)) return ucs;
   const double cosine = a / length;
   const double sine = b / length;
   // 1/4 (cos(h + 2 rad) + 3.8)
   const double eccentricity = 0.25 * (cosine * std::cos(2.0) - sine * std::sin(2.0) + 3.8);
-  const double t =
-      50000.0 / 13.0 * v.background * eccentricity * length / (r[0] + r[1] + 1.05 * r[2]);
+  const double t = 50000.0 / 13.0 * v.background * eccentricity * length / sum;
   const double M = std::pow(t, 0.9) * std::sqrt(lightness) * v.chroma_factor * v.colorfulness;
   const double compressed = std::log1p(0.0228 * M) / 0.0228;
   ucs.a = compressed * cosine;

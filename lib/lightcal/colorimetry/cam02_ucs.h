@@ -16,6 +16,7 @@ struct Cam02Ucs {
 // CIECAM02 with L_A = 100 cd/m2, Y_b = 20, average surround (c = 0.69, N_c = 1) and complete
 // adaptation (D = 1) to one white of Y = 100; colours with Y relative to it.
 // Source: CIE 159:2004; Luo, Cui and Li, Color Res. Appl. 31, 320 (2006); conditions: CIE 224:2017.
+// Colours without a hue, and those beyond the model (negative cone responses), have a = b = 0.
 class Cam02UcsUnder {
  public:
   explicit Cam02UcsUnder(const Xyz& white);

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <string>
 
+#include "lightcal/colorimetry/cie_tables/samples.h"
 #include "lightcal/colorimetry/cie_tables/tables.h"
 #include "lightcal/colorimetry/daylight.h"
 #include "lightcal/colorimetry/planckian.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kLeastFirstNm = 400.0;
 constexpr double kLeastLastNm = 700.0;
 constexpr double kWidestStepNm = 20.0;
+constexpr double kLargestNegativeShare = 0.1;
 constexpr double kHottestDaylightKelvin = 25000.0;
 constexpr double kCentreNm = 560.0;
 constexpr double kC2NanometreKelvin = kC2MetreKelvin * 1e9;
@@ -96,6 +98,26 @@ Result<void> CheckGrid(const Spectrum& s, bool equal_steps) {
   return {};
 }
 
+Result<void> CheckNoise(const NanometrePowers& powers) {
+  double positive = 0.0;
+  double negative = 0.0;
+  for (std::size_t k = 0; k < powers.size(); ++k) {
+    const double y = powers[k] * Cie1964Cmf()[k + (kRenderingFirstNm - kCmfFirstNm)].y_bar;
+    (y < 0.0 ? negative : positive) += std::abs(y);
+  }
+  if (positive > 0.0 && negative <= kLargestNegativeShare * positive) return {};
+  return Refused("noisy_spectrum", "spectrum",
+                 "negative samples take back more than a tenth of the light; measure longer or "
+                 "closer, and subtract the dark signal once only");
+}
+
+void ScaleToLargest(NanometrePowers& powers) {
+  double largest = 0.0;
+  for (const double each : powers) largest = std::max(largest, std::abs(each));
+  if (!(largest > 0.0)) return;
+  for (double& each : powers) each /= largest;
+}
+
 }  // namespace
 
 Result<RenderingInput> PrepareRendering(const Spectrum& spectrum) {
@@ -119,6 +141,8 @@ Result<RenderingInput> PrepareRendering(const Spectrum& spectrum) {
     input.powers = SharedOutLinearly(spectrum);
     input.reference_nm = WholeNanometresInside(spectrum);
   }
+  ScaleToLargest(input.powers);
+  if (auto checked = CheckNoise(input.powers); !checked) return Propagate(std::move(checked));
   return input;
 }
 

@@ -19,7 +19,7 @@ inline constexpr int kRenderingFirstNm = 380;
 inline constexpr int kRenderingLastNm = 780;
 inline constexpr int kRenderingCount = kRenderingLastNm - kRenderingFirstNm + 1;
 
-// Relative power at each whole nanometre of 380-780 nm.
+// Relative power at each whole nanometre of 380-780 nm, the largest sample 1.
 using NanometrePowers = std::array<double, kRenderingCount>;
 
 // Tables go to the instrument's grid, as in XyzFromSpectrum: a table value between two whole
@@ -37,7 +37,8 @@ struct RenderingInput {
 
 // Refused: "bad_spectrum" as XyzFromSpectrum; "truncated_spectrum" when the samples do not reach
 // over 400-700 nm; "coarse_spectrum" when equal steps are wider than 20 nm; "no_reference" when the
-// light has no valid CCT or one above 25000 K, where CIE daylight ends.
+// light has no valid CCT or one above 25000 K, where CIE daylight ends; "noisy_spectrum" when
+// negative samples take back more than a tenth of the light (10-degree Y).
 [[nodiscard]] Result<RenderingInput> PrepareRendering(const Spectrum& spectrum);
 
 // Power of a reference light given at input.reference_nm, shared out like the light's own.
