@@ -8,11 +8,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/illuminants.h"
+#include "lightcal/colorimetry/ssi.h"
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
 
@@ -302,6 +305,25 @@ TEST(ColorCommand, SpectralSimilarityIsTheSekonics) {
   EXPECT_EQ(std::round(a["ssi"]["P3200"].get<double>()), 76.0);
   EXPECT_EQ(std::round(a["ssi"]["D55"].get<double>()), 59.0);
   EXPECT_GT(a["ssi"]["matching"].get<double>(), 76.0);
+}
+
+// The UPRtek prints SSI to illuminant A unrounded (0 where it computed none).
+TEST(ColorCommand, SpectralSimilarityToIlluminantAIsTheUprteks) {
+  int compared = 0;
+  for (const std::string& path : SpectrumFiles()) {
+    std::smatch printed;
+    const std::string text = test::ReadFile(path);
+    if (!std::regex_search(text, printed, std::regex("SSI-A\t([0-9.]+)"))) continue;
+    const double ssi = std::stod(printed[1]);
+    if (ssi == 0.0) continue;
+    const auto file = ImportFile(path);
+    ASSERT_TRUE(file.has_value());
+    EXPECT_NEAR(SpectralSimilarity(file->spectra[0].spectrum, *IlluminantSpectrum("A")).value(),
+                ssi, 0.05)
+        << path;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 10);
 }
 
 TEST(ColorCommand, AnIlluminantIsNamedInsteadOfAFile) {
