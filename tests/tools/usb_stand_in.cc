@@ -79,7 +79,9 @@ struct UsbStandIn::Impl {
     const std::string description = SekonicDescription(usb.serial);
     Check(umockdev_testbed_add_from_string(testbed, description.c_str(), &error), error);
     if (usb.forbidden) {
-      const std::string root = umockdev_testbed_get_root_dir(testbed);
+      const std::unique_ptr<gchar, decltype(&g_free)> root_text(
+          umockdev_testbed_get_root_dir(testbed), &g_free);
+      const std::string root = root_text.get();
       if (::chmod((root + kNode).c_str(), 0) != 0) throw std::runtime_error("chmod");
     }
   }
