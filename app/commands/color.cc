@@ -15,10 +15,10 @@
 
 #include "color_batch.h"
 #include "color_metrics.h"
+#include "color_source.h"
 #include "commands.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/daylight.h"
-#include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/numbers_text.h"
@@ -296,42 +296,6 @@ void WarnIfTruncated(const Spectrum& spectrum, const std::string& subject, Conso
            " nm only; CIE asks for 380 to 780 nm, so colour and illuminance lack the rest"});
 }
 
-// The importer's warnings, without those about columns that were not asked for.
-void WarnAboutFile(const Warnings& warnings, const std::string& chosen_name, Console& console) {
-  constexpr std::string_view kColumn = ", column ";
-  for (const Warning& warning : warnings) {
-    const auto at = warning.subject.rfind(kColumn);
-    const bool of_another = !chosen_name.empty() && at != std::string::npos &&
-                            warning.subject.substr(at + kColumn.size()) != chosen_name;
-    if (!of_another) console.Warn(warning);
-  }
-}
-
-// The spectra asked for: the one of --column, or all.
-Result<std::vector<ImportedSpectrum>> Chosen(ImportedFile& file, const Options& options) {
-  if (file.spectra.empty()) {
-    return Refused("no_spectrum", options.spectrum,
-                   "holds readings but no spectrum; import it into a session instead");
-  }
-  if (options.column.empty()) return std::move(file.spectra);
-  auto index = FindSpectrum(file, options.column);
-  if (!index) return Propagate(std::move(index));
-  return std::vector<ImportedSpectrum>{std::move(file.spectra[*index])};
-}
-
-constexpr std::string_view kIlluminant = "illuminant:";
-
-// A file, or "illuminant:FL11".
-Result<ImportedFile> SpectrumSource(const std::string& source) {
-  if (!source.starts_with(kIlluminant)) return ImportFile(source);
-  const std::string name = source.substr(kIlluminant.size());
-  auto spectrum = IlluminantSpectrum(name);
-  if (!spectrum) return Propagate(std::move(spectrum));
-  ImportedFile file;
-  file.spectra.push_back({name, std::move(*spectrum), {}, source});
-  return file;
-}
-
 Result<void> WriteVectorGraphic(const Options& options, const std::vector<ColorAnswer>& answers) {
   if (answers.size() != 1) {
     return WrongUsage("--vector-graphic", "is drawn of one spectrum; choose it with --column");
@@ -349,11 +313,12 @@ Result<void> WriteVectorGraphic(const Options& options, const std::vector<ColorA
 }
 
 Result<void> RunSpectrum(const Options& options, Console& console) {
-  auto file = SpectrumSource(options.spectrum);
+  auto file = ReadSpectrumSource(options.spectrum);
   if (!file) return Propagate(std::move(file));
-  const auto chosen = Chosen(*file, options);
+  const auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
   if (!chosen) return tl::unexpected(chosen.error());
-  WarnAboutFile(file->warnings, options.column.empty() ? "" : chosen->front().name, console);
+  console.Warn(
+      WarningsOfChosen(file->warnings, options.column.empty() ? "" : chosen->front().name));
   std::vector<ColorAnswer> answers;
   Json spectra = Json::array();
   for (const ImportedSpectrum& imported : *chosen) {
@@ -368,7 +333,7 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
       continue;
     }
     WarnIfTruncated(imported.spectrum, subject, console);
-    if (options.spectrum.starts_with(kIlluminant)) answer->reported.reset();
+    if (NamesIlluminant(options.spectrum)) answer->reported.reset();
     Warnings warnings;
     answer->metrics = ColorMetricsOf(imported.spectrum, subject, warnings);
     console.Warn(warnings);

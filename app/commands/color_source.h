@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where `lightcal color --spectrum` takes its spectra from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/files/import_file.h"
+
+namespace lightcal::app {
+
+// "illuminant:FL11" rather than a file.
+[[nodiscard]] bool NamesIlluminant(const std::string& source);
+
+// An instrument's file, or the named illuminant as a file of one spectrum that claims nothing.
+// Fails as ImportFile and IlluminantSpectrum.
+[[nodiscard]] Result<ImportedFile> ReadSpectrumSource(const std::string& source);
+
+// The spectra asked for, taken out of the file: the one of `column`, or all where it is empty.
+// Refused: no_spectrum, unknown_column.
+[[nodiscard]] Result<std::vector<ImportedSpectrum>> ChosenSpectra(ImportedFile& file,
+                                                                  const std::string& source,
+                                                                  const std::string& column);
+
+// The file's warnings, without those about columns other than `chosen_name` ("" = all chosen).
+[[nodiscard]] Warnings WarningsOfChosen(const Warnings& warnings, const std::string& chosen_name);
+
+}  // namespace lightcal::app
