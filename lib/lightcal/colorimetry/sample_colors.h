@@ -25,6 +25,8 @@ struct SampleColors {
 // serves four samples and both lights.
 class SampleSet {
  public:
+  using Lanes = std::array<double, 4>;  // the reflectances of four samples at one wavelength
+
   // rows: row-major, one row per 5 nm from first_nm, `count` reflectances in each. The table covers
   // 380-780 nm.
   SampleSet(std::span<const double> rows, int first_nm, std::size_t count);
@@ -35,8 +37,6 @@ class SampleSet {
                                                   const std::array<CmfRow, kCmfCount>& cmf) const;
 
  private:
-  static constexpr std::size_t kLanes = 4;
-  using Lanes = std::array<double, kLanes>;
   std::size_t count_;
   std::vector<Lanes> reflectance_;  // [block of four samples][nanometre]
 };
