@@ -3,7 +3,6 @@
 // chromaticities -> XYZ, xy, uv, CCT, Duv and linear RGB.
 #include <CLI/CLI.hpp>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "color_answer.h"
 #include "color_batch.h"
+#include "color_extras.h"
 #include "color_metrics.h"
 #include "color_source.h"
 #include "commands.h"
@@ -23,6 +24,7 @@
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/report/chromaticity_plot.h"
 #include "lightcal/report/color_vector_graphic.h"
 #include "lightcal_devices/files/import_file.h"
 #include "output_files.h"
@@ -33,179 +35,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::vector<std::string> xy;
+  std::vector<std::string> xy, xyz;
   std::string cct, duv, locus = "planck";
   std::string spectrum, column, vector_graphic;
   bool force = false;
   std::string batch;
+  ColorExtraOptions extra;
 };
 
-// Everything said about one colour.
-struct ColorAnswer {
-  Xy xy;
-  CctResult cct;
-  std::string name;                // of a spectrum
-  std::optional<Xyz> xyz;          // of a spectrum: Y in lx for an irradiance, else 100
-  std::optional<Lux> illuminance;  // of an irradiance
-  std::optional<LumensPerWatt> efficacy;
-  std::optional<ReportedColor> reported;
-  ColorMetrics metrics;  // of a spectrum
-};
-
-struct NamedSpace {
-  std::string_view key, title;
-  RgbSpace space;
-};
-constexpr std::array kSpaces = {
-    NamedSpace{"srgb_linear", "linear sRGB at Y = 1", RgbSpace::kSrgb},
-    NamedSpace{"acescg", "ACEScg at Y = 1", RgbSpace::kAcescg},
-    NamedSpace{"rec2020", "linear Rec. 2020 at Y = 1", RgbSpace::kRec2020},
-    NamedSpace{"display_p3", "linear Display P3 at Y = 1", RgbSpace::kDisplayP3},
-};
-
-std::string_view StatusWord(CctStatus status) {
-  switch (status) {
-    case CctStatus::kOk:
-      return "ok";
-    case CctStatus::kFarFromLocus:
-      return "far_from_locus";
-    case CctStatus::kBelowRange:
-      return "below_1000_K";
-    case CctStatus::kBeyondInfinity:
-      return "beyond_infinity";
-    case CctStatus::kNotAChromaticity:
-      break;
-  }
-  return "not_a_chromaticity";
-}
-
-std::string_view WhyNoCct(CctStatus status) {
-  switch (status) {
-    case CctStatus::kFarFromLocus:
-      return "none: |Duv| is above 0.05";
-    case CctStatus::kBelowRange:
-      return "none: colder than 1000 K";
-    default:
-      return "none: bluer than an infinitely hot body";
-  }
-}
-
-Result<ColorAnswer> AnswerFor(Xy xy, const std::string& subject) {
+Result<ColorAnswer> AnswerFor(Xy xy, const std::string& subject, const ColorExtras& extras) {
   ColorAnswer answer;
+  answer.extras = extras;
   answer.xy = xy;
   answer.cct = CctFromXy(xy);
   if (answer.cct.status == CctStatus::kNotAChromaticity) return NotAChromaticity(subject);
   return answer;
-}
-
-// ---- JSON ----
-
-Json Pair(double a, double b) { return Json::array({a, b}); }
-Json Triple(double a, double b, double c) { return Json::array({a, b, c}); }
-
-Json RgbJson(Xy xy) {
-  Json rgb;
-  for (const NamedSpace& space : kSpaces) {
-    const Rgb c = LinearRgbFromXyz(XyzFromXyAtUnitY(xy), space.space);
-    rgb[std::string(space.key)] = Triple(c.r, c.g, c.b);
-  }
-  return rgb;
-}
-
-Json ReportedJson(const ReportedColor& reported) {
-  Json json = Json::object();
-  if (reported.illuminance_lx) json["illuminance_lx"] = *reported.illuminance_lx;
-  if (reported.cct_K) json["cct_K"] = *reported.cct_K;
-  if (reported.duv) json["duv"] = *reported.duv;
-  if (reported.xy) json["xy"] = Pair(reported.xy->x, reported.xy->y);
-  if (reported.xyz) json["XYZ"] = Triple(reported.xyz->X, reported.xyz->Y, reported.xyz->Z);
-  AddReportedMetrics(json, reported);
-  return json;
-}
-
-Json ToJson(const ColorAnswer& answer) {
-  const Uv1960 uv = Uv1960FromXy(answer.xy);
-  const Uv1976 uv76 = Uv1976FromXy(answer.xy);
-  Json json;
-  if (!answer.name.empty()) json["name"] = answer.name;
-  json["xy"] = Pair(answer.xy.x, answer.xy.y);
-  json["uv1960"] = Pair(uv.u, uv.v);
-  json["uv1976"] = Pair(uv76.u, uv76.v);
-  if (answer.cct.valid()) json["cct_K"] = answer.cct.temperature.value();
-  json["duv"] = answer.cct.duv;
-  json["cct_valid"] = answer.cct.valid();
-  json["cct_status"] = StatusWord(answer.cct.status);
-  json["rgb"] = RgbJson(answer.xy);
-  if (answer.xyz) json["XYZ"] = Triple(answer.xyz->X, answer.xyz->Y, answer.xyz->Z);
-  if (answer.illuminance) json["illuminance_lx"] = answer.illuminance->value();
-  if (answer.efficacy) json["ler_lm_per_W"] = answer.efficacy->value();
-  AddMetrics(json, answer.metrics);
-  if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
-  return json;
-}
-
-// ---- Tables ----
-
-// A fixed number of decimals; what rounds to zero has no sign.
-std::string Fixed(double value, int decimals) {
-  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;
-  std::array<char, 400> text{};  // the largest double has 309 digits before its point
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::fixed, decimals);
-  return {text.data(), end.ptr};
-}
-std::string CctText(const CctResult& cct) {
-  return cct.valid() ? Fixed(cct.temperature.value(), 1) : std::string(WhyNoCct(cct.status));
-}
-std::string Claimed(const std::optional<double>& value) {
-  return value ? ShortestText(*value) : std::string();
-}
-
-std::string TableOfOne(const ColorAnswer& answer) {
-  const bool reports = answer.reported.has_value();
-  const ReportedColor reported = answer.reported.value_or(ReportedColor{});
-  std::vector<std::vector<std::string>> rows;
-  const auto row = [&](std::string what, std::string value, std::string unit,
-                       std::string claim = "") {
-    rows.push_back({std::move(what), std::move(value), std::move(unit)});
-    if (reports) rows.back().push_back(std::move(claim));
-  };
-  const auto coordinates = [](double a, double b) { return Fixed(a, 6) + "  " + Fixed(b, 6); };
-  if (answer.illuminance) {
-    row("illuminance", RoundedText(answer.illuminance->value(), 6), "lx",
-        Claimed(reported.illuminance_lx));
-  }
-  row("CCT", CctText(answer.cct), answer.cct.valid() ? "K" : "", Claimed(reported.cct_K));
-  row("Duv", Fixed(answer.cct.duv, 6), "", Claimed(reported.duv));
-  row("x  y", coordinates(answer.xy.x, answer.xy.y), "",
-      reported.xy ? coordinates(reported.xy->x, reported.xy->y) : "");
-  const Uv1960 uv = Uv1960FromXy(answer.xy);
-  const Uv1976 uv76 = Uv1976FromXy(answer.xy);
-  row("u  v", coordinates(uv.u, uv.v), "");
-  row("u' v'", coordinates(uv76.u, uv76.v), "");
-  for (const NamedSpace& space : kSpaces) {
-    const Rgb c = LinearRgbFromXyz(XyzFromXyAtUnitY(answer.xy), space.space);
-    row(std::string(space.title), Fixed(c.r, 5) + "  " + Fixed(c.g, 5) + "  " + Fixed(c.b, 5), "");
-  }
-  if (answer.efficacy) {
-    row("efficacy of radiation", Fixed(answer.efficacy->value(), 1), "lm/W");
-  }
-  for (const MetricRow& metric : MetricRows(answer.metrics, reported)) {
-    row(metric.what, metric.value, "", metric.claim);
-  }
-  std::vector<std::string> header = {"quantity", "value", "unit"};
-  if (reports) header.emplace_back("file says");
-  return TextTable(header, rows);
-}
-
-std::string TableOfMany(const std::vector<ColorAnswer>& answers) {
-  std::vector<std::vector<std::string>> rows;
-  rows.reserve(answers.size());
-  for (const ColorAnswer& a : answers) {
-    rows.push_back({a.name, a.illuminance ? RoundedText(a.illuminance->value(), 5) : "",
-                    CctText(a.cct), Fixed(a.cct.duv, 5), Fixed(a.xy.x, 5), Fixed(a.xy.y, 5)});
-  }
-  return TextTable({"spectrum", "lx", "CCT in K", "Duv", "x", "y"}, rows);
 }
 
 // ---- Typed colours ----
@@ -217,6 +61,21 @@ Result<double> TypedNumber(const std::string& text, const std::string& option) {
     return Refused("bad_number", option, "\"" + text + "\" is not a finite number");
   }
   return WrongUsage(option, "\"" + text + "\" is not a number");
+}
+
+Result<Xyz> TypedXyz(const Options& options) {
+  std::array<double, 3> values{};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto number = TypedNumber(options.xyz[i], "--xyz");
+    if (!number) return tl::unexpected(number.error());
+    values[i] = *number;
+  }
+  const auto [x, y, z] = values;
+  if (!(y > 0.0 && x + y + z > 0.0 && std::isfinite(x + y + z))) {
+    return Refused("bad_chromaticity", "--xyz",
+                   "no light has Y at or below 0; check the dark level");
+  }
+  return Xyz{x, y, z};
 }
 
 Result<Xy> TypedXy(const Options& options) {
@@ -260,11 +119,49 @@ Result<Xy> XyOfTemperature(const Options& options) {
   return XyFromCct(*temperature, duv);
 }
 
-Result<void> RunTyped(const Options& options, Console& console) {
+struct TypedColor {
+  Xy xy;
+  Xyz xyz;  // at Y = 1 where only a chromaticity was typed
+};
+
+Result<TypedColor> ColorTyped(const Options& options) {
+  if (!options.xyz.empty()) {
+    auto xyz = TypedXyz(options);
+    if (!xyz) return Propagate(std::move(xyz));
+    return TypedColor{XyFromXyz(*xyz), *xyz};
+  }
   auto xy = options.xy.empty() ? XyOfTemperature(options) : TypedXy(options);
   if (!xy) return Propagate(std::move(xy));
-  auto answer = AnswerFor(*xy, options.xy.empty() ? "--cct" : "--xy");
+  return TypedColor{*xy, XyzFromXyAtUnitY(*xy)};
+}
+
+std::string PlotOf(const ColorAnswer& answer) {
+  FittedColor color;
+  color.xy = answer.xy;
+  if (const auto& noise = answer.findings.noise; noise && answer.has_cct()) {
+    color.cct_K = UncertainFromNormal(answer.cct.temperature.value(), noise->temperature.value());
+    color.duv = UncertainFromNormal(answer.cct.duv, noise->duv);
+  }
+  return report::ChromaticityPlot(color);
+}
+
+Result<void> RunTyped(const Options& options, const ColorExtras& extras, Console& console) {
+  auto color = ColorTyped(options);
+  if (!color) return Propagate(std::move(color));
+  const std::string subject = !options.xyz.empty() ? "--xyz"
+                              : options.xy.empty() ? "--cct"
+                                                   : "--xy";
+  auto answer = AnswerFor(color->xy, subject, extras);
   if (!answer) return Propagate(std::move(answer));
+  if (!options.xyz.empty()) answer->xyz = color->xyz;
+  Warnings warnings;
+  answer->findings.noise = NoiseFound(color->xyz, extras, subject, warnings);
+  console.Warn(warnings);
+  if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
+  if (!options.extra.plot.empty()) {
+    auto written = WriteOutputs({{options.extra.plot, PlotOf(*answer)}}, options.force);
+    if (!written) return written;
+  }
   console.Print(TableOfOne(*answer));
   console.PrintJson(ToJson(*answer));
   return {};
@@ -272,10 +169,11 @@ Result<void> RunTyped(const Options& options, Console& console) {
 
 // ---- Spectra ----
 
-Result<ColorAnswer> AnswerFor(const ImportedSpectrum& imported, const std::string& subject) {
+Result<ColorAnswer> AnswerFor(const ImportedSpectrum& imported, const std::string& subject,
+                              const ColorExtras& extras) {
   const auto xyz = XyzFromSpectrum(imported.spectrum);
   if (!xyz) return Refused(xyz.error().code, subject, xyz.error().message);
-  auto answer = AnswerFor(XyFromXyz(*xyz), subject);
+  auto answer = AnswerFor(XyFromXyz(*xyz), subject, extras);
   if (!answer) return answer;
   answer->name = imported.name;
   answer->xyz = *xyz;
@@ -312,7 +210,7 @@ Result<void> WriteVectorGraphic(const Options& options, const std::vector<ColorA
                       options.force);
 }
 
-Result<void> RunSpectrum(const Options& options, Console& console) {
+Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Console& console) {
   auto file = ReadSpectrumSource(options.spectrum);
   if (!file) return Propagate(std::move(file));
   const auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
@@ -324,7 +222,7 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
   for (const ImportedSpectrum& imported : *chosen) {
     const std::string subject =
         imported.name.empty() ? options.spectrum : options.spectrum + ": " + imported.name;
-    auto answer = AnswerFor(imported, subject);
+    auto answer = AnswerFor(imported, subject, extras);
     if (!answer && chosen->size() == 1) return Propagate(std::move(answer));
     if (!answer) {  // one dark column among many
       const Error& e = answer.error();
@@ -336,6 +234,9 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
     if (NamesIlluminant(options.spectrum)) answer->reported.reset();
     Warnings warnings;
     answer->metrics = ColorMetricsOf(imported.spectrum, subject, warnings);
+    answer->findings = {
+        NoiseFound(*answer->xyz, extras, subject, warnings),
+        SpectralErrorFound(imported.spectrum, file->format, extras, subject, warnings)};
     console.Warn(warnings);
     spectra.push_back(ToJson(*answer));
     answers.push_back(std::move(*answer));
@@ -343,6 +244,13 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
   if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
   if (!options.vector_graphic.empty()) {
     if (auto written = WriteVectorGraphic(options, answers); !written) return written;
+  }
+  if (!options.extra.plot.empty()) {
+    if (answers.size() != 1) {
+      return WrongUsage("--plot", "is drawn of one spectrum; choose it with --column");
+    }
+    auto written = WriteOutputs({{options.extra.plot, PlotOf(answers.front())}}, options.force);
+    if (!written) return written;
   }
   if (chosen->size() == 1) {
     console.Print(TableOfOne(answers.front()));
@@ -355,16 +263,27 @@ Result<void> RunSpectrum(const Options& options, Console& console) {
 }
 
 Result<void> CheckOptions(const Options& o) {
-  const int questions = static_cast<int>(!o.xy.empty()) + static_cast<int>(!o.cct.empty()) +
-                        static_cast<int>(!o.spectrum.empty()) + static_cast<int>(!o.batch.empty());
+  const int questions = static_cast<int>(!o.xy.empty()) + static_cast<int>(!o.xyz.empty()) +
+                        static_cast<int>(!o.cct.empty()) + static_cast<int>(!o.spectrum.empty()) +
+                        static_cast<int>(!o.batch.empty());
   if (questions != 1) {
-    return WrongUsage("color", "give one of --xy X Y, --cct K, --spectrum FILE, --batch FILE.csv");
+    return WrongUsage(
+        "color", "give one of --xy X Y, --xyz X Y Z, --cct K, --spectrum FILE, --batch FILE.csv");
   }
   if (o.cct.empty() && (!o.duv.empty() || o.locus != "planck")) {
     return WrongUsage("color", "--duv and --locus go with --cct");
   }
-  if (o.spectrum.empty() && !(o.column.empty() && o.vector_graphic.empty() && !o.force)) {
-    return WrongUsage("color", "--column, --vector-graphic and --force go with --spectrum");
+  if (o.spectrum.empty() && !(o.column.empty() && o.vector_graphic.empty())) {
+    return WrongUsage("color", "--column and --vector-graphic go with --spectrum");
+  }
+  if (o.force && o.vector_graphic.empty() && o.extra.plot.empty()) {
+    return WrongUsage("--force", "goes with --plot and --vector-graphic");
+  }
+  if (!o.batch.empty() && AsksForExtras(o.extra)) {
+    return WrongUsage("--batch", "gives CCT and Duv only; ask for the rest one colour at a time");
+  }
+  if (o.spectrum.empty() && o.extra.sampling != "auto") {
+    return WrongUsage("--sampling", "goes with --spectrum");
   }
   return {};
 }
@@ -374,6 +293,7 @@ Result<void> CheckOptions(const Options& o) {
 Run BuildColor(CLI::App& parser) {
   auto o = std::make_shared<Options>();
   parser.add_option("--xy", o->xy, "CIE 1931 chromaticity")->expected(2)->type_name("X Y");
+  parser.add_option("--xyz", o->xyz, "Tristimulus values")->expected(3)->type_name("X Y Z");
   parser.add_option("--cct", o->cct, "Colour temperature, e.g. 3200K")->type_name("K");
   parser.add_option("--duv", o->duv, "Distance from the Planckian locus, positive is greenish")
       ->type_name("D");
@@ -395,10 +315,13 @@ Run BuildColor(CLI::App& parser) {
   parser.add_flag("--force", o->force, "Replace a file that lightcal did not write");
   parser.add_option("--batch", o->batch, "Lines of x,y; - reads standard input")
       ->type_name("FILE.csv");
+  AddColorExtraOptions(parser, o->extra);
   return [o](Console& console) -> Result<void> {
     if (auto checked = CheckOptions(*o); !checked) return checked;
     if (!o->batch.empty()) return RunColorBatch(o->batch, console);
-    return o->spectrum.empty() ? RunTyped(*o, console) : RunSpectrum(*o, console);
+    const auto extras = ParseColorExtras(o->extra);
+    if (!extras) return tl::unexpected(extras.error());
+    return o->spectrum.empty() ? RunTyped(*o, *extras, console) : RunSpectrum(*o, *extras, console);
   };
 }
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "color_answer.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "console.h"
+#include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct NamedSpace {
+  std::string_view key, title;
+  RgbSpace space;
+};
+constexpr std::array kSpaces = {
+    NamedSpace{"srgb_linear", "linear sRGB at Y = 1", RgbSpace::kSrgb},
+    NamedSpace{"acescg", "ACEScg at Y = 1", RgbSpace::kAcescg},
+    NamedSpace{"rec2020", "linear Rec. 2020 at Y = 1", RgbSpace::kRec2020},
+    NamedSpace{"display_p3", "linear Display P3 at Y = 1", RgbSpace::kDisplayP3},
+};
+
+std::string_view StatusWord(CctStatus status) {
+  switch (status) {
+    case CctStatus::kOk:
+      return "ok";
+    case CctStatus::kFarFromLocus:
+      return "far_from_locus";
+    case CctStatus::kBelowRange:
+      return "below_1000_K";
+    case CctStatus::kBeyondInfinity:
+      return "beyond_infinity";
+    case CctStatus::kNotAChromaticity:
+      break;
+  }
+  return "not_a_chromaticity";
+}
+
+std::string_view WhyNoCct(const ColorAnswer& answer) {
+  switch (answer.cct.status) {
+    case CctStatus::kOk:
+      return "none: too noisy";
+    case CctStatus::kFarFromLocus:
+      return "none: |Duv| is above 0.05";
+    case CctStatus::kBelowRange:
+      return "none: colder than 1000 K";
+    default:
+      return "none: bluer than an infinitely hot body";
+  }
+}
+
+// ---- JSON ----
+
+Json Pair(double a, double b) { return Json::array({a, b}); }
+Json Triple(double a, double b, double c) { return Json::array({a, b, c}); }
+
+Json RgbJson(const ColorAnswer& answer) {
+  Json rgb;
+  for (const NamedSpace& space : kSpaces) {
+    const Rgb c = RgbOf(answer.xy, space.space, answer.extras);
+    rgb[std::string(space.key)] = Triple(c.r, c.g, c.b);
+  }
+  return rgb;
+}
+
+Json ReportedJson(const ReportedColor& reported) {
+  Json json = Json::object();
+  if (reported.illuminance_lx) json["illuminance_lx"] = *reported.illuminance_lx;
+  if (reported.cct_K) json["cct_K"] = *reported.cct_K;
+  if (reported.duv) json["duv"] = *reported.duv;
+  if (reported.xy) json["xy"] = Pair(reported.xy->x, reported.xy->y);
+  if (reported.xyz) json["XYZ"] = Triple(reported.xyz->X, reported.xyz->Y, reported.xyz->Z);
+  AddReportedMetrics(json, reported);
+  return json;
+}
+
+// ---- Tables ----
+
+// A fixed number of decimals; what rounds to zero has no sign.
+std::string Fixed(double value, int decimals) {
+  if (std::abs(value) < 0.5 * std::pow(10.0, -decimals)) value = 0.0;
+  std::array<char, 400> text{};  // the largest double has 309 digits before its point
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::fixed, decimals);
+  return {text.data(), end.ptr};
+}
+std::string CctText(const ColorAnswer& answer) {
+  return answer.has_cct() ? Fixed(answer.cct.temperature.value(), 1)
+                          : std::string(WhyNoCct(answer));
+}
+std::string Claimed(const std::optional<double>& value) {
+  return value ? ShortestText(*value) : std::string();
+}
+
+}  // namespace
+
+Json ToJson(const ColorAnswer& answer) {
+  const Uv1960 uv = Uv1960FromXy(answer.xy);
+  const Uv1976 uv76 = Uv1976FromXy(answer.xy);
+  Json json;
+  if (!answer.name.empty()) json["name"] = answer.name;
+  json["xy"] = Pair(answer.xy.x, answer.xy.y);
+  json["uv1960"] = Pair(uv.u, uv.v);
+  json["uv1976"] = Pair(uv76.u, uv76.v);
+  if (answer.has_cct()) json["cct_K"] = answer.cct.temperature.value();
+  json["duv"] = answer.cct.duv;
+  json["cct_valid"] = answer.has_cct();
+  json["cct_status"] = answer.findings.too_noisy() ? "too_noisy" : StatusWord(answer.cct.status);
+  json["rgb"] = RgbJson(answer);
+  if (answer.xyz) json["XYZ"] = Triple(answer.xyz->X, answer.xyz->Y, answer.xyz->Z);
+  if (answer.illuminance) json["illuminance_lx"] = answer.illuminance->value();
+  if (answer.efficacy) json["ler_lm_per_W"] = answer.efficacy->value();
+  AddMetrics(json, answer.metrics);
+  AddColorExtras(json, answer.xy, answer.extras, answer.findings);
+  if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
+  return json;
+}
+
+std::string TableOfOne(const ColorAnswer& answer) {
+  const bool reports = answer.reported.has_value();
+  const ReportedColor reported = answer.reported.value_or(ReportedColor{});
+  std::vector<std::vector<std::string>> rows;
+  const auto row = [&](std::string what, std::string value, std::string unit,
+                       std::string claim = "") {
+    rows.push_back({std::move(what), std::move(value), std::move(unit)});
+    if (reports) rows.back().push_back(std::move(claim));
+  };
+  const auto coordinates = [](double a, double b) { return Fixed(a, 6) + "  " + Fixed(b, 6); };
+  if (answer.illuminance) {
+    row("illuminance", RoundedText(answer.illuminance->value(), 6), "lx",
+        Claimed(reported.illuminance_lx));
+  }
+  row("CCT", CctText(answer), answer.has_cct() ? "K" : "", Claimed(reported.cct_K));
+  row("Duv", Fixed(answer.cct.duv, 6), "", Claimed(reported.duv));
+  row("x  y", coordinates(answer.xy.x, answer.xy.y), "",
+      reported.xy ? coordinates(reported.xy->x, reported.xy->y) : "");
+  const Uv1960 uv = Uv1960FromXy(answer.xy);
+  const Uv1976 uv76 = Uv1976FromXy(answer.xy);
+  row("u  v", coordinates(uv.u, uv.v), "");
+  row("u' v'", coordinates(uv76.u, uv76.v), "");
+  for (const NamedSpace& space : kSpaces) {
+    const Rgb c = RgbOf(answer.xy, space.space, answer.extras);
+    row(std::string(space.title), Fixed(c.r, 5) + "  " + Fixed(c.g, 5) + "  " + Fixed(c.b, 5), "");
+  }
+  if (answer.efficacy) {
+    row("efficacy of radiation", Fixed(answer.efficacy->value(), 1), "lm/W");
+  }
+  for (const MetricRow& metric : MetricRows(answer.metrics, reported)) {
+    row(metric.what, metric.value, "", metric.claim);
+  }
+  for (ExtraRow& extra : ColorExtraRows(answer.xy, answer.extras, answer.findings)) {
+    row(std::move(extra.what), std::move(extra.value), std::move(extra.unit));
+  }
+  std::vector<std::string> header = {"quantity", "value", "unit"};
+  if (reports) header.emplace_back("file says");
+  return TextTable(header, rows);
+}
+
+std::string TableOfMany(const std::vector<ColorAnswer>& answers) {
+  std::vector<std::vector<std::string>> rows;
+  rows.reserve(answers.size());
+  for (const ColorAnswer& a : answers) {
+    rows.push_back({a.name, a.illuminance ? RoundedText(a.illuminance->value(), 5) : "", CctText(a),
+                    Fixed(a.cct.duv, 5), Fixed(a.xy.x, 5), Fixed(a.xy.y, 5)});
+  }
+  return TextTable({"spectrum", "lx", "CCT in K", "Duv", "x", "y"}, rows);
+}
+
+}  // namespace lightcal::app

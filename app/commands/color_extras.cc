@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "color_extras.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "lightcal/colorimetry/engine_kelvin.h"
+#include "lightcal/colorimetry/illuminants.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+
+namespace lightcal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Result<double> ParseSigma(const std::string& text) {
+  std::string_view digits = TrimBlanks(text);
+  const bool percent = digits.ends_with('%');
+  if (percent) digits.remove_suffix(1);
+  const auto number = ParseNumber(TrimBlanks(digits));
+  if (!number) return WrongUsage("--sigma", "\"" + text + "\" is not a share such as 1% or 0.01");
+  const double sigma = percent ? *number / 100.0 : *number;
+  if (!(sigma > 0.0 && sigma < 1.0)) {
+    return Refused("out_of_range", "--sigma", "give a share above 0 and below 100 %");
+  }
+  return sigma;
+}
+
+// "0.3127,0.3290", "3200K", "D65".
+Result<Xy> ParseWhite(const std::string& text) {
+  if (const auto comma = text.find(','); comma != std::string::npos) {
+    const auto x = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
+    const auto y = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
+    if (!x || !y) return WrongUsage("--white", "\"" + text + "\" is not x,y");
+    if (CctFromXy({*x, *y}).status == CctStatus::kNotAChromaticity) {
+      return Refused("bad_chromaticity", "--white", "no light has this chromaticity");
+    }
+    return Xy{*x, *y};
+  }
+  if (const auto kelvin = ParseTemperature(text)) {
+    if (!(kelvin->value() >= 400.0)) {
+      return Refused("out_of_range", "--white", "a white below 400 K is none");
+    }
+    return XyFromCct(*kelvin);
+  }
+  const auto spectrum = IlluminantSpectrum(text);
+  const auto xyz = spectrum ? XyzFromSpectrum(*spectrum) : Result<Xyz>(Xyz{});
+  if (!spectrum || !xyz) {
+    return WrongUsage("--white", "\"" + text +
+                                     "\" is no white; give x,y, a temperature such as 3200K or an "
+                                     "illuminant such as D65");
+  }
+  return XyFromXyz(*xyz);
+}
+
+GamutPolicy PolicyOf(std::string_view word) {
+  if (word == "clip") return GamutPolicy::kClip;
+  return word == "desaturate" ? GamutPolicy::kDesaturate : GamutPolicy::kKeep;
+}
+
+std::string_view WordOf(GamutPolicy policy) {
+  switch (policy) {
+    case GamutPolicy::kClip:
+      return "clip";
+    case GamutPolicy::kDesaturate:
+      return "desaturate";
+    case GamutPolicy::kKeep:
+      break;
+  }
+  return "keep";
+}
+
+struct NamedSpace {
+  std::string_view key;
+  RgbSpace space;
+};
+constexpr std::array kSpaces = {
+    NamedSpace{"srgb_linear", RgbSpace::kSrgb}, NamedSpace{"acescg", RgbSpace::kAcescg},
+    NamedSpace{"rec2020", RgbSpace::kRec2020}, NamedSpace{"display_p3", RgbSpace::kDisplayP3}};
+
+// The spaces that do not hold the colour.
+std::vector<std::string> SpacesWithout(Xy xy, const ColorExtras& extras) {
+  ColorExtras untouched = extras;
+  untouched.gamut = GamutPolicy::kKeep;
+  std::vector<std::string> names;
+  for (const NamedSpace& each : kSpaces) {
+    if (!IsInGamut(RgbOf(xy, each.space, untouched))) names.emplace_back(each.key);
+  }
+  return names;
+}
+
+Json SpectralErrorJson(const SpectralError& error) {
+  Json json = {{"from_nm", error.first.value()},
+               {"to_nm", error.last.value()},
+               {"step_nm", error.step.value()},
+               {"roughness", error.roughness}};
+  if (error.undersampled) json["code"] = "undersampled";
+  if (!error.bound) return json;
+  if (error.bound->temperature) json["cct_K"] = error.bound->temperature->value();
+  if (error.bound->duv) json["duv"] = *error.bound->duv;
+  json["illuminance_relative"] = error.bound->illuminance_relative;
+  return json;
+}
+
+Json Triple(const Rgb& c) { return Json::array({c.r, c.g, c.b}); }
+
+// What programs with a kelvin setting make of the colour; approximations all.
+Json EnginesJson(Xy xy) {
+  const Uv1960 uv = Uv1960FromXy(xy);
+  const CctResult cct = CctFromXy(xy);
+  Json json;
+  if (const auto setting = KrystekKelvinFrom(uv)) json["krystek_setting_K"] = setting->value();
+  if (cct.valid()) {
+    json["unreal_rgb"] = Triple(UnrealColorOfKelvin(cct.temperature));
+    json["godot_rgb"] = Triple(GodotColorOfKelvin(cct.temperature));
+    json["blender_usdlux_rgb"] = Triple(UnitLuminanceColorOfKelvin(cct.temperature));
+  }
+  json["approximation"] = true;
+  return json;
+}
+
+std::string Rounded(double value) { return RoundedText(value, 3); }
+
+std::string Numbers(const Rgb& c) {
+  return RoundedText(c.r, 5) + "  " + RoundedText(c.g, 5) + "  " + RoundedText(c.b, 5);
+}
+
+void AddNoiseRows(std::vector<ExtraRow>& rows, const CctNoise& noise) {
+  if (!noise.too_noisy()) rows.push_back({"u(CCT)", Rounded(noise.temperature.value()), "K"});
+  rows.push_back({"u(Duv)", Rounded(noise.duv), ""});
+}
+
+void AddErrorRows(std::vector<ExtraRow>& rows, const SpectralError& error) {
+  if (error.undersampled) {
+    rows.push_back({"error of step and range", "unknown: undersampled", ""});
+    return;
+  }
+  if (error.bound->temperature) {
+    rows.push_back(
+        {"CCT error of step and range, at most", Rounded(error.bound->temperature->value()), "K"});
+    rows.push_back({"Duv error of the same, at most", Rounded(*error.bound->duv), ""});
+  }
+  rows.push_back({"illuminance error of the same, at most",
+                  Rounded(100.0 * error.bound->illuminance_relative), "%"});
+}
+
+void AddEngineRows(std::vector<ExtraRow>& rows, Xy xy) {
+  if (const auto setting = KrystekKelvinFrom(Uv1960FromXy(xy))) {
+    rows.push_back(
+        {"kelvin setting of Unreal and Godot (Krystek)", RoundedText(setting->value(), 5), "K"});
+  }
+  const CctResult cct = CctFromXy(xy);
+  if (!cct.valid()) return;
+  rows.push_back(
+      {"Unreal's linear RGB at this CCT", Numbers(UnrealColorOfKelvin(cct.temperature)), ""});
+  rows.push_back(
+      {"Godot's linear RGB at this CCT", Numbers(GodotColorOfKelvin(cct.temperature)), ""});
+  rows.push_back({"Blender's and UsdLux's at this CCT",
+                  Numbers(UnitLuminanceColorOfKelvin(cct.temperature)), ""});
+}
+
+}  // namespace
+
+void AddColorExtraOptions(CLI::App& parser, ColorExtraOptions& o) {
+  parser
+      .add_option("--sigma", o.sigma,
+                  "Noise of X, Y and Z each, 1 sigma, e.g. 1%: adds u(CCT) and u(Duv)")
+      ->type_name("SHARE");
+  parser
+      .add_option("--white", o.white,
+                  "Adapt RGB (Bradford) so that this white becomes the space's: x,y, 3200K or D65")
+      ->type_name("WHITE");
+  parser.add_option("--gamut", o.gamut, "What RGB does with colours outside its space")
+      ->check(CLI::IsMember({"keep", "clip", "desaturate"}))
+      ->capture_default_str();
+  parser
+      .add_option("--sampling", o.sampling,
+                  "What a sample of the spectrum is: the mean over its step (band) or one "
+                  "wavelength (point); auto: band for instruments' files")
+      ->check(CLI::IsMember({"auto", "band", "point"}))
+      ->capture_default_str();
+  parser.add_flag("--engines", o.engines,
+                  "Add what engines make of this temperature (approximations)");
+  parser.add_flag("--adobe", o.adobe, "Add temperature and tint as Adobe's raw converters show");
+  parser.add_option("--plot", o.plot, "Write a chromaticity diagram with the locus and the colour")
+      ->type_name("FILE.svg");
+}
+
+bool AsksForExtras(const ColorExtraOptions& o) {
+  return !o.sigma.empty() || !o.white.empty() || o.gamut != "keep" || o.sampling != "auto" ||
+         !o.plot.empty() || o.engines || o.adobe;
+}
+
+Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options) {
+  ColorExtras extras;
+  extras.engines = options.engines;
+  extras.adobe = options.adobe;
+  extras.gamut = PolicyOf(options.gamut);
+  if (options.sampling == "band") extras.sampling = Sampling::kBandAverage;
+  if (options.sampling == "point") extras.sampling = Sampling::kPoint;
+  if (!options.sigma.empty()) {
+    const auto sigma = ParseSigma(options.sigma);
+    if (!sigma) return tl::unexpected(sigma.error());
+    extras.sigma = *sigma;
+  }
+  if (!options.white.empty()) {
+    const auto white = ParseWhite(options.white);
+    if (!white) return tl::unexpected(white.error());
+    extras.white = *white;
+  }
+  return extras;
+}
+
+Rgb RgbOf(Xy xy, RgbSpace space, const ColorExtras& extras) {
+  Xyz color = XyzFromXyAtUnitY(xy);
+  if (extras.white) {
+    const Xyz adapted = AdaptBradford(color, *extras.white, PrimariesOf(space).white);
+    if (adapted.Y > 0.0) color = {adapted.X / adapted.Y, 1.0, adapted.Z / adapted.Y};
+  }
+  return FitToGamut(LinearRgbFromXyz(color, space), space, extras.gamut);
+}
+
+std::optional<CctNoise> NoiseFound(const Xyz& color, const ColorExtras& extras,
+                                   const std::string& subject, Warnings& warnings) {
+  if (!extras.sigma || !CctFromXy(XyFromXyz(color)).valid()) return std::nullopt;
+  auto noise = NoiseOfCct(color, RelativeNoise(color, *extras.sigma));
+  if (noise && noise->too_noisy()) {
+    warnings.push_back({"too_noisy", subject,
+                        "signal to noise is " + RoundedText(noise->snr, 3) +
+                            ", below 30: no CCT is given; measure longer or average readings"});
+  }
+  return noise;
+}
+
+std::optional<SpectralError> SpectralErrorFound(const Spectrum& spectrum, const std::string& format,
+                                                const ColorExtras& extras,
+                                                const std::string& subject, Warnings& warnings) {
+  const Sampling by_format = format == "csv" || format == "argyll_sp" || format == "tm27_spdx"
+                                 ? Sampling::kUnknown
+                                 : Sampling::kBandAverage;
+  auto error = SpectralErrorOf(spectrum, extras.sampling.value_or(by_format));
+  if (!error) return std::nullopt;
+  if (error->undersampled) {
+    warnings.push_back(
+        {"undersampled", subject,
+         "has lines narrower than its step of " + ShortestText(error->step.value()) +
+             " nm; if its samples are single wavelengths, lines between them are lost: measure "
+             "in finer steps, or say --sampling band if each is the mean over its step"});
+  }
+  return *std::move(error);
+}
+
+void AddColorExtras(Json& json, Xy xy, const ColorExtras& extras, const ColorFindings& findings) {
+  if (const auto& noise = findings.noise) {
+    Json& uncertainty = json["uncertainty"];
+    if (!noise->too_noisy()) {
+      uncertainty["u_cct_K"] = noise->temperature.value();
+      uncertainty["u_mired"] = noise->mireds.value();
+    }
+    uncertainty["u_duv"] = noise->duv;
+    uncertainty["snr"] = noise->snr;
+  }
+  if (findings.spectral_error) json["spectral_error"] = SpectralErrorJson(*findings.spectral_error);
+  if (const auto outside = SpacesWithout(xy, extras); !outside.empty()) {
+    json["rgb_gamut"] = {{"policy", WordOf(extras.gamut)}, {"outside", outside}};
+  }
+  if (extras.white) json["rgb_white"] = {extras.white->x, extras.white->y};
+  if (extras.engines) json["engines"] = EnginesJson(xy);
+  if (const auto adobe = extras.adobe ? AdobeReadoutFrom(Uv1960FromXy(xy)) : std::nullopt) {
+    json["adobe"] = {{"temperature_K", adobe->temperature.value()}, {"tint", adobe->tint}};
+  }
+}
+
+std::vector<ExtraRow> ColorExtraRows(Xy xy, const ColorExtras& extras,
+                                     const ColorFindings& findings) {
+  std::vector<ExtraRow> rows;
+  if (findings.noise) AddNoiseRows(rows, *findings.noise);
+  if (findings.spectral_error) AddErrorRows(rows, *findings.spectral_error);
+  std::string outside;
+  for (const std::string& name : SpacesWithout(xy, extras)) {
+    outside += (outside.empty() ? "" : ", ") + name;
+  }
+  if (!outside.empty()) {
+    rows.push_back({"outside " + outside, std::string(WordOf(extras.gamut)), ""});
+  }
+  if (extras.engines) AddEngineRows(rows, xy);
+  if (const auto adobe = extras.adobe ? AdobeReadoutFrom(Uv1960FromXy(xy)) : std::nullopt) {
+    rows.push_back({"Adobe's temperature", RoundedText(adobe->temperature.value(), 5), "K"});
+    rows.push_back({"Adobe's tint", Rounded(adobe->tint), ""});
+  }
+  return rows;
+}
+
+}  // namespace lightcal::app
