@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whatever a meter sends, each decoder answers or refuses; a measurement has its whole spectrum.
+#include <span>
+
+#include "lightcal_devices/meters/sekonic/frame.h"
+#include "require.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using lightcal::fuzz::Require;
+  namespace sekonic = lightcal::sekonic;
+  const auto bytes = std::as_bytes(std::span(data, size));
+  static_cast<void>(sekonic::DecodeAcknowledge(bytes));
+  static_cast<void>(sekonic::DecodeModel(bytes));
+  static_cast<void>(sekonic::DecodeFirmware(bytes));
+  static_cast<void>(sekonic::DecodeState(bytes));
+  const auto measurement = sekonic::DecodeMeasurement(bytes);
+  if (measurement) Require(measurement->spectrum.size() == sekonic::kSpectrumSamples);
+  return 0;
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tape that is taken is written as the same tape.
+#include "lightcal_devices/transport/tape.h"
+#include "require.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using lightcal::fuzz::Require;
+  const auto tape = lightcal::TapeFromText(lightcal::fuzz::TextOf(data, size), "tape");
+  if (!tape) {
+    lightcal::fuzz::RequireGoodError(tape.error());
+    return 0;
+  }
+  const std::string text = lightcal::TapeToText(*tape);
+  const auto again = lightcal::TapeFromText(text, "tape");
+  Require(again.has_value());
+  Require(lightcal::TapeToText(*again) == text);
+  return 0;
+}
