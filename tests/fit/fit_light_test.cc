@@ -226,6 +226,14 @@ TEST(FitLight, EachKindIntegratesItsOwnFlux) {
               1e-9);
 }
 
+TEST(FitLight, AReadingWithoutAPlaceHasNoDistanceInItsResidual) {
+  Session session = TypedSession({{1.0, 100.0}});
+  session.lights.front().kind = LightKind::kDirectional;
+  EXPECT_TRUE(FitOk(session).residuals.front().distance_m.has_value());
+  session.readings.front().reading.distance.reset();
+  EXPECT_FALSE(FitOk(session).residuals.front().distance_m.has_value());
+}
+
 TEST(FitLight, ADataSheetAloneAnswersAsAPrior) {
   Session session = TypedSession({});
   session.lights.front().flux = Lumens(806.0);

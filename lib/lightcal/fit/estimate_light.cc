@@ -176,7 +176,7 @@ void FillResiduals(const RobustEstimate& estimate, const Prepared& prepared,
         prepared.scales.illuminance_lx;
     ResidualRow residual;
     residual.index = o.index;
-    residual.distance_m = o.distance_m;
+    if (o.placed) residual.distance_m = o.distance_m;
     residual.measured_lx = o.measured_lx;
     residual.predicted_lx = predicted;
     residual.relative = o.measured_lx / predicted - 1.0;

@@ -84,6 +84,7 @@ class Collector {
     observation.index = index;
     observation.lit = lit;
     observation.distance_m = geometry->distance_m;
+    observation.placed = reading.distance || reading.position_m;
     observation.tilt_rad = geometry->tilt_rad;
     observation.measured_lx = observation.raw_lx = reading.illuminance->value();
     observation.over_range = reading.over_range;
@@ -91,7 +92,7 @@ class Collector {
     observation.position_m = reading.position_m;
     const double sigma = std::max(kLeastSigma, SigmaRelative(session_, reading));
     relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
-                         reading.shadow_card, !lit && !reading.distance && !reading.position_m});
+                         reading.shadow_card, !lit && !observation.placed});
     out_.rows.push_back(observation);
     return {};
   }

@@ -17,6 +17,7 @@ struct Observation {
   int index = 0;  // 0-based over the light's readings
   bool lit = true;
   double distance_m = 1.0;  // from the reference point, or of the two positions; 1 where none
+  bool placed = true;       // whether the session says where the meter was
   double tilt_rad = 0.0;
   double measured_lx = 0.0;  // a matching shadow-card reading is subtracted
   double raw_lx = 0.0;       // as read

@@ -128,6 +128,7 @@ a { color: var(--accent); }
   table, .overview td, .overview tbody th, .typein td, .typein tbody th { font-size: 12px; }
   .typein .value { font-size: 14px; }
   .overview td, .overview tbody th { padding-top: 6px; padding-bottom: 6px; }
+  .overview tbody th { overflow-wrap: break-word; min-width: 8em; }
   thead th { font-size: 11.5px; }
   code { font-size: 10.5px; }
 }
