@@ -41,8 +41,11 @@ struct SpectralError {
 //     outwards as it grew inside (mirrored at the end, at most fivefold), or none.
 // Bounds every black body of 1500-20000 K, CIE daylight, LED and band-averaged CIE illuminant at 1,
 // 5, 10 nm from 360, 380, 400 to 700, 730, 780 nm (tests/colorimetry/spectral_error_test.cc); a
-// light that begins only outside the range is not foreseen. Samples of unknown or point sampling,
-// wider than 2 nm and rougher than 0.1 are undersampled. Fails as XyzFromSpectrum.
+// light that begins only outside the range is not foreseen. Undersampled are samples of unknown or
+// point sampling that are wider than 2 nm and rougher than 0.1, or wider than 7.5 nm and rougher
+// than 0.032 (a narrow-band LED in 10 nm steps is called so too). Lines that fall wholly between
+// samples of one wavelength each leave no trace, and no rule on the samples finds them: five of
+// CIE's 27 fluorescent lamps read every 10 nm pass as smooth. Fails as XyzFromSpectrum.
 [[nodiscard]] Result<SpectralError> SpectralErrorOf(const Spectrum& spectrum, Sampling sampling);
 
 }  // namespace lightcal
