@@ -302,7 +302,7 @@ Run BuildColor(CLI::App& parser) {
       ->capture_default_str();
   parser
       .add_option("--spectrum", o->spectrum,
-                  "A spectrometer's export, or illuminant:FL11 and the like")
+                  "A spectrometer's export, or illuminant:FL11, led:4000, gaussian:530:30")
       ->type_name("FILE");
   parser
       .add_option("--column", o->column,

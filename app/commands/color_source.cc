@@ -1,26 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_source.h"
 
+#include <cstddef>
+#include <optional>
 #include <string_view>
 #include <utility>
 
 #include "lightcal/colorimetry/illuminants.h"
+#include "lightcal/colorimetry/light_models.h"
+#include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
 namespace {
 
 constexpr std::string_view kIlluminant = "illuminant:";
+constexpr std::string_view kGaussian = "gaussian:";
+constexpr std::string_view kLed = "led:";
+
+// "530:30" -> 530, 30; "4000" -> 4000 and nothing.
+struct Parameters {
+  double first = 0.0;
+  std::optional<double> second;
+};
+Result<Parameters> ParseParameters(const std::string& source, std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const auto first = ParseNumber(text.substr(0, colon));
+  const bool has_second = colon != std::string_view::npos;
+  const auto second = has_second ? ParseNumber(text.substr(colon + 1)) : std::nullopt;
+  if (!first || (has_second && !second)) {
+    return WrongUsage("--spectrum", "\"" + source +
+                                        "\" is not gaussian:PEAK_NM:WIDTH_NM or "
+                                        "led:KELVIN[:PHOSPHOR_NM]");
+  }
+  return Parameters{*first, second};
+}
+
+Result<Spectrum> NamedSpectrum(const std::string& source) {
+  if (source.starts_with(kIlluminant)) return IlluminantSpectrum(source.substr(kIlluminant.size()));
+  const bool led = source.starts_with(kLed);
+  const auto parameters =
+      ParseParameters(source, std::string_view(source).substr((led ? kLed : kGaussian).size()));
+  if (!parameters) return tl::unexpected(parameters.error());
+  const auto [first, second] = *parameters;
+  if (!led) return GaussianSpectrum(Nanometres(first), Nanometres(second.value_or(20.0)));
+  return second ? PhosphorLedSpectrum(Kelvin(first), Nanometres(*second))
+                : PhosphorLedSpectrum(Kelvin(first));
+}
 
 }  // namespace
 
-bool NamesIlluminant(const std::string& source) { return source.starts_with(kIlluminant); }
+bool NamesIlluminant(const std::string& source) {
+  return source.starts_with(kIlluminant) || source.starts_with(kGaussian) ||
+         source.starts_with(kLed);
+}
 
 Result<ImportedFile> ReadSpectrumSource(const std::string& source) {
   if (!NamesIlluminant(source)) return ImportFile(source);
-  const std::string name = source.substr(kIlluminant.size());
-  auto spectrum = IlluminantSpectrum(name);
+  auto spectrum = NamedSpectrum(source);
   if (!spectrum) return Propagate(std::move(spectrum));
   ImportedFile file;
+  const std::string name =
+      source.starts_with(kIlluminant) ? source.substr(kIlluminant.size()) : source;
   file.spectra.push_back({name, std::move(*spectrum), {}, source});
   return file;
 }

@@ -10,11 +10,12 @@
 
 namespace lightcal::app {
 
-// "illuminant:FL11" rather than a file.
+// "illuminant:FL11", "gaussian:530:30" (peak and width in nm, 20 where absent) or "led:4000:580"
+// (CCT and phosphor peak) rather than a file.
 [[nodiscard]] bool NamesIlluminant(const std::string& source);
 
-// An instrument's file, or the named illuminant as a file of one spectrum that claims nothing.
-// Fails as ImportFile and IlluminantSpectrum.
+// An instrument's file, or the named illuminant or model as a file of one spectrum that claims
+// nothing. Fails as ImportFile, IlluminantSpectrum, GaussianSpectrum and PhosphorLedSpectrum.
 [[nodiscard]] Result<ImportedFile> ReadSpectrumSource(const std::string& source);
 
 // The spectra asked for, taken out of the file: the one of `column`, or all where it is empty.

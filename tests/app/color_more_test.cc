@@ -110,6 +110,15 @@ TEST(ColorSpectralError, OfSpikyPointSamplesIsNotBounded) {
   EXPECT_GT(band["spectral_error"]["cct_K"].get<double>(), 100.0);
 }
 
+TEST(ColorModels, OfLedsAreSpectraByName) {
+  EXPECT_NEAR(Color({"--spectrum", "led:4000"})["cct_K"].get<double>(), 4000.0, 0.01);
+  const json green = Color({"--spectrum", "gaussian:530:1"});  // nearly one wavelength
+  EXPECT_NEAR(green["xy"][0].get<double>(), 0.1547, 2e-3);
+  EXPECT_NEAR(green["xy"][1].get<double>(), 0.8059, 2e-3);
+  EXPECT_EQ(RunLightcal({"color", "--spectrum", "led:warm"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"color", "--spectrum", "gaussian:200:20"}).exit_code, 3);
+}
+
 TEST(ColorWhite, AnAdaptedWhiteIsEqualInEveryChannel) {
   const json a = Color({"--cct", "3200", "--white", "3200K"});
   for (const char* space : {"srgb_linear", "acescg", "rec2020", "display_p3"}) {
