@@ -4,27 +4,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
 
 struct Options {
-  std::string session;
+  CalibrationOptions calibration;
   std::string output;
-  std::string tolerance = "1%";
-  std::string effects = "auto";
   bool force = false;
 };
 
 Result<void> RunFit(const Options& options, Console& console) {
-  const auto tolerance = ParseTolerance(options.tolerance);
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  auto calibrated = CalibrateSession(options.session, {*tolerance, options.effects}, console);
+  auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const auto json = LightFileToJson(calibrated->lights);
@@ -43,13 +39,9 @@ Result<void> RunFit(const Options& options, Console& console) {
 
 Run BuildFit(CLI::App& parser) {
   auto options = std::make_shared<Options>();
-  parser.add_option("session", options->session, "Session directory or .toml file")->required();
+  AddCalibrationOptions(parser, options->calibration);
   parser.add_option("-o,--output", options->output,
                     "Where light.json goes [SESSION/out/light.json]");
-  parser.add_option("--tol", options->tolerance, "Tolerance of the effect gate")
-      ->capture_default_str();
-  parser.add_option("--effects", options->effects, "auto, all, none, or +name,-name")
-      ->capture_default_str();
   parser.add_flag("--force", options->force, "Replace a light.json that lightcal did not write");
   return [options](Console& console) { return RunFit(*options, console); };
 }

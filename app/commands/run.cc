@@ -5,23 +5,21 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 #include "preset_files.h"
 #include "report_html.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
 
 struct Options {
-  std::string session;
+  CalibrationOptions calibration;
   std::string output;
   std::vector<std::string> targets;
-  std::string tolerance = "1%";
-  std::string effects = "auto";
   bool bare = false;
   bool force = false;
 };
@@ -48,9 +46,7 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
 }
 
 Result<void> RunRun(const Options& options, Console& console) {
-  const auto tolerance = ParseTolerance(options.tolerance);
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  auto calibrated = CalibrateSession(options.session, {*tolerance, options.effects}, console);
+  auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string directory =
       options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
@@ -72,15 +68,11 @@ Result<void> RunRun(const Options& options, Console& console) {
 
 Run BuildRun(CLI::App& parser) {
   auto options = std::make_shared<Options>();
-  parser.add_option("session", options->session, "Session directory or .toml file")->required();
+  AddCalibrationOptions(parser, options->calibration);
   parser.add_option("-o,--output", options->output, "Where everything goes [SESSION/out]");
   parser.add_option("--to", options->targets, "Presets to write [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_option("--tol", options->tolerance, "Tolerance of the effect gate")
-      ->capture_default_str();
-  parser.add_option("--effects", options->effects, "auto, all, none, or +name,-name")
-      ->capture_default_str();
   parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunRun(*options, console); };

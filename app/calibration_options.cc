@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace lightcal::app {
+
+void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options) {
+  parser.add_option("session", options.session, "Session directory or .toml file")->required();
+  parser.add_option("--tol", options.tolerance, "Tolerance of the effect gate")
+      ->capture_default_str();
+  parser.add_option("--effects", options.effects, "auto, all, none, or +name,-name")
+      ->capture_default_str();
+}
+
+Result<CalibratedSession> Calibrate(const CalibrationOptions& options, Console& console) {
+  const auto tolerance = ParseTolerance(options.tolerance);
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  return CalibrateSession(options.session, {*tolerance, options.effects}, console);
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options every command shares that fits a session: run, fit, explain.
+#pragma once
+
+#include <string>
+
+#include "console.h"
+#include "lightcal/core/result.h"
+#include "session_input.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lightcal::app {
+
+struct CalibrationOptions {
+  std::string session;
+  std::string tolerance = "1%";
+  std::string effects = "auto";
+};
+
+// Adds SESSION, --tol and --effects; `options` must outlive parsing.
+void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
+
+// CalibrateSession as the options ask. Wrong usage: a tolerance outside 0..1.
+[[nodiscard]] Result<CalibratedSession> Calibrate(const CalibrationOptions& options,
+                                                  Console& console);
+
+}  // namespace lightcal::app
