@@ -63,6 +63,7 @@ std::string Headline(const FittedLight& light) {
 
 std::string LightTable(const LightFile& file) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(file.lights.size());
   for (const FittedLight& light : file.lights) {
     rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
                     Flux(light), Cct(light), Duv(light), Offset(light)});
@@ -73,6 +74,7 @@ std::string LightTable(const LightFile& file) {
 
 std::string FitTable(const LightFile& file) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(file.lights.size());
   for (const FittedLight& light : file.lights) {
     const FitDiagnostics& fit = light.fit;
     rows.push_back({light.name, std::to_string(fit.used) + " of " + std::to_string(fit.readings),
@@ -85,6 +87,7 @@ std::string FitTable(const LightFile& file) {
 std::string EffectTable(const FittedLight& light) {
   constexpr const char* kStateNames[] = {"off", "on", "fitted"};
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(light.effects.size());
   for (const EffectReport& effect : light.effects) {
     rows.push_back({effect.name, kStateNames[static_cast<int>(effect.state)],
                     RoundedText(effect.bound * 100.0, 2) + " %", Percent(effect.contribution),

@@ -177,10 +177,12 @@ nlohmann::ordered_json UncertainJson(const Uncertain& u) {
 
 std::string PredictionTable(const std::vector<Prediction>& predictions) {
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(predictions.size());
   for (const Prediction& p : predictions) {
     const Uncertain& lx = p.predicted.reading_lx;
     const std::string range =
-        lx.low ? RoundedText(*lx.low, 4) + " … " + RoundedText(*lx.high, 4) + " lx" : "-";
+        lx.low && lx.high ? RoundedText(*lx.low, 4) + " … " + RoundedText(*lx.high, 4) + " lx"
+                          : "-";
     rows.push_back({RoundedText(p.distance.value(), 4) + " m",
                     ValueWithPercent(lx.value, lx.u95, "lx"), range});
   }
@@ -192,7 +194,7 @@ void PrintAnswer(const Options& options, const FittedSession& fitted, const std:
                  Console& console) {
   const FittedLight& light = fitted.lights.lights.front();
   console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
-  if (light.intensity_cd && light.intensity_cd->low) {
+  if (light.intensity_cd && light.intensity_cd->low && light.intensity_cd->high) {
     console.Print("\n95 % interval: " + RoundedText(*light.intensity_cd->low, 3) + " … " +
                   RoundedText(*light.intensity_cd->high, 3) + " cd\n");
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace lightcal::fit {
@@ -190,6 +191,23 @@ Theta ScanStart(const Estimation& estimation) {
   return best;
 }
 
+namespace {
+
+// Weighted median over the rows of the ln I each asks for; absent when none carries it.
+std::optional<double> MedianLnIntensity(const Estimation& estimation, double d0, double ambient) {
+  std::vector<WeightedValue> values;
+  values.reserve(estimation.rows.size());
+  for (const ReadingRow& row : estimation.rows) {
+    if (!CarriesIntensity(row, ambient)) continue;
+    const double direct = row.measured - row.ambient_gain * ambient;
+    values.push_back({std::log(direct / PerCandela(row, d0)), 1.0 / row.sigma});
+  }
+  if (values.empty()) return std::nullopt;
+  return WeightedMedian(values);
+}
+
+}  // namespace
+
 Theta MedianStart(const Estimation& all) {
   const Estimation estimation = Thinned(all);
   // Fractions of the dimmest reading that may be ambient light.
@@ -203,19 +221,13 @@ Theta MedianStart(const Estimation& all) {
   }
   Theta best = {0.0, estimation.rules[kDistanceOffset].prior_mean, 0.0};
   double least = std::numeric_limits<double>::infinity();
-  std::vector<WeightedValue> values;
   for (const double fraction : kAmbientLadder) {
     const double ambient = ambient_rule.free ? fraction * dimmest : ambient_rule.prior_mean;
     for (int i = 0; i < kScanPoints; ++i) {
       const double d0 = range.low + (range.high - range.low) * i / (kScanPoints - 1);
-      values.clear();
-      for (const ReadingRow& row : estimation.rows) {
-        if (!CarriesIntensity(row, ambient)) continue;
-        const double direct = row.measured - row.ambient_gain * ambient;
-        values.push_back({std::log(direct / PerCandela(row, d0)), 1.0 / row.sigma});
-      }
-      if (values.empty()) continue;
-      const Theta candidate = {WeightedMedian(values), d0, ambient};
+      const std::optional<double> ln_intensity = MedianLnIntensity(estimation, d0, ambient);
+      if (!ln_intensity) continue;
+      const Theta candidate = {*ln_intensity, d0, ambient};
       const double score = AbsoluteDeviation(estimation, candidate);
       if (score >= least) continue;
       least = score;

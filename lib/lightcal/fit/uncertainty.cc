@@ -102,16 +102,61 @@ Vector3 ConsideredShift(const Matrix3& covariance, const Rows& jacobian,
   return -covariance * (jacobian.transpose() * whitened_influence);
 }
 
+// Light cannot be negative: the marginal of E0 is cut at zero.
+void CutAmbient(const UncertaintyInput& input, const Linearised& at, const Matrix3& covariance,
+                Matrix3& total) {
+  Vector3 gradient = at.jacobian.transpose() * at.residual;
+  for (int k = 0; k < kParameters; ++k) {
+    const ParameterRule& rule = input.estimation->rules[k];
+    if (!rule.free || !(rule.prior_sd > 0.0)) continue;
+    gradient[k] += (input.theta[k] - rule.prior_mean) / (rule.prior_sd * rule.prior_sd);
+  }
+  const double step = (covariance * gradient)[kAmbient];
+  TruncateAmbient(input.theta[kAmbient] - step, input.theta[kAmbient], total);
+}
+
+// What the parameters held at their priors do to the free ones.
+void AddHeldParameters(const Estimation& estimation, const Linearised& at,
+                       const Matrix3& covariance, Matrix3& total) {
+  for (int k = 0; k < kParameters; ++k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (rule.free || !(rule.prior_sd > 0.0)) continue;
+    Vector3 shift = ConsideredShift(covariance, at.jacobian, at.jacobian.col(k) * rule.prior_sd);
+    shift[k] = rule.prior_sd;
+    total += shift * shift.transpose();
+  }
+}
+
+void AddConsidered(const UncertaintyInput& input, const Linearised& at, const Matrix3& covariance,
+                   Matrix3& total) {
+  for (const Consider& influence : input.considered) {
+    Eigen::VectorXd whitened(at.jacobian.rows());
+    for (Eigen::Index i = 0; i < whitened.size(); ++i) {
+      const ReadingRow& row = input.estimation->rows[i];
+      const bool lit = row.form == ReadingRow::Form::kLog && row.direct_gain > 0.0;
+      const double change = influence.relative * std::pow(row.distance, influence.distance_power);
+      whitened[i] = lit ? change / (row.sigma * input.row_scale) : 0.0;
+    }
+    const Vector3 shift = ConsideredShift(covariance, at.jacobian, whitened);
+    total += shift * shift.transpose();
+  }
+}
+
+bool Determines(const Matrix3& triangle) {
+  for (int k = 0; k < kParameters; ++k) {
+    if (!(std::abs(triangle(k, k)) > 1e-300) || !std::isfinite(triangle(k, k))) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Result<Covariance> EstimateCovariance(const UncertaintyInput& input) {
   const Estimation& estimation = *input.estimation;
   const Linearised at = Linearise(estimation, input.theta, input.row_scale);
   const Matrix3 r = TriangleOf(WithPriors(estimation, at.jacobian));
-  for (int k = 0; k < kParameters; ++k) {
-    if (!(std::abs(r(k, k)) > 1e-300) || !std::isfinite(r(k, k))) {
-      return Refused("underdetermined", "fit", "the readings do not determine every parameter");
-    }
+  if (!Determines(r)) {
+    return Refused("underdetermined", "fit", "the readings do not determine every parameter");
   }
   const Matrix3 inverse = r.triangularView<Eigen::Upper>().solve(Matrix3::Identity());
   Matrix3 covariance = inverse * inverse.transpose();
@@ -121,38 +166,14 @@ Result<Covariance> EstimateCovariance(const UncertaintyInput& input) {
     covariance.col(k).setZero();
   }
   Matrix3 total = covariance;
-  if (estimation.rules[kAmbient].free) {
-    Vector3 gradient = at.jacobian.transpose() * at.residual;
-    for (int k = 0; k < kParameters; ++k) {
-      const ParameterRule& rule = estimation.rules[k];
-      if (!rule.free || !(rule.prior_sd > 0.0)) continue;
-      gradient[k] += (input.theta[k] - rule.prior_mean) / (rule.prior_sd * rule.prior_sd);
-    }
-    const double step = (covariance * gradient)[kAmbient];
-    TruncateAmbient(input.theta[kAmbient] - step, input.theta[kAmbient], total);
-  }
-  for (int k = 0; k < kParameters; ++k) {
-    const ParameterRule& rule = estimation.rules[k];
-    if (rule.free || !(rule.prior_sd > 0.0)) continue;
-    Vector3 shift = ConsideredShift(covariance, at.jacobian, at.jacobian.col(k) * rule.prior_sd);
-    shift[k] = rule.prior_sd;
-    total += shift * shift.transpose();
-  }
-  for (const Consider& influence : input.considered) {
-    Eigen::VectorXd whitened(at.jacobian.rows());
-    for (Eigen::Index i = 0; i < whitened.size(); ++i) {
-      const ReadingRow& row = estimation.rows[i];
-      const bool lit = row.form == ReadingRow::Form::kLog && row.direct_gain > 0.0;
-      const double change = influence.relative * std::pow(row.distance, influence.distance_power);
-      whitened[i] = lit ? change / (row.sigma * input.row_scale) : 0.0;
-    }
-    const Vector3 shift = ConsideredShift(covariance, at.jacobian, whitened);
-    total += shift * shift.transpose();
-  }
+  if (estimation.rules[kAmbient].free) CutAmbient(input, at, covariance, total);
+  AddHeldParameters(estimation, at, covariance, total);
+  AddConsidered(input, at, covariance, total);
   Covariance out{};
   for (int i = 0; i < kParameters; ++i) {
-    for (int j = 0; j < kParameters; ++j)
+    for (int j = 0; j < kParameters; ++j) {
       out[i * kParameters + j] = 0.5 * (total(i, j) + total(j, i));
+    }
   }
   return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -11,7 +12,7 @@
 
 namespace lightcal::fit {
 
-using Covariance = std::array<double, kParameters * kParameters>;
+using Covariance = std::array<double, std::size_t{kParameters} * kParameters>;
 
 // A systematic influence that is not fitted: one standard deviation of it changes every ln E by
 // `relative` (the same sign in all rows, growing with distance to the power `distance_power`).
