@@ -2,8 +2,7 @@
 // A reading of a meter that was over its range: the truth is at least the number shown.
 #pragma once
 
-#include <cmath>
-
+#include "lightcal/fit/costs/log_illuminance_cost.h"
 #include "lightcal/fit/reading_model.h"
 
 namespace lightcal::fit {
@@ -15,11 +14,9 @@ struct CensoredIlluminanceCost {
   template <class T>
   bool operator()(const T* ln_intensity, const T* distance_offset, const T* ambient,
                   T* residual) const {
-    using std::log;
-    const T predicted = RowIlluminance(*row, *ln_intensity, *distance_offset, *ambient);
-    if (!(predicted > T(0.0))) return false;
-    const T shortfall = (std::log(row->measured) - log(predicted)) / row->sigma;
-    residual[0] = shortfall > T(0.0) ? shortfall : T(0.0);
+    const LogIlluminanceCost shortfall{row};
+    if (!shortfall(ln_intensity, distance_offset, ambient, residual)) return false;
+    if (!(residual[0] > T(0.0))) residual[0] = T(0.0);
     return true;
   }
 };
