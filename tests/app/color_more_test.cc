@@ -14,6 +14,7 @@
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/core/numbers_text.h"
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal {
 namespace {
@@ -21,12 +22,8 @@ namespace {
 using nlohmann::json;
 using test::RunLightcal;
 
-json Color(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "color");
-  arguments.emplace_back("--json");
-  const test::CliResult run = RunLightcal(arguments);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  return json::parse(run.out);
+json Color(const std::vector<std::string>& arguments) {
+  return test::LightcalJson("color", arguments);
 }
 
 bool Warns(const json& answer, const std::string& code) {

@@ -18,6 +18,7 @@
 #include "lightcal/colorimetry/ssi.h"
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal {
 namespace {
@@ -25,12 +26,8 @@ namespace {
 using nlohmann::json;
 using test::RunLightcal;
 
-json Color(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "color");
-  arguments.emplace_back("--json");
-  const test::CliResult run = RunLightcal(arguments);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  return json::parse(run.out);
+json Color(const std::vector<std::string>& arguments) {
+  return test::LightcalJson("color", arguments);
 }
 
 void ExpectRefused(std::vector<std::string> arguments, const std::string& code) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal {
 namespace {
@@ -21,12 +22,7 @@ test::CliResult Exposure(Words words) {
   return test::RunLightcal(words);
 }
 
-json ExposureJson(Words words) {
-  words.emplace_back("--json");
-  const test::CliResult run = Exposure(words);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  return json::parse(run.out);
-}
+json ExposureJson(const Words& words) { return test::LightcalJson("exposure", words); }
 
 void ExpectRefusal(const Words& words, int exit_code, const std::string& says) {
   const test::CliResult run = Exposure(words);

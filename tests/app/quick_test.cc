@@ -9,18 +9,15 @@
 #include <sstream>
 
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal::test {
 namespace {
 
 using nlohmann::json;
 
-json QuickJson(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "quick");
-  arguments.emplace_back("--json");
-  const CliResult result = RunLightcal(arguments);
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  return json::parse(result.out);
+json QuickJson(const std::vector<std::string>& arguments) {
+  return LightcalJson("quick", arguments);
 }
 
 TEST(Quick, OneReadingAnswers48CandelaWideAndMarkedPrior) {

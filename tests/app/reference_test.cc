@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal {
 namespace {
@@ -21,12 +22,7 @@ test::CliResult Reference(Words words) {
   return test::RunLightcal(words);
 }
 
-json Values(Words words) {
-  words.emplace_back("--json");
-  const test::CliResult run = Reference(words);
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  return json::parse(run.out)["values"];
-}
+json Values(const Words& words) { return test::LightcalJson("reference", words)["values"]; }
 
 TEST(ReferenceCommand, ListsAtLeastFortyValuesOfFourQuantitiesWithTheirSources) {
   const json values = Values({});

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "run_cli.h"
+#include "run_cli_json.h"
 
 namespace lightcal::test {
 namespace {
@@ -16,9 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 json RunJson(const std::string& session, const std::string& out) {
-  const CliResult result = RunLightcal({"run", session, "-o", out, "--json"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  return json::parse(result.out);
+  return LightcalJson("run", {session, "-o", out});
 }
 
 struct Expectation {
@@ -69,7 +68,9 @@ TEST_P(FilmLight, TheOffsetExplainsWhatInverseSquareCannot) {
 INSTANTIATE_TEST_SUITE_P(Amaran200xS, FilmLight,
                          ::testing::Values(Expectation{"amaran_200x_s_bare", 0.025, +1},
                                            Expectation{"amaran_200x_s_hyper_reflector", 0.005, -1}),
-                         [](const auto& film_light) { return std::string(film_light.param.session); });
+                         [](const auto& film_light) {
+                           return std::string(film_light.param.session);
+                         });
 
 TEST(RunCommand, WritesLightPresetsAndReportAndIsIdempotent) {
   const TempDir out;
