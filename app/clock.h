@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace lightcal::app {
 
-// Now in UTC, "2026-11-21T10:00:00Z"; the moment SOURCE_DATE_EPOCH names, when it is set, so that
-// the same inputs give the same bytes.
+// The moment SOURCE_DATE_EPOCH names, in UTC as "2026-11-21T10:00:00Z"; absent when it is not set
+// or not a whole number of seconds.
+[[nodiscard]] std::optional<std::string> SourceDateIso8601();
+
+// Now in the same form; SOURCE_DATE_EPOCH stands in for now, so that the same inputs give the same
+// bytes.
 [[nodiscard]] std::string NowIso8601();
 
 }  // namespace lightcal::app

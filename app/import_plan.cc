@@ -7,29 +7,15 @@
 #include <map>
 #include <utility>
 
-#include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/files/import_file.h"
+#include "session_names.h"
 
 namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class Item>
-std::string DidYouMean(std::string_view name, const std::vector<Item>& known) {
-  std::vector<std::string_view> names;
-  names.reserve(known.size());
-  for (const Item& item : known) names.push_back(item.name);
-  const std::string nearest = NearestWord(name, names);
-  if (!nearest.empty()) return "; did you mean \"" + nearest + "\"?";
-  std::string list;
-  for (const std::string_view one : names) {
-    list += (list.empty() ? "" : ", ") + std::string(one);
-  }
-  return list.empty() ? "" : "; there are " + list;
-}
 
 // A spectrum as a file our own importer reads back.
 std::string SpectrumCsv(const ImportedSpectrum& one, const std::string& source, bool color_only) {
@@ -213,23 +199,8 @@ class Planner {
     if (settings_.lamp_off) reading.lamp = LampState::kOff;
     if (settings_.shadow_card) reading.shadow_card = true;
     if (settings_.color_only) reading.illuminance.reset();
-    if (auto named = CheckNames(reading); !named) return named;
+    if (auto named = CheckNames(session_, reading.light, reading.meter); !named) return named;
     return CheckDistance(reading, path);
-  }
-
-  Result<void> CheckNames(const Reading& reading) const {
-    if (FindLight(session_, reading.light) == nullptr) {
-      return Refused("unknown_light", reading.light,
-                     "the session has no such light" + DidYouMean(reading.light, session_.lights));
-    }
-    const bool meter_known = reading.meter.empty() || reading.meter == kDataSheetMeter ||
-                             std::ranges::find(session_.meters, reading.meter,
-                                               &MeterDescription::name) != session_.meters.end();
-    if (!meter_known) {
-      return Refused("unknown_meter", reading.meter,
-                     "the session has no such meter" + DidYouMean(reading.meter, session_.meters));
-    }
-    return {};
   }
 
   Result<void> CheckDistance(Reading& reading, const std::string& path) const {

@@ -109,6 +109,10 @@ Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
   return {};
 }
 
+void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {
+  for (OutputFile& file : files) file.path = (fs::path(directory) / file.path).string();
+}
+
 Result<std::string> ReadWholeFile(const std::string& path) {
   std::error_code error;
   if (!fs::exists(path, error)) return Failed("not_found", path, "no such file");

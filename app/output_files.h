@@ -22,6 +22,9 @@ struct OutputFile {
 // On any failure no target has changed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
 
+// Paths relative to a directory become paths below it.
+void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);
+
 // Whole file as bytes. Fails: not_found, unreadable.
 [[nodiscard]] Result<std::string> ReadWholeFile(const std::string& path);
 

@@ -2,15 +2,11 @@
 #include "session_input.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <ctime>
 #include <filesystem>
-#include <map>
 #include <utility>
 
+#include "clock.h"
 #include "lightcal/colorimetry/spectrum.h"
-#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/files/import_file.h"
@@ -61,18 +57,6 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& con
   return {};
 }
 
-std::string TimeFromSourceDateEpoch() {
-  const char* text = std::getenv("SOURCE_DATE_EPOCH");
-  const auto seconds = text == nullptr ? std::nullopt : ParseNumber(text);
-  if (!seconds) return {};
-  const auto time = static_cast<std::time_t>(*seconds);
-  std::tm utc{};
-  if (gmtime_r(&time, &utc) == nullptr) return {};
-  std::string formatted(32, '\0');
-  formatted.resize(std::strftime(formatted.data(), formatted.size(), "%Y-%m-%dT%H:%M:%SZ", &utc));
-  return formatted;
-}
-
 Result<Provenance> ProvenanceOf(const Session& session) {
   Provenance provenance;
   provenance.generator = GeneratorName();
@@ -82,11 +66,12 @@ Result<Provenance> ProvenanceOf(const Session& session) {
     const fs::path relative = fs::path(path).lexically_proximate(session.directory);
     provenance.inputs.push_back({relative.generic_string(), Sha256Hex(*bytes)});
   }
-  provenance.time = TimeFromSourceDateEpoch();
-  if (provenance.time.empty()) {
-    for (const SessionReading& row : session.readings) {
-      provenance.time = std::max(provenance.time, row.reading.time);
-    }
+  if (const auto fixed = SourceDateIso8601()) {
+    provenance.time = *fixed;
+    return provenance;
+  }
+  for (const SessionReading& row : session.readings) {
+    provenance.time = std::max(provenance.time, row.reading.time);
   }
   return provenance;
 }

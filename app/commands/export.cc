@@ -55,7 +55,7 @@ Result<std::vector<OutputFile>> PresetsOfInput(const std::string& input, const O
   auto files = PresetFiles(*lights, fs::path(input).stem().string(), options.targets,
                            {.bare = options.bare}, warnings);
   if (!files) return files;
-  for (OutputFile& file : *files) file.path = (fs::path(options.output) / file.path).string();
+  PlaceUnder(options.output, *files);
   return files;
 }
 

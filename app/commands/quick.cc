@@ -2,7 +2,6 @@
 // lightcal quick: no session needed. Typed readings or a data sheet's figures become a session in
 // memory and go through the same fit.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -235,10 +234,8 @@ Result<void> RunQuick(const Options& options, Console& console) {
                                {.bare = options.bare}, warnings);
     if (!presets) return Propagate(std::move(presets));
     console.Warn(warnings);
-    for (OutputFile& file : *presets) {
-      files.push_back(
-          {(std::filesystem::path(options.output) / file.path).string(), std::move(file.contents)});
-    }
+    files = std::move(*presets);
+    PlaceUnder(options.output, files);
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;

@@ -10,7 +10,6 @@
 
 #include "clock.h"
 #include "commands.h"
-#include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
@@ -18,6 +17,7 @@
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/meters/summary.h"
 #include "meter_session.h"
+#include "session_names.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -67,26 +67,6 @@ Result<void> CheckOptions(const Options& options) {
   }
   if (into_journal && options.distance.empty()) {
     return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
-  }
-  return {};
-}
-
-Result<void> CheckNames(const Session& session, const Options& options) {
-  std::vector<std::string_view> lights;
-  for (const LightDescription& light : session.lights) lights.push_back(light.name);
-  if (FindLight(session, options.light) == nullptr) {
-    const std::string nearest = NearestWord(options.light, lights);
-    std::string known;
-    for (const auto name : lights) known += (known.empty() ? "" : ", ") + std::string(name);
-    return Refused("unknown_light", options.light,
-                   "the session has no such light" +
-                       (nearest.empty() ? "; it has " + known : "; did you mean " + nearest + "?"));
-  }
-  const auto named = [&](const MeterDescription& m) { return m.name == options.meter; };
-  if (!options.meter.empty() && options.meter != kDataSheetMeter &&
-      std::ranges::none_of(session.meters, named)) {
-    return Refused("unknown_meter", options.meter,
-                   "the session has no such meter; describe it in a [[meter]] of session.toml");
   }
   return {};
 }
@@ -220,7 +200,7 @@ class ReadRun {
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);
-    return CheckNames(*session_, options_);
+    return CheckNames(*session_, options_.light, options_.meter);
   }
 
   Result<void> OpenTheMeter() {

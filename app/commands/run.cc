@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal run: the main job. Session in; light.json, presets and report out.
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -39,9 +38,7 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
                                    {"report.html", ReportHtml(lights, title)}};
   for (OutputFile& file : *presets) files.push_back(std::move(file));
-  for (OutputFile& file : files) {
-    file.path = (std::filesystem::path(directory) / file.path).string();
-  }
+  PlaceUnder(directory, files);
   return files;
 }
 
