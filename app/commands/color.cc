@@ -194,20 +194,33 @@ void WarnIfTruncated(const Spectrum& spectrum, const std::string& subject, Conso
            " nm only; CIE asks for 380 to 780 nm, so colour and illuminance lack the rest"});
 }
 
-Result<void> WriteVectorGraphic(const Options& options, const std::vector<ColorAnswer>& answers) {
-  if (answers.size() != 1) {
-    return WrongUsage("--vector-graphic", "is drawn of one spectrum; choose it with --column");
+// The pictures asked for, of the one spectrum they are drawn of.
+Result<std::vector<OutputFile>> PicturesOf(const Options& options,
+                                           const std::vector<ColorAnswer>& answers) {
+  std::vector<OutputFile> pictures;
+  const auto check_one = [&](const std::string& option) -> Result<void> {
+    if (answers.size() == 1) return {};
+    return WrongUsage(option, "is drawn of one spectrum; choose it with --column");
+  };
+  if (!options.vector_graphic.empty()) {
+    if (auto one = check_one("--vector-graphic"); !one) return Propagate(std::move(one));
+    const ColorAnswer& answer = answers.front();
+    const auto& rendering = answer.metrics.rendering;
+    if (!rendering) {
+      return Refused(
+          "no_color_rendering", options.spectrum,
+          "has no colour rendering to draw: the spectrum is too narrow or too coarse, or "
+          "its colour has no temperature");
+    }
+    const std::string& title = answer.name.empty() ? options.spectrum : answer.name;
+    pictures.push_back({options.vector_graphic,
+                        report::ColorVectorGraphic(rendering->fidelity, rendering->gamut, title)});
   }
-  const auto& rendering = answers.front().metrics.rendering;
-  if (!rendering) {
-    return Refused("no_color_rendering", options.spectrum,
-                   "has no colour rendering to draw: the spectrum is too narrow or too coarse, or "
-                   "its colour has no temperature");
+  if (!options.extra.plot.empty()) {
+    if (auto one = check_one("--plot"); !one) return Propagate(std::move(one));
+    pictures.push_back({options.extra.plot, PlotOf(answers.front())});
   }
-  const std::string title = answers.front().name.empty() ? options.spectrum : answers.front().name;
-  return WriteOutputs({{options.vector_graphic,
-                        report::ColorVectorGraphic(rendering->fidelity, rendering->gamut, title)}},
-                      options.force);
+  return pictures;
 }
 
 Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Console& console) {
@@ -215,8 +228,7 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
   if (!file) return Propagate(std::move(file));
   const auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
   if (!chosen) return tl::unexpected(chosen.error());
-  console.Warn(
-      WarningsOfChosen(file->warnings, options.column.empty() ? "" : chosen->front().name));
+  console.Warn(file->warnings);
   std::vector<ColorAnswer> answers;
   Json spectra = Json::array();
   for (const ImportedSpectrum& imported : *chosen) {
@@ -242,16 +254,9 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
     answers.push_back(std::move(*answer));
   }
   if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
-  if (!options.vector_graphic.empty()) {
-    if (auto written = WriteVectorGraphic(options, answers); !written) return written;
-  }
-  if (!options.extra.plot.empty()) {
-    if (answers.size() != 1) {
-      return WrongUsage("--plot", "is drawn of one spectrum; choose it with --column");
-    }
-    auto written = WriteOutputs({{options.extra.plot, PlotOf(answers.front())}}, options.force);
-    if (!written) return written;
-  }
+  const auto pictures = PicturesOf(options, answers);
+  if (!pictures) return tl::unexpected(pictures.error());
+  if (auto written = WriteOutputs(*pictures, options.force); !written) return written;
   if (chosen->size() == 1) {
     console.Print(TableOfOne(answers.front()));
     console.PrintJson(spectra.front());

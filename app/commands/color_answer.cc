@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "color_spaces.h"
 #include "console.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/numbers_text.h"
@@ -16,17 +17,6 @@ namespace lightcal::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct NamedSpace {
-  std::string_view key, title;
-  RgbSpace space;
-};
-constexpr std::array kSpaces = {
-    NamedSpace{"srgb_linear", "linear sRGB at Y = 1", RgbSpace::kSrgb},
-    NamedSpace{"acescg", "ACEScg at Y = 1", RgbSpace::kAcescg},
-    NamedSpace{"rec2020", "linear Rec. 2020 at Y = 1", RgbSpace::kRec2020},
-    NamedSpace{"display_p3", "linear Display P3 at Y = 1", RgbSpace::kDisplayP3},
-};
 
 std::string_view StatusWord(CctStatus status) {
   switch (status) {

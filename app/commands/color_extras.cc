@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_extras.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "color_spaces.h"
 #include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/core/numbers_text.h"
@@ -72,14 +72,6 @@ std::string_view WordOf(GamutPolicy policy) {
   }
   return "keep";
 }
-
-struct NamedSpace {
-  std::string_view key;
-  RgbSpace space;
-};
-constexpr std::array kSpaces = {
-    NamedSpace{"srgb_linear", RgbSpace::kSrgb}, NamedSpace{"acescg", RgbSpace::kAcescg},
-    NamedSpace{"rec2020", RgbSpace::kRec2020}, NamedSpace{"display_p3", RgbSpace::kDisplayP3}};
 
 // The spaces that do not hold the colour.
 std::vector<std::string> SpacesWithout(Xy xy, const ColorExtras& extras) {

@@ -74,19 +74,8 @@ Result<std::vector<ImportedSpectrum>> ChosenSpectra(ImportedFile& file, const st
   if (column.empty()) return std::move(file.spectra);
   auto index = FindSpectrum(file, column);
   if (!index) return Propagate(std::move(index));
+  file.warnings = WarningsAbout(file, *index);
   return std::vector<ImportedSpectrum>{std::move(file.spectra[*index])};
-}
-
-Warnings WarningsOfChosen(const Warnings& warnings, const std::string& chosen_name) {
-  constexpr std::string_view kColumn = ", column ";
-  Warnings kept;
-  for (const Warning& warning : warnings) {
-    const auto at = warning.subject.rfind(kColumn);
-    const bool of_another = !chosen_name.empty() && at != std::string::npos &&
-                            warning.subject.substr(at + kColumn.size()) != chosen_name;
-    if (!of_another) kept.push_back(warning);
-  }
-  return kept;
 }
 
 }  // namespace lightcal::app

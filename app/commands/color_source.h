@@ -18,13 +18,11 @@ namespace lightcal::app {
 // nothing. Fails as ImportFile, IlluminantSpectrum, GaussianSpectrum and PhosphorLedSpectrum.
 [[nodiscard]] Result<ImportedFile> ReadSpectrumSource(const std::string& source);
 
-// The spectra asked for, taken out of the file: the one of `column`, or all where it is empty.
+// The spectra asked for, taken out of the file: the one of `column`, or all where it is empty. The
+// file keeps the warnings that concern them.
 // Refused: no_spectrum, unknown_column.
 [[nodiscard]] Result<std::vector<ImportedSpectrum>> ChosenSpectra(ImportedFile& file,
                                                                   const std::string& source,
                                                                   const std::string& column);
-
-// The file's warnings, without those about columns other than `chosen_name` ("" = all chosen).
-[[nodiscard]] Warnings WarningsOfChosen(const Warnings& warnings, const std::string& chosen_name);
 
 }  // namespace lightcal::app

@@ -202,5 +202,16 @@ TEST(ColorBatch, ABadRowIsNamedByItsOwnLineHoweverFarDown) {
   EXPECT_NE(text.err.find(":3001"), std::string::npos) << text.err;
 }
 
+TEST(ColorPictures, BothAreWrittenOrNeither) {
+  const test::TempDir folder;
+  const std::string graphic = folder.path() + "/graphic.svg";
+  const std::string plot = folder.Write("plot.svg", "a picture of my own");
+  const std::vector<std::string> ask = {
+      "color", "--spectrum", "illuminant:FL11", "--vector-graphic", graphic, "--plot", plot};
+  EXPECT_EQ(RunLightcal(ask).exit_code, 1);
+  EXPECT_EQ(test::ReadFile(graphic), "");
+  EXPECT_EQ(test::ReadFile(plot), "a picture of my own");
+}
+
 }  // namespace
 }  // namespace lightcal
