@@ -7,6 +7,7 @@
 
 #include "clock.h"
 #include "lightcal_devices/transport/recording.h"
+#include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -46,11 +47,13 @@ class InterruptGuard {
 
 }  // namespace
 
-MeterTiming MeterSession::Timing() const {
-  MeterTiming timing;
+MeterSetup MeterSession::Setup() const {
+  MeterSetup setup;
+  setup.serial = serial_;
+  MeterTiming& timing = setup.timing;
   timing.reply = request_.reply_timeout;
-  if (IsReplay()) timing.poll = std::chrono::milliseconds(0);
-  return timing;
+  timing.live = !IsReplay();
+  return setup;
 }
 
 Result<void> MeterSession::OpenDevice() {
@@ -61,7 +64,7 @@ Result<void> MeterSession::OpenDevice() {
   auto line = OpenMeter(*chosen);
   if (!line) return tl::unexpected(line.error());
   row_ = chosen->row;
-  serial_ = chosen->usb.serial;
+  serial_ = chosen->serial;
   line_ = *std::move(line);
   return {};
 }
@@ -109,7 +112,7 @@ Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& req
   if (!opened) return tl::unexpected(opened.error());
   session->Record();
   Transport& line = session->recorder_ ? *session->recorder_ : *session->line_;
-  session->meter_ = session->row_->make(line, session->serial_, session->Timing());
+  session->meter_ = session->row_->make(line, session->Setup());
   if (const auto known = session->Identify(console); !known) {
     const auto written = session->Finish(console);
     return tl::unexpected(written ? known.error() : written.error());
@@ -135,9 +138,9 @@ Result<void> MeterSession::Finish(Console& console) {
   if (IsReplay() && replay_->Unconsumed() > 0) {
     console.Warn({"tape_not_finished", request_.replay_file,
                   std::to_string(replay_->Unconsumed()) +
-                      " lines of the tape were not played; it holds more than was asked for"});
+                      " exchanges of the tape were not played; it holds more than was asked for"});
   }
-  if (request_.record_file.empty() || recorded_.lines.empty()) return {};
+  if (request_.record_file.empty() || recorded_.exchanges.empty()) return {};
   return WriteOutputs({{request_.record_file, TapeToText(recorded_)}}, false);
 }
 

@@ -36,7 +36,7 @@ class MeterSession {
   [[nodiscard]] bool HasMore() const { return !IsReplay() || replay_->Unconsumed() > 0; }
 
   // Writes the tape, also after a failure: it is what a bug report begins with. A replay that left
-  // lines unplayed warns as tape_not_finished.
+  // exchanges unplayed warns as tape_not_finished.
   [[nodiscard]] Result<void> Finish(Console& console);
 
  private:
@@ -46,7 +46,7 @@ class MeterSession {
   [[nodiscard]] Result<void> OpenTape();
   [[nodiscard]] Result<void> Identify(Console& console);
   void Record();
-  [[nodiscard]] MeterTiming Timing() const;
+  [[nodiscard]] MeterSetup Setup() const;
 
   MeterRequest request_;
   std::string time_;  // as the tape being played says ("" = it does not); else when this began

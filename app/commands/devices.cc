@@ -10,13 +10,13 @@
 namespace lightcal::app {
 namespace {
 
-std::string StatusName(UsbAccess access) {
+std::string StatusName(MeterAccess access) {
   switch (access) {
-    case UsbAccess::kReady:
+    case MeterAccess::kReady:
       return "ready";
-    case UsbAccess::kNoPermission:
+    case MeterAccess::kNoPermission:
       return "no_permission";
-    case UsbAccess::kBusy:
+    case MeterAccess::kBusy:
       return "busy";
   }
   return "";
@@ -26,47 +26,46 @@ nlohmann::ordered_json ToJson(const FoundMeter& meter) {
   nlohmann::ordered_json json = {{"id", meter.id},
                                  {"driver", meter.row->driver},
                                  {"models", meter.row->models},
-                                 {"transport", LineName(meter.row->line)},
-                                 {"usb", UsbIdText(meter.usb.vendor, meter.usb.product)}};
-  if (!meter.usb.serial.empty()) json["serial"] = meter.usb.serial;
-  json["status"] = StatusName(meter.usb.access);
+                                 {"transport", meter.row->line->name}};
+  if (!meter.usb.empty()) json["usb"] = meter.usb;
+  if (!meter.serial.empty()) json["serial"] = meter.serial;
+  json["status"] = StatusName(meter.access);
   json["verified"] = VerifiedName(meter.row->verified);
-  if (meter.usb.access == UsbAccess::kNoPermission) json["udev_rule"] = UdevRule(*meter.row);
+  if (const std::string remedy = Remedy(meter); !remedy.empty()) json["remedy"] = remedy;
+  if (meter.access == MeterAccess::kNoPermission) json["udev_rules"] = UdevRules(*meter.row);
   return json;
 }
 
 std::vector<std::string> ToRow(const FoundMeter& meter) {
-  return {
-      meter.id, std::string(meter.row->models),
-      std::string(LineName(meter.row->line)) + " " + UsbIdText(meter.usb.vendor, meter.usb.product),
-      StatusName(meter.usb.access), std::string(VerifiedName(meter.row->verified))};
+  std::string transport(meter.row->line->name);
+  if (!meter.usb.empty()) transport += " " + meter.usb;
+  return {meter.id, std::string(meter.row->models), transport, StatusName(meter.access),
+          std::string(VerifiedName(meter.row->verified))};
 }
 
 // What stands between the person and a reading, for each meter that is not ready.
 std::string Remedies(const std::vector<FoundMeter>& found) {
   std::string text;
   for (const FoundMeter& meter : found) {
-    if (meter.usb.access == UsbAccess::kNoPermission) {
-      text += "\n" + meter.id +
-              ": you may not open it yet. Put this line into /etc/udev/rules.d/70-lightcal.rules, "
-              "run\n`sudo udevadm control --reload`, and plug the meter in again:\n" +
-              UdevRule(*meter.row) + "\n";
-    } else if (meter.usb.access == UsbAccess::kBusy) {
-      text += "\n" + meter.id + ": another program holds it; close that program.\n";
-    }
+    const std::string remedy = Remedy(meter);
+    if (!remedy.empty()) text += "\n" + meter.id + ": " + remedy + "\n";
   }
   return text;
 }
 
-std::string NothingFound() {
-  std::string text = "No meter found. lightcal knows:\n";
+// Every driver, so that a person learns what could be plugged in.
+std::string KnownMeters() {
+  std::vector<std::vector<std::string>> rows;
   for (const MeterRow& row : MeterTable()) {
-    text += "  " + std::string(row.driver) + "  " + std::string(row.models) + "  (" +
-            std::string(LineName(row.line)) + " " + UsbIdText(row.usb_vendor, row.usb_product) +
-            ", verified: " + std::string(VerifiedName(row.verified)) + ")\n";
+    rows.push_back({std::string(row.driver), std::string(row.models), std::string(row.line->name),
+                    std::string(VerifiedName(row.verified))});
   }
-  return text +
-         "Plug one in and switch it on. Any other meter: type what it shows,\n"
+  return TextTable({"driver", "models", "transport", "verified"}, rows);
+}
+
+std::string NothingFound() {
+  return "No meter found. lightcal knows:\n\n" + KnownMeters() +
+         "\nPlug one in and switch it on. Any other meter: type what it shows,\n"
          "  lightcal read -s SESSION --light NAME --distance 0.5m --lux 192\n";
 }
 

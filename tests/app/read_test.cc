@@ -303,11 +303,12 @@ TEST(ReadTape, ATapeOfAnotherDialogueShowsWhatWasExpected) {
 
 TEST(ReadTape, AnUnreadableTapeIsRefusedByItsLine) {
   const TempDir dir;
-  const std::string bad = dir.Write("bad.tape", "lightcal-tape 1\ndriver sekonic\n> x MN\n");
+  const std::string bad = dir.Write(
+      "bad.tape", "{\"schema\":\"lightcal.tape/1\",\"driver\":\"sekonic\"}\n{\"t_ms\":-1}\n");
   const CliResult result = RunLightcal({"read", "--once", "--json", "--replay", bad});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(ErrorCode(result), "bad_tape");
-  EXPECT_THAT(result.err, HasSubstr("bad.tape:3"));
+  EXPECT_THAT(result.err, HasSubstr("bad.tape:2"));
   EXPECT_EQ(RunLightcal({"read", "--once", "--replay", dir.path() + "/none"}).exit_code, 1);
 }
 

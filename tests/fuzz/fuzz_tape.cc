@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tape that is taken is written as the same tape.
-#include "lightcal_devices/transport/tape.h"
+#include "lightcal_devices/transport/tape_codec.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -79,6 +79,9 @@ light = "key"
 position_m = [0, 0, 0]
 normal = [0, 0, 1]
 illuminance_lx = 1
+under_range = true
+quality = "spectral"
+calibration_factor = 1.02
 )";
 
 TEST(Schemas, SessionSchemaAndParserKnowTheSameKeys) {

@@ -78,6 +78,9 @@ class RandomSession {
     reading.sigma_relative = Maybe(0.001 + 0.9 * Unit());
     reading.lamp = Coin() ? LampState::kOn : LampState::kOff;
     reading.over_range = Coin();
+    reading.under_range = !reading.over_range && Coin();
+    reading.quality = static_cast<MeterQuality>(Count(0, 5));
+    reading.calibration_factor = Maybe(Positive());
     return reading;
   }
 
@@ -150,6 +153,11 @@ void WriteReading(TomlText& toml, const Reading& reading) {
   toml.Number("sigma_relative", reading.sigma_relative);
   if (reading.lamp == LampState::kOff) toml.Raw("lamp", "\"off\"");
   if (reading.over_range) toml.Raw("over_range", "true");
+  if (reading.under_range) toml.Raw("under_range", "true");
+  constexpr std::array kQualities = {"unknown",  "photometer",  "colorimeter",
+                                     "spectral", "bare_sensor", "derived"};
+  toml.Raw("quality", Quoted(kQualities[static_cast<std::size_t>(reading.quality)]));
+  toml.Number("calibration_factor", reading.calibration_factor);
 }
 
 std::string TomlOf(const Session& session) {
@@ -203,6 +211,9 @@ void ExpectSameReading(const Reading& a, const Reading& b) {
   EXPECT_EQ(a.sigma_relative, b.sigma_relative);
   EXPECT_EQ(a.lamp, b.lamp);
   EXPECT_EQ(a.over_range, b.over_range);
+  EXPECT_EQ(a.under_range, b.under_range);
+  EXPECT_EQ(a.quality, b.quality);
+  EXPECT_EQ(a.calibration_factor, b.calibration_factor);
 }
 
 TEST(SessionProperty, WhatIsWrittenIsWhatIsRead) {

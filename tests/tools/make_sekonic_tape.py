@@ -8,6 +8,7 @@
 Only the reply to NR was captured from a real meter; the dialogue around it follows
 devices/lightcal_devices/meters/sekonic/README.md.
 """
+import json
 import pathlib
 import sys
 
@@ -17,8 +18,17 @@ IDLE_REMOTE = b"ST\x42\x40\x40"
 MEASURING = b"ST\x43\x48\x40"
 
 
-def escaped(data):
-    return "".join(chr(b) if 0x20 < b < 0x7F and b != 0x5C else f"\\x{b:02x}" for b in data)
+def with_bytes(line, key, data):
+    """As the tape codec writes bytes: text below 0x7f, else hexadecimal."""
+    if all(b < 0x7F for b in data):
+        line[key] = data.decode("ascii")
+    else:
+        line[key + "_hex"] = data.hex()
+    return line
+
+
+def printed(line):
+    return json.dumps(line, separators=(",", ":"))
 
 
 def tape(reply_name, reply):
@@ -33,16 +43,21 @@ def tape(reply_name, reply):
         (b"RT0", b"RT@@@"),
     ]
     lines = [
-        "lightcal-tape 1",
-        "driver sekonic",
-        "device sekonic:C-800",
-        f"note made from the captured reply {reply_name}; the rest follows the protocol",
+        printed(
+            {
+                "schema": "lightcal.tape/1",
+                "driver": "sekonic",
+                "device": "sekonic:C-800",
+                "note": f"made from the captured reply {reply_name}; the rest follows the protocol",
+            }
+        )
     ]
     elapsed_ms = 0
     for command, answer in dialogue:
-        lines.append(f"> {elapsed_ms} {escaped(command)}")
-        lines.append(f"< {elapsed_ms + 1} {escaped(ACKNOWLEDGE)}")
-        lines.append(f"< {elapsed_ms + 2} {escaped(answer)}")
+        lines.append(printed(with_bytes({"t_ms": elapsed_ms, "op": "write"}, "sent", command)))
+        for late_ms, data in ((1, ACKNOWLEDGE), (2, answer)):
+            line = {"t_ms": elapsed_ms + late_ms, "op": "read"}
+            lines.append(printed(with_bytes(line, "got", data)))
         elapsed_ms += 50
     return "\n".join(lines) + "\n"
 

@@ -8,8 +8,8 @@ Link type 220 (USB_LINUX_MMAPPED): each transfer is a submission and a completio
 and the data (Linux Documentation/usb/usbmon.rst). The device is bus 1, address 2, with bulk OUT
 0x02 and bulk IN 0x81; each IN transfer asks for 4160 bytes, as transport/usb.h promises.
 """
+import json
 import pathlib
-import re
 import struct
 import sys
 
@@ -18,8 +18,8 @@ IN_BUFFER_BYTES = 4160
 IN_PROGRESS = -115  # -EINPROGRESS
 
 
-def unescaped(text):
-    return re.sub(r"\\x(..)", lambda m: chr(int(m.group(1), 16)), text).encode("latin-1")
+def bytes_of(line, key):
+    return bytes.fromhex(line.get(key + "_hex", "")) or line.get(key, "").encode("ascii")
 
 
 def event(number, kind, endpoint, length, data, data_flag):
@@ -30,20 +30,22 @@ def event(number, kind, endpoint, length, data, data_flag):
     return struct.pack("<IIII", 0, 0, len(header) + len(data), len(header) + len(data)) + header + data
 
 
-def transfer(number, sign, data):
-    if sign == ">":
+def transfer(number, line):
+    if line["op"] == "write":
+        data = bytes_of(line, "sent")
         return (event(number, "S", OUT, len(data), data, 0)
                 + event(number, "C", OUT, len(data), b"", ord(">")))
+    data = bytes_of(line, "got")
     return (event(number, "S", IN, IN_BUFFER_BYTES, b"", ord("<"))
             + event(number, "C", IN, len(data), data, 0))
 
 
 def main():
     lines = pathlib.Path(sys.argv[1]).read_text(encoding="ascii").splitlines()
-    exchanges = [line.split(" ") for line in lines if line[:2] in ("> ", "< ")]
+    exchanges = [json.loads(line) for line in lines[1:]]
     capture = struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 220)
-    for number, (sign, _, data) in enumerate(exchanges, start=1):
-        capture += transfer(number, sign, unescaped(data))
+    for number, line in enumerate(exchanges, start=1):
+        capture += transfer(number, line)
     pathlib.Path(sys.argv[2]).write_bytes(capture)
 
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <thread>
 
 #include "lightcal/core/nearest_word.h"
@@ -28,17 +29,36 @@ tl::unexpected<Error> NotThere(std::string_view wanted) {
                 "none is plugged in; plug it in and switch it on, or type the reading: --lux 192");
 }
 
+// A meter whose line is opened by an address nobody had to find: "konica:/dev/ttyUSB1".
+std::optional<FoundMeter> Addressed(std::string_view wanted) {
+  const auto colon = wanted.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const MeterRow* row = FindDriver(DriverOf(wanted));
+  if (row == nullptr || !row->line->takes_address) return std::nullopt;
+  FoundMeter meter;
+  meter.row = row;
+  meter.id = wanted;
+  meter.address = wanted.substr(colon + 1);
+  return meter;
+}
+
+tl::unexpected<Error> Several(const std::vector<FoundMeter>& fitting) {
+  std::string ids;
+  for (const FoundMeter& meter : fitting) ids += (ids.empty() ? "" : ", ") + meter.id;
+  return WrongUsage("--device", "several meters are plugged in; name one of " + ids);
+}
+
 }  // namespace
 
 Result<std::vector<FoundMeter>> FindMeters() {
   std::vector<FoundMeter> found;
   for (const MeterRow& row : MeterTable()) {
-    auto devices = ListUsbDevices(row.usb_vendor, row.usb_product);
-    if (!devices) return Propagate(std::move(devices));
-    for (UsbDeviceInfo& device : *devices) {
-      const std::string& which = device.serial.empty() ? device.port : device.serial;
-      std::string id = std::string(row.driver) + ":" + which;
-      found.push_back({&row, std::move(id), std::move(device)});
+    auto meters = row.line->find(row);
+    if (!meters) return meters;
+    for (FoundMeter& meter : *meters) {
+      const std::string& which = meter.serial.empty() ? meter.address : meter.serial;
+      meter.id = std::string(row.driver) + ":" + which;
+      found.push_back(std::move(meter));
     }
   }
   return found;
@@ -48,35 +68,42 @@ Result<FoundMeter> ChooseMeter(const std::vector<FoundMeter>& found, std::string
   if (!wanted.empty() && FindDriver(DriverOf(wanted)) == nullptr) return UnknownDriver(wanted);
   std::vector<FoundMeter> fitting;
   std::ranges::copy_if(found, std::back_inserter(fitting), [&](const FoundMeter& meter) {
-    return wanted.empty() || meter.id == wanted || meter.row->driver == wanted;
+    if (wanted.empty()) return meter.row->line->tells_meters_apart;
+    return meter.id == wanted || meter.row->driver == wanted;
   });
-  if (fitting.empty()) return NotThere(wanted.empty() ? "meter" : wanted);
   if (fitting.size() == 1) return fitting.front();
-  std::string ids;
-  for (const FoundMeter& meter : fitting) ids += (ids.empty() ? "" : ", ") + meter.id;
-  return WrongUsage("--device", "several meters are plugged in; name one of " + ids);
+  if (!fitting.empty()) return Several(fitting);
+  if (const auto meter = Addressed(wanted)) return *meter;
+  return NotThere(wanted.empty() ? "meter" : wanted);
+}
+
+std::string Remedy(const FoundMeter& meter) {
+  if (meter.access == MeterAccess::kReady || !meter.remedy.empty()) return meter.remedy;
+  if (meter.access == MeterAccess::kBusy) return "another program holds it; close that program";
+  std::string text =
+      "you may not open this meter; put this line into /etc/udev/rules.d/70-lightcal.rules, run "
+      "`sudo udevadm control --reload`, and plug it in again:";
+  for (const std::string& rule : UdevRules(*meter.row)) text += "\n" + rule;
+  return text;
 }
 
 Result<std::unique_ptr<Transport>> OpenMeter(const FoundMeter& meter,
                                              std::chrono::milliseconds pause) {
-  auto line = OpenUsb(meter.usb);
+  const MeterLine& meter_line = *meter.row->line;
+  auto line = meter_line.open(meter);
   for (int retry = 0; retry < kBusyRetries && !line && line.error().code == fault::kBusy; ++retry) {
     std::this_thread::sleep_for(pause);
-    line = OpenUsb(meter.usb);
+    line = meter_line.open(meter);
   }
-  if (!line) {
-    Error error = line.error();
-    error.subject = meter.id;
-    if (error.code == fault::kNoPermission) {
-      error.message =
-          "you may not open this meter; put this line into /etc/udev/rules.d/70-lightcal.rules, "
-          "run "
-          "`sudo udevadm control --reload`, and plug it in again:\n" +
-          UdevRule(*meter.row);
-    }
-    return tl::unexpected(std::move(error));
+  if (line) return line;
+  Error error = line.error();
+  error.subject = meter.id;
+  if (error.code == fault::kNoPermission) {
+    FoundMeter forbidden = meter;
+    forbidden.access = MeterAccess::kNoPermission;
+    error.message = Remedy(forbidden);
   }
-  return line;
+  return tl::unexpected(std::move(error));
 }
 
 }  // namespace lightcal

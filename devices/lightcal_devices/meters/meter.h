@@ -3,8 +3,10 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/colorimetry/spectrum.h"
@@ -37,6 +39,17 @@ struct MeterTiming {
   std::chrono::milliseconds poll{50};     // between two questions for the state
   int ready_polls = 100;                  // until the meter is idle: 5 s
   int measure_polls = 400;                // until a measurement is done: 20 s
+  bool live = true;                       // false on a tape or a fake: Pause returns at once
+
+  // Waits as the protocol asks between two exchanges.
+  void Pause(std::chrono::milliseconds duration) const;
+};
+
+// What a meter is made with.
+struct MeterSetup {
+  std::string serial;  // "" = the device has none
+  MeterTiming timing;
+  std::map<std::string, std::string> options;  // --set name=value; MeterRow::options lists them
 };
 
 class Meter {

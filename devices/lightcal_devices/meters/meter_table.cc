@@ -3,18 +3,23 @@
 
 #include <array>
 
+#include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
-#include "lightcal_devices/transport/usb.h"
 
 namespace lightcal {
 namespace {
 
-// clang-format off
+constexpr std::array<UsbId, 1> kSekonicIds = {{{0x0a41, 0x7003}}};
+
 constexpr std::array<MeterRow, 1> kMeters = {{
-  // driver    models                           line            vendor  product  verified                   make
-  {"sekonic", "Sekonic C-700, C-800, C-7000",  MeterLine::kUsb, 0x0a41, 0x7003, Verified::kCapturedReply, sekonic::MakeMeter},
+    {.driver = "sekonic",
+     .models = "Sekonic C-700, C-800, C-7000",
+     .line = &kUsbLine,
+     .usb = kSekonicIds,
+     .verified = Verified::kCapturedReply,
+     .options = {},
+     .make = sekonic::MakeMeter},
 }};
-// clang-format on
 
 }  // namespace
 
@@ -25,14 +30,6 @@ const MeterRow* FindDriver(std::string_view driver) {
     if (row.driver == driver) return &row;
   }
   return nullptr;
-}
-
-std::string_view LineName(MeterLine line) {
-  switch (line) {
-    case MeterLine::kUsb:
-      return "usb";
-  }
-  return "";
 }
 
 std::string_view VerifiedName(Verified how) {
@@ -47,10 +44,10 @@ std::string_view VerifiedName(Verified how) {
   return "";
 }
 
-std::string UdevRule(const MeterRow& row) {
-  const std::string id = UsbIdText(row.usb_vendor, row.usb_product);
-  return "SUBSYSTEM==\"usb\", ENV{DEVTYPE}==\"usb_device\", ATTR{idVendor}==\"" + id.substr(0, 4) +
-         "\", ATTR{idProduct}==\"" + id.substr(5) + "\", MODE=\"0660\", TAG+=\"uaccess\"";
+std::vector<std::string> UdevRules(const MeterRow& row) {
+  std::vector<std::string> rules;
+  for (const UsbId& id : row.usb) rules.push_back(row.line->udev_rule(id));
+  return rules;
 }
 
 }  // namespace lightcal

@@ -7,13 +7,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
 namespace lightcal {
 
-enum class MeterLine { kUsb };
+struct MeterLine;
 
 // How sure we are that the driver does what the instrument wants.
 enum class Verified {
@@ -22,24 +23,34 @@ enum class Verified {
   kDocumentation,  // built from its manual
 };
 
+struct UsbId {
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+};
+
+// One option of a driver: read --set name=value.
+struct MeterOption {
+  std::string_view name;
+  std::string_view help;
+};
+
 struct MeterRow {
-  std::string_view driver;  // "sekonic"
-  std::string_view models;  // for people
-  MeterLine line = MeterLine::kUsb;
-  std::uint16_t usb_vendor = 0;
-  std::uint16_t usb_product = 0;
+  std::string_view driver;          // "sekonic"
+  std::string_view models;          // for people
+  const MeterLine* line = nullptr;  // of lines.h
+  std::span<const UsbId> usb;       // of the meter, or of the cable in it
   Verified verified = Verified::kDocumentation;
-  std::unique_ptr<Meter> (*make)(Transport& transport, const std::string& serial,
-                                 const MeterTiming& timing) = nullptr;
+  std::span<const MeterOption> options;
+  std::unique_ptr<Meter> (*make)(Transport& transport, const MeterSetup& setup) = nullptr;
 };
 
 [[nodiscard]] std::span<const MeterRow> MeterTable();
 // The row of a driver's name, or nullptr.
 [[nodiscard]] const MeterRow* FindDriver(std::string_view driver);
 
-[[nodiscard]] std::string_view LineName(MeterLine line);    // "usb"
 [[nodiscard]] std::string_view VerifiedName(Verified how);  // "captured_replay"
-// The udev rule that lets whoever sits at the machine use this meter; devices/udev/ holds them all.
-[[nodiscard]] std::string UdevRule(const MeterRow& row);
+// The udev rules that let whoever sits at the machine use this meter, one per USB id;
+// devices/udev/ holds them all.
+[[nodiscard]] std::vector<std::string> UdevRules(const MeterRow& row);
 
 }  // namespace lightcal

@@ -2,33 +2,46 @@
 #include "lightcal_devices/transport/recording.h"
 
 #include <cmath>
+#include <utility>
 
 namespace lightcal {
+namespace {
+
+Bytes Copy(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
+
+}  // namespace
 
 Result<void> RecordingTransport::Write(std::span<const std::byte> bytes,
                                        std::chrono::milliseconds timeout) {
   auto done = inner_.Write(bytes, timeout);
-  Note(TapeDirection::kWrite, bytes, "");
-  if (!done) Note(TapeDirection::kWriteFault, {}, done.error().code);
+  Keep({TapeOperation::kWrite, 0.0, "", Copy(bytes), {}, done ? "" : done.error().code});
   return done;
 }
 
 Result<Bytes> RecordingTransport::Read(std::size_t max, std::chrono::milliseconds timeout) {
   auto answer = inner_.Read(max, timeout);
-  if (answer) {
-    Note(TapeDirection::kRead, *answer, "");
-  } else {
-    Note(TapeDirection::kReadFault, {}, answer.error().code);
-  }
+  Keep({TapeOperation::kRead,
+        0.0,
+        "",
+        {},
+        answer.value_or(Bytes()),
+        answer ? "" : answer.error().code});
   return answer;
 }
 
-void RecordingTransport::Note(TapeDirection direction, std::span<const std::byte> bytes,
-                              const std::string& code) {
+Result<Bytes> RecordingTransport::Control(std::string_view verb, std::span<const std::byte> bytes,
+                                          std::size_t max, std::chrono::milliseconds timeout) {
+  auto answer = inner_.Control(verb, bytes, max, timeout);
+  Keep({TapeOperation::kControl, 0.0, std::string(verb), Copy(bytes), answer.value_or(Bytes()),
+        answer ? "" : answer.error().code});
+  return answer;
+}
+
+void RecordingTransport::Keep(TapeExchange exchange) {
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - start_;
-  const double rounded_ms = std::round(elapsed.count() * 100.0) / 100.0;
-  tape_.lines.push_back({direction, rounded_ms, Bytes(bytes.begin(), bytes.end()), code});
+  exchange.elapsed_ms = std::round(elapsed.count() * 100.0) / 100.0;
+  tape_.exchanges.push_back(std::move(exchange));
 }
 
 }  // namespace lightcal

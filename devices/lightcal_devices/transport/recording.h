@@ -14,10 +14,13 @@ class RecordingTransport final : public Transport {
 
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds timeout) override;
   Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
+  Result<Bytes> Control(std::string_view verb, std::span<const std::byte> bytes, std::size_t max,
+                        std::chrono::milliseconds timeout) override;
   [[nodiscard]] std::string Name() const override { return inner_.Name(); }
 
  private:
-  void Note(TapeDirection direction, std::span<const std::byte> bytes, const std::string& code);
+  // Stamps the time and keeps the exchange.
+  void Keep(TapeExchange exchange);
 
   Transport& inner_;
   Tape& tape_;

@@ -23,7 +23,8 @@ inline constexpr std::string_view kUnplugged = "unplugged";         // it was th
 inline constexpr std::string_view kNoDevice = "no_device";          // it is not there
 inline constexpr std::string_view kNoPermission = "no_permission";  // it is there, not for us
 inline constexpr std::string_view kBusy = "busy";                   // another program holds it
-inline constexpr std::string_view kIo = "io";                       // anything else, in words
+inline constexpr std::string_view kEnded = "ended";  // a program or file is at its end
+inline constexpr std::string_view kIo = "io";        // anything else, in words
 inline constexpr std::string_view kTapeMismatch = "tape_mismatch";  // a replay was asked otherwise
 inline constexpr std::string_view kTapeEnded = "tape_ended";        // a replay was asked for more
 }  // namespace fault
@@ -41,6 +42,11 @@ class Transport {
   // One message of at most `max` bytes, as the device delimits it (a USB transfer). A shorter
   // message is an answer, not an error: whoever knows the protocol checks the length.
   virtual Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) = 0;
+  // What a line offers besides the two streams, by name: "get_feature" of a HID device, "start" of
+  // a program; the line's own header lists its verbs. At most `max` bytes come back. A line without
+  // the verb fails as io.
+  virtual Result<Bytes> Control(std::string_view verb, std::span<const std::byte> bytes,
+                                std::size_t max, std::chrono::milliseconds timeout);
   // For messages: "usb 0a41:7003 at 1-1".
   [[nodiscard]] virtual std::string Name() const = 0;
 };

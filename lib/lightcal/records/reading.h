@@ -16,6 +16,16 @@ enum class LampState { kOn, kOff };
 // Where a reading's colour came from; decides the default sigma of its chromaticity.
 enum class ColorSource { kUnknown, kSpectrometer, kColorimeter, kCamera };
 
+// What kind of instrument a reading came from: how far its number may be believed to be lux.
+enum class MeterQuality {
+  kUnknown,
+  kPhotometer,   // V(lambda) filter and cosine corrector
+  kColorimeter,  // three filters
+  kSpectral,     // integrated from a spectrum
+  kBareSensor,   // a photodiode chip: no cosine, the maker's scale
+  kDerived,      // computed from something else, as from a picture
+};
+
 // A reading as the journal and session.toml hold it. Absent = not measured.
 struct Reading {
   std::string light;               // name of the [[light]]
@@ -34,8 +44,11 @@ struct Reading {
   std::optional<double> sigma_relative;  // 1 sigma, overrides the meter's
   std::string time;                      // ISO 8601 as recorded, "" = unknown
   bool over_range = false;               // the true value is at least illuminance
+  bool under_range = false;              // the true value is at most illuminance
   ColorSource color_source = ColorSource::kUnknown;
   std::string device;  // driver and serial, "sekonic:..." , "" = by hand
+  MeterQuality quality = MeterQuality::kUnknown;
+  std::optional<double> calibration_factor;  // already in illuminance: shown value times this
 };
 
 }  // namespace lightcal

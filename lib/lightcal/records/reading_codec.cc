@@ -17,6 +17,9 @@ constexpr std::array<std::string_view, 2> kLampWords = {"on", "off"};
 constexpr std::array<std::string_view, 4> kColorSourceWords = {"unknown", "spectrometer",
                                                                "colorimeter", "camera"};
 
+constexpr std::array<std::string_view, 6> kQualityWords = {"unknown",  "photometer",  "colorimeter",
+                                                           "spectral", "bare_sensor", "derived"};
+
 template <class Archive, class SomeReading>
 void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Text("light", reading.light);
@@ -37,6 +40,9 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Text("spectrum", reading.spectrum_file);
   archive.Number("sigma_relative", reading.sigma_relative, kSigmaRule);
   archive.Flag("over_range", reading.over_range);
+  archive.Flag("under_range", reading.under_range);
+  archive.WordUnlessFirst("quality", reading.quality, kQualityWords);
+  archive.Number("calibration_factor", reading.calibration_factor, kPositive);
 }
 
 void CheckPlace(FieldReader& reader, const Reading& reading) {
@@ -61,6 +67,13 @@ void CheckMeasured(FieldReader& reader, const Reading& reading) {
   if (reading.duv && !reading.cct) reader.Fail("duv", "duv needs cct_K beside it");
   if (reading.over_range && !reading.illuminance) {
     reader.Fail("over_range", "over_range needs illuminance_lx: the largest value the meter shows");
+  }
+  if (reading.under_range && !reading.illuminance) {
+    reader.Fail("under_range",
+                "under_range needs illuminance_lx: the smallest value the meter shows");
+  }
+  if (reading.over_range && reading.under_range) {
+    reader.Fail("under_range", "a reading is over_range or under_range, not both");
   }
   if (reading.shadow_card && reading.lamp == LampState::kOff) {
     reader.Fail("shadow_card", "shadow_card needs the lamp on; write only lamp = \"off\"");

@@ -38,14 +38,16 @@ class FakeTransport final : public Transport {
 };
 
 // No test waits longer than this for what will not come.
-inline MeterTiming QuickTiming() {
-  MeterTiming timing;
+inline MeterSetup QuickSetup(const std::string& serial = "") {
+  MeterSetup setup;
+  setup.serial = serial;
+  MeterTiming& timing = setup.timing;
+  timing.live = false;
   timing.reply = std::chrono::milliseconds(100);
   timing.drain = std::chrono::milliseconds(10);
-  timing.poll = std::chrono::milliseconds(1);
   timing.ready_polls = 5;
   timing.measure_polls = 10;
-  return timing;
+  return setup;
 }
 
 inline SekonicSetting Answering407lx() {

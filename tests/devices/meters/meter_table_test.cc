@@ -9,14 +9,21 @@
 namespace lightcal {
 namespace {
 
-FoundMeter Found(const std::string& id) { return {FindDriver("sekonic"), id, {}}; }
+FoundMeter Found(const std::string& id) {
+  FoundMeter meter;
+  meter.row = FindDriver("sekonic");
+  meter.id = id;
+  return meter;
+}
 
 TEST(MeterTable, TheUdevRulesFileHoldsTheRuleOfEveryMeter) {
   const std::string rules =
       test::ReadFile(std::string(LIGHTCAL_SOURCE_DIR) + "/devices/udev/70-lightcal.rules");
   ASSERT_FALSE(MeterTable().empty());
   for (const MeterRow& row : MeterTable()) {
-    EXPECT_THAT(rules, testing::HasSubstr("\n" + UdevRule(row) + "\n")) << row.driver;
+    for (const std::string& rule : UdevRules(row)) {
+      EXPECT_THAT(rules, testing::HasSubstr("\n" + rule + "\n")) << row.driver;
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "lightcal_devices/meters/sekonic/meter.h"
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
+#include "lightcal_devices/transport/tape_codec.h"
 
 namespace lightcal::sekonic {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using test::Answering407lx;
 using test::FakeTransport;
 using test::Fault;
-using test::QuickTiming;
+using test::QuickSetup;
 using testing::ElementsAre;
 
 struct Outcome {
@@ -24,7 +25,7 @@ struct Outcome {
 
 Outcome Measured(const test::SekonicSetting& setting) {
   FakeTransport line(setting);
-  SekonicMeter meter(line, "", QuickTiming());
+  SekonicMeter meter(line, QuickSetup());
   auto reading = meter.Measure(Cancellation());
   return {std::move(reading), line.meter().commands(), line.meter().remote()};
 }
@@ -49,7 +50,7 @@ TEST(SekonicMeter, MeasuresAndGivesTheMeterBack) {
 
 TEST(SekonicMeter, TheSerialNamesTheDeviceWhenThereIsOne) {
   FakeTransport line(Answering407lx());
-  EXPECT_EQ(SekonicMeter(line, "J1234", QuickTiming()).Measure(Cancellation())->reading.device,
+  EXPECT_EQ(SekonicMeter(line, QuickSetup("J1234")).Measure(Cancellation())->reading.device,
             "sekonic:J1234");
 }
 
@@ -189,7 +190,7 @@ TEST(SekonicMeter, ACancelledMeasurementGivesTheMeterBack) {
   FakeTransport line(setting);
   Cancellation cancellation;
   CancellingTransport cancelling(line, cancellation, "RM0");
-  SekonicMeter meter(cancelling, "", QuickTiming());
+  SekonicMeter meter(cancelling, QuickSetup());
   EXPECT_EQ(meter.Measure(cancellation).error().code, "interrupted");
   EXPECT_THAT(line.meter().commands(), ElementsAre("MN", "ST", "RT1", "RM0", "RT0"));
   EXPECT_FALSE(line.meter().remote());
@@ -199,7 +200,7 @@ TEST(SekonicMeter, AnUnknownModelIsMeasuredWithAWarning) {
   auto setting = Answering407lx();
   setting.model = "C-9000";
   FakeTransport line(setting);
-  const auto identity = SekonicMeter(line, "", QuickTiming()).Identify();
+  const auto identity = SekonicMeter(line, QuickSetup()).Identify();
   ASSERT_TRUE(identity);
   ASSERT_EQ(identity->warnings.size(), 1U);
   EXPECT_EQ(identity->warnings[0].code, "untested_model");
@@ -212,12 +213,12 @@ TEST_P(RecordedDialogue, ReplaysToTheSameOutcome) {
   Tape tape;
   tape.driver = "sekonic";
   RecordingTransport recording(line, tape);
-  const auto first = SekonicMeter(recording, "", QuickTiming()).Measure(Cancellation());
+  const auto first = SekonicMeter(recording, QuickSetup()).Measure(Cancellation());
 
   const auto read_back = TapeFromText(TapeToText(tape), "tape");
   ASSERT_TRUE(read_back) << read_back.error().message;
   ReplayTransport replay(*read_back);
-  const auto again = SekonicMeter(replay, "", QuickTiming()).Measure(Cancellation());
+  const auto again = SekonicMeter(replay, QuickSetup()).Measure(Cancellation());
   EXPECT_EQ(replay.Unconsumed(), 0U);
   ASSERT_EQ(first.has_value(), again.has_value());
   if (first) {

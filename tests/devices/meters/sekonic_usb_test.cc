@@ -21,7 +21,7 @@ Result<MeterReading> MeasureOverUsb() {
   if (!chosen) return Propagate(std::move(chosen));
   auto line = OpenMeter(*chosen, std::chrono::milliseconds(1));
   if (!line) return Propagate(std::move(line));
-  const auto meter = chosen->row->make(**line, chosen->usb.serial, test::QuickTiming());
+  const auto meter = chosen->row->make(**line, test::QuickSetup(chosen->serial));
   return meter->Measure(Cancellation());
 }
 
@@ -97,7 +97,7 @@ TEST(SekonicOverUsb, AMeterHeldByAnotherProgramIsBusy) {
   const auto found = FindMeters();
   ASSERT_TRUE(found);
   ASSERT_EQ(found->size(), 1U);
-  EXPECT_EQ(found->front().usb.access, UsbAccess::kBusy);
+  EXPECT_EQ(found->front().access, MeterAccess::kBusy);
   EXPECT_EQ(MeasureOverUsb().error().code, "busy");
 }
 

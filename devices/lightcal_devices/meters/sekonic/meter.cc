@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 #include <utility>
 
 #include "lightcal_devices/meters/sekonic/reading.h"
@@ -117,7 +116,7 @@ Result<void> SekonicMeter::WaitUntilIdle(int polls, const Cancellation& cancella
     if (cancellation.Requested()) {
       return Failed("interrupted", DeviceName(), "stopped by you; the meter is released");
     }
-    if (i > 0) std::this_thread::sleep_for(timing_.poll);
+    if (i > 0) timing_.Pause(timing_.poll);
     const auto state = Ask("ST", DecodeState);
     if (!state) return tl::unexpected(state.error());
     if (auto usable = CheckUsable(*state); !usable) return usable;
@@ -173,9 +172,8 @@ Result<MeterReading> SekonicMeter::Measure(const Cancellation& cancellation) {
   return reading;
 }
 
-std::unique_ptr<Meter> MakeMeter(Transport& transport, const std::string& serial,
-                                 const MeterTiming& timing) {
-  return std::make_unique<SekonicMeter>(transport, serial, timing);
+std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) {
+  return std::make_unique<SekonicMeter>(transport, setup);
 }
 
 }  // namespace lightcal::sekonic

@@ -16,9 +16,9 @@ namespace lightcal::sekonic {
 // busy (not idle in time), hardware_error, interrupted.
 class SekonicMeter final : public Meter {
  public:
-  // `transport` outlives the meter. `serial` may be empty; then the model names the device.
-  SekonicMeter(Transport& transport, std::string serial, const MeterTiming& timing)
-      : transport_(transport), serial_(std::move(serial)), timing_(timing) {}
+  // `transport` outlives the meter. The serial may be empty; then the model names the device.
+  SekonicMeter(Transport& transport, const MeterSetup& setup)
+      : transport_(transport), serial_(setup.serial), timing_(setup.timing) {}
 
   Result<MeterIdentity> Identify() override;
   Result<MeterReading> Measure(const Cancellation& cancellation) override;
@@ -47,7 +47,6 @@ class SekonicMeter final : public Meter {
 };
 
 // For the meter table.
-[[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const std::string& serial,
-                                               const MeterTiming& timing);
+[[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
 }  // namespace lightcal::sekonic

@@ -57,6 +57,7 @@ MeterReading ReadingFromMeasurement(const Measurement& m, const std::string& dev
   MeterReading result;
   Reading& reading = result.reading;
   reading.device = device;
+  reading.quality = MeterQuality::kSpectral;
   reading.sigma_relative = kSigmaRelative;
   reading.illuminance = Lux(m.illuminance_lx);
   reading.over_range = m.illuminance_lx > kHighestIlluminanceLx;

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/captures/exposure_tags.h"
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/photometry/exposure_grid.h"
+
+namespace lightcal {
+namespace {
+
+// Labels stray from the grid by 6.7 % in time and 5.5 % in the square of the f-number.
+constexpr double kLabelsStrayStops = 0.12;
+// Within the digits of either tag both say the same number.
+constexpr double kSameNumberStops = 0.02;
+
+struct Range {
+  double low, high;
+  [[nodiscard]] bool Holds(double v) const { return v >= low && v <= high; }  // false for NaN
+};
+constexpr Range kTimes{1e-7, 1e6};
+constexpr Range kFNumbers{0.3, 1000.0};
+constexpr Range kIsos{0.1, 1e8};
+
+std::optional<double> Plausible(std::optional<double> v, Range range) {
+  return v && range.Holds(*v) ? v : std::nullopt;
+}
+
+struct Believed {
+  std::optional<double> value;
+  bool snapped = false;
+};
+
+// One quantity q with a label and an APEX tag; stops(q) is its APEX value.
+struct Scale {
+  const char* name;
+  Range range;
+  std::function<double(double)> stops, from_stops;
+  std::function<std::optional<double>(double)> of_label;
+};
+
+Believed FromLabel(double label, const Scale& scale) {
+  const std::optional<double> truth = scale.of_label(label);
+  return {truth.value_or(label), truth && std::abs(*truth / label - 1.0) > 1e-4};
+}
+
+Believed FromApex(double apex, const Scale& scale) {
+  return {scale.from_stops(ApexOnGrid(apex).value_or(apex)), false};
+}
+
+Believed Believe(std::optional<double> written_label, std::optional<double> written_apex,
+                 const Scale& scale, const std::string& subject, Warnings& warnings) {
+  const std::optional<double> label = Plausible(written_label, scale.range);
+  std::optional<double> apex = written_apex;
+  // 0 is what programs write that know nothing: believed only beside a label that agrees.
+  const bool apex_is_default = apex && *apex == 0.0;
+  if (apex && !Plausible(scale.from_stops(*apex), scale.range)) apex.reset();
+  if (!label) return apex && !apex_is_default ? FromApex(*apex, scale) : Believed{};
+
+  const double label_stops = scale.stops(*label);
+  const double apart = apex ? std::abs(*apex - label_stops) : 0.0;
+  if (!apex || (apex_is_default && apart > kLabelsStrayStops)) return FromLabel(*label, scale);
+  if (apart > kLabelsStrayStops) {
+    warnings.push_back({"exposure_tags_disagree", subject,
+                        std::string("its two tags of the ") + scale.name + " say " +
+                            RoundedText(*label, 4) + " and " +
+                            RoundedText(scale.from_stops(*apex), 4) +
+                            "; neither is believed: give it with the session or the command line"});
+    return {};
+  }
+  if (const auto on_grid = ApexOnGrid(*apex)) {
+    return {scale.from_stops(*on_grid), std::abs(*on_grid - label_stops) > 1e-4};
+  }
+  if (apart < kSameNumberStops) return FromLabel(*label, scale);
+  return {scale.from_stops(*apex), false};
+}
+
+const Scale& TimeScale() {
+  static const Scale scale{"exposure time in seconds", kTimes,
+                           [](double t) { return -std::log2(t); },
+                           [](double tv) { return std::exp2(-tv); },
+                           [](double t) -> std::optional<double> {
+                             const auto truth = TimeOfLabel(Seconds(t));
+                             return truth ? std::optional(truth->value()) : std::nullopt;
+                           }};
+  return scale;
+}
+
+const Scale& FNumberScale() {
+  static const Scale scale{"f-number", kFNumbers, [](double n) { return 2.0 * std::log2(n); },
+                           [](double av) { return std::exp2(av / 2.0); }, FNumberOfLabel};
+  return scale;
+}
+
+}  // namespace
+
+FrameExposure ExposureFromTags(const WrittenExposure& written, const std::string& subject,
+                               Warnings& warnings) {
+  FrameExposure exposure;
+  exposure.written = written;
+  const Believed time =
+      Believe(written.exposure_time_s, written.shutter_apex, TimeScale(), subject, warnings);
+  if (time.value) exposure.time = Seconds(*time.value);
+  exposure.time_snapped = time.snapped;
+  const Believed f_number =
+      Believe(written.f_number, written.aperture_apex, FNumberScale(), subject, warnings);
+  exposure.f_number = f_number.value;
+  exposure.f_number_snapped = f_number.snapped;
+  exposure.iso = Plausible(written.iso, kIsos);
+  return exposure;
+}
+
+std::string IsoTimeFromExif(const std::string& exif) {
+  constexpr std::string_view kShape = "dddd:dd:dd dd:dd:dd";
+  if (exif.size() < kShape.size()) return "";
+  std::string time = exif.substr(0, kShape.size());
+  for (std::size_t i = 0; i < kShape.size(); ++i) {
+    const bool digit = time[i] >= '0' && time[i] <= '9';
+    if (kShape[i] == 'd' ? !digit : time[i] != kShape[i]) return "";
+  }
+  if (time.starts_with("0000")) return "";
+  time[4] = time[7] = '-';
+  time[10] = 'T';
+  return time;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Exposure as a file's tags write it -> exposure as it was. Pure.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/frame.h"
+
+namespace lightcal {
+
+// Exposure time and f-number from Tv and Av where they are on the grid of third or half stops, else
+// from the label's place on it, else as written; absent where a tag is missing, zero, nonsense or
+// (exposure_tags_disagree, appended to `warnings` about `subject`) contradicts the other by more
+// than labels do.
+[[nodiscard]] FrameExposure ExposureFromTags(const WrittenExposure& written,
+                                             const std::string& subject, Warnings& warnings);
+
+// "2026:11:21 12:00:00" -> "2026-11-21T12:00:00"; "" for anything else, all zeros included.
+[[nodiscard]] std::string IsoTimeFromExif(const std::string& exif);
+
+}  // namespace lightcal

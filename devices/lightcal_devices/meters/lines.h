@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of line a meter hangs on: how meters on one are found, opened and permitted. One file
+// of lines/ each; this is the whole list.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/meters/meter_table.h"
+#include "lightcal_devices/transport/transport.h"
+
+namespace lightcal {
+
+enum class MeterAccess { kReady, kNoPermission, kBusy };
+
+struct FoundMeter {
+  const MeterRow* row = nullptr;
+  std::string id;       // "sekonic:<serial>", or "sekonic:<address>" where it has none
+  std::string address;  // what the line opens: "1-1.4", "/dev/ttyUSB0"
+  std::string serial;   // "" = none
+  std::string usb;      // "0a41:7003", "" = not on USB
+  MeterAccess access = MeterAccess::kReady;
+  std::string remedy;  // what to do when it is not ready, "" = what the access says
+};
+
+struct MeterLine {
+  std::string_view name;  // "usb"
+  // The meters of this row that are there. Nothing is sent to any of them. Fails: io.
+  Result<std::vector<FoundMeter>> (*find)(const MeterRow& row) = nullptr;
+  // Fails: no_device, no_permission, busy, io.
+  Result<std::unique_ptr<Transport>> (*open)(const FoundMeter& meter) = nullptr;
+  // The rule that permits a device with this id.
+  std::string (*udev_rule)(UsbId id) = nullptr;
+  // --device driver:address opens it without its having been found. A line that cannot tell one
+  // meter from another (a serial port) is only ever opened so, or when it is the only one.
+  bool takes_address = false;
+  // Found meters of this line may be chosen without being named (--device left out).
+  bool tells_meters_apart = true;
+};
+
+extern const MeterLine kUsbLine;
+
+}  // namespace lightcal
