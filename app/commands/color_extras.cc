@@ -238,9 +238,10 @@ std::optional<SpectralError> SpectralErrorFound(const Spectrum& spectrum, const 
   if (error->undersampled) {
     warnings.push_back(
         {"undersampled", subject,
-         "has lines narrower than its step of " + ShortestText(error->step.value()) +
-             " nm; if its samples are single wavelengths, lines between them are lost: measure "
-             "in finer steps, or say --sampling band if each is the mean over its step"});
+         "is sampled every " + ShortestText(error->step.value()) +
+             " nm; if each sample is one wavelength, lines between them are lost, and the error of "
+             "its colour has no bound: say --sampling band if each is the mean over its step, as "
+             "an instrument's is, or give a table of 1 nm"});
   }
   return *std::move(error);
 }

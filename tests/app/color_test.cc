@@ -341,7 +341,7 @@ TEST(ColorCommand, ANarrowSpectrumHasAColourButNoRendering) {
   const test::TempDir dir;
   std::string text = "wavelength_nm,relative\n";
   for (int nm = 420; nm <= 680; nm += 5) text += std::to_string(nm) + ",1\n";
-  const json a = Color({"--spectrum", dir.Write("narrow.csv", text)});
+  const json a = Color({"--spectrum", dir.Write("narrow.csv", text), "--sampling", "band"});
   EXPECT_TRUE(a.contains("cct_K"));
   for (const char* key : {"cri", "cie2017_rf", "tm30", "ssi"}) EXPECT_FALSE(a.contains(key)) << key;
   EXPECT_EQ(a["warnings"].back()["code"], "truncated_spectrum");

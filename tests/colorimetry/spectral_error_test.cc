@@ -13,6 +13,7 @@
 #include "lightcal/colorimetry/daylight.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/resample.h"
+#include "vector_file.h"
 
 namespace lightcal {
 namespace {
@@ -66,10 +67,21 @@ std::vector<Light> SmoothLights() {
   return lights;
 }
 
+// CIE's fluorescent and LED lamps of its 1 nm tables, where a line is one row wide, and its
+// discharge lamps, which it gives every 5 nm, linear between.
 std::vector<Light> LampLights() {
   std::vector<Light> lights;
-  for (const char* name : {"FL1", "FL2", "FL4", "FL7", "FL10", "FL11", "FL12", "FL3.11", "HP1",
-                           "HP3", "HP5", "LED-B1", "LED-B5", "LED-BH1", "LED-RGB1", "LED-V1"}) {
+  const auto rows = test::ReadSampleTable("cie_lamps/cie_lamps_1nm.csv");
+  for (const auto& [name, ignored] : rows.front().cells()) {
+    if (name == "wavelength_nm") continue;
+    Spectrum s;
+    for (const test::VectorRow& row : rows) {
+      s.wavelengths_nm.push_back(row.Number("wavelength_nm"));
+      s.values.push_back(row.Number(name));
+    }
+    lights.push_back({name, At1Nm(s)});
+  }
+  for (const char* name : {"HP1", "HP2", "HP3", "HP4", "HP5"}) {
     lights.push_back({name, At1Nm(*IlluminantSpectrum(name))});
   }
   return lights;
@@ -106,25 +118,34 @@ void ForEachGrid(const Check& check) {
   }
 }
 
+Answer TruthOf(const Light& light) {
+  return AnswerOf(ResampleByArea(light.fine, Nanometres(360), Nanometres(1), 471).value());
+}
+
+// Whether the bound, if there is one, is kept.
+void ExpectKept(const std::string& name, const Answer& truth, const Spectrum& measured,
+                const SpectralError& error) {
+  if (!error.bound) return;
+  const Answer got = AnswerOf(measured);
+  const std::string what = name + ", " + std::to_string(error.first.value()) + " to " +
+                           std::to_string(error.last.value()) + " by " +
+                           std::to_string(error.step.value());
+  constexpr double kRounding = 1e-6;
+  if (error.bound->temperature) {
+    EXPECT_LE(std::abs(got.kelvin - truth.kelvin), error.bound->temperature->value() + kRounding)
+        << what;
+    EXPECT_LE(std::abs(got.duv - truth.duv), *error.bound->duv + kRounding) << what;
+  }
+  EXPECT_LE(std::abs(got.illuminance / truth.illuminance - 1.0),
+            error.bound->illuminance_relative + kRounding)
+      << what;
+}
+
 void ExpectBounded(const Light& light, const Spectrum& measured, Sampling sampling) {
   const auto error = SpectralErrorOf(measured, sampling);
   ASSERT_TRUE(error);
   ASSERT_TRUE(error->bound) << light.name << " roughness " << error->roughness;
-  const Answer truth =
-      AnswerOf(ResampleByArea(light.fine, Nanometres(360), Nanometres(1), 471).value());
-  const Answer got = AnswerOf(measured);
-  const std::string what = light.name + ", " + std::to_string(error->first.value()) + " to " +
-                           std::to_string(error->last.value()) + " by " +
-                           std::to_string(error->step.value());
-  constexpr double kRounding = 1e-6;
-  if (error->bound->temperature) {
-    EXPECT_LE(std::abs(got.kelvin - truth.kelvin), error->bound->temperature->value() + kRounding)
-        << what;
-    EXPECT_LE(std::abs(got.duv - truth.duv), *error->bound->duv + kRounding) << what;
-  }
-  EXPECT_LE(std::abs(got.illuminance / truth.illuminance - 1.0),
-            error->bound->illuminance_relative + kRounding)
-      << what;
+  ExpectKept(light.name, TruthOf(light), measured, *error);
 }
 
 TEST(SpectralError, BoundsSmoothLightOfEveryStepAndRange) {
@@ -171,22 +192,48 @@ TEST(SpectralError, GrowsWithTheStepAndWithWhatTheRangeLacks) {
 }
 
 TEST(SpectralError, PointSamplesOfLinesAreUndersampledAndHaveNoBound) {
-  for (const char* name : {"FL2", "FL10", "FL11", "FL12", "HP3"}) {
-    const Spectrum fine = At1Nm(*IlluminantSpectrum(name));
-    for (const Sampling sampling : {Sampling::kPoint, Sampling::kUnknown}) {
-      const auto error = SpectralErrorOf(EveryNth(fine, 380, 780, 10), sampling);
-      ASSERT_TRUE(error);
-      EXPECT_TRUE(error->undersampled) << name << " " << error->roughness;
-      EXPECT_FALSE(error->bound);
+  for (const Light& light : LampLights()) {
+    if (light.name.starts_with("LED")) continue;
+    for (const int step : {2, 5, 10}) {
+      for (const Sampling sampling : {Sampling::kPoint, Sampling::kUnknown}) {
+        const auto error = SpectralErrorOf(EveryNth(light.fine, 380, 780, step), sampling);
+        ASSERT_TRUE(error);
+        EXPECT_TRUE(error->undersampled) << light.name << " " << error->roughness;
+        EXPECT_FALSE(error->bound);
+      }
     }
   }
 }
 
+// Every lamp, step, range and place of the first sample: 9225 spectra.
+TEST(SpectralError, OfPointSamplesIsNeverBoundedWrongly) {
+  int bounded = 0, undersampled = 0;
+  for (const Light& light : LampLights()) {
+    const Answer truth = TruthOf(light);
+    for (const int step : {1, 2, 3, 4, 5, 10}) {
+      for (const int first : {360, 380, 400}) {
+        for (int phase = 0; phase < step; ++phase) {
+          for (const int last : {700, 730, 780}) {
+            const Spectrum measured = EveryNth(light.fine, first + phase, last, step);
+            const auto error = SpectralErrorOf(measured, Sampling::kUnknown);
+            ASSERT_TRUE(error);
+            ++(error->bound ? bounded : undersampled);
+            EXPECT_NE(error->bound.has_value(), error->undersampled);
+            ExpectKept(light.name, truth, measured, *error);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(bounded, 41 * 9 + 9 * 9 * (2 + 3 + 4 + 5));  // 1 nm of all, 2 to 5 nm of the LEDs
+  EXPECT_EQ(undersampled, 32 * 9 * (2 + 3 + 4 + 5) + 41 * 9 * 10);
+}
+
 TEST(SpectralError, PointSamplesOfSmoothLightHaveABound) {
   for (const Light& light : SmoothLights()) {
-    const auto error = SpectralErrorOf(EveryNth(light.fine, 380, 780, 5), Sampling::kPoint);
-    ASSERT_TRUE(error);
-    EXPECT_TRUE(error->bound) << light.name << " " << error->roughness;
+    for (const int step : {1, 2, 5}) {
+      ExpectBounded(light, EveryNth(light.fine, 380, 780, step), Sampling::kPoint);
+    }
   }
 }
 

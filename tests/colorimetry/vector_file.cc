@@ -25,20 +25,20 @@ std::vector<std::string> Cells(const std::string& line) {
 
 }  // namespace
 
-std::vector<VectorRow> ReadVectors(const std::string& name) {
-  std::ifstream file(LIGHTCAL_SOURCE_DIR "/sample_data/vectors/" + name);
+std::vector<VectorRow> ReadSampleTable(const std::string& path) {
+  std::ifstream file(LIGHTCAL_SOURCE_DIR "/sample_data/" + path);
   std::string line;
   std::getline(file, line);
   const std::vector<std::string> header = Cells(line);
   std::vector<VectorRow> rows;
   while (std::getline(file, line)) {
     const std::vector<std::string> cells = Cells(line);
-    if (cells.size() != header.size()) throw std::runtime_error(name + ": ragged row: " + line);
+    if (cells.size() != header.size()) throw std::runtime_error(path + ": ragged row: " + line);
     std::map<std::string, std::string> row;
     for (std::size_t i = 0; i < cells.size(); ++i) row[header[i]] = cells[i];
     rows.emplace_back(std::move(row));
   }
-  if (rows.empty()) throw std::runtime_error(name + ": no rows");
+  if (rows.empty()) throw std::runtime_error(path + ": no rows");
   return rows;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference vectors of sample_data/vectors: comma-separated files with a header.
+// Tables of sample_data, the reference vectors among them: comma-separated files with a header.
 #pragma once
 
 #include <map>
@@ -19,12 +19,18 @@ class VectorRow {
   [[nodiscard]] double Number(const std::string& column) const {
     return std::stod(cells_.at(column));
   }
+  // By column.
+  [[nodiscard]] const std::map<std::string, std::string>& cells() const { return cells_; }
 
  private:
   std::map<std::string, std::string> cells_;
 };
 
-// All rows of sample_data/vectors/<name>; throws std::runtime_error when there are none.
-std::vector<VectorRow> ReadVectors(const std::string& name);
+// All rows of sample_data/<path>; throws std::runtime_error when there are none.
+std::vector<VectorRow> ReadSampleTable(const std::string& path);
+// Of sample_data/vectors/<name>.
+inline std::vector<VectorRow> ReadVectors(const std::string& name) {
+  return ReadSampleTable("vectors/" + name);
+}
 
 }  // namespace lightcal::test

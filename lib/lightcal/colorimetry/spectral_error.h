@@ -32,20 +32,26 @@ struct SpectralError {
   std::optional<SpectralErrorBound> bound;
 };
 
-// Sum of two bounds, both carried from XYZ to mireds, Duv and Y to first order and widened by a
-// fifth.
+// Sum of two bounds, both carried from XYZ to mireds, Duv and Y to first order and widened to 1.6
+// times.
 //   Step: what the sum changes when each sample becomes a piece of a straight line or of a parabola
 //     of the same area (the greater of both), plus, for the part of a sample that a cubic through
 //     its neighbours does not foretell (at most all of it), its being anywhere within its step.
 //   Range: light outside at up to 1.5 times the greatest sample within 15 nm of the end, growing
 //     outwards as it grew inside (mirrored at the end, at most fivefold), or none.
-// Bounds every black body of 1500-20000 K, CIE daylight, LED and band-averaged CIE illuminant at 1,
-// 5, 10 nm from 360, 380, 400 to 700, 730, 780 nm (tests/colorimetry/spectral_error_test.cc); a
-// light that begins only outside the range is not foreseen. Undersampled are samples of unknown or
-// point sampling that are wider than 2 nm and rougher than 0.1, or wider than 7.5 nm and rougher
-// than 0.032 (a narrow-band LED in 10 nm steps is called so too). Lines that fall wholly between
-// samples of one wavelength each leave no trace, and no rule on the samples finds them: five of
-// CIE's 27 fluorescent lamps read every 10 nm pass as smooth. Fails as XyzFromSpectrum.
+// Bounds every black body of 1500-20000 K, CIE daylight, LED and band-averaged CIE illuminant (FL,
+// FL3, HP, LED) at 1, 5, 10 nm from 360, 380, 400 to 700, 730, 780 nm; a light that begins only
+// outside the range is not foreseen.
+//   Undersampled: samples of one wavelength each tell nothing of the wavelengths between them.
+//   Lines
+//     of discharge lamps are narrower than 1 nm, in CIE's 1 nm tables one row wide, so any step
+//     wider than the truth's 1 nm may hide all of them: five of CIE's 27 fluorescent lamps read
+//     every 5 nm are as smooth as daylight and 200 K wrong. No rule on roughness finds them. So
+//     samples of unknown or point sampling wider than 1 nm have a bound only where the light is of
+//     a kind that has no lines (continuous_light.h) and is no rougher than such lights are. Over
+//     all 41 CIE lamps at 2, 3, 4, 5 and 10 nm, every range and every phase of the sampling no
+//     bound is wrong (tests/colorimetry/spectral_error_test.cc).
+// Fails as XyzFromSpectrum.
 [[nodiscard]] Result<SpectralError> SpectralErrorOf(const Spectrum& spectrum, Sampling sampling);
 
 }  // namespace lightcal
