@@ -2,6 +2,7 @@
 // What color says besides the colour itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
@@ -105,6 +106,29 @@ TEST(ColorSpectralError, OfSpikyPointSamplesIsNotBounded) {
   const json band = Color({"--spectrum", file, "--sampling", "band"});
   EXPECT_FALSE(band["spectral_error"].contains("code"));
   EXPECT_GT(band["spectral_error"]["cct_K"].get<double>(), 100.0);
+}
+
+// CIE's 5 nm table of F12 linear to 1 nm is what the IES calculator was given: Rf 77.667, Rg
+// 102.414.
+TEST(ColorTm30, OfF12LinearToOneNanometreHasTheDigitsOfTheIesCalculator) {
+  const Spectrum f12 = *IlluminantSpectrum("FL12");
+  std::string table = "wavelength_nm,relative\n";
+  for (int nm = 380; nm <= 780; ++nm) {
+    const std::size_t i = std::min<std::size_t>((nm - 380) / 5, f12.values.size() - 2);
+    const double t = (nm - f12.wavelengths_nm[i]) / 5.0;
+    const double value = f12.values[i] + t * (f12.values[i + 1] - f12.values[i]);
+    table += std::to_string(nm) + "," + ShortestText(value) + "\n";
+  }
+  const test::TempDir dir;
+  const json a = Color({"--spectrum", dir.Write("f12.csv", table)});
+  EXPECT_NEAR(a["tm30"]["rf"].get<double>(), 77.667, 0.0005);
+  EXPECT_NEAR(a["tm30"]["rg"].get<double>(), 102.414, 0.0005);
+  EXPECT_NEAR(a["cct_K"].get<double>(), 3002.5, 0.1);
+  const json& bin = a["tm30"]["bins"][0];
+  EXPECT_NEAR(bin["rf"].get<double>(), 78.222, 0.0015);
+  EXPECT_NEAR(bin["rcs"].get<double>(), -0.0851, 1e-4);
+  EXPECT_NEAR(bin["rhs_rad"].get<double>(), -0.04646, 1e-4);
+  EXPECT_NEAR(Color({"--spectrum", "illuminant:FL12"})["tm30"]["rf"].get<double>(), 77.5489, 0.01);
 }
 
 TEST(ColorModels, OfLedsAreSpectraByName) {
