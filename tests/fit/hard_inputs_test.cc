@@ -231,6 +231,21 @@ TEST(HardInputs, F27AnOverRangeReadingIsALowerLimit) {
   EXPECT_EQ(FitRefused(only).code, "over_range");
 }
 
+// The lamp-off reading that a meter shows as 0.0 or "under": ambient light of at most its last
+// digit.
+TEST(HardInputs, AnUnderRangeReadingIsAnUpperLimit) {
+  Session session = TypedSession({{0.5, 400}, {1, 100}, {2, 25}, {2, 0.2}});
+  Reading& dark = session.readings.back().reading;
+  dark.lamp = LampState::kOff;
+  dark.under_range = true;
+  const FittedLight light = FitOk(session);
+  EXPECT_NEAR(light.intensity_cd->value, 100.0, 1.0);
+  EXPECT_NEAR(light.ambient_lx->value, 0.1, 0.1);
+  Session far = TypedSession({{0.5, 400}, {1, 100}, {20, 0.5}});
+  far.readings.back().reading.under_range = true;  // the truth is 0.25 lx
+  EXPECT_NEAR(FitOk(far).intensity_cd->value, 100.0, 1.0);
+}
+
 TEST(HardInputs, F32AGrazingMeterIsRejectedAndAnAlmostGrazingOneSaysLittle) {
   Session edge = TypedSession({{0.5, 192}});
   edge.readings.front().reading.tilt = RadiansFromDegrees(90.0);

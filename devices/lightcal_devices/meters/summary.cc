@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
@@ -13,19 +14,29 @@ namespace {
 constexpr double kSigmaPerMad = 1.4826;  // 1/Phi^-1(3/4)
 constexpr double kDriftStandardErrors = 3.0;
 constexpr double kDriftRelative = 0.005;
-constexpr int kFewestForDrift = 4;  // two degrees of freedom of the residual
+constexpr std::size_t kFewestForDrift = 4;  // two degrees of freedom of the residual
+constexpr double kFlickerSpread = 0.02;
+constexpr std::size_t kFewestForFlicker = 5;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Of an even number the mean of the middle two, or the one of them that is finite.
 double Median(std::vector<double> values) {
   std::ranges::sort(values);
   const std::size_t middle = values.size() / 2;
   if (values.size() % 2 == 1) return values[middle];
+  if (!std::isfinite(values[middle])) return values[middle - 1];
+  if (!std::isfinite(values[middle - 1])) return values[middle];
   return 0.5 * (values[middle - 1] + values[middle]);
 }
 
-// First to last along the least-squares line, when it is more than its noise explains.
-std::optional<double> Drift(const std::vector<double>& values) {
+// The least-squares line through equally spaced values.
+struct Trend {
+  double change = 0.0;          // from first to last
+  double standard_error = 0.0;  // of the change; 0 with fewer than three values
+};
+
+Trend TrendOf(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
-  if (values.size() < kFewestForDrift) return std::nullopt;
   double mean = 0.0;
   for (const double v : values) mean += v / n;
   const double middle = (n - 1.0) / 2.0;
@@ -42,11 +53,24 @@ std::optional<double> Drift(const std::vector<double>& values) {
     const double r = values[i] - mean - slope * (static_cast<double>(i) - middle);
     rest += r * r;
   }
-  const double standard_error = std::sqrt(rest / (n - 2.0) / sxx);
-  const double drift = slope * (n - 1.0);
-  const bool shown = std::abs(slope) > kDriftStandardErrors * standard_error &&
-                     std::abs(drift) > kDriftRelative * std::abs(mean);
-  return shown ? std::optional(drift) : std::nullopt;
+  const double slope_error = values.size() > 2 ? std::sqrt(rest / (n - 2.0) / sxx) : 0.0;
+  return {slope * (n - 1.0), slope_error * (n - 1.0)};
+}
+
+// First to last, when it is more than its noise explains.
+std::optional<double> Drift(std::span<const double> values, double typical) {
+  if (values.size() < kFewestForDrift) return std::nullopt;
+  const Trend trend = TrendOf(values);
+  const bool shown = std::abs(trend.change) > kDriftStandardErrors * trend.standard_error &&
+                     std::abs(trend.change) > kDriftRelative * std::abs(typical);
+  return shown ? std::optional(trend.change) : std::nullopt;
+}
+
+// Its place among the others: what lies beyond the meter's range lies beyond every number.
+double Rank(const Reading& reading) {
+  if (reading.over_range) return kInfinity;
+  if (reading.under_range) return -kInfinity;
+  return reading.illuminance->value();
 }
 
 void AddWarnings(const Warnings& more, Warnings& kept) {
@@ -57,24 +81,46 @@ void AddWarnings(const Warnings& more, Warnings& kept) {
   }
 }
 
+// What a series says about its lamp beyond the median.
+void AddSeriesWarnings(const std::vector<double>& values, const Summary& summary,
+                       Warnings& warnings) {
+  const Reading& kept = summary.kept.reading;
+  if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return;
+  const double median = kept.illuminance->value();
+  if (const auto drift = Drift(values, median)) {
+    warnings.push_back({"drift", kept.device,
+                        "the readings drift by " + RoundedText(100.0 * *drift / median, 2) +
+                            " % from first to last; let the lamp warm up (--settle) and measure "
+                            "again"});
+  } else if (values.size() >= kFewestForFlicker && summary.spread_relative > kFlickerSpread) {
+    warnings.push_back({"flicker", kept.device,
+                        "the readings scatter by " +
+                            RoundedText(100.0 * summary.spread_relative, 2) +
+                            " % (1 sigma) without a trend: the lamp flickers or is dimmed by "
+                            "pulses, or something moves in the beam; take more readings (-n 25), "
+                            "or a longer exposure where the meter has one"});
+  }
+}
+
 }  // namespace
 
 std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
   std::vector<double> values;
   for (const MeterReading& m : measurements) {
     if (!m.reading.illuminance) return std::nullopt;
-    values.push_back(m.reading.illuminance->value());
+    values.push_back(Rank(m.reading));
   }
   if (values.empty()) return std::nullopt;
   const double median = Median(values);
-  const auto distance = [&](double v) { return std::abs(v - median); };
+  // Between two that are beyond the same end there is no distance.
+  const auto distance = [&](double v) { return v == median ? 0.0 : std::abs(v - median); };
   const auto nearest = std::ranges::min_element(values, {}, distance) - values.begin();
 
   Summary summary{measurements[static_cast<std::size_t>(nearest)], static_cast<int>(values.size()),
                   0.0};
   Reading& reading = summary.kept.reading;
-  reading.illuminance = Lux(median);
-  if (median > 0.0) {
+  if (std::isfinite(median)) reading.illuminance = Lux(median);
+  if (std::isfinite(median) && median > 0.0) {
     std::vector<double> deviations;
     deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
@@ -83,13 +129,16 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
         std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
   }
   for (const MeterReading& m : measurements) AddWarnings(m.warnings, summary.kept.warnings);
-  if (const auto drift = Drift(values)) {
-    summary.kept.warnings.push_back(
-        {"drift", reading.device,
-         "the readings drift by " + RoundedText(100.0 * *drift / median, 2) +
-             " % from first to last; let the lamp warm up and measure again"});
-  }
+  AddSeriesWarnings(values, summary, summary.kept.warnings);
   return summary;
+}
+
+bool HasSettled(std::span<const double> illuminances_lx, double tolerance_relative) {
+  if (illuminances_lx.size() < kSettleWindow) return false;
+  const auto window = illuminances_lx.last(kSettleWindow);
+  double mean = 0.0;
+  for (const double v : window) mean += v / static_cast<double>(kSettleWindow);
+  return std::abs(TrendOf(window).change) <= tolerance_relative * std::abs(mean);
 }
 
 }  // namespace lightcal

@@ -23,6 +23,9 @@ constexpr double kLeastSigma = 1e-4;
 constexpr double kSigmaElsewhere = 0.3;
 // People point a meter within a degree, 1 sigma, once they mean a tilt.
 constexpr double kTiltSigma = std::numbers::pi / 180.0;
+// A reading under range lies anywhere from 0 to its limit L: mean L/2, sigma L/sqrt(12).
+constexpr double kUnderRangeMean = 0.5;
+const double kUnderRangeSigma = 1.0 / std::sqrt(3.0);  // relative to the mean
 
 struct Geometry {
   double distance_m = 1.0;
@@ -86,11 +89,14 @@ class Collector {
     observation.distance_m = geometry->distance_m;
     observation.placed = reading.distance || reading.position_m;
     observation.tilt_rad = geometry->tilt_rad;
-    observation.measured_lx = observation.raw_lx = reading.illuminance->value();
+    observation.measured_lx = observation.raw_lx =
+        (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
-    const double sigma = std::max(kLeastSigma, SigmaRelative(session_, reading));
+    const double sigma = reading.under_range
+                             ? kUnderRangeSigma
+                             : std::max(kLeastSigma, SigmaRelative(session_, reading));
     relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
                          reading.shadow_card, !lit && !observation.placed});
     out_.rows.push_back(observation);
