@@ -30,6 +30,11 @@ struct OpenRaw {
   bool data_error = false;  // LibRaw goes on after damaged data; we do not
 };
 
+tl::unexpected<Error> CutShort(const std::string& path, const std::string& detail) {
+  return Refused("bad_picture", path,
+                 "the file is damaged or cut short" + detail + "; copy it from the card again");
+}
+
 Result<void> Checked(int error, const OpenRaw& open, const std::string& path) {
   if (error == LIBRAW_SUCCESS && !open.data_error) return {};
   switch (error) {
@@ -71,7 +76,15 @@ Result<std::shared_ptr<OpenRaw>> Open(const std::string& path) {
   raw.imgdata.params.adjust_maximum_thr = 0.0F;
   const int error =
       raw.open_buffer(const_cast<void*>(open->file.bytes.get()), open->file.size);  // only read
+  if (error != LIBRAW_SUCCESS && open->tags.count == 0) {
+    return Refused("unknown_format", path, "no camera RAW that LibRaw knows");
+  }
   if (auto ok = Checked(error, *open, path); !ok) return Propagate(std::move(ok));
+  // LibRaw fills what is missing at the end of a compressed DNG with grey and says nothing.
+  if (raw.imgdata.idata.dng_version != 0 &&
+      open->tags.EndOfData() > static_cast<double>(open->file.size)) {
+    return CutShort(path, "");
+  }
   return open;
 }
 

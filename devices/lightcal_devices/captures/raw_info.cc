@@ -16,6 +16,8 @@ namespace {
 
 constexpr unsigned kNoFilters = 0, kCatchlight = 1, kXTrans = 9;
 constexpr int kOtherChannel = 3;
+constexpr Kelvin kD65{6502.71};  // as DNG readers round it
+constexpr double kMostBaselineStops = 16.0;
 constexpr double kUnknownDistance = 0.0, kInfiniteDistance = 4294967295.0;
 
 // LibRaw's colour number (0 to 3, the second green being its own) of a place of the picture.
@@ -75,7 +77,7 @@ Matrix3 Multiply(const Matrix3& a, const Matrix3& b) {
 // EXIF LightSource codes -> the temperature DNG readers take for them.
 // Source: Adobe, Digital Negative Specification 1.6 (CalibrationIlluminant1) and EXIF 2.32,
 // table 10.
-std::optional<Kelvin> TemperatureOfLightSource(int code) {
+Kelvin TemperatureOfLightSource(int code) {
   switch (code) {
     case 3:   // tungsten
     case 17:  // standard light A
@@ -89,10 +91,6 @@ std::optional<Kelvin> TemperatureOfLightSource(int code) {
     case 9:                    // fine weather
     case 20:                   // D55
       return Kelvin(5502.76);
-    case 10:  // cloudy
-    case 19:  // standard light C
-    case 21:  // D65
-      return Kelvin(6502.71);
     case 11:  // shade
     case 22:  // D75
       return Kelvin(7503.9);
@@ -101,8 +99,8 @@ std::optional<Kelvin> TemperatureOfLightSource(int code) {
     case 2:   // fluorescent
     case 14:  // cool white fluorescent
       return Kelvin(4230.0);
-    default:
-      return std::nullopt;
+    default:  // unknown or other: what most files without the tag mean
+      return kD65;
   }
 }
 
@@ -112,27 +110,33 @@ struct DngColor {
   std::optional<Matrix3> forward;
 };
 
+template <class Array>
+Matrix3 MatrixOf(const Array& rows) {
+  Matrix3 matrix{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) matrix[i][j] = rows[i][j];
+  }
+  return matrix;
+}
+bool IsWritten(const Matrix3& matrix) { return matrix != Matrix3{}; }
+
+// LibRaw 0.20 leaves parsedfields empty here: what was not written is all zeros.
 std::optional<DngColor> DngColorOf(const libraw_colordata_t& color, int which) {
   const libraw_dng_color_t& dng = color.dng_color[which];
-  if ((dng.parsedfields & LIBRAW_DNGFM_COLORMATRIX) == 0) return std::nullopt;
-  const auto temperature = TemperatureOfLightSource(dng.illuminant);
-  if (!temperature) return std::nullopt;
-  Matrix3 matrix{}, calibration{}, forward{};
+  const Matrix3 matrix = MatrixOf(dng.colormatrix);
+  if (!IsWritten(matrix)) return std::nullopt;
+  Matrix3 calibration = MatrixOf(dng.calibration);
+  if (!IsWritten(calibration)) calibration = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      matrix[i][j] = dng.colormatrix[i][j];
-      forward[i][j] = dng.forwardmatrix[i][j];
-      calibration[i][j] = (dng.parsedfields & LIBRAW_DNGFM_CALIBRATION) != 0
-                              ? static_cast<double>(dng.calibration[i][j])
-                              : static_cast<double>(i == j);
-    }
     const double balance = color.dng_levels.analogbalance[i];
-    if (balance > 0.0) {
-      for (double& entry : calibration[i]) entry *= balance;
-    }
+    if (!(balance > 0.0)) continue;
+    for (double& entry : calibration[i]) entry *= balance;
   }
-  DngColor result{*temperature, Multiply(calibration, matrix), std::nullopt};
-  if ((dng.parsedfields & LIBRAW_DNGFM_FORWARDMATRIX) != 0) result.forward = forward;
+  DngColor result{TemperatureOfLightSource(dng.illuminant), Multiply(calibration, matrix),
+                  std::nullopt};
+  if (const Matrix3 forward = MatrixOf(dng.forwardmatrix); IsWritten(forward)) {
+    result.forward = forward;
+  }
   return result;
 }
 
@@ -152,12 +156,8 @@ void TakeDngColors(const libraw_colordata_t& color, FrameInfo& info) {
 
 // The D65 matrix LibRaw knows of cameras that are no DNG.
 void TakeBuiltInColors(const libraw_colordata_t& color, FrameInfo& info) {
-  Matrix3 matrix{};
-  double sum = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) sum += std::abs(matrix[i][j] = color.cam_xyz[i][j]);
-  }
-  if (sum > 0.0) info.matrices = CameraMatrices{matrix, matrix, Kelvin(6502.71), Kelvin(6502.71)};
+  const Matrix3 matrix = MatrixOf(color.cam_xyz);
+  if (IsWritten(matrix)) info.matrices = CameraMatrices{matrix, matrix, kD65, kD65};
 }
 
 void TakeNeutral(const libraw_colordata_t& color, FrameInfo& info) {
@@ -262,10 +262,8 @@ Result<FrameInfo> FrameInfoOf(const LibRaw& raw, const RawTags& tags, const std:
   TakeDngColors(raw.imgdata.color, info);
   if (!info.matrices) TakeBuiltInColors(raw.imgdata.color, info);
   TakeNeutral(raw.imgdata.color, info);
-  const libraw_dng_levels_t& dng = raw.imgdata.color.dng_levels;
-  if ((dng.parsedfields & LIBRAW_DNGFM_BASELINEEXPOSURE) != 0) {
-    info.baseline_exposure_ev = dng.baseline_exposure;
-  }
+  const double baseline = raw.imgdata.color.dng_levels.baseline_exposure;
+  if (std::abs(baseline) <= kMostBaselineStops) info.baseline_exposure_ev = baseline;
   info.lens_shading_in_opcodes = tags.has_gain_map;
   return info;
 }

@@ -14,12 +14,17 @@
 namespace lightcal {
 namespace {
 
-constexpr std::size_t kMostNumbers = 8;          // four planes of noise profile
+constexpr std::size_t kMostNumbers = 8;  // four planes of noise profile
+constexpr std::size_t kMostStrips = 1 << 20;
 constexpr std::size_t kMostOpcodeBytes = 65536;  // a gain map's header stands at the front
 
 // EXIF 2.32 and DNG 1.6 tag numbers.
 enum Tag : int {
+  kStripOffsets = 0x0111,
+  kStripByteCounts = 0x0117,
   kDateTime = 0x0132,
+  kTileOffsets = 0x0144,
+  kTileByteCounts = 0x0145,
   kExposureTime = 0x829A,
   kFNumber = 0x829D,
   kIso = 0x8827,
@@ -99,9 +104,9 @@ struct TagData {
     return bytes;
   }
   // Those that are finite numbers up to the first that is not (x/0).
-  [[nodiscard]] std::vector<double> Numbers() const {
+  [[nodiscard]] std::vector<double> Numbers(std::size_t most = kMostNumbers) const {
     const std::size_t size = BytesOfType(type);
-    const std::vector<unsigned char> bytes = Bytes(kMostNumbers * size);
+    const std::vector<unsigned char> bytes = Bytes(most * size);
     std::vector<double> numbers;
     for (std::size_t at = 0; at + size <= bytes.size(); at += size) {
       const double number = Number(std::span(bytes).subspan(at, size), type, little_endian);
@@ -140,6 +145,10 @@ void KeepFirst(std::optional<T>& kept, std::optional<T> value) {
   if (!kept) kept = value;
 }
 
+void Append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
 void Take(RawTags& tags, int tag, const TagData& data) {
   switch (tag) {
     case kExposureTime:
@@ -164,6 +173,12 @@ void Take(RawTags& tags, int tag, const TagData& data) {
     case kDateTime:
       if (tags.time.empty()) tags.time = data.Text();
       return;
+    case kStripOffsets:
+    case kTileOffsets:
+      return Append(tags.data_offsets, data.Numbers(kMostStrips));
+    case kStripByteCounts:
+    case kTileByteCounts:
+      return Append(tags.data_sizes, data.Numbers(kMostStrips));
     case kNoiseProfile:
       if (tags.noise_profile.empty()) tags.noise_profile = data.Numbers();
       return;
@@ -183,10 +198,19 @@ void OnTag(void* context, int tag, int type, int count, unsigned order, void* st
   constexpr unsigned kLittleEndian = 0x4949;
   const TagData data{type, count, order == kLittleEndian,
                      *static_cast<LibRaw_abstract_datastream*>(stream)};
-  Take(*static_cast<RawTags*>(context), tag & 0xFFFF, data);
+  auto& tags = *static_cast<RawTags*>(context);
+  ++tags.count;
+  Take(tags, tag & 0xFFFF, data);
 }
 
 }  // namespace
+
+double RawTags::EndOfData() const {
+  double end = 0.0;
+  const std::size_t pairs = std::min(data_offsets.size(), data_sizes.size());
+  for (std::size_t i = 0; i < pairs; ++i) end = std::max(end, data_offsets[i] + data_sizes[i]);
+  return end;
+}
 
 void CollectTags(LibRaw& raw, RawTags& tags) { raw.set_exifparser_handler(OnTag, &tags); }
 

@@ -13,6 +13,7 @@
 
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
 
@@ -52,11 +53,11 @@ struct SensorLevels {
 
 // Exposure as the tags say it, before anything was made of them; absent = no such tag.
 struct WrittenExposure {
-  std::optional<double> exposure_time_s;  // EXIF ExposureTime: a label such as 1/60
-  std::optional<double> shutter_apex;     // EXIF ShutterSpeedValue, Tv
-  std::optional<double> f_number;         // EXIF FNumber
-  std::optional<double> aperture_apex;    // EXIF ApertureValue, Av
-  std::optional<double> iso;
+  std::optional<double> exposure_time_s{};  // EXIF ExposureTime: a label such as 1/60
+  std::optional<double> shutter_apex{};     // EXIF ShutterSpeedValue, Tv
+  std::optional<double> f_number{};         // EXIF FNumber
+  std::optional<double> aperture_apex{};    // EXIF ApertureValue, Av
+  std::optional<double> iso{};
 };
 
 // Exposure as it is believed to have been. Absent where the file says nothing, zero, or nonsense:
@@ -108,8 +109,10 @@ struct FrameInfo {
   double radiance_exposure = 1.0;    // Radiance: product of EXPOSURE lines, divide samples by it
   bool radiance_units = false;       // Radiance HDR: W/(sr m^2) a channel; luminance is 179 lm/W's
   bool environment_latlong = false;  // EXR envmap = latlong
-  // Text and numbers the file carries that are ours ("lightcal:...").
+  // Text attributes the file carries that are ours ("lightcal:..."), without that prefix.
   std::vector<std::pair<std::string, std::string>> lightcal_attributes;
+
+  Warnings warnings;  // what reading the tags found: exposure_tags_disagree, ...
 };
 
 // 16 bit sensor values or codes, or float; the view may leave out masked borders.
