@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "meter_session.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <utility>
@@ -50,6 +51,7 @@ class InterruptGuard {
 MeterSetup MeterSession::Setup() const {
   MeterSetup setup;
   setup.serial = serial_;
+  setup.options = request_.settings;
   MeterTiming& timing = setup.timing;
   timing.reply = request_.reply_timeout;
   timing.live = !IsReplay();
@@ -96,6 +98,20 @@ void MeterSession::Record() {
   recorder_ = std::make_unique<RecordingTransport>(*line_, recorded_);
 }
 
+Result<void> MeterSession::CheckSettings() const {
+  for (const auto& [name, value] : request_.settings) {
+    const auto known = std::ranges::find(row_->options, name, &MeterOption::name);
+    if (known != row_->options.end()) continue;
+    std::string list;
+    for (const MeterOption& option : row_->options) {
+      list += "\n  " + std::string(option.name) + "  " + std::string(option.help);
+    }
+    return WrongUsage("--set " + name, "the driver " + std::string(row_->driver) +
+                                           (list.empty() ? " has no options" : " knows" + list));
+  }
+  return {};
+}
+
 Result<void> MeterSession::Identify(Console& console) {
   auto identity = meter_->Identify();
   if (!identity) return Propagate(std::move(identity));
@@ -110,6 +126,7 @@ Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& req
   std::unique_ptr<MeterSession> session(new MeterSession(request, NowIso8601()));
   const auto opened = request.replay_file.empty() ? session->OpenDevice() : session->OpenTape();
   if (!opened) return tl::unexpected(opened.error());
+  if (auto checked = session->CheckSettings(); !checked) return tl::unexpected(checked.error());
   session->Record();
   Transport& line = session->recorder_ ? *session->recorder_ : *session->line_;
   session->meter_ = session->row_->make(line, session->Setup());
@@ -125,11 +142,6 @@ Result<MeterReading> MeterSession::Measure() {
   auto measured = meter_->Measure(InterruptRequest());
   if (!measured) return measured;
   Reading& reading = measured->reading;
-  if (reading.over_range) {
-    return Refused("over_range", reading.device,
-                   "the light is above the meter's range; move back, or put a neutral-density "
-                   "filter of known density before it and divide");
-  }
   reading.time = IsReplay() ? time_ : NowIso8601();
   return measured;
 }

@@ -2,6 +2,7 @@
 // A meter in use by a command: plugged in or played from a tape, recorded if wished, interruptible.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ struct MeterRequest {
   std::string replay_file;  // a tape instead of a device, "" = none
   std::string record_file;  // where to write a tape, "" = nowhere
   std::chrono::milliseconds reply_timeout{1000};
+  std::map<std::string, std::string> settings;  // of the driver, --set name=value
 };
 
 class MeterSession {
@@ -28,7 +30,7 @@ class MeterSession {
   [[nodiscard]] static Result<std::unique_ptr<MeterSession>> Open(const MeterRequest& request,
                                                                   Console& console);
   // One measurement with its time. Ctrl-C gives the meter back and fails as interrupted; a second
-  // Ctrl-C ends the program at once. Refused: over_range.
+  // Ctrl-C ends the program at once.
   [[nodiscard]] Result<MeterReading> Measure();
 
   [[nodiscard]] bool IsReplay() const { return replay_ != nullptr; }
@@ -46,6 +48,8 @@ class MeterSession {
   [[nodiscard]] Result<void> OpenTape();
   [[nodiscard]] Result<void> Identify(Console& console);
   void Record();
+  // Wrong usage: a setting the driver does not have (lists those it has).
+  [[nodiscard]] Result<void> CheckSettings() const;
   [[nodiscard]] MeterSetup Setup() const;
 
   MeterRequest request_;

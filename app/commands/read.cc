@@ -4,9 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <thread>
 
 #include "clock.h"
 #include "commands.h"
@@ -16,21 +19,26 @@
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/meters/summary.h"
+#include "measuring.h"
+#include "meter_calibrations.h"
 #include "meter_session.h"
+#include "session_input.h"
 #include "session_names.h"
 #include "terminal.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr int kDefaultMeasurements = 5;
-
 struct Options {
   std::string session, light, distance, tilt, meter;
   std::string lux;
   std::string timeout = "1s";
+  std::string settle;  // "" = do not wait
+  std::string every = "0s";
+  std::vector<std::string> settings;  // name=value
   MeterRequest request;
   int measurements = 0;  // 0 = not said
+  int repeat = 1;
   bool shadow_card = false;
   bool lamp_off = false;
   bool once = false;
@@ -97,28 +105,6 @@ Result<Summary> AskedSummary() {
   return TypedSummary(*typed);
 }
 
-Result<Summary> MeasuredSummary(const Options& options, MeterSession& meter, Console& console) {
-  const bool until_tape_ends = meter.IsReplay() && options.measurements == 0 && !options.once;
-  int wanted = options.once ? 1 : options.measurements;
-  if (wanted == 0) wanted = kDefaultMeasurements;
-  std::vector<MeterReading> measured;
-  const auto more = [&] {
-    if (until_tape_ends) return measured.empty() || meter.HasMore();
-    return static_cast<int>(measured.size()) < wanted;
-  };
-  while (more()) {
-    auto one = meter.Measure();
-    if (!one) return Propagate(std::move(one));
-    measured.push_back(*std::move(one));
-    if (options.once) continue;
-    console.Note("  " + std::to_string(measured.size()) + ": " +
-                 RoundedText(measured.back().reading.illuminance->value(), 5) + " lx");
-  }
-  auto summary = Summarise(measured);
-  if (!summary) return Failed("internal", "read", "a measurement came without illuminance");
-  return *std::move(summary);
-}
-
 // The measured values in the frame of this run's light and place.
 Reading Placed(const Reading& measured, const Reading& frame) {
   Reading reading = measured;
@@ -129,6 +115,22 @@ Reading Placed(const Reading& measured, const Reading& frame) {
   reading.lamp = frame.lamp;
   reading.shadow_card = frame.shadow_card;
   return reading;
+}
+
+// A limit is worth keeping, and worth better than a limit.
+void WarnOutOfRange(const Reading& reading, Warnings& warnings) {
+  if (reading.over_range) {
+    warnings.push_back({"over_range", reading.device,
+                        "the light is above the meter's range and is kept as \"at least " +
+                            RoundedText(reading.illuminance->value(), 4) +
+                            " lx\"; move back, or put a neutral-density filter of known density "
+                            "before it and divide"});
+  }
+  if (reading.under_range) {
+    warnings.push_back({"under_range", reading.device,
+                        "the light is below the meter's range and is kept as \"at most " +
+                            RoundedText(reading.illuminance->value(), 4) + " lx\"; move closer"});
+  }
 }
 
 // A reading the journal would not take back is refused before anything is written.
@@ -151,8 +153,9 @@ nlohmann::ordered_json ToJson(const Reading& reading, const Summary& summary, bo
 }
 
 std::string Sentence(const Reading& reading, const Summary& summary) {
-  std::string text = RoundedText(reading.illuminance->value(), 5) + " lx";
-  if (reading.sigma_relative) {
+  std::string text = LuxText(reading);
+  const bool in_range = !reading.over_range && !reading.under_range;
+  if (reading.sigma_relative && in_range) {
     text += " ± " + RoundedText(kZ95 * 100.0 * *reading.sigma_relative, 2) + " %";
   }
   if (reading.cct) text += ", " + RoundedText(reading.cct->value(), 4) + " K";
@@ -177,15 +180,21 @@ class ReadRun {
     if (auto checked = CheckOptions(options_); !checked) return checked;
     auto frame = ReadingTemplate(options_);
     if (!frame) return Propagate(std::move(frame));
+    if (auto planned = MakePlan(); !planned) return planned;
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
+    auto calibrations = MeterCalibrations::Load(options_.session);
+    if (!calibrations) return Propagate(std::move(calibrations));
+    calibrations_ = *std::move(calibrations);
     if (auto opened = OpenTheMeter(); !opened) return opened;
-    auto done = TakeReadings(*frame);
+    auto done = TakeSeries(*frame);
     if (meter_) {
       const auto finished = meter_->Finish(console_);
       if (done && !finished) return finished;
     }
     if (!done) return done;
-    return Publish();
+    if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
+    console_.PrintJson(Document());
+    return {};
   }
 
  private:
@@ -193,6 +202,22 @@ class ReadRun {
     Reading reading;
     Summary summary;
   };
+
+  Result<void> MakePlan() {
+    plan_.measurements = options_.once ? 1 : options_.measurements;
+    if (!options_.settle.empty()) {
+      const auto tolerance = ParseTolerance(options_.settle);
+      if (!tolerance) return tl::unexpected(tolerance.error());
+      plan_.settle_relative = *tolerance;
+    }
+    const auto every = ParseDuration(options_.every);
+    if (!every) return tl::unexpected(every.error());
+    if (every->value() < 0.0 || every->value() > 86400.0) {
+      return WrongUsage("--every " + options_.every, "give between 0s and 86400s");
+    }
+    every_ = std::chrono::milliseconds(static_cast<std::int64_t>(every->value() * 1e3));
+    return {};
+  }
 
   Result<void> LoadTheSession() {
     if (options_.session.empty()) return {};
@@ -218,6 +243,18 @@ class ReadRun {
   }
 
   [[nodiscard]] bool AsksQuestions() const { return CanAsk() && !console_.json(); }
+
+  // Each round is in the journal before it is printed, and printed before the next begins.
+  Result<void> TakeSeries(const Reading& frame) {
+    for (int round = 0; round < options_.repeat; ++round) {
+      if (round > 0 && meter_ && !meter_->HasMore()) break;
+      if (round > 0 && !(meter_ && meter_->IsReplay())) std::this_thread::sleep_for(every_);
+      taken_.clear();
+      if (auto taken = TakeReadings(frame); !taken) return taken;
+      if (auto published = Publish(); !published) return published;
+    }
+    return {};
+  }
 
   Result<void> TakeReadings(const Reading& frame) {
     const bool is_background = frame.shadow_card || frame.lamp == LampState::kOff;
@@ -251,14 +288,24 @@ class ReadRun {
 
   Result<void> TakeOne(const Reading& frame) {
     auto summary = !options_.lux.empty() ? TypedSummary(options_.lux)
-                   : meter_              ? MeasuredSummary(options_, *meter_, console_)
+                   : meter_              ? TakeSummary(plan_, *meter_, console_)
                                          : AskedSummary();
     if (!summary) return Propagate(std::move(summary));
-    console_.Warn(summary->kept.warnings);
+    Warnings& warnings = summary->kept.warnings;
+    calibrations_.Apply(summary->kept.reading, warnings);
+    WarnOutOfRange(summary->kept.reading, warnings);
+    WarnOnce(warnings);
     Taken taken{Placed(summary->kept.reading, frame), *std::move(summary)};
     if (auto checked = CheckReading(taken.reading); !checked) return checked;
     taken_.push_back(std::move(taken));
     return {};
+  }
+
+  // A series may be long: what was said once is not said again.
+  void WarnOnce(const Warnings& warnings) {
+    for (const Warning& warning : warnings) {
+      if (warned_.insert(warning.code + " " + warning.subject).second) console_.Warn(warning);
+    }
   }
 
   Result<void> Publish() {
@@ -268,18 +315,30 @@ class ReadRun {
         const std::string journal = JournalPath(options_.session);
         if (auto kept = AppendToJournal(journal, taken.reading); !kept) return kept;
       }
+      ++published_;
       console_.Print(Sentence(taken.reading, taken.summary));
+      std::fflush(stdout);
     }
-    const Taken& last = taken_.back();
-    console_.PrintJson(ToJson(last.reading, last.summary, options_.with_spectrum));
     return {};
+  }
+
+  [[nodiscard]] nlohmann::ordered_json Document() const {
+    const Taken& last = taken_.back();
+    auto json = ToJson(last.reading, last.summary, options_.with_spectrum);
+    if (options_.repeat > 1) json["repeated"] = published_;
+    return json;
   }
 
   const Options& options_;
   Console& console_;
   std::optional<Session> session_;
   std::unique_ptr<MeterSession> meter_;
-  std::vector<Taken> taken_;
+  MeasuringPlan plan_;
+  std::chrono::milliseconds every_{0};
+  MeterCalibrations calibrations_;
+  std::vector<Taken> taken_;  // of this round: a background reading, and the one asked for
+  std::set<std::string> warned_;
+  int published_ = 0;
 };
 
 Result<void> RunRead(const Options& given, Console& console) {
@@ -291,6 +350,13 @@ Result<void> RunRead(const Options& given, Console& console) {
   }
   options.request.reply_timeout =
       std::chrono::milliseconds(static_cast<int>(timeout->value() * 1e3));
+  for (const std::string& setting : options.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return WrongUsage("--set " + setting, "write name=value");
+    }
+    options.request.settings[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
   return ReadRun(options, console).Execute();
 }
 
@@ -306,6 +372,15 @@ Run BuildRead(CLI::App& parser) {
   auto* count =
       parser.add_option("-n", options->measurements, "Measurements to take the median of");
   count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));
+  auto* settle = parser.add_option("--settle", options->settle,
+                                   "First wait until the light is steady, within 0.5% or this");
+  settle->expected(0, 1);
+  auto* repeat =
+      parser.add_option("--repeat", options->repeat, "So many readings, one after another");
+  repeat->check(CLI::Range(1, 10000000));
+  parser.add_option("--every", options->every, "Pause between repeated readings: 10s");
+  parser.add_option("--set", options->settings, "An option of the driver: name=value")
+      ->allow_extra_args(false);
   auto* shadow =
       parser.add_flag("--shadow-card", options->shadow_card, "A card blocks the direct beam only");
   parser.add_flag("--lamp-off", options->lamp_off, "The lamp is switched off")->excludes(shadow);
@@ -317,13 +392,17 @@ Run BuildRead(CLI::App& parser) {
   auto* replay =
       parser.add_option("--replay", options->request.replay_file, "Play a tape instead of a meter");
   lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
+  lux->excludes(settle)->excludes(repeat);
   replay->excludes(device);
   parser.add_flag("--once", options->once, "One measurement; -s, --light and --distance optional")
       ->excludes(count);
   parser.add_flag("--with-spectrum", options->with_spectrum, "With --json: the spectrum too");
   parser.add_option("--timeout", options->timeout, "Longest wait for one answer of the meter")
       ->capture_default_str();
-  return [options](Console& console) { return RunRead(*options, console); };
+  return [options, settle](Console& console) {
+    if (settle->count() > 0 && options->settle.empty()) options->settle = "0.5%";
+    return RunRead(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

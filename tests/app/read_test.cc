@@ -157,16 +157,110 @@ INSTANTIATE_TEST_SUITE_P(
                                 setting.ring = 1;
                                 return setting;
                               },
-                              "wrong_ring", 1},
-                    FaultCase{"OverRange",
-                              [] {
-                                auto setting = Sekonic();
-                                setting.measurement =
-                                    WithFloat(setting.measurement, 271, 250000.0F);
-                                return setting;
-                              },
-                              "over_range", 3}),
+                              "wrong_ring", 1}),
     [](const auto& fault_case) { return std::string(fault_case.param.name); });
+
+TEST(ReadFromMeter, OverRangeIsKeptAsALimitAndSaid) {
+  auto setting = Sekonic();
+  setting.measurement = WithFloat(setting.measurement, 271, 250000.0F);
+  const UsbStandIn meter(setting);
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"-n", "1"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("> 200000 lx"));
+  EXPECT_THAT(result.err, HasSubstr("neutral-density filter"));
+  const auto rows = session.Journal();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["over_range"], true);
+  EXPECT_EQ(rows[0]["illuminance_lx"], 200000.0) << "the limit, not the number shown";
+  const CliResult strict = RunLightcal(session.Read({"-n", "1", "--strict", "--json"}));
+  EXPECT_EQ(strict.exit_code, 3);
+  EXPECT_EQ(ErrorCode(strict), "over_range");
+  EXPECT_EQ(session.Journal().size(), 1U);
+}
+
+constexpr const char* kCalibration =
+    "lightcal = 1\n[[calibration]]\ndevice = \"sekonic:C-800\"\nfactor = 1.1\n"
+    "date = 2026-03-01\nsigma_relative = 0.02\n";
+
+TEST(ReadCalibrated, TheFactorOfTheSessionsMetersFileIsAppliedAndNoted) {
+  const SessionDir session;
+  session.dir.Write("meters.toml", kCalibration);
+  const CliResult result = RunLightcal(session.Read({"--replay", kTape407lx, "--json"}), "",
+                                       {"SOURCE_DATE_EPOCH=1774000000"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json reading = json::parse(result.out);
+  EXPECT_NEAR(double(reading["illuminance_lx"]), 1.1 * 406.960, 1e-3);
+  EXPECT_EQ(reading["calibration_factor"], 1.1);
+  EXPECT_EQ(reading["sigma_relative"], 0.02);
+  EXPECT_EQ(session.Journal().front()["calibration_factor"], 1.1);
+}
+
+TEST(ReadCalibrated, ThePersonsOwnFileCountsWhereTheSessionSaysNothing) {
+  const TempDir settings;
+  settings.Write("lightcal/meters.toml", kCalibration);
+  const std::vector<std::string> environment = {"XDG_CONFIG_HOME=" + settings.path()};
+  const CliResult own =
+      RunLightcal({"read", "--once", "--json", "--replay", kTape407lx}, "", environment);
+  EXPECT_NEAR(double(json::parse(own.out)["illuminance_lx"]), 1.1 * 406.960, 1e-3);
+  const SessionDir session;
+  std::string other = kCalibration;
+  other.replace(other.find("1.1"), 3, "0.9");
+  session.dir.Write("meters.toml", other);
+  const CliResult both =
+      RunLightcal(session.Read({"--replay", kTape407lx, "--json"}), "", environment);
+  EXPECT_NEAR(double(json::parse(both.out)["illuminance_lx"]), 0.9 * 406.960, 1e-3);
+}
+
+TEST(ReadCalibrated, AnOldCalibrationIsSaidAndABadFileRefused) {
+  const SessionDir session;
+  std::string text = kCalibration;
+  text.replace(text.find("2026"), 4, "2019");
+  session.dir.Write("meters.toml", text);
+  const UsbStandIn meter(Sekonic());
+  const CliResult old = RunLightcal(session.Read({"-n", "1"}));
+  EXPECT_EQ(old.exit_code, 0);
+  EXPECT_THAT(old.err, HasSubstr("was calibrated on 2019-03-01"));
+  session.dir.Write("meters.toml", "lightcal = 1\n[[calibration]]\nfactor = 1\n");
+  const CliResult bad = RunLightcal(session.Read({"-n", "1", "--json"}));
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_EQ(ErrorCode(bad), "bad_meters");
+}
+
+TEST(ReadSeries, RepeatWritesOneRowForEachReading) {
+  const UsbStandIn meter(Sekonic());
+  const SessionDir session;
+  const CliResult result = RunLightcal(session.Read({"-n", "1", "--repeat", "4"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(session.Journal().size(), 4U);
+  EXPECT_EQ(std::ranges::count(result.out, '\n'), 4);
+  const CliResult json_result = RunLightcal(session.Read({"-n", "1", "--repeat", "2", "--json"}));
+  EXPECT_EQ(json::parse(json_result.out)["repeated"], 2);
+  EXPECT_EQ(session.Journal().size(), 6U);
+}
+
+TEST(ReadSeries, SettleWaitsForSixSteadyMeasurements) {
+  const TempDir dir;
+  const std::string tape = dir.path() + "/seven.tape";
+  {
+    const UsbStandIn meter(Sekonic());
+    ASSERT_EQ(RunLightcal({"read", "-n", "7", "--record", tape, "--once"}).exit_code, 2)
+        << "--once is one measurement";
+    const SessionDir session;
+    ASSERT_EQ(RunLightcal(session.Read({"-n", "7", "--record", tape})).exit_code, 0);
+  }
+  const CliResult settled = RunLightcal({"read", "--once", "--json", "--settle", "--replay", tape});
+  EXPECT_EQ(settled.exit_code, 0) << settled.err;
+  EXPECT_EQ(std::ranges::count(settled.err, '\n'), 7) << settled.err;  // a sentence, six readings
+  EXPECT_EQ(json::parse(settled.out)["measurements"], 1);
+}
+
+TEST(ReadSeries, AnUnknownSettingNamesThoseThereAre) {
+  const CliResult result =
+      RunLightcal({"read", "--once", "--replay", kTape407lx, "--set", "gain=3"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("sekonic"));
+}
 
 TEST(ReadFromMeter, AMeterHeldByAnotherProgramIsBusy) {
   const UsbStandIn meter(Sekonic(), {.serial = "", .held_by_another = true});

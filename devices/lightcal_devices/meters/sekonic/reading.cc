@@ -61,7 +61,10 @@ MeterReading ReadingFromMeasurement(const Measurement& m, const std::string& dev
   reading.sigma_relative = kSigmaRelative;
   reading.illuminance = Lux(m.illuminance_lx);
   reading.over_range = m.illuminance_lx > kHighestIlluminanceLx;
-  if (reading.over_range) return result;
+  if (reading.over_range) {
+    reading.illuminance = Lux(kHighestIlluminanceLx);
+    return result;
+  }
   if (m.illuminance_lx < kLowestIlluminanceLx) {
     result.warnings.push_back({"below_range", device,
                                "below 1 lx the meter is not specified; move closer or measure in "
