@@ -181,6 +181,8 @@ Result<ColorAnswer> AnswerFor(const ImportedSpectrum& imported, const std::strin
     answer->illuminance = Lux(xyz->Y);
   }
   if (const auto efficacy = EfficacyOfRadiation(imported.spectrum)) answer->efficacy = *efficacy;
+  if (const auto der = MelanopicDaylightEfficacyRatio(imported.spectrum))
+    answer->melanopic_der = *der;
   answer->reported = imported.reported;
   return answer;
 }

@@ -61,6 +61,12 @@ Json RgbJson(const ColorAnswer& answer) {
   return rgb;
 }
 
+Json MelanopicJson(double der, const std::optional<Lux>& illuminance) {
+  Json json = {{"der", der}};
+  if (illuminance) json["edi_lx"] = der * illuminance->value();
+  return json;
+}
+
 Json ReportedJson(const ReportedColor& reported) {
   Json json = Json::object();
   if (reported.illuminance_lx) json["illuminance_lx"] = *reported.illuminance_lx;
@@ -108,6 +114,9 @@ Json ToJson(const ColorAnswer& answer) {
   if (answer.xyz) json["XYZ"] = Triple(answer.xyz->X, answer.xyz->Y, answer.xyz->Z);
   if (answer.illuminance) json["illuminance_lx"] = answer.illuminance->value();
   if (answer.efficacy) json["ler_lm_per_W"] = answer.efficacy->value();
+  if (const auto& der = answer.melanopic_der) {
+    json["melanopic"] = MelanopicJson(*der, answer.illuminance);
+  }
   AddMetrics(json, answer.metrics);
   AddColorExtras(json, answer.xy, answer.extras, answer.findings);
   if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
@@ -142,6 +151,12 @@ std::string TableOfOne(const ColorAnswer& answer) {
   }
   if (answer.efficacy) {
     row("efficacy of radiation", Fixed(answer.efficacy->value(), 1), "lm/W");
+  }
+  if (const auto& der = answer.melanopic_der) {
+    row("melanopic DER", Fixed(*der, 3), "");
+    if (answer.illuminance) {
+      row("melanopic EDI", RoundedText(*der * answer.illuminance->value(), 6), "lx");
+    }
   }
   for (const MetricRow& metric : MetricRows(answer.metrics, reported)) {
     row(metric.what, metric.value, "", metric.claim);

@@ -23,6 +23,7 @@ struct ColorAnswer {
   std::optional<Xyz> xyz;          // of a spectrum: Y in lx for an irradiance, else 100
   std::optional<Lux> illuminance;  // of an irradiance
   std::optional<LumensPerWatt> efficacy;
+  std::optional<double> melanopic_der;  // of a spectrum
   std::optional<ReportedColor> reported;
   ColorMetrics metrics;  // of a spectrum
   ColorExtras extras;

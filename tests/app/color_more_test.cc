@@ -131,6 +131,20 @@ TEST(ColorTm30, OfF12LinearToOneNanometreHasTheDigitsOfTheIesCalculator) {
   EXPECT_NEAR(Color({"--spectrum", "illuminant:FL12"})["tm30"]["rf"].get<double>(), 77.5489, 0.01);
 }
 
+// The file states 500 lx of a Planckian radiator of 2856 K, whose DER is that of illuminant A.
+TEST(ColorMelanopic, OfAnIrradianceIsAnIlluminanceToo) {
+  const json a =
+      Color({"--spectrum", test::SampleData("spectra/own/argyll_ambient_2856K_500lx.sp")});
+  const double der = a["melanopic"]["der"];
+  EXPECT_NEAR(der, 0.4957, 1e-3);
+  EXPECT_NEAR(a["melanopic"]["edi_lx"].get<double>(), der * a["illuminance_lx"].get<double>(),
+              1e-9);
+  const json relative = Color({"--spectrum", "illuminant:LED-B3"});
+  EXPECT_NEAR(relative["melanopic"]["der"].get<double>(), 0.632, 1e-3);
+  EXPECT_FALSE(relative["melanopic"].contains("edi_lx"));
+  EXPECT_FALSE(Color({"--cct", "3200"}).contains("melanopic"));
+}
+
 TEST(ColorModels, OfLedsAreSpectraByName) {
   EXPECT_NEAR(Color({"--spectrum", "led:4000"})["cct_K"].get<double>(), 4000.0, 0.01);
   const json green = Color({"--spectrum", "gaussian:530:1"});  // nearly one wavelength

@@ -9,6 +9,7 @@
 
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/daylight.h"
+#include "lightcal/colorimetry/illuminants.h"
 #include "vector_file.h"
 
 namespace lightcal {
@@ -165,6 +166,53 @@ TEST(ColorMatching, IsLinearBetweenRowsAndZeroOutside) {
 TEST(EfficacyOfRadiation, IsGreatestAt555Nanometres) {
   const Spectrum line{{554.9, 555.0, 555.1}, {0, 1, 0}, SpectralQuantity::kRelative};
   EXPECT_NEAR(EfficacyOfRadiation(line)->value(), 683.0, 0.01);
+}
+
+// D65 over 380-780 nm; equal energy and A as CIE S 026's tables have them.
+TEST(Melanopic, DaylightIsItsOwnMeasure) {
+  const auto der = [](const char* name) {
+    return MelanopicDaylightEfficacyRatio(IlluminantSpectrum(name).value()).value();
+  };
+  EXPECT_NEAR(der("D65"), 1.0, 5e-4);
+  EXPECT_NEAR(der("E"), 0.906, 5e-4);
+  EXPECT_NEAR(der("A"), 0.496, 5e-4);
+}
+
+// luxpy takes a spline through the 5 nm table and cuts it at zero, which adds light beside the
+// lines of four warm lamps; their own 1 nm tables are the judge below.
+TEST(Melanopic, RatioOfCieIlluminantsIsThatOfLuxpy) {
+  for (const test::VectorRow& row : test::ReadVectors("illuminants.csv")) {
+    const std::string& name = row.Text("name");
+    const bool cut = name == "FL3.1" || name == "FL4" || name == "FL12" || name == "HP1";
+    const auto der = MelanopicDaylightEfficacyRatio(IlluminantSpectrum(name).value());
+    ASSERT_TRUE(der);
+    EXPECT_NEAR(*der, row.Number("melanopic_DER_luxpy"), cut ? 0.004 : 3e-4) << name;
+  }
+}
+
+TEST(Melanopic, RatioOfCieLampsIsThatOfTheirOneNanometreTables) {
+  const auto rows = test::ReadSampleTable("cie_lamps/cie_lamps_1nm.csv");
+  for (const auto& [name, ignored] : rows.front().cells()) {
+    if (name == "wavelength_nm") continue;
+    Spectrum fine;
+    for (const test::VectorRow& row : rows) {
+      fine.wavelengths_nm.push_back(row.Number("wavelength_nm"));
+      fine.values.push_back(row.Number(name));
+    }
+    EXPECT_NEAR(MelanopicDaylightEfficacyRatio(IlluminantSpectrum(name).value()).value(),
+                MelanopicDaylightEfficacyRatio(fine).value(), 1e-3)
+        << name;
+  }
+}
+
+// One wavelength: s_mel = 1 at 490 nm, V = 0.208020.
+TEST(Melanopic, RatioOfOneWavelengthIsThatOfTheTables) {
+  const Spectrum line{{489.9, 490.0, 490.1}, {0, 1, 0}, SpectralQuantity::kRelative};
+  EXPECT_NEAR(*MelanopicDaylightEfficacyRatio(line), 1.0 / (683.002 * 0.20802 * 1.3262e-3), 1e-4);
+  Spectrum noise{{450.0, 500.0, 550.0}, {-1.0, -1.0, 20.0}, SpectralQuantity::kRelative};
+  EXPECT_EQ(MelanopicDaylightEfficacyRatio(noise).has_value(), true);
+  noise.values[0] = -9.0;
+  EXPECT_EQ(MelanopicDaylightEfficacyRatio(noise).error().code, "bad_spectrum");
 }
 
 }  // namespace

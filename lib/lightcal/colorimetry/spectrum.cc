@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "lightcal/colorimetry/cie_tables/alpha_opic.h"
 #include "lightcal/colorimetry/cie_tables/tables.h"
 #include "lightcal/core/numbers_text.h"
 
@@ -15,18 +16,23 @@ namespace {
 constexpr double kEqualStepTolerance = 1e-3;
 constexpr double kVisibleFirstNm = 380.0;
 constexpr double kVisibleLastNm = 780.0;
+constexpr double kMelanopicWattsPerLumenOfD65 = 1.3262e-3;
 
-// Integrals over wavelength, without K: of S times each colour-matching function, and of S.
+// Three weights at a wavelength.
+using Weighting = Xyz (*)(Nanometres);
+
+// Integrals over wavelength, without K: of S times each weight, and of S.
 struct Integrals {
-  Xyz weighted;
+  Weighting weighting;
+  Xyz weighted{};
   double plain = 0.0;
 
   // power: value times the width it stands for.
   void AddWeighted(double wavelength, double power) {
-    const Xyz cmf = ColorMatchingAt(Nanometres(wavelength));
-    weighted.X += power * cmf.X;
-    weighted.Y += power * cmf.Y;
-    weighted.Z += power * cmf.Z;
+    const Xyz weight = weighting(Nanometres(wavelength));
+    weighted.X += power * weight.X;
+    weighted.Y += power * weight.Y;
+    weighted.Z += power * weight.Z;
   }
 };
 
@@ -35,9 +41,9 @@ double MeanStep(const Spectrum& s) {
          static_cast<double>(s.wavelengths_nm.size() - 1);
 }
 
-Integrals PlainSum(const Spectrum& s) {
+Integrals PlainSum(const Spectrum& s, Weighting weighting) {
   const double step = MeanStep(s);
-  Integrals sums;
+  Integrals sums{weighting};
   for (std::size_t i = 0; i < s.values.size(); ++i) {
     sums.AddWeighted(s.wavelengths_nm[i], s.values[i] * step);
     sums.plain += s.values[i] * step;
@@ -62,8 +68,8 @@ void AddGap(Integrals& sums, double left, double left_value, double right, doubl
   }
 }
 
-Integrals TrapezoidSum(const Spectrum& s) {
-  Integrals sums;
+Integrals TrapezoidSum(const Spectrum& s, Weighting weighting) {
+  Integrals sums{weighting};
   for (std::size_t i = 1; i < s.values.size(); ++i) {
     AddGap(sums, s.wavelengths_nm[i - 1], s.values[i - 1], s.wavelengths_nm[i], s.values[i]);
   }
@@ -94,9 +100,9 @@ Result<void> CheckSamples(const Spectrum& s) {
   return {};
 }
 
-Result<Integrals> Integrate(const Spectrum& s) {
+Result<Integrals> Integrate(const Spectrum& s, Weighting weighting = ColorMatchingAt) {
   if (auto checked = CheckSamples(s); !checked) return Propagate(std::move(checked));
-  const Integrals sums = HasEqualSteps(s) ? PlainSum(s) : TrapezoidSum(s);
+  const Integrals sums = HasEqualSteps(s) ? PlainSum(s, weighting) : TrapezoidSum(s, weighting);
   if (!(sums.weighted.Y > 0.0) || !(sums.weighted.X + sums.weighted.Y + sums.weighted.Z > 0.0)) {
     return Bad(
         "no light between 360 and 830 nm (the weighted sum is not positive); subtract less dark "
@@ -107,6 +113,17 @@ Result<Integrals> Integrate(const Spectrum& s) {
     return Bad("the values are too large to add; check their unit");
   }
   return sums;
+}
+
+// The melanopic action spectrum beside V, which is y bar.
+Xyz MelanopicAndLuminous(Nanometres wavelength) {
+  const double position = wavelength.value() - kMelanopicFirstNm;
+  const double luminous = ColorMatchingAt(wavelength).Y;
+  if (!(position >= 0.0 && position <= kMelanopicCount - 1)) return {0.0, luminous, 0.0};
+  const auto& s_mel = MelanopicActionSpectrum();
+  const auto row = std::min(static_cast<std::size_t>(position), std::size_t{kMelanopicCount - 2});
+  const double t = position - static_cast<double>(row);
+  return {s_mel[row] + t * (s_mel[row + 1] - s_mel[row]), luminous, 0.0};
 }
 
 }  // namespace
@@ -154,6 +171,16 @@ Result<LumensPerWatt> EfficacyOfRadiation(const Spectrum& spectrum) {
   if (!sums) return tl::unexpected(sums.error());
   if (!(sums->plain > 0.0)) return Bad("the values add up to no radiation; check the dark signal");
   return LumensPerWatt(kMaximumLuminousEfficacy * sums->weighted.Y / sums->plain);
+}
+
+Result<double> MelanopicDaylightEfficacyRatio(const Spectrum& spectrum) {
+  const auto sums = Integrate(spectrum, MelanopicAndLuminous);
+  if (!sums) return tl::unexpected(sums.error());
+  if (sums->weighted.X < 0.0) {
+    return Bad("the blue and green samples add up to less than nothing; subtract less dark signal");
+  }
+  const double watts_per_lumen = sums->weighted.X / (kMaximumLuminousEfficacy * sums->weighted.Y);
+  return watts_per_lumen / kMelanopicWattsPerLumenOfD65;
 }
 
 }  // namespace lightcal

@@ -61,4 +61,12 @@ inline constexpr double kMaximumLuminousEfficacy = 683.002;
 // Source: CIE S 017:2020 (e-ILV) 17-21-090.   Fails as XyzFromSpectrum.
 [[nodiscard]] Result<LumensPerWatt> EfficacyOfRadiation(const Spectrum& spectrum);
 
+// Melanopic daylight (D65) efficacy ratio: what the light does to the cells that set the body
+// clock, against what daylight of the same illuminance does,
+//   DER = (sum S s_mel dl / (683.002 lm/W sum S V dl)) / 1.3262 mW/lm,
+// summed as XyzFromSpectrum. 1 for D65; its melanopic equivalent daylight illuminance is E_v DER.
+// Source: CIE S 026:2018, 3.9 and 3.10; 1.3262 mW/lm: its table 3.
+// Fails as XyzFromSpectrum, and where noise makes the melanopic sum negative.
+[[nodiscard]] Result<double> MelanopicDaylightEfficacyRatio(const Spectrum& spectrum);
+
 }  // namespace lightcal

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes tables.cc, samples.cc and illuminant_tables.cc from the CIE tables in this folder.
+"""Writes alpha_opic.cc, tables.cc, samples.cc and illuminant_tables.cc from the CIE tables in this folder.
 
 usage: make_tables.py          rewrites them
        make_tables.py --check  fails when one is not what would be written
@@ -104,7 +104,18 @@ def illuminant_tables():
         "std::span<const IlluminantTable> IlluminantTables() { return kIlluminants; }\n")
 
 
-FILES = {"tables.cc": basic_tables, "samples.cc": sample_tables,
+def alpha_opic_tables():
+    values = ", ".join(row[0] for row in table("cie_s026_melanopic_1nm.csv")[1])
+    return source(
+        "alpha_opic",
+        ["CIE melanopic action spectrum, CIE S 026:2018, DOI 10.25039/CIE.DS.vqqhzp5a"],
+        [f"constexpr std::array<double, kMelanopicCount> kMelanopic = {{\n    {values}}};\n"],
+        """\
+const std::array<double, kMelanopicCount>& MelanopicActionSpectrum() { return kMelanopic; }
+""")
+
+
+FILES = {"alpha_opic.cc": alpha_opic_tables, "tables.cc": basic_tables, "samples.cc": sample_tables,
          "illuminant_tables.cc": illuminant_tables}
 
 
