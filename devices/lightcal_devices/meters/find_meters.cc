@@ -80,10 +80,16 @@ Result<FoundMeter> ChooseMeter(const std::vector<FoundMeter>& found, std::string
 std::string Remedy(const FoundMeter& meter) {
   if (meter.access == MeterAccess::kReady || !meter.remedy.empty()) return meter.remedy;
   if (meter.access == MeterAccess::kBusy) return "another program holds it; close that program";
-  std::string text =
-      "you may not open this meter; put this line into /etc/udev/rules.d/70-lightcal.rules, run "
-      "`sudo udevadm control --reload`, and plug it in again:";
-  for (const std::string& rule : UdevRules(*meter.row)) text += "\n" + rule;
+  std::string text = "you may not open this meter; ";
+  const std::string_view without_rule = meter.row->line->permission_remedy;
+  text += without_rule;
+  const auto rules = UdevRules(*meter.row);
+  if (rules.empty()) return text;
+  if (!without_rule.empty()) text += ", or ";
+  text +=
+      "put this line into /etc/udev/rules.d/70-lightcal.rules, run `sudo udevadm control "
+      "--reload`, and plug it in again:";
+  for (const std::string& rule : rules) text += "\n" + rule;
   return text;
 }
 

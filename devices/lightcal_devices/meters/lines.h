@@ -39,8 +39,12 @@ struct MeterLine {
   bool takes_address = false;
   // Found meters of this line may be chosen without being named (--device left out).
   bool tells_meters_apart = true;
+  // How a person gains permission without a udev rule, "" = only with one.
+  std::string_view permission_remedy;
 };
 
 extern const MeterLine kUsbLine;
+// Serial ports. A port is listed for each driver whose cable it may be.
+extern const MeterLine kTtyLine;
 
 }  // namespace lightcal

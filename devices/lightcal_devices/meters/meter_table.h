@@ -11,6 +11,7 @@
 
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
+#include "lightcal_devices/transport/tty.h"
 
 namespace lightcal {
 
@@ -39,6 +40,7 @@ struct MeterRow {
   std::string_view models;          // for people
   const MeterLine* line = nullptr;  // of lines.h
   std::span<const UsbId> usb;       // of the meter, or of the cable in it
+  SerialSettings serial = {};       // of a meter on a serial port
   Verified verified = Verified::kDocumentation;
   std::span<const MeterOption> options;
   std::unique_ptr<Meter> (*make)(Transport& transport, const MeterSetup& setup) = nullptr;

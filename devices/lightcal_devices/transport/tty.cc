@@ -131,7 +131,7 @@ std::optional<SerialPortInfo> UsbPort(const std::string& tty) {
   const std::filesystem::path link = std::filesystem::path(kTtyClass) / tty;
   std::error_code error;
   const auto target = std::filesystem::read_symlink(link, error);
-  if (error) return std::nullopt;
+  if (error || target.string().find("/virtual/") != std::string::npos) return std::nullopt;
   auto folder = (link.parent_path() / target).lexically_normal();
   for (int i = 0; i < kDeepestSysfs && folder.has_relative_path(); ++i) {
     const auto vendor = HexadecimalId(folder / "idVendor");

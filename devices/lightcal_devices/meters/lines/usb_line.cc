@@ -61,6 +61,7 @@ const MeterLine kUsbLine = {.name = "usb",
                             .open = OpenFoundUsb,
                             .udev_rule = UdevRuleOfUsb,
                             .takes_address = false,
-                            .tells_meters_apart = true};
+                            .tells_meters_apart = true,
+                            .permission_remedy = ""};
 
 }  // namespace lightcal
