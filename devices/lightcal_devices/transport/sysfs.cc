@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/transport/sysfs.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace lightcal {
+namespace {
+
+using std::chrono::milliseconds;
+
+bool IsFolder(const std::string& path) {
+  struct stat info = {};
+  return ::stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+tl::unexpected<Error> SysfsError(int error, const std::string& folder,
+                                 const std::string& attribute) {
+  const std::string path = folder + "/" + attribute;
+  const bool gone = error == ENODEV || error == ENXIO || !IsFolder(folder);
+  if (gone) {
+    return Failed(std::string(fault::kUnplugged), folder,
+                  "the device is gone; plug it in and try again");
+  }
+  switch (error) {
+    case ENOENT:
+      return Failed(std::string(fault::kNoAttribute), path, "the device has no such attribute");
+    case EACCES:
+    case EPERM:
+      return Failed(std::string(fault::kNoPermission), path, "you may not read this attribute");
+    case EBUSY:
+      return Failed(std::string(fault::kBusy), path,
+                    "another program uses the sensor; close it and try again");
+    case ETIMEDOUT:
+    case EAGAIN:
+      return Failed(std::string(fault::kTimeout), path,
+                    "the sensor did not answer the kernel; try again");
+    default:
+      return Failed(std::string(fault::kIo), path, std::strerror(error));
+  }
+}
+
+// At most `max` bytes of an attribute.
+Result<Bytes> Content(const std::string& folder, const std::string& attribute, std::size_t max) {
+  const int fd = ::open((folder + "/" + attribute).c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return SysfsError(errno, folder, attribute);
+  Bytes bytes(std::min(max, kSysfsAttributeBytes));
+  std::size_t filled = 0;
+  ssize_t got = 1;
+  while (got > 0 && filled < bytes.size()) {
+    got = ::read(fd, bytes.data() + filled, bytes.size() - filled);
+    if (got < 0 && errno == EINTR) {
+      got = 1;
+      continue;
+    }
+    if (got > 0) filled += static_cast<std::size_t>(got);
+  }
+  const int error = got < 0 ? errno : 0;
+  ::close(fd);
+  if (error != 0) return SysfsError(error, folder, attribute);
+  bytes.resize(filled);
+  return bytes;
+}
+
+class SysfsTransport final : public Transport {
+ public:
+  explicit SysfsTransport(std::string folder) : folder_(std::move(folder)) {}
+
+  Result<void> Write(std::span<const std::byte> bytes, milliseconds /*timeout*/) override {
+    const std::string name(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (name.empty() || name.find_first_of(std::string_view("/\0", 2)) != std::string::npos ||
+        name.starts_with('.')) {
+      return Failed(std::string(fault::kNoAttribute), Name(),
+                    EscapedName(name) + " is no attribute of the device");
+    }
+    attribute_ = name;
+    return {};
+  }
+
+  Result<Bytes> Read(std::size_t max, milliseconds /*timeout*/) override {
+    if (attribute_.empty()) {
+      return Failed(std::string(fault::kIo), Name(), "no attribute was chosen");
+    }
+    return Content(folder_, attribute_, max);
+  }
+
+  [[nodiscard]] std::string Name() const override { return "sysfs " + folder_; }
+
+ private:
+  static std::string EscapedName(std::string name) {
+    std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
+    return "\"" + name + "\"";
+  }
+
+  std::string folder_;
+  std::string attribute_;
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> OpenSysfs(const std::string& folder) {
+  return std::make_unique<SysfsTransport>(folder);
+}
+
+Result<std::string> ReadSysfsAttribute(const std::string& folder, std::string_view attribute) {
+  const auto bytes = Content(folder, std::string(attribute), kSysfsAttributeBytes);
+  if (!bytes) return tl::unexpected(bytes.error());
+  std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The attributes of a Linux device in sysfs, one small text file each, as a line.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/transport/transport.h"
+
+namespace lightcal {
+
+namespace fault {
+inline constexpr std::string_view kNoAttribute = "no_attribute";  // the device has no such file
+}  // namespace fault
+
+// The longest content of an attribute: the kernel gives a page at most.
+inline constexpr std::size_t kSysfsAttributeBytes = 4096;
+
+// Where the devices of Industrial I/O sensors are.
+inline constexpr std::string_view kIioDevices = "/sys/bus/iio/devices";
+
+// The device whose attributes are the files of `folder` ("/sys/bus/iio/devices/iio:device0").
+//   Write  an attribute's name (a file of the folder itself) chooses it; nothing is written
+//   Read   its content, read anew each time; the kernel then asks the sensor.
+// Fails: no_attribute, no_permission, busy, timeout (the sensor did not answer the kernel),
+// unplugged (the folder is gone), io.
+[[nodiscard]] std::unique_ptr<Transport> OpenSysfs(const std::string& folder);
+
+// One attribute, without the newline at its end. Fails as OpenSysfs' Read.
+[[nodiscard]] Result<std::string> ReadSysfsAttribute(const std::string& folder,
+                                                     std::string_view attribute);
+
+}  // namespace lightcal
