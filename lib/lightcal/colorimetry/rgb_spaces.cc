@@ -70,6 +70,7 @@ const Matrices& MatricesOf(RgbSpace space) { return kMatrices[static_cast<std::s
 
 RgbPrimaries PrimariesOf(RgbSpace space) { return kPrimaries[static_cast<std::size_t>(space)]; }
 Matrix3 XyzFromRgbMatrix(RgbSpace space) { return MatricesOf(space).to_xyz; }
+Matrix3 XyzFromRgbMatrix(const RgbPrimaries& primaries) { return Derive(primaries); }
 Matrix3 RgbFromXyzMatrix(RgbSpace space) { return MatricesOf(space).from_xyz; }
 
 Rgb LinearRgbFromXyz(const Xyz& color, RgbSpace space) {
