@@ -24,7 +24,8 @@ struct BracketOverrides {
 
 struct Bracket {
   std::vector<FrameInfo> frames;  // shortest exposure first; frames without a time keep file order
-  // duplicate_frame (left out), mixed_iso, mixed_aperture, mixed_focus, time_from_label, ...
+  // duplicate_frame (left out), repeated_exposure, mixed_iso, mixed_aperture, mixed_focus,
+  // no_exposure_time, exposure_tags_disagree, lens_shading_not_applied
   Warnings warnings;
 };
 
@@ -40,7 +41,8 @@ struct Bracket {
 [[nodiscard]] Result<Bracket> OpenBracket(std::span<const std::string> patterns,
                                           const BracketOverrides& overrides = {});
 
-// The frame's samples, with `info` (overrides included) kept as it is.
+// The frame's samples; their exposure is that of `info`, overrides included. Fails besides:
+// file_changed.
 [[nodiscard]] Result<Frame> LoadFrame(const FrameInfo& info,
                                       SampleStore store = SampleStore::kMemory);
 

@@ -9,7 +9,7 @@
 
 namespace lightcal {
 
-// True where the file's first bytes or name are those of a camera RAW; says nothing of its health.
+// True where the name ends as those of camera RAW files do; says nothing of the file.
 [[nodiscard]] bool LooksLikeRaw(const std::string& path);
 
 // The file's tags only: no sample is decoded.

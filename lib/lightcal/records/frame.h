@@ -107,7 +107,6 @@ struct FrameInfo {
   std::optional<RgbPrimaries> chromaticities;  // absent = the file does not say
   std::optional<Nits> white_luminance;         // luminance of RGB (1,1,1): EXR whiteLuminance
   double radiance_exposure = 1.0;    // Radiance: product of EXPOSURE lines, divide samples by it
-  bool radiance_units = false;       // Radiance HDR: W/(sr m^2) a channel; luminance is 179 lm/W's
   bool environment_latlong = false;  // EXR envmap = latlong
   // Text attributes the file carries that are ours ("lightcal:..."), without that prefix.
   std::vector<std::pair<std::string, std::string>> lightcal_attributes;

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/captures/exr.h"
+
+#include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "lightcal_devices/captures/exposure_tags.h"
+#include "lightcal_devices/captures/mapped_file.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kMostSamples = 1 << 29;
+constexpr std::string_view kOurPrefix = "lightcal:";
+
+Xy XyOf(const Imath::V2f& v) { return {v.x, v.y}; }
+
+void TakeColor(const Imf::Header& header, FrameInfo& info) {
+  if (Imf::hasChromaticities(header)) {
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    info.chromaticities = RgbPrimaries{XyOf(c.red), XyOf(c.green), XyOf(c.blue), XyOf(c.white)};
+  }
+  if (Imf::hasWhiteLuminance(header) && Imf::whiteLuminance(header) > 0.0F) {
+    info.white_luminance = Nits(Imf::whiteLuminance(header));
+  }
+  info.environment_latlong = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_LATLONG;
+}
+
+void TakeExposure(const Imf::Header& header, FrameInfo& info) {
+  WrittenExposure written;
+  if (Imf::hasExpTime(header)) written.exposure_time_s = Imf::expTime(header);
+  if (Imf::hasAperture(header)) written.f_number = Imf::aperture(header);
+  if (Imf::hasIsoSpeed(header)) written.iso = Imf::isoSpeed(header);
+  info.exposure = ExposureFromTags(written, info.file, info.warnings);
+  if (Imf::hasFocus(header) && Imf::focus(header) > 0.0F && std::isfinite(Imf::focus(header))) {
+    info.subject_distance = Metres(Imf::focus(header));
+  }
+  if (Imf::hasCapDate(header)) info.time = IsoTimeFromExif(Imf::capDate(header));
+}
+
+void TakeOurAttributes(const Imf::Header& header, FrameInfo& info) {
+  for (auto at = header.begin(); at != header.end(); ++at) {
+    const std::string_view name = at.name();
+    const auto* text = dynamic_cast<const Imf::StringAttribute*>(&at.attribute());
+    if (text == nullptr || !name.starts_with(kOurPrefix)) continue;
+    info.lightcal_attributes.emplace_back(name.substr(kOurPrefix.size()), text->value());
+  }
+}
+
+// Which channels are the picture.
+struct Chosen {
+  std::vector<std::string> names;  // in the file
+  bool luminance_chroma = false;   // Y, RY, BY
+};
+
+std::vector<std::string> NamesOf(const Imf::ChannelList& channels) {
+  std::vector<std::string> names;
+  for (auto at = channels.begin(); at != channels.end(); ++at) names.emplace_back(at.name());
+  return names;
+}
+
+// The first layer that has all of R, G, B; "" is the bare one.
+std::vector<std::string> ColorLayer(const std::vector<std::string>& names) {
+  const auto has = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  if (has("R") && has("G") && has("B")) return {"R", "G", "B"};
+  for (const std::string& name : names) {
+    if (!name.ends_with(".R")) continue;
+    const std::string layer = name.substr(0, name.size() - 1);
+    if (has(layer + "G") && has(layer + "B")) return {layer + "R", layer + "G", layer + "B"};
+  }
+  return {};
+}
+
+Result<Chosen> ChooseChannels(const Imf::Header& header, FrameInfo& info) {
+  const std::vector<std::string> names = NamesOf(header.channels());
+  const auto has = [&](std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  Chosen chosen;
+  if (has("Y") && has("RY") && has("BY")) return Chosen{{"R", "G", "B"}, true};
+  chosen.names = ColorLayer(names);
+  if (chosen.names.empty() && has("Y")) chosen.names = {"Y"};
+  if (chosen.names.empty()) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    return Refused("no_color_channels", info.file,
+                   "it holds " + (all.empty() ? "no channels" : all) + "; R, G, B or Y are needed");
+  }
+  for (const std::string& name : chosen.names) {
+    const Imf::Channel& channel = header.channels()[name];
+    if (channel.xSampling != 1 || channel.ySampling != 1) {
+      return Refused("unsupported_picture", info.file, "channel " + name + " is subsampled");
+    }
+  }
+  if (chosen.names.front().size() > 1) {
+    info.warnings.push_back({"layer_chosen", info.file,
+                             "the first layer with R, G, B is taken: " + chosen.names.front()});
+  }
+  return chosen;
+}
+
+Result<Chosen> DescribeHeader(const Imf::Header& header, FrameInfo& info) {
+  const Imath::Box2i window = header.dataWindow();
+  const double width = 1.0 + window.max.x - window.min.x;
+  const double height = 1.0 + window.max.y - window.min.y;
+  auto chosen = ChooseChannels(header, info);
+  if (!chosen) return chosen;
+  info.channel_names = chosen->names;
+  info.channels = static_cast<int>(chosen->names.size());
+  if (width * height * info.channels > kMostSamples) {
+    return Refused("too_large", info.file, "it has more than 5e8 samples");
+  }
+  info.width = static_cast<int>(width);
+  info.height = static_cast<int>(height);
+  info.meaning = SampleMeaning::kLinear;
+  info.format = "exr";
+  TakeColor(header, info);
+  TakeExposure(header, info);
+  TakeOurAttributes(header, info);
+  return chosen;
+}
+
+using Floats = std::shared_ptr<std::vector<float>>;
+
+Floats ReadPlain(Imf::InputFile& file, const Chosen& chosen, const FrameInfo& info) {
+  const Imath::Box2i window = file.header().dataWindow();
+  const std::size_t pixel = sizeof(float) * info.channels;
+  auto samples = std::make_shared<std::vector<float>>(static_cast<std::size_t>(info.width) *
+                                                      info.height * info.channels);
+  Imf::FrameBuffer buffer;
+  for (std::size_t c = 0; c < chosen.names.size(); ++c) {
+    buffer.insert(chosen.names[c], Imf::Slice::Make(Imf::FLOAT, samples->data() + c, window, pixel,
+                                                    pixel * static_cast<std::size_t>(info.width)));
+  }
+  file.setFrameBuffer(buffer);
+  file.readPixels(window.min.y, window.max.y);
+  return samples;
+}
+
+// OpenEXR's own reconstruction of chroma.
+Floats ReadLuminanceChroma(const std::string& path, const FrameInfo& info) {
+  Imf::RgbaInputFile file(path.c_str());
+  const Imath::Box2i window = file.dataWindow();
+  Imf::Array2D<Imf::Rgba> pixels(info.height, info.width);
+  // OpenEXR wants the address pixel (0, 0) would have; it may lie outside the array.
+  const auto origin =
+      reinterpret_cast<std::uintptr_t>(&pixels[0][0]) -
+      sizeof(Imf::Rgba) * (window.min.x + static_cast<std::intptr_t>(window.min.y) * info.width);
+  file.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(origin), 1, info.width);
+  file.readPixels(window.min.y, window.max.y);
+  auto samples = std::make_shared<std::vector<float>>();
+  samples->reserve(static_cast<std::size_t>(info.width) * info.height * 3);
+  for (int y = 0; y < info.height; ++y) {
+    for (int x = 0; x < info.width; ++x) {
+      const Imf::Rgba& p = pixels[y][x];
+      samples->insert(samples->end(), {float(p.r), float(p.g), float(p.b)});
+    }
+  }
+  return samples;
+}
+
+// Runs `read(file, chosen, info)` over the opened file; OpenEXR speaks in exceptions.
+template <class T, class Read>
+Result<T> WithFile(const std::string& path, const Read& read) {
+  if (auto there = MapFile(path); !there) return Propagate(std::move(there));
+  try {
+    Imf::InputFile file(path.c_str());
+    FrameInfo info;
+    info.file = path;
+    auto chosen = DescribeHeader(file.header(), info);
+    if (!chosen) return Propagate(std::move(chosen));
+    return read(file, *chosen, std::move(info));
+  } catch (const std::exception& error) {
+    return Refused("bad_picture", path,
+                   std::string("the file is damaged or cut short (OpenEXR: ") + error.what() + ")");
+  }
+}
+
+}  // namespace
+
+Result<FrameInfo> ReadExrInfo(const std::string& path) {
+  return WithFile<FrameInfo>(
+      path,
+      [](Imf::InputFile&, const Chosen&, FrameInfo info) -> Result<FrameInfo> { return info; });
+}
+
+Result<Frame> ReadExr(const std::string& path) {
+  return WithFile<Frame>(
+      path, [&](Imf::InputFile& file, const Chosen& chosen, FrameInfo info) -> Result<Frame> {
+        const Floats samples = chosen.luminance_chroma ? ReadLuminanceChroma(path, info)
+                                                       : ReadPlain(file, chosen, info);
+        const View2d<const float> view(samples->data(), info.width, info.height, info.channels);
+        return Frame{std::move(info), view, samples};
+      });
+}
+
+}  // namespace lightcal

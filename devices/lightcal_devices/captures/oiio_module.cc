@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole of lightcal_pictures.so: the one file that sees OpenImageIO.
+#include "lightcal_devices/captures/oiio_module.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+
+namespace {
+
+using lightcal::OiioOutcome;
+using lightcal::OiioPicture;
+
+constexpr double kMostSamples = 1 << 29;
+
+void TakeAttributes(const OIIO::ImageSpec& spec, OiioPicture& picture) {
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    const OIIO::TypeDesc type = attribute.type();
+    if (type == OIIO::TypeString) {
+      picture.texts.emplace_back(attribute.name().string(), attribute.get_string());
+    } else if (type.numelements() == 1 && type.aggregate == OIIO::TypeDesc::SCALAR) {
+      picture.numbers.emplace_back(attribute.name().string(), attribute.get_float());
+    }
+  }
+}
+
+bool ReadSamples(OIIO::ImageInput& input, OiioPicture& picture) {
+  const std::size_t samples =
+      static_cast<std::size_t>(picture.width) * picture.height * picture.channels;
+  const auto read = [&](OIIO::TypeDesc type, void* data) {
+    return input.read_image(0, 0, 0, picture.channels, type, data);
+  };
+  if (picture.is_float) {
+    picture.floats.resize(samples);
+    return read(OIIO::TypeDesc::FLOAT, picture.floats.data());
+  }
+  picture.codes.resize(samples);
+  if (picture.top_code == 0xFFFF) return read(OIIO::TypeDesc::UINT16, picture.codes.data());
+  std::vector<std::uint8_t> bytes(samples);
+  if (!read(OIIO::TypeDesc::UINT8, bytes.data())) return false;
+  picture.codes.assign(bytes.begin(), bytes.end());
+  return true;
+}
+
+OiioOutcome Read(const std::string& path, bool with_samples, OiioPicture& picture,
+                 std::string& error) {
+  // Alpha must not be multiplied into codes.
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
+  if (!input) {
+    error = OIIO::geterror();
+    return OiioOutcome::kUnknownFormat;
+  }
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.deep || spec.depth > 1 || spec.nchannels < 1 || spec.width < 1 || spec.height < 1) {
+    return OiioOutcome::kNoColor;
+  }
+  const double samples = 1.0 * spec.width * spec.height * spec.nchannels;
+  if (samples > kMostSamples) return OiioOutcome::kTooLarge;
+  picture.width = spec.width;
+  picture.height = spec.height;
+  picture.channels = spec.nchannels >= 3 ? 3 : 1;
+  picture.is_float = spec.format.is_floating_point();
+  picture.top_code = spec.format.size() > 1 ? 0xFFFF : 0xFF;
+  for (int c = 0; c < picture.channels; ++c) picture.channel_names.push_back(spec.channel_name(c));
+  TakeAttributes(spec, picture);
+  if (with_samples && !ReadSamples(*input, picture)) {
+    error = input->geterror();
+    return OiioOutcome::kBad;
+  }
+  return OiioOutcome::kRead;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) OiioOutcome lightcal_oiio_read(
+    const std::string& path, bool with_samples, OiioPicture& picture, std::string& error) noexcept {
+  try {
+    return Read(path, with_samples, picture, error);
+  } catch (const std::exception& thrown) {
+    error = thrown.what();
+  } catch (...) {
+    error = "unknown error";
+  }
+  return OiioOutcome::kBad;
+}

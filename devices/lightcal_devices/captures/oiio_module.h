@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door to OpenImageIO: what the module lightcal_pictures.so answers. Nothing of OpenImageIO
+// shows; both sides are built together.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lightcal {
+
+struct OiioPicture {
+  int width = 0, height = 0;
+  int channels = 0;       // colour channels: 1 or 3
+  bool is_float = false;  // scene-linear floats, else codes
+  std::uint16_t top_code = 0;
+  std::vector<std::string> channel_names;
+  std::vector<std::pair<std::string, double>> numbers;  // attributes, by OpenImageIO's names
+  std::vector<std::pair<std::string, std::string>> texts;
+  std::vector<float> floats;         // interleaved, when is_float
+  std::vector<std::uint16_t> codes;  // else; 8 bit ones as 0..255
+};
+
+enum class OiioOutcome { kRead, kUnknownFormat, kTooLarge, kNoColor, kBad };
+
+// Samples only where asked. `error` says what OpenImageIO says.
+using OiioRead = OiioOutcome (*)(const std::string& path, bool with_samples, OiioPicture& picture,
+                                 std::string& error) noexcept;
+inline constexpr const char* kOiioReadSymbol = "lightcal_oiio_read";
+inline constexpr const char* kOiioModuleName = "lightcal_pictures.so";
+
+}  // namespace lightcal

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/captures/picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "lightcal_devices/captures/exposure_tags.h"
+#include "lightcal_devices/captures/exr.h"
+#include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/picture_module.h"
+#include "lightcal_devices/captures/radiance_header.h"
+#include "lightcal_devices/captures/sample_check.h"
+
+namespace lightcal {
+namespace {
+
+using namespace std::string_view_literals;
+
+struct Magic {
+  std::string_view bytes;
+  const char* format;
+};
+constexpr std::array kMagics = {Magic{"\x76\x2f\x31\x01"sv, "exr"}, Magic{"#?"sv, "hdr"},
+                                Magic{"\x89PNG"sv, "png"},          Magic{"\xFF\xD8\xFF"sv, "jpeg"},
+                                Magic{"II*\0"sv, "tiff"},           Magic{"MM\0*"sv, "tiff"},
+                                Magic{"II+\0"sv, "tiff"},           Magic{"MM\0+"sv, "tiff"}};
+
+std::optional<std::string> FormatOf(std::string_view bytes) {
+  for (const Magic& magic : kMagics) {
+    if (bytes.starts_with(magic.bytes)) return magic.format;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> NumberOf(const OiioPicture& picture, std::string_view name) {
+  for (const auto& [key, value] : picture.numbers) {
+    if (key == name) return value;
+  }
+  return std::nullopt;
+}
+std::string TextOf(const OiioPicture& picture, std::string_view name) {
+  for (const auto& [key, value] : picture.texts) {
+    if (key == name) return value;
+  }
+  return "";
+}
+
+void TakeCameraTags(const OiioPicture& picture, FrameInfo& info) {
+  WrittenExposure written;
+  written.exposure_time_s = NumberOf(picture, "ExposureTime");
+  written.shutter_apex = NumberOf(picture, "Exif:ShutterSpeedValue");
+  written.f_number = NumberOf(picture, "FNumber");
+  written.aperture_apex = NumberOf(picture, "Exif:ApertureValue");
+  written.iso = NumberOf(picture, "Exif:PhotographicSensitivity");
+  info.exposure = ExposureFromTags(written, info.file, info.warnings);
+  const auto positive = [](std::optional<double> v) { return v && std::isfinite(*v) && *v > 0.0; };
+  if (const auto focal = NumberOf(picture, "Exif:FocalLength"); positive(focal)) {
+    info.focal_length = Metres(*focal * 1e-3);
+  }
+  if (const auto far = NumberOf(picture, "Exif:SubjectDistance"); positive(far) && *far < 4e9) {
+    info.subject_distance = Metres(*far);
+  }
+  std::string time = TextOf(picture, "Exif:DateTimeOriginal");
+  if (time.empty()) time = TextOf(picture, "DateTime");
+  info.time = IsoTimeFromExif(time);
+  const std::string make = TextOf(picture, "Make"), model = TextOf(picture, "Model");
+  info.camera = model.starts_with(make) ? model : make + " " + model;
+}
+
+Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
+  auto header = ParseRadianceHeader(bytes, info.file);
+  if (!header) return Propagate(std::move(header));
+  info.radiance_exposure = header->exposure;
+  info.chromaticities = header->primaries;
+  if (header->xyz) info.channel_names = {"X", "Y", "Z"};
+  return {};
+}
+
+Result<OiioPicture> ReadThroughModule(const std::string& path, bool with_samples) {
+  auto module = PictureModule();
+  if (!module) return Propagate(std::move(module));
+  OiioPicture picture;
+  std::string error;
+  switch ((*module)(path, with_samples, picture, error)) {
+    case OiioOutcome::kRead:
+      return picture;
+    case OiioOutcome::kTooLarge:
+      return Refused("too_large", path, "it has more than 5e8 samples");
+    case OiioOutcome::kNoColor:
+      return Refused("unsupported_picture", path, "it is no flat picture with pixels");
+    case OiioOutcome::kUnknownFormat:
+    case OiioOutcome::kBad:
+      break;
+  }
+  while (error.ends_with('\n')) error.pop_back();
+  return Refused("bad_picture", path,
+                 "the file is damaged or cut short (" + error + "); copy it again");
+}
+
+Result<FrameInfo> Describe(const OiioPicture& picture, const std::string& path,
+                           const std::string& format, std::string_view bytes) {
+  FrameInfo info;
+  info.file = path;
+  info.format = format;
+  info.width = picture.width;
+  info.height = picture.height;
+  info.channels = picture.channels;
+  info.channel_names = picture.channel_names;
+  info.meaning = picture.is_float ? SampleMeaning::kLinear : SampleMeaning::kEncoded;
+  if (!picture.is_float) {
+    SensorLevels levels;
+    levels.black.values = {0.0F};
+    levels.maximum = picture.top_code;
+    levels.white.fill(levels.maximum);
+    info.levels = levels;
+  }
+  TakeCameraTags(picture, info);
+  if (format == "hdr") {
+    if (auto ok = TakeRadianceHeader(bytes, info); !ok) return Propagate(std::move(ok));
+  }
+  return info;
+}
+
+// JPEG readers fill in grey what is missing at the end. A whole file has its end marker behind the
+// start of its scan; thumbnails, with end markers of their own, lie in segments before that.
+bool JpegIsCut(std::string_view bytes) {
+  constexpr char kMarker = '\xFF', kStartOfScan = '\xDA';
+  std::size_t at = 2;
+  while (at + 4 <= bytes.size() && bytes[at] == kMarker && bytes[at + 1] != kStartOfScan) {
+    at += 2 + (static_cast<unsigned char>(bytes[at + 2]) << 8 |
+               static_cast<unsigned char>(bytes[at + 3]));
+  }
+  const std::size_t end = bytes.rfind("\xFF\xD9"sv);
+  return end == std::string_view::npos || end < at;
+}
+
+Result<Frame> FrameOf(OiioPicture picture, FrameInfo info) {
+  if (!picture.is_float) {
+    auto codes = std::make_shared<std::vector<std::uint16_t>>(std::move(picture.codes));
+    const View2d<const std::uint16_t> view(codes->data(), info.width, info.height, info.channels);
+    return Frame{std::move(info), view, std::move(codes)};
+  }
+  auto floats = std::make_shared<std::vector<float>>(std::move(picture.floats));
+  const View2d<const float> view(floats->data(), info.width, info.height, info.channels);
+  if (auto ok = CheckSamples(view, info.file); !ok) return Propagate(std::move(ok));
+  return Frame{std::move(info), view, std::move(floats)};
+}
+
+struct Opened {
+  MappedFile file;
+  std::string format;
+  [[nodiscard]] std::string_view bytes() const {
+    return {static_cast<const char*>(file.bytes.get()), file.size};
+  }
+};
+
+Result<Opened> Open(const std::string& path) {
+  auto file = MapFile(path);
+  if (!file) return Propagate(std::move(file));
+  Opened opened{std::move(*file), ""};
+  const auto format = FormatOf(opened.bytes());
+  if (!format) {
+    return Refused("unknown_format", path,
+                   "no picture lightcal reads: OpenEXR, Radiance HDR, TIFF, PNG, JPEG, camera RAW");
+  }
+  opened.format = *format;
+  if (opened.format == "jpeg" && JpegIsCut(opened.bytes())) {
+    return Refused("bad_picture", path, "the file is cut short; copy it again");
+  }
+  return opened;
+}
+
+}  // namespace
+
+Result<FrameInfo> ReadPictureInfo(const std::string& path) {
+  auto opened = Open(path);
+  if (!opened) return Propagate(std::move(opened));
+  if (opened->format == "exr") return ReadExrInfo(path);
+  auto picture = ReadThroughModule(path, false);
+  if (!picture) return Propagate(std::move(picture));
+  return Describe(*picture, path, opened->format, opened->bytes());
+}
+
+Result<Frame> ReadPicture(const std::string& path) {
+  auto opened = Open(path);
+  if (!opened) return Propagate(std::move(opened));
+  if (opened->format == "exr") {
+    auto frame = ReadExr(path);
+    if (!frame) return frame;
+    const auto& view = std::get<View2d<const float>>(frame->samples);
+    if (auto ok = CheckSamples(view, path); !ok) return Propagate(std::move(ok));
+    return frame;
+  }
+  auto picture = ReadThroughModule(path, true);
+  if (!picture) return Propagate(std::move(picture));
+  auto info = Describe(*picture, path, opened->format, opened->bytes());
+  if (!info) return Propagate(std::move(info));
+  return FrameOf(std::move(*picture), std::move(*info));
+}
+
+}  // namespace lightcal

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/captures/radiance_header.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal {
+namespace {
+
+// The numbers of a line, absent when something else is there.
+std::optional<std::vector<double>> Numbers(std::string_view text) {
+  std::vector<double> numbers;
+  for (text = TrimBlanks(text); !text.empty(); text = TrimBlanks(text)) {
+    const std::size_t end = std::min(text.find_first_of(" \t"), text.size());
+    const auto number = ParseNumber(text.substr(0, end));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text.remove_prefix(end);
+  }
+  return numbers;
+}
+
+tl::unexpected<Error> BadLine(std::string_view name, std::string_view line) {
+  return Refused("bad_picture", std::string(name),
+                 "its header line \"" + std::string(line.substr(0, 80)) + "\" is not understood");
+}
+
+bool Usable(const RgbPrimaries& p) {
+  const double area =
+      (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
+  return std::abs(area) > 1e-6 && p.white.y > 0.0;
+}
+
+Result<void> TakeLine(std::string_view line, std::string_view name, RadianceHeader& header) {
+  const auto value_of = [&](std::string_view key) -> std::optional<std::string_view> {
+    if (!line.starts_with(key)) return std::nullopt;
+    return TrimBlanks(line.substr(key.size()));
+  };
+  if (const auto exposure = value_of("EXPOSURE=")) {
+    const auto number = ParseNumber(*exposure);
+    if (!number || !(*number > 0.0)) return BadLine(name, line);
+    header.exposure *= *number;
+  } else if (const auto colors = value_of("COLORCORR=")) {
+    if (Numbers(*colors) != std::vector{1.0, 1.0, 1.0}) {
+      return Refused("unsupported_picture", std::string(name),
+                     "a COLORCORR line changed its channels; undo it with Radiance's pcomb");
+    }
+  } else if (const auto primaries = value_of("PRIMARIES=")) {
+    const auto n = Numbers(*primaries);
+    if (!n || n->size() != 8) return BadLine(name, line);
+    if (std::all_of(n->begin(), n->end(), [](double v) { return v == 0.0; })) return {};
+    const RgbPrimaries all{
+        {(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}, {(*n)[4], (*n)[5]}, {(*n)[6], (*n)[7]}};
+    if (!Usable(all)) return BadLine(name, line);
+    header.primaries = all;
+  } else if (const auto format = value_of("FORMAT=")) {
+    if (*format != "32-bit_rle_rgbe" && *format != "32-bit_rle_xyze") return BadLine(name, line);
+    header.xyz = *format == "32-bit_rle_xyze";
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<RadianceHeader> ParseRadianceHeader(std::string_view bytes, std::string_view name) {
+  RadianceHeader header;
+  if (!bytes.starts_with("#?")) return BadLine(name, bytes.substr(0, bytes.find('\n')));
+  while (true) {
+    const std::size_t end = bytes.find('\n');
+    if (end == std::string_view::npos) {
+      return Refused("bad_picture", std::string(name), "its header has no end");
+    }
+    std::string_view line = bytes.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.empty()) break;
+    if (auto ok = TakeLine(line, name, header); !ok) return Propagate(std::move(ok));
+    bytes.remove_prefix(end + 1);
+  }
+  if (!std::isfinite(header.exposure) || header.exposure < 1e-30) {
+    return Refused("bad_picture", std::string(name), "its EXPOSURE lines multiply to no number");
+  }
+  return header;
+}
+
+}  // namespace lightcal
