@@ -246,6 +246,11 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
     }
     WarnIfTruncated(imported.spectrum, subject, console);
     if (NamesIlluminant(options.spectrum)) answer->reported.reset();
+    if (options.extra.tlci) {
+      auto tlci = TlciByArgyll(imported.spectrum);
+      if (!tlci) return Propagate(std::move(tlci));
+      answer->tlci = *std::move(tlci);
+    }
     Warnings warnings;
     answer->metrics = ColorMetricsOf(imported.spectrum, subject, warnings);
     answer->findings = {
@@ -292,6 +297,7 @@ Result<void> CheckOptions(const Options& o) {
   if (o.spectrum.empty() && o.extra.sampling != "auto") {
     return WrongUsage("--sampling", "goes with --spectrum");
   }
+  if (o.spectrum.empty() && o.extra.tlci) return WrongUsage("--tlci", "goes with --spectrum");
   return {};
 }
 

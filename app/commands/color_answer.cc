@@ -118,6 +118,10 @@ Json ToJson(const ColorAnswer& answer) {
     json["melanopic"] = MelanopicJson(*der, answer.illuminance);
   }
   AddMetrics(json, answer.metrics);
+  if (const auto& tlci = answer.tlci) {
+    json["tlci"] = {{"Qa", tlci->qa}, {"by", tlci->by}};
+    if (tlci->far_from_white) json["tlci"]["far_from_white"] = true;
+  }
   AddColorExtras(json, answer.xy, answer.extras, answer.findings);
   if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
   return json;
@@ -160,6 +164,10 @@ std::string TableOfOne(const ColorAnswer& answer) {
   }
   for (const MetricRow& metric : MetricRows(answer.metrics, reported)) {
     row(metric.what, metric.value, "", metric.claim);
+  }
+  if (const auto& tlci = answer.tlci) {
+    row("TLCI Qa by " + tlci->by,
+        Fixed(tlci->qa, 1) + (tlci->far_from_white ? " (far from white)" : ""), "");
   }
   for (ExtraRow& extra : ColorExtraRows(answer.xy, answer.extras, answer.findings)) {
     row(std::move(extra.what), std::move(extra.value), std::move(extra.unit));

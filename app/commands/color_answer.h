@@ -9,6 +9,7 @@
 
 #include "color_extras.h"
 #include "color_metrics.h"
+#include "color_tlci.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/units.h"
 #include "lightcal_devices/files/import_file.h"
@@ -24,6 +25,7 @@ struct ColorAnswer {
   std::optional<Lux> illuminance;  // of an irradiance
   std::optional<LumensPerWatt> efficacy;
   std::optional<double> melanopic_der;  // of a spectrum
+  std::optional<Tlci> tlci;
   std::optional<ReportedColor> reported;
   ColorMetrics metrics;  // of a spectrum
   ColorExtras extras;

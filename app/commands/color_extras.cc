@@ -24,7 +24,7 @@ Result<double> ParseSigma(const std::string& text) {
   if (!number) return WrongUsage("--sigma", "\"" + text + "\" is not a share such as 1% or 0.01");
   const double sigma = percent ? *number / 100.0 : *number;
   if (!(sigma > 0.0 && sigma < 1.0)) {
-    return Refused("out_of_range", "--sigma", "give a share above 0 and below 100 %");
+    return WrongUsage("--sigma", "\"" + text + "\" is not a share above 0 and below 100 %");
   }
   return sigma;
 }
@@ -177,13 +177,15 @@ void AddColorExtraOptions(CLI::App& parser, ColorExtraOptions& o) {
   parser.add_flag("--engines", o.engines,
                   "Add what engines make of this temperature (approximations)");
   parser.add_flag("--adobe", o.adobe, "Add temperature and tint as Adobe's raw converters show");
+  parser.add_flag("--tlci", o.tlci,
+                  "Add the television lighting consistency index, by ArgyllCMS where installed");
   parser.add_option("--plot", o.plot, "Write a chromaticity diagram with the locus and the colour")
       ->type_name("FILE.svg");
 }
 
 bool AsksForExtras(const ColorExtraOptions& o) {
   return !o.sigma.empty() || !o.white.empty() || o.gamut != "keep" || o.sampling != "auto" ||
-         !o.plot.empty() || o.engines || o.adobe;
+         !o.plot.empty() || o.engines || o.adobe || o.tlci;
 }
 
 Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options) {

@@ -22,7 +22,7 @@ namespace lightcal::app {
 // As typed.
 struct ColorExtraOptions {
   std::string sigma, white, gamut = "keep", sampling = "auto", plot;
-  bool engines = false, adobe = false;
+  bool engines = false, adobe = false, tlci = false;
 };
 void AddColorExtraOptions(CLI::App& parser, ColorExtraOptions& options);
 [[nodiscard]] bool AsksForExtras(const ColorExtraOptions& options);
@@ -35,8 +35,7 @@ struct ColorExtras {
   std::optional<Sampling> sampling;
   bool engines = false, adobe = false;
 };
-// Wrong usage for a sigma or white that cannot be read; refused/"out_of_range" for a sigma outside
-// 0-100 %.
+// Wrong usage for a white that cannot be read and a sigma that is no share between 0 and 100 %.
 [[nodiscard]] Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options);
 
 // Y = 1 before the gamut policy.

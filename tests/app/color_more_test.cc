@@ -78,7 +78,8 @@ TEST(ColorSigma, TooMuchNoiseLeavesNoTemperature) {
   EXPECT_EQ(RunLightcal({"color", "--xyz", "10", "10", "8", "--sigma", "5%", "--strict"}).exit_code,
             3);
   EXPECT_EQ(RunLightcal({"color", "--xy", "0.3", "0.3", "--sigma", "much"}).exit_code, 2);
-  EXPECT_EQ(RunLightcal({"color", "--xy", "0.3", "0.3", "--sigma", "-1%"}).exit_code, 3);
+  EXPECT_EQ(RunLightcal({"color", "--xy", "0.3", "0.3", "--sigma", "-1%"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"color", "--xy", "0.3", "0.3", "--sigma", "100%"}).exit_code, 2);
 }
 
 TEST(ColorSpectralError, OfSmoothLightBoundsWhatTheStepAndTheRangeCost) {
