@@ -82,6 +82,8 @@ Result<CsvTable> ParseTable(std::string_view text, std::string_view name) {
   std::erase_if(*rows, IsCommentOrEmpty);
   CsvTable table;
   table.name = name;
+  // A quote left open in a comment swallows the header too.
+  if (rows->empty()) return Refused("no_rows", table.name, "holds comments only");
   for (const std::string& written : rows->front().cells) {
     table.columns.push_back(ColumnFromName(written));
   }

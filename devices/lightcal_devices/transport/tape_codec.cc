@@ -79,9 +79,12 @@ class LineReader {
 
   void CheckKeys(std::initializer_list<std::string_view> known) {
     if (!problem_.empty()) return;
-    for (const auto& [key, value] : json_.items()) {
-      if (std::ranges::find(known, key) == known.end()) problem_ = "knows no key \"" + key + "\"";
-    }
+    const bool all_known = std::ranges::all_of(json_.items(), [&](const auto& item) {
+      return std::ranges::find(known, item.key()) != known.end();
+    });
+    if (all_known) return;
+    problem_ = "has a key that is none of";
+    for (const std::string_view key : known) problem_ += " " + std::string(key);
   }
   std::optional<std::string> Text(const char* key) {
     const Json* value = Find(key);

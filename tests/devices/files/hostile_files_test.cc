@@ -65,6 +65,11 @@ TEST(HostileFile, WithNothingInItHasNoRows) {
   EXPECT_EQ(CodeOf("# comment\ndistance_m,lux\n# 1,2\n"), "no_rows");
 }
 
+TEST(HostileFile, WhoseCommentOpensAQuoteThatSwallowsItsHeaderHasNoRows) {
+  EXPECT_EQ(CodeOf("# typed by hand, \"no lamp\nlight,distance_cm,illuminance_lx\nkey,100,48\n"),
+            "no_rows");
+}
+
 TEST(HostileFile, WithNulBytesIsNoText) {
   EXPECT_EQ(CodeOf(std::string(1000, '\0')), "not_text");
   std::string damaged = Sample(kUprtek);

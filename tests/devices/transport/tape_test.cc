@@ -97,6 +97,13 @@ TEST(Tape, ABadLineIsRefusedByItsNumber) {
   }
 }
 
+TEST(Tape, AMessageStaysShortWhateverTheLineHolds) {
+  const std::string line = "{\"t_ms\":0,\"" + std::string(5000, 'k') + "\":1}\n";
+  const auto tape =
+      TapeFromText("{\"schema\":\"lightcal.tape/1\",\"driver\":\"a\"}\n" + line, "t");
+  EXPECT_LT(tape.error().message.size(), 200U);
+}
+
 TEST(Tape, AnEmptyOrForeignFileIsRefused) {
   EXPECT_EQ(TapeFromText("", "t").error().code, "bad_tape");
   for (const char* foreign : {"#!/bin/sh\n", "{}\n", "{\"schema\":\"lightcal.tape/1\"}\n",
