@@ -95,8 +95,11 @@ std::string SixDecimals(double value) {
 Result<Spectrum> OnAGridOfArgyll(const Spectrum& s) {
   const bool whole_names = s.wavelengths_nm[1] - s.wavelengths_nm[0] >= 1.0;
   if (HasEqualSteps(s) && whole_names && s.values.size() <= kMostSamples) return s;
-  const double first = std::ceil(s.wavelengths_nm.front());
-  const double last = std::min(std::floor(s.wavelengths_nm.back()), first + kMostSamples - 1.0);
+  const std::vector<double> edges = BinEdgesNm(s);
+  constexpr double kRounding = 1e-9;
+  const double first = std::ceil(edges.front() + 0.5 - kRounding);
+  const double last = std::min(std::floor(edges.back() - 0.5 + kRounding),
+                               first + static_cast<double>(kMostSamples) - 1.0);
   return ResampleByArea(s, Nanometres(first), Nanometres(1.0), static_cast<int>(last - first) + 1);
 }
 
