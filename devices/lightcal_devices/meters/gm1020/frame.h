@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes of the Benetech GM1020 as values. Pure: no wire, no clock.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/meters/display.h"
+
+namespace lightcal::gm1020 {
+
+inline constexpr std::size_t kFrameBytes = 8;
+using Command = std::array<std::byte, kFrameBytes>;
+
+// code, argument, five zeros, and the sum of the seven modulo 256.
+[[nodiscard]] Command EncodeCommand(unsigned code, unsigned argument);
+[[nodiscard]] Command StartLive();  // 3C 01 .. 3D: from now on two measurements a second
+[[nodiscard]] Command StopLive();   // 3C 02 .. 3E
+
+// Whether these could be the first bytes of a live frame.
+[[nodiscard]] bool MayBeginFrame(std::span<const std::byte> bytes);
+
+// 33 22 Lhi Llo 01 Thi Tlo 11. The end mark is fixed, so that damage within L and T goes unnoticed.
+struct LiveMeasurement {
+  DisplayedIlluminance shown;  // always lx, whatever the display's unit
+  double temperature_C = 0.0;  // of the meter
+};
+// r = L:  E = (r & FFF)/10, ten times that with 4000 set, a hundred times with 8000 set.
+// Fails: bad_reply (another length or form, bits 1000 or 2000, which nobody has seen).
+[[nodiscard]] Result<LiveMeasurement> DecodeLive(std::span<const std::byte> bytes);
+
+}  // namespace lightcal::gm1020
