@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signal_kernels.h"
+
+#include <cmath>
+
+#if defined(__x86_64__)
+#define LIGHTCAL_EVERY_CPU \
+  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define LIGHTCAL_EVERY_CPU
+#endif
+
+namespace lightcal::kernels {
+namespace {
+
+// Chi-square of n degrees of freedom beyond which frames contradict each other: five standard
+// deviations above its mean.
+inline float ContradictionAt(float degrees) { return degrees + 5.0F * std::sqrt(2.0F * degrees); }
+
+}  // namespace
+
+LIGHTCAL_EVERY_CPU
+void SignalFromCodes(const std::uint16_t* in, std::size_t count, const Lanes& black,
+                     const Lanes& scale, float* out) {
+  const std::size_t whole = count / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      out[i + lane] = (static_cast<float>(in[i + lane]) - black[lane]) * scale[lane];
+    }
+  }
+  for (std::size_t i = whole; i < count; ++i) {
+    out[i] = (static_cast<float>(in[i]) - black[i - whole]) * scale[i - whole];
+  }
+}
+
+LIGHTCAL_EVERY_CPU
+void SignalFromFloats(const float* in, std::size_t count, const Lanes& black, const Lanes& scale,
+                      float* out) {
+  const std::size_t whole = count / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      out[i + lane] = (in[i + lane] - black[lane]) * scale[lane];
+    }
+  }
+  for (std::size_t i = whole; i < count; ++i) {
+    out[i] = (in[i] - black[i - whole]) * scale[i - whole];
+  }
+}
+
+// Pass 1, X from frames 0..i for the last i whose predicted signal t_i X is believed. X_i =
+// sum c y / sum c t is the sufficient statistic of Poisson noise, so that choosing by it does not
+// bias what is chosen; and a clipped frame can never pass, because every X_k t_i >= y_k t_i / t_k.
+LIGHTCAL_EVERY_CPU
+void MergeBlock(const BlockIn& in, const BlockOut& out) {
+  alignas(64) float sum[kBlock];
+  alignas(64) float predicted[kBlock];
+  alignas(64) float weights[kBlock];
+  alignas(64) float degrees[kBlock];
+  alignas(64) float limit[kBlock];
+  const std::size_t count = in.count;
+  for (std::size_t i = 0; i < kBlock; ++i) limit[i] = (*in.limit)[i % kLanes];
+
+  for (std::size_t i = 0; i < count; ++i) {
+    sum[i] = 0.0F;
+    out.used[i] = -1.0F;
+    predicted[i] = in.signals[i] / in.frames[0].exposure;
+  }
+  for (std::size_t k = 0; k < in.frames.size(); ++k) {
+    const FrameConstants frame = in.frames[k];
+    const float* y = in.signals + k * kBlock;
+    const float index = static_cast<float>(k);
+    for (std::size_t i = 0; i < count; ++i) {
+      sum[i] += frame.poisson_weight * y[i];
+      const float x = sum[i] * frame.prefix_reciprocal;
+      const bool believed = x * frame.exposure < limit[i];
+      predicted[i] = believed ? x : predicted[i];
+      out.used[i] = believed ? index : out.used[i];
+    }
+  }
+
+  // Pass 2: weights from the predicted signal, not from the noisy sample.
+  for (std::size_t i = 0; i < count; ++i) {
+    sum[i] = 0.0F;
+    weights[i] = 0.0F;
+    degrees[i] = -1.0F;
+  }
+  for (std::size_t k = 0; k < in.frames.size(); ++k) {
+    const FrameConstants frame = in.frames[k];
+    const float* y = in.signals + k * kBlock;
+    float* precision = in.precisions + k * kBlock;
+    const float index = static_cast<float>(k);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = predicted[i] > 0.0F ? predicted[i] : 0.0F;
+      const float inverse = 1.0F / (frame.shot * x + frame.read);
+      const bool seen = x * frame.exposure >= frame.floor || out.used[i] == index;
+      const bool counts = index <= out.used[i] && seen;
+      precision[i] = counts ? inverse : 0.0F;
+      degrees[i] += counts ? 1.0F : 0.0F;
+      const float weight = precision[i] * frame.exposure;
+      sum[i] += weight * y[i];
+      weights[i] += weight * frame.exposure;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool clipped = out.used[i] < 0.0F;
+    out.value[i] = clipped ? predicted[i] : sum[i] / weights[i];
+    sum[i] = 0.0F;  // from here: chi-square
+  }
+  for (std::size_t k = 0; k < in.frames.size(); ++k) {
+    const FrameConstants frame = in.frames[k];
+    const float* y = in.signals + k * kBlock;
+    const float* precision = in.precisions + k * kBlock;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float residual = y[i] - frame.exposure * out.value[i];
+      sum[i] += precision[i] * residual * residual;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool clipped = out.used[i] < 0.0F;
+    const float n = degrees[i] > 1.0F ? degrees[i] : 1.0F;
+    const float widening = sum[i] > ContradictionAt(n) ? sum[i] / n : 1.0F;
+    const float square = out.value[i] * out.value[i];
+    const float noise = clipped ? square : widening / weights[i];
+    out.variance[i] = noise + in.fixed_pattern2 * square;
+  }
+}
+
+LIGHTCAL_EVERY_CPU
+void AddProducts(const float* in, const Lanes& coefficient, std::size_t count, float* out) {
+  const std::size_t whole = count / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      out[i + lane] += coefficient[lane] * in[i + lane];
+    }
+  }
+  for (std::size_t i = whole; i < count; ++i) out[i] += coefficient[i - whole] * in[i];
+}
+
+LIGHTCAL_EVERY_CPU
+void SquareRoots(const float* in, std::size_t count, float* out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = std::sqrt(in[i]);
+}
+
+}  // namespace lightcal::kernels
