@@ -28,6 +28,7 @@
 #include "lightcal/report/color_vector_graphic.h"
 #include "lightcal_devices/files/import_file.h"
 #include "output_files.h"
+#include "picture_file.h"
 
 namespace lightcal::app {
 namespace {
@@ -159,8 +160,9 @@ Result<void> RunTyped(const Options& options, const ColorExtras& extras, Console
   console.Warn(warnings);
   if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
   if (!options.extra.plot.empty()) {
-    auto written = WriteOutputs({{options.extra.plot, PlotOf(*answer)}}, options.force);
-    if (!written) return written;
+    auto picture = PictureFile(options.extra.plot, PlotOf(*answer));
+    if (!picture) return Propagate(std::move(picture));
+    if (auto written = WriteOutputs({*picture}, options.force); !written) return written;
   }
   console.Print(TableOfOne(*answer));
   console.PrintJson(ToJson(*answer));
@@ -215,12 +217,17 @@ Result<std::vector<OutputFile>> PicturesOf(const Options& options,
           "its colour has no temperature");
     }
     const std::string& title = answer.name.empty() ? options.spectrum : answer.name;
-    pictures.push_back({options.vector_graphic,
-                        report::ColorVectorGraphic(rendering->fidelity, rendering->gamut, title)});
+    auto picture =
+        PictureFile(options.vector_graphic,
+                    report::ColorVectorGraphic(rendering->fidelity, rendering->gamut, title));
+    if (!picture) return Propagate(std::move(picture));
+    pictures.push_back(*std::move(picture));
   }
   if (!options.extra.plot.empty()) {
     if (auto one = check_one("--plot"); !one) return Propagate(std::move(one));
-    pictures.push_back({options.extra.plot, PlotOf(answers.front())});
+    auto picture = PictureFile(options.extra.plot, PlotOf(answers.front()));
+    if (!picture) return Propagate(std::move(picture));
+    pictures.push_back(*std::move(picture));
   }
   return pictures;
 }
@@ -291,6 +298,12 @@ Result<void> CheckOptions(const Options& o) {
   if (o.force && o.vector_graphic.empty() && o.extra.plot.empty()) {
     return WrongUsage("--force", "goes with --plot and --vector-graphic");
   }
+  const std::array<std::pair<const char*, const std::string*>, 2> pictures = {
+      {{"--plot", &o.extra.plot}, {"--vector-graphic", &o.vector_graphic}}};
+  for (const auto& [option, path] : pictures) {
+    if (path->empty()) continue;
+    if (auto named = CheckPictureName(option, *path); !named) return named;
+  }
   if (!o.batch.empty() && AsksForExtras(o.extra)) {
     return WrongUsage("--batch", "gives CCT and Duv only; ask for the rest one colour at a time");
   }
@@ -324,7 +337,7 @@ Run BuildColor(CLI::App& parser) {
   parser
       .add_option("--vector-graphic", o->vector_graphic,
                   "Write the TM-30 colour vector graphic of the spectrum")
-      ->type_name("FILE.svg");
+      ->type_name("FILE.svg|png");
   parser.add_flag("--force", o->force, "Replace a file that lightcal did not write");
   parser.add_option("--batch", o->batch, "Lines of x,y; - reads standard input")
       ->type_name("FILE.csv");

@@ -180,7 +180,7 @@ void AddColorExtraOptions(CLI::App& parser, ColorExtraOptions& o) {
   parser.add_flag("--tlci", o.tlci,
                   "Add the television lighting consistency index, by ArgyllCMS where installed");
   parser.add_option("--plot", o.plot, "Write a chromaticity diagram with the locus and the colour")
-      ->type_name("FILE.svg");
+      ->type_name("FILE.svg|png");
 }
 
 bool AsksForExtras(const ColorExtraOptions& o) {

@@ -11,9 +11,9 @@ std::string ChromaticityPlot(const FittedColor& color) {
   light.color = color;
   std::string svg = ChromaticityFigure(light, "chromaticity");
   if (svg.empty()) return svg;
-  const std::string style = "\n<!-- written by lightcal -->\n<style><![CDATA[" +
-                            std::string(StyleSheet()) +
-                            "svg { background: var(--page); }\n]]></style>";
+  const std::string style =
+      "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
+      "svg { background: var(--page); font-family: system-ui, sans-serif; }\n]]></style>";
   return svg.insert(svg.find('>') + 1, style);
 }
 
