@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal import: what instruments export, into a session's journal.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -17,7 +15,6 @@
 namespace lightcal::app {
 namespace {
 
-constexpr std::size_t kLongLog = 1000;      // readings from which appending is worth a note
 constexpr std::size_t kShownReadings = 20;  // rows of the table; --json lists them all
 
 struct Options {
@@ -81,31 +78,13 @@ std::size_t CountReadings(const ImportPlan& plan) {
   return count;
 }
 
-Result<void> AppendAll(const ImportPlan& plan, const std::string& journal, Console& console) {
-  const std::size_t total = CountReadings(plan);
-  const bool progress = total >= kLongLog && ::isatty(STDERR_FILENO) == 1;
-  if (total >= kLongLog) {
-    console.Note("appending " + std::to_string(total) +
-                 " readings, each synced to the disk; stopped halfway, the same import resumes");
-  }
-  std::size_t done = 0;
+// All readings or none.
+Result<void> AppendAll(const ImportPlan& plan, const std::string& journal) {
+  std::vector<Reading> all;
   for (const PlannedFile& file : plan.files) {
-    for (const Reading& reading : file.readings) {
-      if (auto appended = AppendToJournal(journal, reading); !appended) {
-        Error error = appended.error();
-        if (done > 0) {
-          error.message += "; " + std::to_string(done) + " of " + std::to_string(total) +
-                           " readings are in, the same import adds the rest";
-        }
-        return tl::unexpected(std::move(error));
-      }
-      ++done;
-      if (progress && done % (total / 10) == 0) {
-        console.Note(std::to_string(done) + " of " + std::to_string(total));
-      }
-    }
+    all.insert(all.end(), file.readings.begin(), file.readings.end());
   }
-  return {};
+  return AppendToJournal(journal, all);
 }
 
 Result<ImportSettings> SettingsOf(const Options& options) {
@@ -132,7 +111,7 @@ Result<void> RunImport(const Options& options, Console& console) {
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const std::string journal = JournalPath(options.session);
   if (auto written = WriteOutputs(plan->captures, false); !written) return written;
-  if (auto appended = AppendAll(*plan, journal, console); !appended) return appended;
+  if (auto appended = AppendAll(*plan, journal); !appended) return appended;
   const std::size_t count = CountReadings(*plan);
   if (count > 0) console.Print(ReadingsTable(*plan));
   console.PrintJson(ToJson(*plan, journal));

@@ -92,6 +92,18 @@ TEST(AppendToJournal, RefusesWhatLoadingWouldReject) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
+TEST(AppendToJournal, TakesManyReadingsAtOnceOrNone) {
+  const TempDir dir;
+  const std::string journal = dir.path() + "/readings.jsonl";
+  std::vector<Reading> many(100, ReadingOf(192.0));
+  ASSERT_TRUE(AppendToJournal(journal, many));
+  const std::string kept = ReadFile(journal);
+  EXPECT_EQ(Lines(kept).size(), 100U);
+  many.back().light.clear();
+  EXPECT_EQ(AppendToJournal(journal, many).error().code, "bad_reading");
+  EXPECT_EQ(ReadFile(journal), kept) << "the 99 good ones neither";
+}
+
 TEST(AppendToJournal, FailsWhereTheFolderIsMissing) {
   const auto appended = AppendToJournal("/nowhere/at/all/readings.jsonl", ReadingOf(1.0));
   ASSERT_FALSE(appended);

@@ -64,7 +64,7 @@ class HoldFileSizeSignal {
 
 tl::unexpected<Error> WriteFailure(const std::string& path, int error) {
   return Failed("journal_write", path,
-                "the reading could not be written (" + std::system_category().message(error) +
+                "nothing could be written (" + std::system_category().message(error) +
                     "); the journal is as it was");
 }
 
@@ -132,9 +132,13 @@ Result<std::string> CheckedLine(const Reading& reading, const std::string& path)
 
 }  // namespace
 
-Result<void> AppendToJournal(const std::string& journal_path, const Reading& reading) {
-  auto line = CheckedLine(reading, journal_path);
-  if (!line) return Propagate(std::move(line));
+Result<void> AppendToJournal(const std::string& journal_path, std::span<const Reading> readings) {
+  std::string lines;
+  for (const Reading& reading : readings) {
+    auto line = CheckedLine(reading, journal_path);
+    if (!line) return Propagate(std::move(line));
+    lines += *line + "\n";
+  }
   constexpr mode_t kMode = 0666;
   const File file(::open(journal_path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, kMode));
   if (file.get() < 0) return WriteFailure(journal_path, errno);
@@ -142,15 +146,16 @@ Result<void> AppendToJournal(const std::string& journal_path, const Reading& rea
   struct stat status{};
   if (::fstat(file.get(), &status) != 0) return WriteFailure(journal_path, errno);
   if (!S_ISREG(status.st_mode)) return WriteFailure(journal_path, EINVAL);
-  const std::string bytes = (EndsInsideLine(file.get(), status.st_size) ? "\n" : "") + *line + "\n";
+  const std::string bytes = (EndsInsideLine(file.get(), status.st_size) ? "\n" : "") + lines;
   const HoldFileSizeSignal hold;
   int error = WriteAll(file.get(), bytes);
   if (error == 0 && status.st_size == 0) error = SyncDirectoryOf(journal_path);
   if (error == 0) return {};
   if (::ftruncate(file.get(), status.st_size) != 0) {
-    return Failed("journal_write", journal_path,
-                  "the reading could not be written and the journal's last line may be torn; it "
-                  "will be ignored");
+    return Failed(
+        "journal_write", journal_path,
+        "what was to be added could not be written and the journal's last line may be torn; it "
+        "will be ignored");
   }
   return WriteFailure(journal_path, error);
 }
