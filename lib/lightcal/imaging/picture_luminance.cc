@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/picture_luminance.h"
+
+#include <cstddef>
+#include <span>
+
+#include "lightcal/photometry/luminous_efficacy.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kRadianceEfficacy = 179.0;  // lm/W
+constexpr std::array<double, 3> kRadianceWeights = {0.265, 0.670, 0.065};
+
+bool IsXyz(const FrameInfo& info) {
+  return info.channel_names == std::vector<std::string>{"X", "Y", "Z"};
+}
+
+Result<std::array<double, 3>> Weights(const FrameInfo& info, LuminanceConvention convention) {
+  if (info.channels == 1) return std::array<double, 3>{1.0, 0.0, 0.0};
+  if (info.channels != 3) {
+    return Refused("no_colour", info.file,
+                   "it has " + std::to_string(info.channels) + " channels; 1 or 3 are understood");
+  }
+  if (IsXyz(info)) return std::array<double, 3>{0.0, 1.0, 0.0};
+  if (convention == LuminanceConvention::kRadiance) return kRadianceWeights;
+  const RgbPrimaries primaries = info.chromaticities.value_or(PrimariesOf(RgbSpace::kSrgb));
+  return XyzFromRgbMatrix(primaries)[1];
+}
+
+double Scale(const FrameInfo& info, LuminanceConvention convention, PictureLuminance& luminance) {
+  switch (convention) {
+    case LuminanceConvention::kRadiometric:
+      luminance.scale = "radiometric_683";
+      return kEfficacyAt540THz.value();
+    case LuminanceConvention::kRadiance:
+      luminance.scale = "radiance_179";
+      return kRadianceEfficacy;
+    case LuminanceConvention::kPhotometric:
+      break;
+  }
+  if (info.white_luminance) {
+    luminance.scale = "white_luminance";
+    return info.white_luminance->value();
+  }
+  luminance.scale = "assumed_nits";
+  luminance.warnings.push_back(
+      {"relative_scale", info.file,
+       "the file does not say which luminance 1.0 is (no whiteLuminance); its numbers are taken as "
+       "cd/m^2: calibrate it by a lux reading (lightcal dome --lux), or name the convention"});
+  return 1.0;
+}
+
+void Convert(std::span<const float> samples, int channels, const std::array<double, 3>& weights,
+             std::span<float> nits) {
+  const auto r = static_cast<float>(weights[0]), g = static_cast<float>(weights[1]),
+             b = static_cast<float>(weights[2]);
+  if (channels == 1) {
+    for (std::size_t i = 0; i < nits.size(); ++i) nits[i] = r * samples[i];
+    return;
+  }
+  for (std::size_t i = 0; i < nits.size(); ++i) {
+    nits[i] = r * samples[3 * i] + g * samples[3 * i + 1] + b * samples[3 * i + 2];
+  }
+}
+
+}  // namespace
+
+Result<PictureLuminance> LuminanceOfPicture(const Frame& frame, LuminanceConvention convention) {
+  const FrameInfo& info = frame.info;
+  const auto* const samples = std::get_if<View2d<const float>>(&frame.samples);
+  if (info.meaning != SampleMeaning::kLinear || samples == nullptr) {
+    return Refused("not_linear", info.file,
+                   "its samples are no luminance yet; merge its bracket first (lightcal merge)");
+  }
+  auto weights = Weights(info, convention);
+  if (!weights) return Propagate(std::move(weights));
+  PictureLuminance luminance;
+  luminance.width = samples->width();
+  luminance.height = samples->height();
+  const double scale = Scale(info, convention, luminance) / info.radiance_exposure;
+  for (double& w : *weights) w *= scale;
+  luminance.nits.resize(static_cast<std::size_t>(luminance.width) * luminance.height);
+  for (int y = 0; y < luminance.height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * luminance.width;
+    Convert(samples->row(y), samples->channels(), *weights,
+            std::span(luminance.nits).subspan(first, luminance.width));
+  }
+  return luminance;
+}
+
+}  // namespace lightcal
