@@ -27,6 +27,11 @@ constexpr CommandRow kCommands[] = {
      "  lightcal import lamp.xls -s my_lamp --light key --distance 0.5m --meter cv600\n"
      "  lightcal import tape_measure.csv -s my_lamp --light key\n"
      "  lightcal import sweep.csv -s my_lamp --light key --column 560nm --color-only", BuildImport},
+    {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",
+     "  lightcal merge bracket/*.dng -o lum.exr --sigma sigma.exr\n"
+     "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"
+     "  lightcal merge a.png b.png c.png -o lum.exr --exposures 1/50,1/13,0.4 --f-number 8 --iso 800\n"
+     "  lightcal merge bracket/*.dng -o rgb.exr --space acescg --white 3200K", BuildMerge},
     {"fit", "The estimate of a session's lamps, as light.json",
      "  lightcal fit sample_data/sessions/amaran_200x_s_bare -o light.json\n"
      "  lightcal fit my_lamp --tol 0.5% --json", BuildFit},

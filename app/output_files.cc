@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 namespace lightcal::app {
 namespace {
@@ -20,12 +21,16 @@ namespace fs = std::filesystem;
 constexpr std::size_t kProvenanceWindowBytes = 4096;
 
 bool CarriesOurProvenance(const std::string& path) {
-  const auto contents = ReadWholeFile(path);
-  if (!contents) return false;
-  const bool is_json = contents->starts_with("{");
-  const auto window = is_json ? std::string_view(*contents)
-                              : std::string_view(*contents).substr(0, kProvenanceWindowBytes);
-  return window.find("lightcal") != std::string_view::npos;
+  std::string window(kProvenanceWindowBytes, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(window.data(), static_cast<std::streamsize>(window.size()));
+  window.resize(static_cast<std::size_t>(stream.gcount()));
+  if (window.starts_with("{")) {
+    auto contents = ReadWholeFile(path);
+    if (!contents) return false;
+    window = std::move(*contents);
+  }
+  return window.find("lightcal") != std::string::npos;
 }
 
 tl::unexpected<Error> Unwritable(const std::string& path, int error_number) {
@@ -34,7 +39,7 @@ tl::unexpected<Error> Unwritable(const std::string& path, int error_number) {
                     "; choose another -o or make room");
 }
 
-Result<void> WriteSynced(const std::string& path, const std::string& contents) {
+Result<void> WriteWhole(const std::string& path, const std::string& contents) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) return Unwritable(path, errno);
   std::size_t written = 0;
@@ -48,9 +53,7 @@ Result<void> WriteSynced(const std::string& path, const std::string& contents) {
     }
     written += static_cast<std::size_t>(n);
   }
-  const int synced = ::fsync(fd);
-  const int error_number = errno;
-  if (::close(fd) != 0 || synced != 0) return Unwritable(path, error_number);
+  if (::close(fd) != 0) return Unwritable(path, errno);
   return {};
 }
 
@@ -61,8 +64,19 @@ std::string TemporaryName(const std::string& path) {
       .string();
 }
 
-Result<void> CheckTargets(const std::vector<OutputFile>& files, bool force) {
-  for (const OutputFile& file : files) {
+// Forces to the disk what another writer left at `path`.
+Result<void> Sync(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return Unwritable(path, errno);
+  const int synced = ::fsync(fd);
+  const int error_number = errno;
+  ::close(fd);
+  if (synced != 0) return Unwritable(path, error_number);
+  return {};
+}
+
+Result<void> CheckTargets(const std::vector<OutputWriter>& files, bool force) {
+  for (const OutputWriter& file : files) {
     std::error_code error;
     if (fs::is_directory(file.path, error)) {
       return Failed("exists", file.path, "is a directory; name a file");
@@ -78,12 +92,22 @@ Result<void> CheckTargets(const std::vector<OutputFile>& files, bool force) {
 }  // namespace
 
 Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
+  std::vector<OutputWriter> writers;
+  for (const OutputFile& file : files) {
+    writers.push_back({file.path, [&file](const std::string& temporary) {
+                         return WriteWhole(temporary, file.contents);
+                       }});
+  }
+  return WriteOutputsWith(writers, force);
+}
+
+Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force) {
   if (auto checked = CheckTargets(files, force); !checked) return checked;
   std::vector<std::string> temporaries;
   const auto discard = [&] {
     for (const std::string& name : temporaries) ::unlink(name.c_str());
   };
-  for (const OutputFile& file : files) {
+  for (const OutputWriter& file : files) {
     const fs::path directory = fs::path(file.path).parent_path();
     std::error_code error;
     if (!directory.empty()) fs::create_directories(directory, error);
@@ -92,7 +116,9 @@ Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
       return Unwritable(directory.string(), error.value());
     }
     temporaries.push_back(TemporaryName(file.path));
-    if (auto written = WriteSynced(temporaries.back(), file.contents); !written) {
+    auto written = file.write(temporaries.back());
+    if (written) written = Sync(temporaries.back());
+    if (!written) {
       discard();
       Error failure = written.error();
       failure.subject = file.path;

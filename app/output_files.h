@@ -3,6 +3,7 @@
 // its target, synced, then renamed.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,14 @@ struct OutputFile {
 // force is off; with "unwritable" when a directory or file cannot be written. Creates directories.
 // On any failure no target has changed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
+
+// A file whose writer fills the temporary name it is given: for pictures too large to hold twice.
+struct OutputWriter {
+  std::string path;
+  std::function<Result<void>(const std::string& temporary)> write;
+};
+// As WriteOutputs.
+[[nodiscard]] Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force);
 
 // Paths relative to a directory become paths below it.
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);

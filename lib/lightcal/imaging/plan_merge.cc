@@ -206,6 +206,9 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   const auto joined = std::count(planned.measured.begin(), planned.measured.end(), true);
   planned.gauge_sd = kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1)));
   planned.plan.usable = ratios->linear_to;
+  for (const auto& frame : signals.frames) {
+    planned.usable_share.push_back(1.0 - ShareAbove(frame, signals.clip, planned.plan.usable));
+  }
   if (request.keep_labels) planned.plan.floor = kEncodedFloor;
   if (auto chosen = ChooseNoise(signals, request, frames, planned); !chosen) {
     return Propagate(std::move(chosen));

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bracket_merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/frame_agreement.h"
+#include "lightcal/imaging/merge_picture.h"
+#include "lightcal/imaging/parallel.h"
+#include "lightcal/imaging/response.h"
+#include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/photometry/exposure.h"
+#include "lightcal/photometry/exposure_grid.h"
+
+namespace lightcal::app {
+namespace {
+
+// What ISO speeds leave open about a camera's absolute scale (1 sigma): makers choose their
+// headroom; published factors of calibrated cameras lie 18 to 24 % above the standard.
+constexpr double kIsoPriorSd = 0.2;
+// Standard output sensitivity: code 118 of 255 at H = 10/S.   Source: ISO 12232:2006, 6.4.
+constexpr double kOutputSensitivityExposure = 10.0;
+constexpr double kOutputSensitivityCode = 118.0 / 255.0;
+constexpr double kEncodedPriorSd = 0.3;
+constexpr std::size_t kScratchFrom = std::size_t{1} << 30;  // bytes of samples
+constexpr double kUsedFrom = 1e-4;                          // share of believed samples
+constexpr double kClippedSigma = 0.99;
+
+void Append(const Warnings& from, Warnings& to) { to.insert(to.end(), from.begin(), from.end()); }
+
+Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
+  std::size_t bytes = 0;
+  for (const FrameInfo& info : infos) {
+    const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
+    bytes += sample * static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
+             static_cast<std::size_t>(info.channels);
+  }
+  const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
+  std::vector<std::optional<Result<Frame>>> loaded(infos.size());
+  ParallelFor(static_cast<int>(infos.size()), [&](int i) {
+    loaded[static_cast<std::size_t>(i)] = LoadFrame(infos[static_cast<std::size_t>(i)], store);
+  });
+  std::vector<Frame> frames;
+  for (auto& frame : loaded) {
+    if (!*frame) return Propagate(std::move(*frame));
+    frames.push_back(std::move(**frame));
+  }
+  return frames;
+}
+
+tl::unexpected<Error> NoExposure(const std::string& file, const std::string& what,
+                                 const std::string& todo) {
+  return Refused("no_exposure_metadata", file, "the file does not say its " + what + "; " + todo);
+}
+
+// Exposures t S / N^2 as the tags have them. Without ISO or f-number, which is only possible under
+// an anchor, these are the same for all frames.
+Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool anchored) {
+  std::vector<double> labels;
+  for (const FrameInfo& info : infos) {
+    const FrameExposure& exposure = info.exposure;
+    if (!exposure.time) {
+      return NoExposure(info.file, "exposure time",
+                        "give one a file with --exposures 1/250,1/60,...");
+    }
+    if (!anchored && !exposure.iso) {
+      return NoExposure(info.file, "ISO speed", "give it with --iso, or a spot reading (--anchor)");
+    }
+    if (!anchored && !exposure.f_number) {
+      return NoExposure(info.file, "f-number",
+                        "give it with --f-number, or a spot reading (--anchor)");
+    }
+    const FrameExposure& first = infos.front().exposure;
+    if (exposure.iso.has_value() != first.iso.has_value() ||
+        exposure.f_number.has_value() != first.f_number.has_value()) {
+      return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
+                        "give --iso and --f-number");
+    }
+    const double n = exposure.f_number.value_or(1.0);
+    labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
+  }
+  return labels;
+}
+
+// Everything that is needed until the picture is made.
+struct Work {
+  std::vector<Frame> frames;
+  ResponseCurves response;
+  std::vector<SignalFrame> signals;
+  PlannedMerge planned;
+  PictureColor color;
+};
+
+Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const Bracket& bracket,
+                                      Warnings& warnings) {
+  const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
+  if (!labels) return tl::unexpected(labels.error());
+  auto color = ColorOfPicture(bracket.frames.front());
+  if (!color) return Propagate(std::move(color));
+  if (request.space && !color->has_colour) {
+    return Refused(
+        "no_colour", bracket.frames.front().file,
+        "holds no colour, or nobody knows its camera's; leave --space out for luminance");
+  }
+  Append(color->warnings, warnings);
+  auto frames = LoadFrames(bracket.frames);
+  if (!frames) return Propagate(std::move(frames));
+  auto work = std::make_unique<Work>();
+  work->frames = std::move(*frames);
+  work->color = std::move(*color);
+  MergeRequest merge;
+  merge.label_exposure = *labels;
+  merge.noise = request.noise;
+  if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
+    auto response = RecoverResponse(work->frames, *labels);
+    if (!response) return Propagate(std::move(response));
+    work->response = std::move(*response);
+    merge.keep_labels = true;
+  }
+  for (const Frame& frame : work->frames) {
+    auto signal = SignalOf(frame, &work->response);
+    if (!signal) return Propagate(std::move(signal));
+    work->signals.push_back(std::move(*signal));
+    merge.noise_in_file.push_back(frame.info.noise);
+  }
+  auto planned = PlanMerge(work->signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  work->planned = std::move(*planned);
+  Append(work->planned.warnings, warnings);
+  return work;
+}
+
+// Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
+Nits PriorScale(const Work& work) {
+  const FrameInfo& info = work.frames[work.planned.order.front()].info;
+  const double exposure = std::exp(work.planned.ln_exposure.front());  // t S / N^2
+  double nits = SaturatingExposure(1.0).value / (kIsoLensConstant * exposure);
+  if (info.meaning == SampleMeaning::kEncoded) {
+    const auto& green = work.response.signal_of_code[info.channels == 3 ? kGreenChannel : 0];
+    const auto code =
+        static_cast<std::size_t>(kOutputSensitivityCode * static_cast<double>(green.size() - 1));
+    nits = kOutputSensitivityExposure / (kIsoLensConstant * exposure * double{green[code]});
+  } else if (info.meaning != SampleMeaning::kLinear) {
+    const bool rgb = info.channels == 3 || info.meaning == SampleMeaning::kMosaic;
+    nits /= double{work.signals.front().clip[rgb ? kGreenChannel : 0]};
+  }
+  if (info.focal_length && info.subject_distance) {
+    nits *= FocusFactor(*info.focal_length, *info.subject_distance).value_or(1.0);
+  }
+  return Nits(nits);
+}
+
+// Row by row product, then a scale.
+PictureRows RowsOf(const Work& work, const BracketMergeRequest& request, double scale) {
+  const Matrix3& xyz = work.color.xyz_from_rgb;
+  PictureRows rows;
+  for (std::size_t c = 0; c < 3; ++c) rows.luminance[c] = scale * xyz[1][c];
+  if (!request.space) {
+    rows.picture = {rows.luminance};
+    return rows;
+  }
+  const Xy target = PrimariesOf(*request.space).white;
+  rows.picture.resize(3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    Xyz color{xyz[0][c], xyz[1][c], xyz[2][c]};
+    if (request.white) {
+      // X and Z adapt; Y stays, so that a saturated lamp keeps its luminance.
+      color = AdaptBradford(color, *request.white, target);
+      color.Y = xyz[1][c];
+    }
+    const Rgb rgb = LinearRgbFromXyz(color, *request.space);
+    rows.picture[0][c] = scale * rgb.r;
+    rows.picture[1][c] = scale * rgb.g;
+    rows.picture[2][c] = scale * rgb.b;
+  }
+  return rows;
+}
+
+bool IsClippedIn(const BracketMerger& merger, const SpotReading& spot) {
+  const SignalFrame& frame = merger.frames()[0];
+  std::vector<float> value(frame.row_samples());
+  std::vector<float> variance(value.size());
+  const auto width = static_cast<int>(value.size());
+  for (int y = spot.y; y < spot.y + spot.height; ++y) {
+    static_cast<void>(merger.MergeRows(y, 1, View2d<float>(value.data(), width, 1),
+                                       View2d<float>(variance.data(), width, 1)));
+    for (int x = spot.x * frame.channels; x < (spot.x + spot.width) * frame.channels; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const bool bright =
+          value[i] > 0.5F * static_cast<float>(merger.plan().usable) * frame.clip[0];
+      if (bright && variance[i] > kClippedSigma * value[i] * value[i]) return true;
+    }
+  }
+  return false;
+}
+
+struct Scale {
+  double nits_per_unit = 0.0, sd_relative = 0.0;
+};
+
+// What brings the spot's mean luminance to the reading.
+Result<Scale> AnchorScale(const BracketMerger& merger, const PictureRows& rows, double prior,
+                          const SpotReading& spot, double ratio_sd) {
+  const SignalFrame& frame = merger.frames()[0];
+  const std::string where = std::to_string(spot.x) + "," + std::to_string(spot.y) + "," +
+                            std::to_string(spot.width) + "," + std::to_string(spot.height);
+  if (spot.x < 0 || spot.y < 0 || spot.width < 1 || spot.height < 1 ||
+      spot.x + spot.width > frame.width || spot.y + spot.height > frame.height) {
+    return Refused("bad_anchor", where,
+                   "is not inside the picture of " + std::to_string(frame.width) + " x " +
+                       std::to_string(frame.height) + " pixels");
+  }
+  if (IsClippedIn(merger, spot)) {
+    return Refused("bad_anchor", where,
+                   "is saturated in every frame; read a darker place, or expose shorter");
+  }
+  const std::size_t samples =
+      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(spot.height);
+  std::vector<float> luminance(samples), sigma(samples);
+  const auto done =
+      MergePicture(merger, {.picture = {rows.luminance}, .luminance = rows.luminance}, spot.y,
+                   spot.height, View2d<float>(luminance.data(), frame.width, spot.height),
+                   View2d<float>(sigma.data(), frame.width, spot.height));
+  if (!done) return tl::unexpected(done.error());
+  double sum = 0.0, variance = 0.0;
+  for (int y = 0; y < spot.height; ++y) {
+    for (int x = spot.x; x < spot.x + spot.width; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                     static_cast<std::size_t>(x);
+      sum += luminance[i];
+      variance += double{sigma[i]} * sigma[i];
+    }
+  }
+  // Interpolated neighbours share their noise: a mosaic's pixels count as a quarter.
+  const double sd = 2.0 * std::sqrt(variance) / sum;
+  if (!(sum > 0.0) || !(sd < 0.5)) {
+    return Refused("bad_anchor", where, "is too dark to be measured; read a brighter place");
+  }
+  const double mean = sum / (static_cast<double>(spot.width) * spot.height);
+  return Scale{prior * spot.luminance.value() / mean,
+               std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd)};
+}
+
+std::vector<MergedFrame> FramesOf(const Work& work) {
+  std::vector<MergedFrame> frames;
+  for (const Frame& frame : work.frames) frames.push_back({frame.info, std::nullopt, false});
+  const PlannedMerge& planned = work.planned;
+  for (std::size_t i = 0; i < planned.order.size(); ++i) {
+    MergedFrame& frame = frames[planned.order[i]];
+    frame.ratio_ev = std::log2(planned.plan.exposure[i] / planned.plan.exposure[0]);
+    frame.used = planned.usable_share[i] > kUsedFrom;
+  }
+  return frames;
+}
+
+Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
+                      const BracketMergeRequest& request) {
+  const double prior = PriorScale(work).value();
+  if (request.anchor) {
+    const double ratio_sd = *std::max_element(work.planned.sd_ln.begin(), work.planned.sd_ln.end());
+    return AnchorScale(merger, RowsOf(work, request, prior), prior, *request.anchor, ratio_sd);
+  }
+  const bool encoded = work.frames[0].info.meaning == SampleMeaning::kEncoded;
+  return Scale{prior, std::hypot(encoded ? kEncodedPriorSd : kIsoPriorSd, work.planned.gauge_sd)};
+}
+
+void WarnOfClipping(MergedBracket& merged) {
+  if (merged.clipped_fraction <= 0.0) return;
+  merged.warnings.push_back(
+      {"clipped", merged.frames.front().info.file,
+       RoundedText(100.0 * merged.clipped_fraction, 2) +
+           " % of the samples are saturated in the shortest frame too: there the picture is a "
+           "lower bound and its sigma as large as itself; expose shorter or use an ND filter"});
+}
+
+}  // namespace
+
+Result<MergedBracket> MergeBracketFiles(const BracketMergeRequest& request) {
+  const auto bracket = OpenBracket(request.files, request.overrides);
+  if (!bracket) return tl::unexpected(bracket.error());
+  MergedBracket merged;
+  merged.warnings = bracket->warnings;
+  const auto work = Prepare(request, *bracket, merged.warnings);
+  if (!work) return tl::unexpected(work.error());
+  const auto merger = BracketMerger::Make((*work)->signals, (*work)->planned.plan);
+  if (!merger) return tl::unexpected(merger.error());
+  Append(CompareFrames(*merger), merged.warnings);
+  const auto scale = ScaleOf(*merger, **work, request);
+  if (!scale) return tl::unexpected(scale.error());
+
+  merged.frames = FramesOf(**work);
+  merged.width = merger->frames()[0].width;
+  merged.height = merger->frames()[0].height;
+  merged.channels = request.space ? 3 : 1;
+  merged.nits_per_unit = scale->nits_per_unit;
+  merged.scale_source = request.anchor ? "anchor" : "iso_prior";
+  merged.scale_u95_relative = kZ95 * scale->sd_relative;
+  merged.plan = merger->plan();
+  merged.noise_source = (*work)->planned.noise_source;
+
+  const std::size_t pixels =
+      static_cast<std::size_t>(merged.width) * static_cast<std::size_t>(merged.height);
+  merged.picture.resize(pixels * static_cast<std::size_t>(merged.channels));
+  if (request.want_sigma) merged.sigma.resize(pixels);
+  const View2d<float> sigma = request.want_sigma
+                                  ? View2d<float>(merged.sigma.data(), merged.width, merged.height)
+                                  : View2d<float>();
+  const auto clipped = MergePicture(
+      *merger, RowsOf(**work, request, merged.nits_per_unit), 0, merged.height,
+      View2d<float>(merged.picture.data(), merged.width, merged.height, merged.channels), sigma);
+  if (!clipped) return tl::unexpected(clipped.error());
+  merged.clipped_fraction = static_cast<double>(*clipped) /
+                            static_cast<double>(merger->frames()[0].row_samples()) / merged.height;
+  WarnOfClipping(merged);
+  return merged;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "color_words.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/illuminants.h"
+#include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+
+namespace lightcal::app {
+
+Result<Xy> ParseWhite(const std::string& option, const std::string& text) {
+  if (const auto comma = text.find(','); comma != std::string::npos) {
+    const auto x = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
+    const auto y = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
+    if (!x || !y) return WrongUsage(option, "\"" + text + "\" is not x,y");
+    if (CctFromXy({*x, *y}).status == CctStatus::kNotAChromaticity) {
+      return Refused("bad_chromaticity", option, "no light has this chromaticity");
+    }
+    return Xy{*x, *y};
+  }
+  if (const auto kelvin = ParseTemperature(text)) {
+    if (kelvin->value() >= 400.0) return XyFromCct(*kelvin);
+    return Refused("out_of_range", option, "a white below 400 K is none");
+  }
+  const auto spectrum = IlluminantSpectrum(text);
+  const auto xyz = spectrum ? XyzFromSpectrum(*spectrum) : Result<Xyz>(Xyz{});
+  if (!spectrum || !xyz) {
+    return WrongUsage(option, "\"" + text +
+                                  "\" is no white; give x,y, a temperature such as 3200K or an "
+                                  "illuminant such as D65");
+  }
+  return XyFromXyz(*xyz);
+}
+
+Result<RgbSpace> ParseSpace(const std::string& option, const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, RgbSpace>, 5> kWords = {
+      {{"rec709", RgbSpace::kSrgb},
+       {"srgb", RgbSpace::kSrgb},
+       {"acescg", RgbSpace::kAcescg},
+       {"rec2020", RgbSpace::kRec2020},
+       {"p3", RgbSpace::kDisplayP3}}};
+  const auto found = std::find_if(kWords.begin(), kWords.end(),
+                                  [&](const auto& word) { return word.first == text; });
+  if (found == kWords.end()) {
+    return WrongUsage(option, "\"" + text + "\" is no space; rec709, acescg, rec2020 or p3");
+  }
+  return found->second;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal merge: a bracket of frames -> luminance in cd/m^2, with a sigma for every pixel.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bracket_merge.h"
+#include "color_words.h"
+#include "commands.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal_devices/captures/picture.h"
+#include "output_files.h"
+
+namespace lightcal::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> frames;
+  std::string output, sigma;
+  std::vector<std::string> exposures;
+  std::string f_number, iso;
+  std::string anchor, anchor_sigma = "5%";
+  std::vector<double> noise;
+  std::string space, white;
+  bool uncompressed = false, force = false;
+};
+
+Result<double> ParseShare(const std::string& option, const std::string& text) {
+  std::string_view digits = TrimBlanks(text);
+  const bool percent = digits.ends_with('%');
+  if (percent) digits.remove_suffix(1);
+  const auto number = ParseNumber(TrimBlanks(digits));
+  const double share = number ? *number / (percent ? 100.0 : 1.0) : -1.0;
+  if (!(share > 0.0 && share < 1.0)) {
+    return WrongUsage(option, "\"" + text + "\" is not a share such as 2% or 0.02");
+  }
+  return share;
+}
+
+// "x,y,w,h=NITS"
+Result<SpotReading> ParseAnchor(const std::string& text, const std::string& sigma) {
+  const auto wrong = [&] {
+    return WrongUsage("--anchor", "\"" + text +
+                                      "\" is not x,y,w,h=NITS, e.g. 1200,800,40,40=312 for a meter "
+                                      "that read 312 cd/m2 there");
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return wrong();
+  std::vector<int> numbers;
+  std::string_view rest = std::string_view(text).substr(0, equals);
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const auto number = ParseNumber(rest.substr(0, comma));
+    if (!number || *number != std::floor(*number) || std::abs(*number) > 1e6) return wrong();
+    numbers.push_back(static_cast<int>(*number));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  const auto reading = SplitNumberAndUnit(std::string_view(text).substr(equals + 1));
+  const bool known_unit =
+      reading && (reading->unit.empty() || reading->unit == "nits" || reading->unit == "cd/m2");
+  if (numbers.size() != 4 || !known_unit) return wrong();
+  if (!(reading->number > 0.0)) {
+    return Refused("bad_anchor", "--anchor", "a luminance reading is above 0");
+  }
+  const auto share = ParseShare("--anchor-sigma", sigma);
+  if (!share) return tl::unexpected(share.error());
+  return SpotReading{numbers[0], numbers[1], numbers[2], numbers[3], Nits(reading->number), *share};
+}
+
+Result<BracketOverrides> OverridesOf(const Options& options) {
+  BracketOverrides overrides;
+  for (const std::string& text : options.exposures) {
+    const auto time = ParseDuration(text);
+    if (!time) return tl::unexpected(time.error());
+    if (!(time->value() > 0.0)) {
+      return Refused("not_positive", "--exposures", "an exposure takes time: above zero");
+    }
+    overrides.exposure.push_back(*time);
+  }
+  if (!options.f_number.empty()) {
+    const auto f_number = ParseFNumber(options.f_number);
+    if (!f_number) return tl::unexpected(f_number.error());
+    overrides.f_number = *f_number;
+  }
+  if (!options.iso.empty()) {
+    const auto iso = ParseNumber(options.iso);
+    if (!iso) return WrongUsage("--iso", "\"" + options.iso + "\" is not an ISO speed");
+    overrides.iso = *iso;
+  }
+  if (overrides.f_number.value_or(1.0) <= 0.0 || overrides.iso.value_or(1.0) <= 0.0) {
+    return Refused("not_positive", "--f-number, --iso", "are above zero");
+  }
+  return overrides;
+}
+
+Result<BracketMergeRequest> RequestOf(const Options& options) {
+  BracketMergeRequest request;
+  request.files = options.frames;
+  request.want_sigma = !options.sigma.empty();
+  auto overrides = OverridesOf(options);
+  if (!overrides) return Propagate(std::move(overrides));
+  request.overrides = std::move(*overrides);
+  if (!options.anchor.empty()) {
+    const auto anchor = ParseAnchor(options.anchor, options.anchor_sigma);
+    if (!anchor) return tl::unexpected(anchor.error());
+    request.anchor = *anchor;
+  }
+  if (!options.noise.empty()) {
+    if (options.noise.size() != 2 || !(options.noise[0] >= 0.0) || !(options.noise[1] > 0.0)) {
+      return WrongUsage("--noise",
+                        "takes SCALE,OFFSET of Var(x) = SCALE x + OFFSET, x = 1 at full "
+                        "scale, as DNG's NoiseProfile has them");
+    }
+    request.noise = NoiseProfile{options.noise[0], options.noise[1]};
+  }
+  if (!options.space.empty()) {
+    const auto space = ParseSpace("--space", options.space);
+    if (!space) return tl::unexpected(space.error());
+    request.space = *space;
+  }
+  if (!options.white.empty()) {
+    if (!request.space) return WrongUsage("--white", "belongs to a colour picture: add --space");
+    const auto white = ParseWhite("--white", options.white);
+    if (!white) return tl::unexpected(white.error());
+    request.white = *white;
+  }
+  return request;
+}
+
+const char* NoiseWord(NoiseSource source) {
+  switch (source) {
+    case NoiseSource::kGiven:
+      return "given";
+    case NoiseSource::kFile:
+      return "noise_profile";
+    case NoiseSource::kEstimated:
+      return "estimated";
+    case NoiseSource::kAssumed:
+      return "assumed";
+  }
+  return "assumed";
+}
+
+// Order of exposures, what was used, and where the scale is from: enough to repeat the merge.
+std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket& merged,
+                                                            const std::string& quantity) {
+  std::string sources;
+  for (const MergedFrame& frame : merged.frames) {
+    sources += (sources.empty() ? "" : " ") + frame.info.file;
+    if (frame.ratio_ev) sources += "@" + RoundedText(*frame.ratio_ev, 6) + "EV";
+  }
+  return {{"generator", GeneratorName()},
+          {"quantity", quantity},
+          {"frames", sources},
+          {"scale_source", merged.scale_source},
+          {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
+          {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
+}
+
+OutputWriter PictureWriter(const Options& options, const BracketMergeRequest& request,
+                           const MergedBracket& merged) {
+  return {options.output, [&options, &request, &merged](const std::string& temporary) {
+            ExrPicture exr;
+            exr.samples = View2d<const float>(merged.picture.data(), merged.width, merged.height,
+                                              merged.channels);
+            exr.channel_names = {"Y"};
+            if (request.space) {
+              exr.channel_names = {"R", "G", "B"};
+              exr.chromaticities = PrimariesOf(*request.space);
+            }
+            exr.white_luminance = Nits(1.0);
+            exr.attributes = Attributes(merged, "luminance, cd/m2");
+            exr.compressed = !options.uncompressed;
+            return WriteExr(temporary, exr);
+          }};
+}
+
+OutputWriter SigmaWriter(const Options& options, const MergedBracket& merged) {
+  return {options.sigma, [&options, &merged](const std::string& temporary) {
+            ExrPicture exr;
+            exr.samples = View2d<const float>(merged.sigma.data(), merged.width, merged.height);
+            exr.channel_names = {"Y"};
+            exr.white_luminance = Nits(1.0);
+            exr.attributes = Attributes(merged, "standard deviation of luminance, cd/m2");
+            exr.compressed = !options.uncompressed;
+            return WriteExr(temporary, exr);
+          }};
+}
+
+nlohmann::ordered_json ToJson(const MergedBracket& merged) {
+  nlohmann::ordered_json document;
+  auto& frames = document["frames"] = nlohmann::ordered_json::array();
+  for (const MergedFrame& frame : merged.frames) {
+    nlohmann::ordered_json row = {{"file", frame.info.file}};
+    const FrameExposure& exposure = frame.info.exposure;
+    if (exposure.time) row["exposure_s"] = exposure.time->value();
+    if (exposure.f_number) row["f_number"] = *exposure.f_number;
+    if (exposure.iso) row["iso"] = *exposure.iso;
+    if (frame.ratio_ev) row["ratio_ev"] = *frame.ratio_ev;
+    row["used"] = frame.used;
+    frames.push_back(std::move(row));
+  }
+  document["scale"] = {{"nits_per_unit", merged.nits_per_unit},
+                       {"source", merged.scale_source},
+                       {"u95_relative", merged.scale_u95_relative}};
+  document["clipped_fraction"] = merged.clipped_fraction;
+  document["noise"] = {{"source", NoiseWord(merged.noise_source)},
+                       {"scale", merged.plan.noise.front().scale},
+                       {"offset", merged.plan.noise.front().offset},
+                       {"fixed_pattern", merged.plan.fixed_pattern}};
+  document["width"] = merged.width;
+  document["height"] = merged.height;
+  return document;
+}
+
+std::string Table(const MergedBracket& merged) {
+  std::vector<std::vector<std::string>> rows;
+  for (const MergedFrame& frame : merged.frames) {
+    const FrameExposure& exposure = frame.info.exposure;
+    rows.push_back(
+        {frame.info.file, exposure.time ? RoundedText(exposure.time->value(), 4) + " s" : "",
+         exposure.f_number ? "f/" + RoundedText(*exposure.f_number, 3) : "",
+         exposure.iso ? RoundedText(*exposure.iso, 4) : "",
+         frame.ratio_ev ? RoundedText(*frame.ratio_ev, 4) : "", frame.used ? "yes" : "no"});
+  }
+  std::string text = TextTable({"frame", "time", "aperture", "ISO", "measured EV", "used"}, rows);
+  const auto [low, high] = std::minmax_element(merged.picture.begin(), merged.picture.end());
+  text += "luminance up to " + RoundedText(*high, 4) + " cd/m2 (lowest " + RoundedText(*low, 2) +
+          "), scale ± " + RoundedText(100.0 * merged.scale_u95_relative, 2) + " % from " +
+          (merged.scale_source == "anchor" ? "the spot reading" : "the ISO speed (prior)") + "\n";
+  return text;
+}
+
+Result<void> RunMerge(const Options& options, Console& console) {
+  const auto request = RequestOf(options);
+  if (!request) return tl::unexpected(request.error());
+  const auto merged = MergeBracketFiles(*request);
+  if (!merged) return tl::unexpected(merged.error());
+  console.Warn(merged->warnings);
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  std::vector<OutputWriter> outputs = {PictureWriter(options, *request, *merged)};
+  if (request->want_sigma) outputs.push_back(SigmaWriter(options, *merged));
+  if (auto written = WriteOutputsWith(outputs, options.force); !written) return written;
+  console.Print(Table(*merged));
+  console.PrintJson(ToJson(*merged));
+  console.Note("wrote " + options.output +
+               (request->want_sigma ? " and " + options.sigma : std::string()));
+  if (!request->anchor) {
+    console.Note(
+        "next: read one spot with a luminance meter and pass --anchor x,y,w,h=NITS; the "
+        "scale is a prior until then");
+  }
+  return {};
+}
+
+}  // namespace
+
+Run BuildMerge(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  Options& o = *options;
+  parser.add_option("frames", o.frames, "RAW, DNG, EXR, HDR, TIFF, PNG or JPEG files of one scene")
+      ->required();
+  parser.add_option("-o,--output", o.output, "The merged picture, OpenEXR, cd/m2")->required();
+  parser.add_option("--sigma", o.sigma, "Also write each pixel's standard deviation here");
+  parser
+      .add_option("--exposures", o.exposures,
+                  "Exposure times in the order of the files, e.g. 1,1/4,1/15 [from the files]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser.add_option("--f-number", o.f_number, "Aperture of all frames [from the files]");
+  parser.add_option("--iso", o.iso, "ISO speed of all frames [from the files]");
+  parser.add_option("--anchor", o.anchor,
+                    "A luminance meter's reading of pixels: x,y,w,h=NITS [ISO speed, a prior]");
+  parser.add_option("--anchor-sigma", o.anchor_sigma, "The meter's 1 sigma")->capture_default_str();
+  parser
+      .add_option("--noise", o.noise,
+                  "SCALE,OFFSET of the sensor's noise [NoiseProfile of the files, else measured]")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser.add_option("--space", o.space,
+                    "RGB in rec709, acescg, rec2020 or p3 instead of luminance alone");
+  parser.add_option("--white", o.white,
+                    "What becomes white: 3200K, D65 or x,y (luminance stays) [no adaptation]");
+  parser.add_flag("--uncompressed", o.uncompressed, "Faster, larger files");
+  parser.add_flag("--force", o.force, "Replace files that lightcal did not write");
+  return [options](Console& console) { return RunMerge(*options, console); };
+}
+
+}  // namespace lightcal::app
