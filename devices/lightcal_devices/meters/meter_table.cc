@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
 
@@ -10,8 +11,10 @@ namespace lightcal {
 namespace {
 
 constexpr std::array<UsbId, 1> kSekonicIds = {{{0x0a41, 0x7003}}};
+// The FT232 of many meters and of many cables.
+constexpr std::array<UsbId, 1> kFtdiIds = {{{0x0403, 0x6001}}};
 
-constexpr std::array<MeterRow, 1> kMeters = {{
+constexpr auto kMeters = std::to_array<MeterRow>({
     {.driver = "sekonic",
      .models = "Sekonic C-700, C-800, C-7000",
      .line = &kUsbLine,
@@ -19,7 +22,23 @@ constexpr std::array<MeterRow, 1> kMeters = {{
      .verified = Verified::kCapturedReply,
      .options = {},
      .make = sekonic::MakeMeter},
-}};
+    {.driver = "konica_t10a",
+     .models = "Konica Minolta T-10A, T-10MA",
+     .line = &kTtyLine,
+     .usb = kFtdiIds,
+     .serial = konica::kSerial,
+     .verified = Verified::kDocumentation,
+     .options = konica::kOptions,
+     .make = konica::MakeT10a},
+    {.driver = "konica_cl200a",
+     .models = "Konica Minolta CL-200A",
+     .line = &kTtyLine,
+     .usb = kFtdiIds,
+     .serial = konica::kSerial,
+     .verified = Verified::kCapturedReply,
+     .options = konica::kOptions,
+     .make = konica::MakeCl200a},
+});
 
 }  // namespace
 
