@@ -62,6 +62,28 @@ TEST(ColorTlci, OfCieIlluminantsIsArgylls) {
   EXPECT_EQ(lights, 35);
 }
 
+// Four measured film lights; the reference was linear to 1 nm, which moves the index by 0.1.
+TEST(ColorTlci, OfFilmLightsIsArgylls) {
+  const std::vector<double> published = {72.0, 95.8, 86.6, 89.7};  // vectors/ampas_sources.csv
+  for (std::size_t light = 0; light < published.size(); ++light) {
+    std::ifstream source(test::SampleData("ampas_sources/test_sources_2nm.csv"));
+    std::string line, cell;
+    std::getline(source, line);
+    std::string table = "wavelength_nm,relative\n";
+    while (std::getline(source, line)) {
+      std::istringstream row(line);
+      std::getline(row, cell, ',');
+      table += cell + ",";
+      for (std::size_t i = 0; i <= light; ++i) std::getline(row, cell, ',');
+      table += cell + "\n";
+    }
+    const test::TempDir dir;
+    const json answer = test::LightcalJson(
+        "color", {"--spectrum", dir.Write("film.csv", table), "--tlci", "--sampling", "band"});
+    EXPECT_NEAR(answer["tlci"]["Qa"].get<double>(), published[light], 0.21) << light;
+  }
+}
+
 TEST(ColorTlci, OfUnequalStepsIsThatOfOneNanometre) {
   const json tlci = test::LightcalJson(
       "color", {"--spectrum", test::SampleData("spectra/colour_science/Fluorescent.spdx"),
