@@ -53,4 +53,13 @@ MeterReading OverRangeReading(double limit_lx, const DisplayLimits& limits,
   return result;
 }
 
+Warning BatteryLow(const std::string& device) {
+  return {"battery_low", device, "the meter's battery is low; change it before it reads wrongly"};
+}
+
+tl::unexpected<Error> NegativeReading(const std::string& device) {
+  return Failed("negative_reading", device,
+                "the meter shows less than no light; set its zero with the cap on, then try again");
+}
+
 }  // namespace lightcal

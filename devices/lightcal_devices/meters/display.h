@@ -38,4 +38,8 @@ struct DisplayLimits {
 [[nodiscard]] MeterReading OverRangeReading(double limit_lx, const DisplayLimits& limits,
                                             const std::string& device);
 
+// What such meters have in common besides.
+[[nodiscard]] Warning BatteryLow(const std::string& device);
+[[nodiscard]] tl::unexpected<Error> NegativeReading(const std::string& device);
+
 }  // namespace lightcal

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/meters/frame_search.h"
 
-#include "lightcal_devices/transport/framing.h"
-
 namespace lightcal {
 namespace {
 
@@ -49,6 +47,10 @@ Result<Bytes> FindFrame(Transport& transport, const FrameSearch& search,
   }
   if (cancellation.Requested()) return Interrupted(transport.Name());
   return NoFrame(transport, search, received);
+}
+
+void ForgetQueued(Transport& transport) {
+  StreamReader(transport).Drain(std::chrono::milliseconds(0));
 }
 
 tl::unexpected<Error> Interrupted(const std::string& device) {
