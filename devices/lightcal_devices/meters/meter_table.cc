@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "lightcal_devices/meters/gossen/meter.h"
 #include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
@@ -38,6 +39,14 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .verified = Verified::kCapturedReply,
      .options = konica::kOptions,
      .make = konica::MakeCl200a},
+    {.driver = "gossen",
+     .models = "Gossen MAVOLUX 5032 B USB, 5032 C USB",
+     .line = &kTtyLine,
+     .usb = kFtdiIds,
+     .serial = k9600_7E2,
+     .verified = Verified::kDocumentation,
+     .options = gossen::kOptions,
+     .make = gossen::MakeMeter},
 });
 
 }  // namespace
