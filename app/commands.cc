@@ -32,6 +32,11 @@ constexpr CommandRow kCommands[] = {
      "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"
      "  lightcal merge a.png b.png c.png -o lum.exr --exposures 1/50,1/13,0.4 --f-number 8 --iso 800\n"
      "  lightcal merge bracket/*.dng -o rgb.exr --space acescg --white 3200K", BuildMerge},
+    {"inspect", "Luminance statistics of a picture or panorama; the illuminance it gives",
+     "  lightcal inspect lobby.hdr --projection latlong\n"
+     "  lightcal inspect lum.exr --rect 280,180,40,40 --json\n"
+     "  lightcal inspect sky.exr --projection equisolid --fov 180\n"
+     "  lightcal inspect IMG_0042.CR2 --rect 100,100,50,50", BuildInspect},
     {"fit", "The estimate of a session's lamps, as light.json",
      "  lightcal fit sample_data/sessions/amaran_200x_s_bare -o light.json\n"
      "  lightcal fit my_lamp --tol 0.5% --json", BuildFit},

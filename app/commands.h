@@ -14,6 +14,7 @@ namespace lightcal::app {
 Run BuildQuick(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
 Run BuildMerge(CLI::App& parser);
+Run BuildInspect(CLI::App& parser);
 Run BuildRun(CLI::App& parser);
 Run BuildFit(CLI::App& parser);
 Run BuildExplain(CLI::App& parser);

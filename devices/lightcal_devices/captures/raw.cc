@@ -21,6 +21,8 @@ namespace lightcal {
 namespace {
 
 constexpr unsigned kMostDecodedMegabytes = 2048;
+// No RAW packs more pixels into a byte; one that says so is damaged, and would cost minutes.
+constexpr double kMostPixelsPerByte = 32.0;
 
 // A LibRaw over a mapped file. It never moves: LibRaw keeps pointers into it.
 struct OpenRaw {
@@ -80,6 +82,10 @@ Result<std::shared_ptr<OpenRaw>> Open(const std::string& path) {
     return Refused("unknown_format", path, "no camera RAW that LibRaw knows");
   }
   if (auto ok = Checked(error, *open, path); !ok) return Propagate(std::move(ok));
+  const double pixels = 1.0 * raw.imgdata.sizes.raw_width * raw.imgdata.sizes.raw_height;
+  if (pixels > kMostPixelsPerByte * static_cast<double>(open->file.size)) {
+    return CutShort(path, "");
+  }
   // LibRaw fills what is missing at the end of a compressed DNG with grey and says nothing.
   if (raw.imgdata.idata.dng_version != 0 &&
       open->tags.EndOfData() > static_cast<double>(open->file.size)) {

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal inspect: what a picture says of luminance, and of the light that reaches where it was
+// taken.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "bracket_merge.h"
+#include "commands.h"
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/imaging/panorama.h"
+#include "lightcal/imaging/patches.h"
+#include "lightcal/imaging/picture_luminance.h"
+#include "lightcal_devices/captures/bracket.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr int kTableDigits = 5;
+// What a single RAW without a noise profile is taken for: 30,000 electrons, 12 bits of read noise.
+// Its statistics do not depend on it.
+constexpr NoiseProfile kMiddlingSensor{1.0 / 30000.0, 1.0 / (4096.0 * 4096.0)};
+
+struct Options {
+  std::string image, projection, fov, convention = "photometric";
+  std::vector<int> rect;
+  std::string exposure, f_number, iso;
+};
+
+// A picture as luminances, and where its scale is from.
+struct Inspected {
+  FrameInfo info;
+  PictureLuminance luminance;
+  std::optional<double> scale_u95_relative;
+};
+
+struct Answer {
+  LuminanceStatistics statistics;
+  std::optional<RegionIlluminance> illuminance;
+  std::optional<Vec3> peak_direction;
+};
+
+Result<LuminanceConvention> ConventionByName(const std::string& word) {
+  if (word == "photometric") return LuminanceConvention::kPhotometric;
+  if (word == "radiometric") return LuminanceConvention::kRadiometric;
+  if (word == "radiance") return LuminanceConvention::kRadiance;
+  return WrongUsage("--luminance-convention",
+                    "\"" + word + "\" is none of photometric, radiometric, radiance");
+}
+
+Result<double> Above0(const char* option, Result<double> number) {
+  if (number && !(*number > 0.0)) return Refused("not_positive", option, "must be above zero");
+  return number;
+}
+
+Result<BracketOverrides> OverridesOf(const Options& options) {
+  BracketOverrides overrides;
+  if (!options.exposure.empty()) {
+    const auto time = ParseDuration(options.exposure);
+    if (!time) return tl::unexpected(time.error());
+    if (!(time->value() > 0.0)) return Refused("not_positive", "--exposure", "must be above zero");
+    overrides.exposure = {*time};
+  }
+  if (!options.f_number.empty()) {
+    const auto f_number = Above0("--f-number", ParseFNumber(options.f_number));
+    if (!f_number) return tl::unexpected(f_number.error());
+    overrides.f_number = *f_number;
+  }
+  if (!options.iso.empty()) {
+    const auto typed = ParseNumber(options.iso);
+    if (!typed) return WrongUsage("--iso", "\"" + options.iso + "\" is not an ISO speed");
+    const auto iso = Above0("--iso", *typed);
+    if (!iso) return tl::unexpected(iso.error());
+    overrides.iso = *iso;
+  }
+  return overrides;
+}
+
+// A single RAW is a bracket of one frame: its luminance by the ISO prior.
+Result<Inspected> InspectRaw(const Options& options, FrameInfo info, Console& console) {
+  BracketMergeRequest request;
+  request.files = {options.image};
+  auto overrides = OverridesOf(options);
+  if (!overrides) return Propagate(std::move(overrides));
+  request.overrides = std::move(*overrides);
+  if (info.noise.empty()) request.noise = kMiddlingSensor;
+  auto merged = MergeBracketFiles(request);
+  if (!merged) return Propagate(std::move(merged));
+  for (const Warning& warning : merged->warnings) {
+    if (warning.code != "one_frame") console.Warn(warning);  // asked for one
+  }
+  Inspected inspected;
+  inspected.info = std::move(info);
+  inspected.luminance.width = merged->width;
+  inspected.luminance.height = merged->height;
+  inspected.luminance.nits = std::move(merged->picture);
+  inspected.luminance.scale = merged->scale_source;
+  inspected.scale_u95_relative = merged->scale_u95_relative;
+  return inspected;
+}
+
+// What our own merge wrote beside the samples.
+void TakeOwnScale(Inspected& inspected) {
+  for (const auto& [name, text] : inspected.info.lightcal_attributes) {
+    if (name == "scale_source") inspected.luminance.scale = text;
+    if (name == "scale_u95_relative") inspected.scale_u95_relative = ParseNumber(text);
+  }
+}
+
+Result<Inspected> Inspect(const Options& options, Console& console) {
+  const auto convention = ConventionByName(options.convention);
+  if (!convention) return tl::unexpected(convention.error());
+  auto info = ReadFrameInfo(options.image);
+  if (!info) return Propagate(std::move(info));
+  if (info->meaning == SampleMeaning::kMosaic || info->meaning == SampleMeaning::kSensor) {
+    return InspectRaw(options, std::move(*info), console);
+  }
+  if (info->meaning == SampleMeaning::kEncoded) {
+    return Refused("no_response", options.image,
+                   "its codes are no luminance without the camera's response curve; merge the "
+                   "bracket it belongs to (lightcal merge), or use the RAW");
+  }
+  auto frame = ReadFrame(options.image);
+  if (!frame) return Propagate(std::move(frame));
+  auto luminance = LuminanceOfPicture(*frame, *convention);
+  if (!luminance) return Propagate(std::move(luminance));
+  console.Warn(frame->info.warnings);
+  console.Warn(luminance->warnings);
+  Inspected inspected{std::move(frame->info), std::move(*luminance), std::nullopt};
+  if (*convention == LuminanceConvention::kPhotometric) TakeOwnScale(inspected);
+  return inspected;
+}
+
+Result<Region> RegionOf(const Options& options, const PictureLuminance& picture) {
+  if (options.rect.empty()) return Region{0, 0, picture.width, picture.height};
+  if (options.rect.size() != 4) return WrongUsage("--rect", "takes x,y,width,height in pixels");
+  const Region region{options.rect[0], options.rect[1], options.rect[2], options.rect[3]};
+  if (auto ok = CheckRegion(region, picture.width, picture.height); !ok) {
+    return Propagate(std::move(ok));
+  }
+  return region;
+}
+
+// Absent: nobody says how the picture was projected.
+Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
+                                                 const Inspected& inspected) {
+  PictureView view;
+  view.width = inspected.luminance.width;
+  view.height = inspected.luminance.height;
+  if (options.projection.empty() && !inspected.info.environment_latlong) {
+    if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
+    return std::nullopt;
+  }
+  const auto projection =
+      ProjectionByName(options.projection.empty() ? "latlong" : options.projection);
+  if (!projection) {
+    constexpr std::array<std::string_view, 4> kKnown = {"rect", "latlong", "equidistant",
+                                                        "equisolid"};
+    const std::string near = NearestWord(options.projection, kKnown);
+    return WrongUsage("--projection", "\"" + options.projection +
+                                          "\" is none of rect, latlong, equidistant, equisolid" +
+                                          (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  view.projection = *projection;
+  if (view.projection != Projection::kLatLong) {
+    if (options.fov.empty()) {
+      return WrongUsage("--fov",
+                        "give the full angle the lens sees: across the width of a rect picture, "
+                        "across the image circle of a fisheye (180)");
+    }
+    const auto fov = ParseAngle(options.fov);
+    if (!fov) return tl::unexpected(fov.error());
+    view.field_of_view = *fov;
+  }
+  auto angles = PixelSolidAngles::Create(view);
+  if (!angles) return Propagate(std::move(angles));
+  return std::optional(std::move(*angles));
+}
+
+Result<Answer> Measure(const PictureLuminance& picture, const Region& region,
+                       const std::optional<PixelSolidAngles>& angles) {
+  auto statistics = MeasureRegion(picture.view(), region);
+  if (!statistics) return Propagate(std::move(statistics));
+  Answer answer{*statistics, std::nullopt, std::nullopt};
+  if (!angles) return answer;
+  const auto illuminance = MeasureIlluminance(picture.view(), *angles, region);
+  if (!illuminance) return tl::unexpected(illuminance.error());
+  answer.illuminance = *illuminance;
+  answer.peak_direction = angles->Direction(statistics->peak_x + 0.5, statistics->peak_y + 0.5);
+  return answer;
+}
+
+// Right of the picture's centre, and above its horizon.
+std::pair<double, double> AzimuthAndElevation(const Vec3& direction) {
+  const Radians azimuth(std::atan2(direction[0], direction[1]));
+  const Radians elevation(std::asin(std::clamp(direction[2], -1.0, 1.0)));
+  return {DegreesFromRadians(azimuth), DegreesFromRadians(elevation)};
+}
+
+nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
+                              const Answer& answer) {
+  const LuminanceStatistics& s = answer.statistics;
+  nlohmann::ordered_json document;
+  document["picture"] = {{"file", inspected.info.file},
+                         {"format", inspected.info.format},
+                         {"width", inspected.luminance.width},
+                         {"height", inspected.luminance.height}};
+  document["rect"] = {region.x, region.y, region.width, region.height};
+  document["luminance_nits"] = {{"min", s.min.value()},
+                                {"mean", s.mean.value()},
+                                {"median", s.median.value()},
+                                {"max", s.max.value()}};
+  document["sigma_relative"] = s.sd_relative;
+  if (answer.illuminance) {
+    document["illuminance_lx"] = answer.illuminance->illuminance.value();
+    document["solid_angle_sr"] = answer.illuminance->solid_angle.value();
+  }
+  auto& peak = document["peak"];
+  peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max.value()}};
+  if (answer.peak_direction) {
+    const auto [azimuth, elevation] = AzimuthAndElevation(*answer.peak_direction);
+    peak["azimuth_deg"] = azimuth;
+    peak["elevation_deg"] = elevation;
+  }
+  auto& scale = document["scale"];
+  scale["source"] = inspected.luminance.scale;
+  if (inspected.scale_u95_relative) scale["u95_relative"] = *inspected.scale_u95_relative;
+  return document;
+}
+
+std::string Table(const Inspected& inspected, const Region& region, const Answer& answer,
+                  bool is_latlong) {
+  const LuminanceStatistics& s = answer.statistics;
+  const auto text = [](double v) { return RoundedText(v, kTableDigits); };
+  std::vector<std::vector<std::string>> rows = {
+      {"luminance, mean", text(s.mean.value()), "cd/m²"},
+      {"luminance, median", text(s.median.value()), "cd/m²"},
+      {"luminance, min", text(s.min.value()), "cd/m²"},
+      {"luminance, max", text(s.max.value()),
+       "cd/m² at " + std::to_string(s.peak_x) + "," + std::to_string(s.peak_y)},
+      {"spread of pixels, 1 σ", RoundedText(100.0 * s.sd_relative, 3), "% of mean"}};
+  if (answer.peak_direction) {
+    const auto [azimuth, elevation] = AzimuthAndElevation(*answer.peak_direction);
+    rows.push_back({"brightest at", RoundedText(azimuth, 4),
+                    "° right of centre, " + RoundedText(elevation, 4) + "° above it"});
+  }
+  if (answer.illuminance) {
+    rows.push_back({is_latlong ? "illuminance, upper hemisphere" : "illuminance, picture's plane",
+                    text(answer.illuminance->illuminance.value()), "lx"});
+    rows.push_back({"solid angle", text(answer.illuminance->solid_angle.value()), "sr"});
+  }
+  std::string scale = inspected.luminance.scale;
+  if (inspected.scale_u95_relative) {
+    scale += " ± " + RoundedText(100.0 * *inspected.scale_u95_relative, 2) + " %";
+  }
+  return inspected.info.file + ": " + std::to_string(inspected.luminance.width) + " x " +
+         std::to_string(inspected.luminance.height) + ", region " + std::to_string(region.x) + "," +
+         std::to_string(region.y) + "," + std::to_string(region.width) + "," +
+         std::to_string(region.height) + ", scale: " + scale + "\n" +
+         TextTable({"quantity", "value", "unit"}, rows);
+}
+
+Result<void> RunInspect(const Options& options, Console& console) {
+  const auto inspected = Inspect(options, console);
+  if (!inspected) return tl::unexpected(inspected.error());
+  const auto region = RegionOf(options, inspected->luminance);
+  if (!region) return tl::unexpected(region.error());
+  const auto angles = AnglesOf(options, *inspected);
+  if (!angles) return tl::unexpected(angles.error());
+  const auto answer = Measure(inspected->luminance, *region, *angles);
+  if (!answer) return tl::unexpected(answer.error());
+  if (auto ok = console.RefuseIfStrict(); !ok) return ok;
+  const bool is_latlong =
+      angles->has_value() && (*angles)->view().projection == Projection::kLatLong;
+  console.Print(Table(*inspected, *region, *answer, is_latlong));
+  console.PrintJson(ToJson(*inspected, *region, *answer));
+  return {};
+}
+
+}  // namespace
+
+Run BuildInspect(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("image", options->image, "EXR, Radiance HDR, float TIFF, camera RAW or DNG")
+      ->required();
+  parser.add_option("--rect", options->rect, "only this region: x,y,width,height in pixels")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser.add_option("--projection", options->projection,
+                    "rect, latlong, equidistant or equisolid: gives illuminance and solid angle");
+  parser.add_option("--fov", options->fov,
+                    "full angle, across the width (rect) or the image circle (fisheyes)");
+  parser
+      .add_option("--luminance-convention", options->convention,
+                  "photometric: Y of the file's primaries (Rec. 709) in cd/m², times its "
+                  "whiteLuminance; radiometric: Y in W/(sr m²), times 683 lm/W; radiance: "
+                  "179 lm/W (.265 R + .670 G + .065 B)")
+      ->capture_default_str();
+  parser.add_option("--exposure,--exposures", options->exposure,
+                    "of a RAW that does not say it: 1/60");
+  parser.add_option("--f-number", options->f_number, "likewise");
+  parser.add_option("--iso", options->iso, "likewise");
+  return [options](Console& console) { return RunInspect(*options, console); };
+}
+
+}  // namespace lightcal::app
