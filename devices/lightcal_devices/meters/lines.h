@@ -23,6 +23,9 @@ struct FoundMeter {
   std::string serial;   // "" = none
   std::string usb;      // "0a41:7003", "" = not on USB
   MeterAccess access = MeterAccess::kReady;
+  // The device's own folder in sysfs, links resolved; "" = not asked. One instrument may be found by
+  // two drivers, one folder then lies within the other.
+  std::string sysfs_parent;
   std::string remedy;  // what to do when it is not ready, "" = what the access says
 };
 
@@ -46,5 +49,9 @@ struct MeterLine {
 extern const MeterLine kUsbLine;
 // Serial ports. A port is listed for each driver whose cable it may be.
 extern const MeterLine kTtyLine;
+// A program of the driver's name on PATH, which runs when the driver starts it.
+extern const MeterLine kProcessLine;
+// Light sensors of the kernel's Industrial I/O.
+extern const MeterLine kSysfsLine;
 
 }  // namespace lightcal

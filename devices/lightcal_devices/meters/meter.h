@@ -28,7 +28,10 @@ struct MeterReading {
   Reading reading;
   std::optional<Spectrum> spectrum;  // W m^-2 nm^-1
   std::optional<double> cri_Ra;
-  std::vector<double> cri_R;  // R1 .. R15, or empty
+  std::vector<double> cri_R;  // R1 .. R15, or R1 .. R14, or empty
+  std::optional<double> tlci_Qa;  // television lighting consistency, EBU Tech 3355
+  std::optional<double> tm30_Rf;  // as the instrument computes them, IES TM-30
+  std::optional<double> tm30_Rg;
   Warnings warnings;          // low_light_color, cct_out_of_range, self_check, not_restored, ...
 };
 

@@ -4,9 +4,11 @@
 #include <array>
 
 #include "lightcal_devices/meters/gossen/meter.h"
+#include "lightcal_devices/meters/iio/meter.h"
 #include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
+#include "lightcal_devices/meters/spotread/meter.h"
 
 namespace lightcal {
 namespace {
@@ -14,6 +16,26 @@ namespace {
 constexpr std::array<UsbId, 1> kSekonicIds = {{{0x0a41, 0x7003}}};
 // The FT232 of many meters and of many cables.
 constexpr std::array<UsbId, 1> kFtdiIds = {{{0x0403, 0x6001}}};
+// Instruments that ArgyllCMS lets measure ambient light: i1 Display (1, 2), i1 Display Pro and its
+// successors, i1 Pro (1, 2, 3), ColorMunki, i1 Studio, Huey, Spyder 3, 4, 5 and X. JETI specbos hang
+// on serial ports.
+constexpr std::array<UsbId, 12> kSpotreadIds = {{{0x0765, 0x5001},
+                                                 {0x0765, 0x5020},
+                                                 {0x0765, 0x6008},
+                                                 {0x0765, 0x6009},
+                                                 {0x085c, 0x0300},
+                                                 {0x085c, 0x0400},
+                                                 {0x085c, 0x0500},
+                                                 {0x085c, 0x0a00},
+                                                 {0x0971, 0x2000},
+                                                 {0x0971, 0x2003},
+                                                 {0x0971, 0x2005},
+                                                 {0x0971, 0x2007}}};
+constexpr std::array<MeterOption, 4> kSpotreadOptions = {
+    {{"port", "number of the instrument in the list spotread -? prints"},
+     {"ccss", "a .ccss or .ccmx file that corrects a colorimeter for this kind of lamp"},
+     {"hires", "yes: the spectrometer's high resolution"},
+     {"spotread", "path of the program"}}};
 
 constexpr auto kMeters = std::to_array<MeterRow>({
     {.driver = "sekonic",
@@ -47,6 +69,21 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .verified = Verified::kDocumentation,
      .options = gossen::kOptions,
      .make = gossen::MakeMeter},
+    {.driver = "spotread",
+     .models = "i1 Display Pro, i1 Pro, ColorMunki, Spyder, Huey, JETI specbos (ArgyllCMS)",
+     .line = &kProcessLine,
+     .usb = kSpotreadIds,
+     .verified = Verified::kDocumentation,
+     .options = kSpotreadOptions,
+     .make = spotread::MakeMeter,
+     .describe = spotread::Describe},
+    {.driver = "iio",
+     .models = "light sensors of Linux Industrial I/O",
+     .line = &kSysfsLine,
+     .usb = {},
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = iio::MakeMeter},
 });
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 namespace lightcal {
 
+struct FoundMeter;
 struct MeterLine;
 
 // How sure we are that the driver does what the instrument wants.
@@ -44,6 +45,8 @@ struct MeterRow {
   Verified verified = Verified::kDocumentation;
   std::span<const MeterOption> options;
   std::unique_ptr<Meter> (*make)(Transport& transport, const MeterSetup& setup) = nullptr;
+  // More about one that was found, for people: a program's version. Absent = nothing more.
+  std::string (*describe)(const FoundMeter& meter) = nullptr;
 };
 
 [[nodiscard]] std::span<const MeterRow> MeterTable();

@@ -6,9 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 
 namespace lightcal {
 namespace {
@@ -68,6 +71,42 @@ Result<Bytes> Content(const std::string& folder, const std::string& attribute, s
   return bytes;
 }
 
+constexpr const char* kUsbDevices = "/sys/bus/usb/devices";
+
+std::string AttributeOr(const std::string& folder, std::string_view attribute) {
+  auto text = ReadSysfsAttribute(folder, attribute).value_or("");
+  std::erase_if(text, [](char c) { return c < ' ' || c > '~'; });
+  return text;
+}
+
+template <class Unsigned>
+std::optional<Unsigned> UnsignedAttribute(const std::string& folder, std::string_view attribute,
+                                          int base) {
+  const std::string text = AttributeOr(folder, attribute);
+  Unsigned value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value, base);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::string ThreeDigits(unsigned number) {
+  const std::string text = std::to_string(number);
+  return std::string(text.size() < 3 ? 3 - text.size() : 0, '0') + text;
+}
+
+// Absent where the folder is an interface, which has no id.
+std::optional<SysfsUsbDevice> UsbDeviceOf(const std::string& folder) {
+  const auto vendor = UnsignedAttribute<std::uint16_t>(folder, "idVendor", 16);
+  const auto product = UnsignedAttribute<std::uint16_t>(folder, "idProduct", 16);
+  const auto bus = UnsignedAttribute<unsigned>(folder, "busnum", 10);
+  const auto number = UnsignedAttribute<unsigned>(folder, "devnum", 10);
+  if (!vendor || !product) return std::nullopt;
+  SysfsUsbDevice device{*vendor, *product, AttributeOr(folder, "product"), ""};
+  if (bus && number) device.node = "/dev/bus/usb/" + ThreeDigits(*bus) + "/" + ThreeDigits(*number);
+  return device;
+}
+
 class SysfsTransport final : public Transport {
  public:
   explicit SysfsTransport(std::string folder) : folder_(std::move(folder)) {}
@@ -114,6 +153,24 @@ Result<std::string> ReadSysfsAttribute(const std::string& folder, std::string_vi
   std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   while (text.ends_with('\n')) text.pop_back();
   return text;
+}
+
+std::vector<SysfsUsbDevice> UsbDevicesInSysfs() {
+  std::vector<SysfsUsbDevice> devices;
+  for (const std::string& folder : FoldersIn(kUsbDevices)) {
+    if (auto device = UsbDeviceOf(folder)) devices.push_back(*std::move(device));
+  }
+  return devices;
+}
+
+std::vector<std::string> FoldersIn(const std::string& path) {
+  std::vector<std::string> folders;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(path, ignored)) {
+    folders.push_back(entry.path().string());
+  }
+  std::ranges::sort(folders);
+  return folders;
 }
 
 }  // namespace lightcal

@@ -2,9 +2,11 @@
 // The attributes of a Linux device in sysfs, one small text file each, as a line.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
@@ -31,5 +33,17 @@ inline constexpr std::string_view kIioDevices = "/sys/bus/iio/devices";
 // One attribute, without the newline at its end. Fails as OpenSysfs' Read.
 [[nodiscard]] Result<std::string> ReadSysfsAttribute(const std::string& folder,
                                                      std::string_view attribute);
+
+// What stands in a folder of sysfs, sorted, with its path; empty where there is no such folder.
+[[nodiscard]] std::vector<std::string> FoldersIn(const std::string& path);
+
+// A USB device as the kernel read it when it was plugged in: nothing is opened or sent.
+struct SysfsUsbDevice {
+  std::uint16_t vendor = 0;
+  std::uint16_t product = 0;
+  std::string name;  // of the maker, printable ASCII, "" = it has none
+  std::string node;  // "/dev/bus/usb/001/004"
+};
+[[nodiscard]] std::vector<SysfsUsbDevice> UsbDevicesInSysfs();
 
 }  // namespace lightcal
