@@ -3,12 +3,17 @@
 
 #include <array>
 
+#include "lightcal_devices/meters/gm1020/meter.h"
 #include "lightcal_devices/meters/gossen/meter.h"
 #include "lightcal_devices/meters/iio/meter.h"
 #include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
+#include "lightcal_devices/meters/lutron16/meter.h"
+#include "lightcal_devices/meters/pce174/meter.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
 #include "lightcal_devices/meters/spotread/meter.h"
+#include "lightcal_devices/meters/torchbearer/meter.h"
+#include "lightcal_devices/meters/ut382/meter.h"
 
 namespace lightcal {
 namespace {
@@ -36,6 +41,9 @@ constexpr std::array<MeterOption, 4> kSpotreadOptions = {
      {"ccss", "a .ccss or .ccmx file that corrects a colorimeter for this kind of lamp"},
      {"hires", "yes: the spectrometer's high resolution"},
      {"spotread", "path of the program"}}};
+
+// The CP2102 of many meters and of many cables.
+constexpr std::array<UsbId, 1> kCp210xIds = {{{0x10c4, 0xea60}}};
 
 constexpr auto kMeters = std::to_array<MeterRow>({
     {.driver = "sekonic",
@@ -69,6 +77,46 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .verified = Verified::kDocumentation,
      .options = gossen::kOptions,
      .make = gossen::MakeMeter},
+    {.driver = "pce174",
+     .models = "PCE-174, Extech HD450",
+     .line = &kTtyLine,
+     .usb = kCp210xIds,
+     .serial = k9600_8N1,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = pce174::MakeMeter},
+    {.driver = "ut382",
+     .models = "UNI-T UT382",
+     .line = &kTtyLine,
+     .usb = {},
+     .serial = k19200_8N1,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = ut382::MakeMeter},
+    {.driver = "gm1020",
+     .models = "Benetech GM1020",
+     .line = &kTtyLine,
+     .usb = {},
+     .serial = k19200_8N1,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = gm1020::MakeMeter},
+    {.driver = "lutron16",
+     .models = "Lutron YK-2005LX and its family (Extech SDL400, PCE)",
+     .line = &kTtyLine,
+     .usb = {},
+     .serial = k9600_8N1,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = lutron16::MakeMeter},
+    {.driver = "torchbearer",
+     .models = "Torch Bearer Y21B7W (experimental)",
+     .line = &kTtyLine,
+     .usb = {},
+     .serial = k115200_8N1,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = torchbearer::MakeMeter},
     {.driver = "spotread",
      .models = "i1 Display Pro, i1 Pro, ColorMunki, Spyder, Huey, JETI specbos (ArgyllCMS)",
      .line = &kProcessLine,
