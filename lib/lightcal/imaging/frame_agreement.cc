@@ -16,6 +16,7 @@ namespace lightcal {
 namespace {
 
 constexpr int kBlocksAcross = 750;
+constexpr int kLeastBlock = 4;  // pixels
 constexpr double kSigmas = 6.0;
 constexpr double kLeastDifference = 0.02;
 constexpr double kRatioSd = 0.003;  // of exposures, and of what blocks add to noise
@@ -45,9 +46,9 @@ struct Blocks {
 };
 
 int BlockSize(const SignalFrame& frame) {
-  const int period = std::max(frame.row_period, frame.channels == 1 ? frame.row_period : 1);
-  const int size = (frame.width + kBlocksAcross - 1) / kBlocksAcross;
-  return std::max(period, (size + period - 1) / period * period);
+  const int period = frame.row_period;
+  const int size = std::max(kLeastBlock, (frame.width + kBlocksAcross - 1) / kBlocksAcross);
+  return (size + period - 1) / period * period;
 }
 
 // The first rows of every block, one period of the pattern: enough to see motion by.

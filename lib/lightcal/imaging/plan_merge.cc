@@ -59,11 +59,14 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
     if (!estimate) return {};
     const double ratio =
         VarianceAt(*estimate, kMiddleSignal) / VarianceAt((*file)[n / 2], kMiddleSignal);
-    if (std::abs(ratio - 1.0) < kNoiseDisagreement) return {};
-    planned.warnings.push_back(
-        {"noise_disagrees", frames[n / 2].name,
-         "the frames scatter " + RoundedText(ratio, 2) +
-             " times what the file's NoiseProfile says (variance); what they show is used"});
+    if (std::abs(ratio - 1.0) > kNoiseDisagreement) {
+      planned.warnings.push_back(
+          {"noise_disagrees", frames[n / 2].name,
+           "the frames scatter " + RoundedText(ratio, 2) +
+               " times what the file's NoiseProfile says (variance), which is used: the scene "
+               "moved, or the profile is wrong; --noise replaces it"});
+    }
+    return {};
   }
   planned.noise_source = NoiseSource::kEstimated;
   planned.plan.noise.assign(n, estimate.value_or(kMiddlingNoise));
