@@ -12,6 +12,7 @@
 #include "lightcal_devices/meters/pce174/meter.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
 #include "lightcal_devices/meters/spotread/meter.h"
+#include "lightcal_devices/meters/text/meter.h"
 #include "lightcal_devices/meters/torchbearer/meter.h"
 #include "lightcal_devices/meters/ut382/meter.h"
 
@@ -132,6 +133,14 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .verified = Verified::kDocumentation,
      .options = {},
      .make = iio::MakeMeter},
+    {.driver = "line",
+     .models = "anything that prints lux: line:/dev/ttyACM0, line:FIFO, line:!PROGRAM",
+     .line = &kTextLine,
+     .usb = {},
+    {.driver = "typed",
+     .models = "a meter without a cable: typed:192lx",
+     .line = &kTypedLine,
+     .usb = {},
 });
 
 }  // namespace
