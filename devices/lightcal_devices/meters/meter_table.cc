@@ -137,10 +137,16 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .models = "anything that prints lux: line:/dev/ttyACM0, line:FIFO, line:!PROGRAM",
      .line = &kTextLine,
      .usb = {},
+     .verified = Verified::kDocumentation,
+     .options = text::kOptions,
+     .make = text::MakeLine},
     {.driver = "typed",
      .models = "a meter without a cable: typed:192lx",
      .line = &kTypedLine,
      .usb = {},
+     .verified = Verified::kDocumentation,
+     .options = text::kOptions,
+     .make = text::MakeTyped},
 });
 
 }  // namespace
