@@ -34,7 +34,7 @@ MeterReading ReadingFromMeasurement(const Measurement& measurement, const Wavele
   result.reading.sigma_relative = kSigmaRelative;
   result.warnings.push_back(
       {"experimental", device,
-       "this driver follows a description of the protocol and was never tried "
+       "is experimental: the driver follows a description of the protocol and was never tried "
        "on a device; compare it with a meter you trust, and please send a "
        "tape (--record)"});
   Spectrum spectrum{{}, measurement.irradiance_W_m2_nm, SpectralQuantity::kIrradiance};
