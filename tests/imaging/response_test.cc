@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/response.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace lightcal {
+namespace {
+
+using Curve = std::function<double(double)>;  // signal 0..1 -> code 0..1
+
+// sRGB's own curve, and one with the shoulder and toe of a camera's picture style.
+double SrgbCurve(double x) {
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+double FilmCurve(double x) { return std::pow(x, 0.9) / (std::pow(x, 0.9) + 0.18) * 1.18; }
+
+Frame FrameOf(const std::vector<std::uint16_t>& codes, int width, int height, int top) {
+  const auto owner = std::make_shared<const std::vector<std::uint16_t>>(codes);
+  Frame frame;
+  frame.info.file = "frame.png";
+  frame.info.width = width;
+  frame.info.height = height;
+  frame.info.meaning = SampleMeaning::kEncoded;
+  SensorLevels levels;
+  levels.black = {1, 1, {0.0F}};
+  levels.white.fill(static_cast<float>(top));
+  frame.info.levels = levels;
+  frame.samples = View2d<const std::uint16_t>(owner->data(), width, height);
+  frame.owner = owner;
+  return frame;
+}
+
+// A scene over five decades, seen with 1 % noise.
+std::vector<Frame> Shoot(const Curve& curve, const std::vector<double>& exposures, int top) {
+  constexpr int kWidth = 200, kHeight = 150;
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::vector<Frame> frames;
+  for (const double exposure : exposures) {
+    std::vector<std::uint16_t> codes;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const double scene = std::pow(10.0, -3.0 + 3.5 * i / (kWidth * kHeight));
+      const double signal = scene * exposure * (1.0 + noise(random));
+      codes.push_back(
+          static_cast<std::uint16_t>(std::lround(top * curve(std::clamp(signal, 0.0, 1.0)))));
+    }
+    frames.push_back(FrameOf(codes, kWidth, kHeight, top));
+  }
+  return frames;
+}
+
+struct Style {
+  std::string name;
+  Curve curve;
+  int top;
+};
+void PrintTo(const Style& style, std::ostream* out) { *out << style.name; }
+
+class Response : public testing::TestWithParam<Style> {};
+
+TEST_P(Response, IsRecoveredToThreePercentOverTheMiddleCodesAndIncreases) {
+  const std::vector<double> exposures = {0.25, 1.0, 4.0, 16.0};
+  const auto frames = Shoot(GetParam().curve, exposures, GetParam().top);
+  const auto curves = RecoverResponse(frames, exposures);
+  ASSERT_TRUE(curves.has_value()) << curves.error().message;
+  const auto& signal = curves->signal_of_code[0];
+  ASSERT_EQ(signal.size(), static_cast<std::size_t>(GetParam().top) + 1);
+  for (std::size_t code = 1; code < signal.size(); ++code) {
+    ASSERT_GT(signal[code], signal[code - 1]) << code;
+  }
+  // The curve is known up to a factor: compare with a middle signal.
+  const auto code_of = [&](double x) {
+    return static_cast<std::size_t>(std::lround(GetParam().top * GetParam().curve(x)));
+  };
+  const double factor = signal[code_of(0.3)] / 0.3;
+  for (const double x : {0.02, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8}) {
+    EXPECT_NEAR(signal[code_of(x)] / factor / x, 1.0, 0.03) << x;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Styles, Response,
+                         testing::Values(Style{"srgb", SrgbCurve, 255},
+                                         Style{"film", FilmCurve, 255},
+                                         Style{"film_16_bit", FilmCurve, 65535}),
+                         [](const auto& style) { return style.param.name; });
+
+TEST(RecoverResponse, OneFrameTellsNoCurve) {
+  const auto frames = Shoot(SrgbCurve, {1.0}, 255);
+  const auto curves = RecoverResponse(frames, std::vector<double>{1.0});
+  ASSERT_FALSE(curves.has_value());
+  EXPECT_EQ(curves.error().code, "no_response");
+}
+
+TEST(RecoverResponse, FramesThatShareNothingTellNoCurve) {
+  const std::vector<double> exposures = {1e-3, 1e3};
+  const auto curves = RecoverResponse(Shoot(SrgbCurve, exposures, 255), exposures);
+  ASSERT_FALSE(curves.has_value());
+  EXPECT_EQ(curves.error().code, "no_response");
+}
+
+}  // namespace
+}  // namespace lightcal
