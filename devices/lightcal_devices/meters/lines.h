@@ -56,5 +56,9 @@ extern const MeterLine kTypedLine;
 extern const MeterLine kProcessLine;
 // Light sensors of the kernel's Industrial I/O.
 extern const MeterLine kSysfsLine;
+// HID sensors, known by their usage: ambient light on the sensor page.
+extern const MeterLine kHidLine;
+// HID devices known by their USB id, taken from the kernel's driver while they are read.
+extern const MeterLine kHidUsbLine;
 
 }  // namespace lightcal

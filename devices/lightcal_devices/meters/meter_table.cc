@@ -5,10 +5,12 @@
 
 #include "lightcal_devices/meters/gm1020/meter.h"
 #include "lightcal_devices/meters/gossen/meter.h"
+#include "lightcal_devices/meters/hid_als/meter.h"
 #include "lightcal_devices/meters/iio/meter.h"
 #include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/meters/lutron16/meter.h"
+#include "lightcal_devices/meters/mcp2221/meter.h"
 #include "lightcal_devices/meters/pce174/meter.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
 #include "lightcal_devices/meters/spotread/meter.h"
@@ -42,6 +44,16 @@ constexpr std::array<MeterOption, 4> kSpotreadOptions = {
      {"ccss", "a .ccss or .ccmx file that corrects a colorimeter for this kind of lamp"},
      {"hires", "yes: the spectrometer's high resolution"},
      {"spotread", "path of the program"}}};
+
+// The CP2102 of many meters and of many cables.
+constexpr std::array<UsbId, 1> kCp210xIds = {{{0x10c4, 0xea60}}};
+
+// Sensors on the HID sensor page are found by their usage; this one is known by name.
+constexpr std::array<UsbId, 1> kHidAlsIds = {{{0x273f, 0x1008}}};
+constexpr std::array<UsbId, 1> kMcp2221Ids = {{{0x04d8, 0x00dd}}};
+constexpr std::array<MeterOption, 2> kMcp2221Options = {
+    {{"sensor", "opt4048, opt3001, bh1750 or veml7700; the first two are found without it"},
+     {"address", "of the sensor on the I2C bus, 0x23; needs sensor"}}};
 
 // The CP2102 of many meters and of many cables.
 constexpr std::array<UsbId, 1> kCp210xIds = {{{0x10c4, 0xea60}}};
@@ -133,6 +145,20 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .verified = Verified::kDocumentation,
      .options = {},
      .make = iio::MakeMeter},
+    {.driver = "hid_als",
+     .models = "HID ambient light sensors (ColorHugALS, laptops)",
+     .line = &kHidLine,
+     .usb = kHidAlsIds,
+     .verified = Verified::kDocumentation,
+     .options = {},
+     .make = hid_als::MakeMeter},
+    {.driver = "mcp2221",
+     .models = "OPT4048, OPT3001, BH1750, VEML7700 on a MCP2221A",
+     .line = &kHidUsbLine,
+     .usb = kMcp2221Ids,
+     .verified = Verified::kDocumentation,
+     .options = kMcp2221Options,
+     .make = mcp2221::MakeMeter},
     {.driver = "line",
      .models = "anything that prints lux: line:/dev/ttyACM0, line:FIFO, line:!PROGRAM",
      .line = &kTextLine,

@@ -217,8 +217,11 @@ class HidTransport final : public Transport {
   Result<void> Write(std::span<const std::byte> bytes, milliseconds /*timeout*/) override {
     errno = 0;
     const int sent = library_->call.write(device_, Raw(bytes), bytes.size());
-    if (sent < 0) return Fail("did not take an output report");
-    return {};
+    if (sent >= 0) return {};
+    const int error = errno;
+    if (ReaderStopped()) return Gone();
+    errno = error;
+    return Fail("did not take an output report");
   }
 
   Result<Bytes> Read(std::size_t max, milliseconds timeout) override {
@@ -262,6 +265,15 @@ class HidTransport final : public Transport {
     return reinterpret_cast<const unsigned char*>(bytes.data());
   }
   static unsigned char* Raw(Bytes& bytes) { return reinterpret_cast<unsigned char*>(bytes.data()); }
+
+  // hidapi's libusb back end does not say why a write failed, but its reader stops only when the
+  // device is gone.
+  bool ReaderStopped() {
+    if (info_.backend != HidBackend::kLibusb) return false;
+    constexpr int kUntilItKnowsMs = 100;
+    Bytes bytes(kLongestHidReport);
+    return library_->call.read_timeout(device_, Raw(bytes), bytes.size(), kUntilItKnowsMs) < 0;
+  }
 
   Result<Bytes> Get(decltype(&::hid_get_feature_report) get, const std::string& kind,
                     std::span<const std::byte> number, std::size_t max) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostReports = 20;  // until one tells the light
 constexpr int kBadReportRetries = 1;
-constexpr const char* kModel = "HID light sensor";
+constexpr const char* kModel = "sensor";  // nothing tells its name
 
 bool IsGone(const Error& error) {
   return error.code == fault::kUnplugged || error.code == fault::kNoDevice;
@@ -26,7 +26,7 @@ bool EndsDialogue(const Error& error) {
 }  // namespace
 
 std::string HidAlsMeter::DeviceName() const {
-  return "hid_als:" + (serial_.empty() ? "sensor" : serial_);
+  return "hid_als:" + (serial_.empty() ? kModel : serial_);
 }
 
 Result<MeterIdentity> HidAlsMeter::Identify() {

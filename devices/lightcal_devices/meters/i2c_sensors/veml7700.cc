@@ -65,6 +65,10 @@ SensorLight Decode(std::uint16_t counts, const Setting& setting) {
   light.over_range = counts == kHighestCount;
   const double lux = (light.under_range ? 1.0 : counts) * setting.LuxPerCount();
   light.illuminance_lx = setting.gain <= kHighestBentGain ? Straightened(lux) : lux;
+  if (light.illuminance_lx > kHighestLx) {
+    light.illuminance_lx = kHighestLx;
+    light.over_range = true;
+  }
   return light;
 }
 

@@ -32,7 +32,9 @@ inline constexpr std::array<Setting, 9> kSettings = {{{0.125, 25, 0x1300},
 
 // L = counts * LuxPerCount; at gain 1/8 and 1/4 the chip bends, and
 //   E = 6.0135e-13 L^4 - 9.3924e-9 L^3 + 8.1488e-5 L^2 + 1.0023 L   [lx]
-// 65535 counts are over range, 0 under.
+// 65535 counts are over range, 0 under; so is what the polynomial, which holds no further, makes
+// more than kHighestLx of.
+inline constexpr double kHighestLx = 120000.0;
 [[nodiscard]] SensorLight Decode(std::uint16_t counts, const Setting& setting);
 
 // Chooses the setting (too few counts: a more sensitive one, too many: a less), each step waiting
