@@ -13,6 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(sekonic::DecodeModel(bytes));
   static_cast<void>(sekonic::DecodeFirmware(bytes));
   static_cast<void>(sekonic::DecodeState(bytes));
+  const auto stored = sekonic::DecodeMemoryInfo(bytes);
+  if (stored) Require(*stored >= 0 && *stored <= sekonic::kMostStored + 1);
+  static_cast<void>(sekonic::DecodeStoredMeasurement(bytes));
   const auto measurement = sekonic::DecodeMeasurement(bytes);
   if (measurement) Require(measurement->spectrum.size() == sekonic::kSpectrumSamples);
   return 0;

@@ -63,7 +63,8 @@ std::vector<std::byte> FakeSekonic::StateReply() {
   if (busy_left_ > 0) {
     --busy_left_;
     s1 |= 0x01U;
-    s2 |= measuring_ ? 0x08U : 0x01U;
+    const unsigned before = setting_.busy_is_dark ? 0x04U : 0x01U;
+    s2 |= measuring_ ? 0x08U : before;
   } else {
     measuring_ = false;
   }
@@ -79,6 +80,13 @@ std::vector<std::byte> FakeSekonic::ReplyTo(const std::string& command) {
   if (name == "FV") return BytesOf("FV@@@" + setting_.firmware);
   if (name == "ST") return StateReply();
   if (name == "NR") return setting_.measurement;
+  if (name == "MI") return BytesOf("MIB@@0," + std::to_string(setting_.memory.size()) + ",3");
+  if (name == "MR") {
+    auto reply = setting_.memory.at(std::stoul(command.substr(2)));
+    reply.at(0) = std::byte{'M'};
+    reply.at(1) = std::byte{'R'};
+    return reply;
+  }
   if (name == "RT") remote_ = command == "RT1";
   if (name == "RM") {
     measuring_ = true;

@@ -28,8 +28,10 @@ struct SekonicSetting {
   unsigned ring = 2;                   // 2 = LOW
   unsigned button = 0;
   int busy_polls_before = 0;  // answers to ST that say "initialising" before the first measurement
-  int busy_polls_after = 2;   // answers to ST that say "measuring" after RM0
-  std::string fault_command;  // the command (whole) the fault strikes
+  bool busy_is_dark = false;  // "calibrating its dark signal" instead of "initialising"
+  std::vector<std::vector<std::byte>> memory;  // whole replies to NR, as MRnnnn gives them
+  int busy_polls_after = 2;                    // answers to ST that say "measuring" after RM0
+  std::string fault_command;                   // the command (whole) the fault strikes
   Fault fault = Fault::kNone;
   int fault_times = 1000000;
 };

@@ -9,4 +9,10 @@ void MeterTiming::Pause(std::chrono::milliseconds duration) const {
   if (live) std::this_thread::sleep_for(duration);
 }
 
+Result<MeterReading> Meter::ReadMemory(int /*index*/, const Cancellation& /*cancellation*/) {
+  return Refused("no_memory", "meter",
+                 "this driver does not read the meter's memory; export its readings to a file and "
+                 "import that");
+}
+
 }  // namespace lightcal

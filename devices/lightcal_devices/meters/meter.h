@@ -28,11 +28,11 @@ struct MeterReading {
   Reading reading;
   std::optional<Spectrum> spectrum;  // W m^-2 nm^-1
   std::optional<double> cri_Ra;
-  std::vector<double> cri_R;  // R1 .. R15, or R1 .. R14, or empty
+  std::vector<double> cri_R;      // R1 .. R15, or R1 .. R14, or empty
   std::optional<double> tlci_Qa;  // television lighting consistency, EBU Tech 3355
   std::optional<double> tm30_Rf;  // as the instrument computes them, IES TM-30
   std::optional<double> tm30_Rg;
-  Warnings warnings;          // low_light_color, cct_out_of_range, self_check, not_restored, ...
+  Warnings warnings;  // low_light_color, cct_out_of_range, self_check, not_restored, ...
 };
 
 // How long to wait. Polls are counted, not timed, so that a replayed dialogue is the recorded one.
@@ -66,6 +66,9 @@ class Meter {
   // One measurement. Leaves the device as it was found (remote control off), also after an error or
   // a cancellation, which fails as "interrupted".
   virtual Result<MeterReading> Measure(const Cancellation& cancellation) = 0;
+  // A reading the instrument keeps in its memory, numbered from 0. Refused: no_memory (this driver
+  // reads none), no_such_reading.
+  virtual Result<MeterReading> ReadMemory(int index, const Cancellation& cancellation);
 };
 
 }  // namespace lightcal

@@ -150,7 +150,45 @@ TEST(SekonicFrame, TheStateTellsRingButtonAndWhatTheMeterDoes) {
   EXPECT_EQ(state(0x40, 0x40, 0x60).ring, Ring::kHigh);
   EXPECT_EQ(state(0x40, 0x40, 0x20).ring, Ring::kCalibration);
   EXPECT_EQ(state(0x40, 0x40, 0x00).ring, Ring::kUnpositioned);
+  EXPECT_TRUE(state(0x48, 0x40, 0x40).outside_measurement);
+  EXPECT_FALSE(state(0x40, 0x40, 0x40).outside_measurement);
+  EXPECT_TRUE(state(0x41, 0x44, 0x40).calibrating_dark);
+  EXPECT_FALSE(state(0x41, 0x45, 0x40).calibrating_dark);  // it still initialises
+  EXPECT_FALSE(state(0x40, 0x44, 0x40).calibrating_dark);  // idle: the second byte means nothing
+  EXPECT_EQ(RingName(Ring::kHigh), "at HIGH");
   EXPECT_FALSE(DecodeState(Text("ST@@")));
+}
+
+TEST(SekonicFrame, AStoredMeasurementIsLaidOutAsAFreshOne) {
+  auto reply = RecordedReply(test::kReply407lx);
+  EXPECT_EQ(DecodeStoredMeasurement(reply).error().code, kBadReply);  // it answers NR
+  reply[0] = std::byte{'M'};
+  EXPECT_NEAR(DecodeStoredMeasurement(reply)->illuminance_lx, 406.960, 5e-4);
+  EXPECT_EQ(DecodeMeasurement(reply).error().code, kBadReply);
+  reply.pop_back();
+  EXPECT_EQ(DecodeStoredMeasurement(reply).error().code, kBadReply);
+}
+
+TEST(SekonicFrame, TheMemorysSizeIsItsSecondField) {
+  EXPECT_EQ(*DecodeMemoryInfo(Text("MIB@@0,12,3")), 12);
+  EXPECT_EQ(*DecodeMemoryInfo(Text("MIB@@0,0")), 0);
+  for (const char* bad : {"MIB@@", "MIB@@12", "MIB@@0,x,3", "MIB@@0,-1,3", "MIB@@0,1.5,3",
+                          "MIB@@0,99999,3", "NRB@@0,12,3", ""}) {
+    EXPECT_EQ(DecodeMemoryInfo(Text(bad)).error().code, kBadReply) << bad;
+  }
+  EXPECT_EQ(StoredMeasurementCommand(7), "MR0007");
+  EXPECT_EQ(StoredMeasurementCommand(kMostStored), "MR9999");
+}
+
+TEST(SekonicReading, BelowOneLuxIsALimitAndNoNumber) {
+  Measurement m = Decoded(RecordedReply(test::kReply14lx));
+  m.illuminance_lx = 0.99;
+  const MeterReading r = ReadingFromMeasurement(m, "s:1");
+  EXPECT_TRUE(r.reading.under_range);
+  EXPECT_EQ(r.reading.illuminance->value(), 1.0);
+  EXPECT_FALSE(r.reading.xy || r.reading.cct || r.spectrum);
+  m.illuminance_lx = 1.0;
+  EXPECT_FALSE(ReadingFromMeasurement(m, "s:1").reading.under_range);
 }
 
 TEST(SekonicReading, CarriesColorSpectrumAndTheMetersSigma) {

@@ -89,6 +89,60 @@ TEST(SekonicMeter, AMeasurementWithoutEndIsBusyAndTheMeterIsGivenBack) {
   EXPECT_FALSE(outcome.remote);
 }
 
+TEST(SekonicMeter, ADarkCalibrationIsGivenFourTimesThePatienceAndNoted) {
+  auto setting = Answering407lx();
+  setting.busy_is_dark = true;
+  setting.busy_polls_before = 3 * QuickSetup().timing.ready_polls;
+  const Outcome outcome = Measured(setting);
+  ASSERT_TRUE(outcome.reading) << outcome.reading.error().message;
+  ASSERT_EQ(outcome.reading->warnings.size(), 1U);
+  EXPECT_EQ(outcome.reading->warnings[0].code, "dark_calibration");
+  setting.busy_polls_before = 1000;
+  const Outcome endless = Measured(setting);
+  EXPECT_EQ(endless.reading.error().code, "busy");
+  EXPECT_THAT(endless.reading.error().message, testing::HasSubstr("calibrating its dark signal"));
+}
+
+test::SekonicSetting C7000WithMemory() {
+  auto setting = Answering407lx();
+  setting.model = "C-7000";
+  setting.memory = {test::RecordedReply(test::kReply14lx), test::RecordedReply(test::kReply407lx)};
+  return setting;
+}
+
+TEST(SekonicMemory, AStoredReadingIsReadWithoutTakingTheMeterOver) {
+  FakeTransport line(C7000WithMemory());
+  const auto reading = SekonicMeter(line, QuickSetup()).ReadMemory(1, Cancellation());
+  ASSERT_TRUE(reading) << reading.error().message;
+  EXPECT_NEAR(reading->reading.illuminance->value(), 406.960, 5e-4);
+  ASSERT_EQ(reading->warnings.size(), 1U);
+  EXPECT_EQ(reading->warnings[0].code, "experimental");
+  EXPECT_THAT(line.meter().commands(), ElementsAre("MN", "MI", "MR0001"));
+}
+
+TEST(SekonicMemory, WhatIsNotThereIsRefused) {
+  FakeTransport line(C7000WithMemory());
+  SekonicMeter meter(line, QuickSetup());
+  EXPECT_EQ(meter.ReadMemory(2, Cancellation()).error().code, "no_such_reading");
+  EXPECT_EQ(meter.ReadMemory(-1, Cancellation()).error().code, "no_such_reading");
+  FakeTransport other(Answering407lx());
+  EXPECT_EQ(SekonicMeter(other, QuickSetup()).ReadMemory(0, Cancellation()).error().code,
+            "no_memory");
+}
+
+TEST(SekonicMemory, FaultsAreTyped) {
+  auto setting = C7000WithMemory();
+  setting.fault_command = "MR0000";
+  for (const auto& [fault, code] : std::map<Fault, std::string>{{Fault::kNak, "nak"},
+                                                                {Fault::kShort, "bad_reply"},
+                                                                {Fault::kSilent, "timeout"},
+                                                                {Fault::kUnplug, "unplugged"}}) {
+    setting.fault = fault;
+    FakeTransport line(setting);
+    EXPECT_EQ(SekonicMeter(line, QuickSetup()).ReadMemory(0, Cancellation()).error().code, code);
+  }
+}
+
 class WrongRing : public testing::TestWithParam<unsigned> {};
 TEST_P(WrongRing, IsSaidBeforeAnythingIsMeasured) {
   auto setting = Answering407lx();

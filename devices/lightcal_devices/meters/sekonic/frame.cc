@@ -158,18 +158,38 @@ Result<State> DecodeState(ByteSpan bytes) {
     state.activity = Activity::kBusy;
     state.doing = WhatKeepsItBusy(s2);
   }
+  const bool busy = state.activity == Activity::kBusy;
+  state.calibrating_dark = busy && (s2 & 0x05U) == 0x04U;
+  state.outside_measurement = state.activity == Activity::kIdle && (s1 & 0x08U) != 0;
   state.remote = (s1 & 0x02U) != 0;
   state.measure_button_held = (key & 0x1FU) == 0x02U;
   state.ring = static_cast<Ring>((key & 0x60U) >> 5U);
   return state;
 }
 
-Result<Measurement> DecodeMeasurement(ByteSpan bytes) {
+std::string_view RingName(Ring ring) {
+  switch (ring) {
+    case Ring::kUnpositioned:
+      return "between two positions";
+    case Ring::kCalibration:
+      return "at CAL";
+    case Ring::kLow:
+      return "at LOW";
+    case Ring::kHigh:
+      return "at HIGH";
+  }
+  return "";
+}
+
+namespace {
+
+// A reply of this layout, whatever command it answers.
+Result<Measurement> DecodeLayout(ByteSpan bytes, std::string_view command) {
   if (bytes.size() != kMeasurementBytes) {
     return BadReply("the measurement has " + std::to_string(bytes.size()) + " bytes, not " +
                     std::to_string(kMeasurementBytes));
   }
-  if (auto echo = CheckEcho(bytes, "NR"); !echo) return tl::unexpected(echo.error());
+  if (auto echo = CheckEcho(bytes, command); !echo) return tl::unexpected(echo.error());
   for (const std::size_t at : kCommas) {
     if (bytes[at] != std::byte{','}) {
       return BadReply("the measurement has no comma at byte " + std::to_string(at));
@@ -194,6 +214,31 @@ Result<Measurement> DecodeMeasurement(ByteSpan bytes) {
     return BadReply("the illuminance is not a number of lux");
   }
   return m;
+}
+
+}  // namespace
+
+Result<Measurement> DecodeMeasurement(ByteSpan bytes) { return DecodeLayout(bytes, "NR"); }
+
+Result<Measurement> DecodeStoredMeasurement(ByteSpan bytes) { return DecodeLayout(bytes, "MR"); }
+
+Result<int> DecodeMemoryInfo(ByteSpan bytes) {
+  if (auto echo = CheckEcho(bytes, "MI"); !echo) return tl::unexpected(echo.error());
+  const std::string text =
+      bytes.size() <= kDataOffset ? "" : TextAt(bytes, kDataOffset, bytes.size() - kDataOffset);
+  const auto first = text.find(',');
+  if (first == std::string::npos) return BadReply("the memory's size is missing");
+  const std::string_view rest = std::string_view(text).substr(first + 1);
+  const auto count = ParseNumber(rest.substr(0, rest.find(',')));
+  if (!count || *count < 0.0 || *count > kMostStored + 1 || *count != std::floor(*count)) {
+    return BadReply("the memory's size is no number of measurements");
+  }
+  return static_cast<int>(*count);
+}
+
+std::string StoredMeasurementCommand(int index) {
+  const std::string digits = std::to_string(index);
+  return "MR" + std::string(digits.size() < 4 ? 4 - digits.size() : 0, '0') + digits;
 }
 
 Warnings SelfCheck(const Measurement& m, std::string_view subject) {

@@ -48,7 +48,10 @@ struct State {
   bool remote = false;
   bool measure_button_held = false;
   Ring ring = Ring::kUnpositioned;
+  bool calibrating_dark = false;     // busy with its dark signal: may take long
+  bool outside_measurement = false;  // idle, but in its menus
 };
+[[nodiscard]] std::string_view RingName(Ring ring);  // "HIGH"
 [[nodiscard]] Result<State> DecodeState(std::span<const std::byte> bytes);
 
 inline constexpr int kSpectrumSamples = 401;  // 380 .. 780 nm, 1 nm
@@ -71,6 +74,17 @@ struct Measurement {
 // Refuses any reply but exactly 2380 bytes with the prefix NR and commas where they belong.
 // Layout: README.md.   Fails: bad_reply.
 [[nodiscard]] Result<Measurement> DecodeMeasurement(std::span<const std::byte> bytes);
+
+// A measurement kept in the memory of a C-7000, numbered from 0: the reply to MRnnnn, which is laid
+// out as NR is. Experimental: known from one public driver only.   Fails: bad_reply.
+[[nodiscard]] Result<Measurement> DecodeStoredMeasurement(std::span<const std::byte> bytes);
+
+// MIB@@u,captures,titles -> captures.   Fails: bad_reply.
+inline constexpr int kMostStored = 9999;  // four digits name one
+[[nodiscard]] Result<int> DecodeMemoryInfo(std::span<const std::byte> bytes);
+
+// "MR0007"; `index` from 0 to kMostStored.
+[[nodiscard]] std::string StoredMeasurementCommand(int index);
 
 // What a sound measurement agrees with itself on; each that does not hold is a warning self_check:
 //   Y = E (1e-5), E/E_fc = 10.7639 lx/fc (1e-4), xy of XYZ = xy (1e-4), and, from 5 lx up,

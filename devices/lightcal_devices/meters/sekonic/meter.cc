@@ -14,6 +14,7 @@ constexpr std::array<std::string_view, 4> kKnownModels = {"C-700", "C-800", "C-8
 constexpr std::string_view kModelWithSetUp = "C-7000";
 constexpr int kFirstFirmwareWithShutter = 26;
 constexpr int kLongestDrain = 8;
+constexpr int kDarkPatience = 4;
 
 // Errors after which the line may still hold a reply nobody waits for.
 bool MayLeaveReply(const Error& error) {
@@ -101,7 +102,8 @@ Result<void> SekonicMeter::CheckUsable(const State& state) const {
   }
   if (state.ring != Ring::kLow) {
     return Failed("wrong_ring", DeviceName(),
-                  "the ring of the light receptor is not at LOW; turn it to LOW and try again");
+                  "the ring of the light receptor is " + std::string(RingName(state.ring)) +
+                      "; turn it to LOW and try again");
   }
   if (state.measure_button_held) {
     return Failed("button_held", DeviceName(),
@@ -112,7 +114,8 @@ Result<void> SekonicMeter::CheckUsable(const State& state) const {
 
 Result<void> SekonicMeter::WaitUntilIdle(int polls, const Cancellation& cancellation) {
   std::string doing;
-  for (int i = 0; i < polls; ++i) {
+  int dark = 0;
+  for (int i = 0; i - dark < polls && dark < kDarkPatience * polls; ++i) {
     if (cancellation.Requested()) {
       return Failed("interrupted", DeviceName(), "stopped by you; the meter is released");
     }
@@ -122,9 +125,11 @@ Result<void> SekonicMeter::WaitUntilIdle(int polls, const Cancellation& cancella
     if (auto usable = CheckUsable(*state); !usable) return usable;
     if (state->activity == Activity::kIdle) return {};
     doing = state->doing;
+    if (state->calibrating_dark) ++dark;
+    calibrated_dark_ = calibrated_dark_ || state->calibrating_dark;
   }
   return Failed(std::string(fault::kBusy), DeviceName(),
-                "still " + doing + " after " + std::to_string(polls) +
+                "still " + doing + " after " + std::to_string(polls + dark) +
                     " questions; wait until its display is idle and try again");
 }
 
@@ -155,6 +160,7 @@ Result<MeterReading> SekonicMeter::Measure(const Cancellation& cancellation) {
   if (model_.empty()) {
     if (auto identity = Identify(); !identity) return Propagate(std::move(identity));
   }
+  calibrated_dark_ = false;
   if (auto idle = WaitUntilIdle(timing_.ready_polls, cancellation); !idle) {
     return tl::unexpected(idle.error());
   }
@@ -164,11 +170,40 @@ Result<MeterReading> SekonicMeter::Measure(const Cancellation& cancellation) {
   const auto restored = Order("RT0");
   if (!measurement) return tl::unexpected(measurement.error());
   MeterReading reading = ReadingFromMeasurement(*measurement, DeviceName());
+  if (calibrated_dark_) {
+    reading.warnings.push_back({"dark_calibration", DeviceName(),
+                                "the meter calibrated its dark signal first, which takes longer"});
+  }
   if (!restored) {
     reading.warnings.push_back({"not_restored", DeviceName(),
                                 "remote control could not be switched off (" +
                                     restored.error().message + "); switch the meter off and on"});
   }
+  return reading;
+}
+
+Result<MeterReading> SekonicMeter::ReadMemory(int index, const Cancellation& cancellation) {
+  if (model_.empty()) {
+    if (auto identity = Identify(); !identity) return Propagate(std::move(identity));
+  }
+  if (model_ != kModelWithSetUp) {
+    return Refused("no_memory", DeviceName(),
+                   "only the memory of a C-7000 can be read; export its readings to a file and "
+                   "import that");
+  }
+  if (cancellation.Requested()) return Failed("interrupted", DeviceName(), "stopped by you");
+  const auto stored = Ask("MI", DecodeMemoryInfo);
+  if (!stored) return tl::unexpected(stored.error());
+  if (index < 0 || index >= *stored) {
+    return Refused("no_such_reading", DeviceName(),
+                   "the memory holds " + std::to_string(*stored) + " readings, numbered from 0");
+  }
+  const auto measurement = Ask(StoredMeasurementCommand(index), DecodeStoredMeasurement);
+  if (!measurement) return tl::unexpected(measurement.error());
+  MeterReading reading = ReadingFromMeasurement(*measurement, DeviceName());
+  reading.warnings.push_back({"experimental", DeviceName(),
+                              "reading a C-7000's memory was never tried on one; compare with its "
+                              "display, and please send a tape (--record)"});
   return reading;
 }
 

@@ -22,6 +22,8 @@ class SekonicMeter final : public Meter {
 
   Result<MeterIdentity> Identify() override;
   Result<MeterReading> Measure(const Cancellation& cancellation) override;
+  // A C-7000 only. Experimental: known from one public driver, never tried; the reading warns.
+  Result<MeterReading> ReadMemory(int index, const Cancellation& cancellation) override;
 
  private:
   Result<Bytes> ReadReply();
@@ -34,6 +36,7 @@ class SekonicMeter final : public Meter {
   // Reads until silence, so that a late reply is not taken for the next one's.
   void Drain();
 
+  // While the meter calibrates its dark signal it waits kDarkPatience times as long.
   Result<void> WaitUntilIdle(int polls, const Cancellation& cancellation);
   Result<void> SetUpC7000();
   Result<Measurement> MeasureRemotely(const Cancellation& cancellation);
@@ -43,7 +46,8 @@ class SekonicMeter final : public Meter {
   Transport& transport_;
   std::string serial_;
   MeterTiming timing_;
-  std::string model_;  // known after Identify
+  std::string model_;             // known after Identify
+  bool calibrated_dark_ = false;  // during this measurement
 };
 
 // For the meter table.

@@ -65,10 +65,10 @@ MeterReading ReadingFromMeasurement(const Measurement& m, const std::string& dev
     reading.illuminance = Lux(kHighestIlluminanceLx);
     return result;
   }
-  if (m.illuminance_lx < kLowestIlluminanceLx) {
-    result.warnings.push_back({"below_range", device,
-                               "below 1 lx the meter is not specified; move closer or measure in "
-                               "the dark only to subtract it"});
+  reading.under_range = m.illuminance_lx < kLowestIlluminanceLx;
+  if (reading.under_range) {
+    reading.illuminance = Lux(kLowestIlluminanceLx);  // at most
+    return result;
   }
   if (m.illuminance_lx < kLowestColorLx) {
     result.warnings.push_back({"low_light_color", device,

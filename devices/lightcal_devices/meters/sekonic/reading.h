@@ -15,7 +15,7 @@ inline constexpr double kLowestColorLx = 5.0;
 
 // What a measurement may be believed to say, by the meter's own ranges:
 //   above 200000 lx     over_range is set and colour is absent
-//   below 1 lx          warning below_range
+//   below 1 lx          under_range is set with 1 lx, and colour is absent
 //   below 5 lx          colour, rendering and spectrum are absent, warning low_light_color
 //   CCT                 absent outside 1563 .. 100000 K, beyond |Duv| 0.1, and at 50000 K exactly
 //                       (what a C-800 writes for "over"), with the warning cct_out_of_range
