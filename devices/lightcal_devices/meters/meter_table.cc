@@ -45,8 +45,6 @@ constexpr std::array<MeterOption, 4> kSpotreadOptions = {
      {"hires", "yes: the spectrometer's high resolution"},
      {"spotread", "path of the program"}}};
 
-// The CP2102 of many meters and of many cables.
-constexpr std::array<UsbId, 1> kCp210xIds = {{{0x10c4, 0xea60}}};
 
 // Sensors on the HID sensor page are found by their usage; this one is known by name.
 constexpr std::array<UsbId, 1> kHidAlsIds = {{{0x273f, 0x1008}}};
