@@ -10,9 +10,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using lightcal::fuzz::Require;
   namespace spotread = lightcal::spotread;
   const auto text = lightcal::fuzz::TextOf(data, size);
-  static_cast<void>(spotread::EndingOf(text));
   Require(spotread::CalibrationInstructions(text).size() < 1000);
-  Require(spotread::LastLine(text).size() < 1000);
+  Require(spotread::TellingLine(text, spotread::EndingOf(text)).size() < 1000);
   static_cast<void>(spotread::VersionIn(text));
   std::size_t from = 0;
   while (spotread::NextSituation(text, from) != spotread::Situation::kNone) {

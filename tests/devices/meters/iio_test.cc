@@ -117,7 +117,7 @@ TEST(IioMeter, TheLaptopOfTheDumpReads209Lux) {
   EXPECT_NEAR(*reading->reading.sigma_relative, std::hypot(0.3, 1.0 / 209.0 / std::sqrt(12.0)),
               1e-12);
   EXPECT_FALSE(reading->reading.cct || reading->reading.xy);
-  EXPECT_THAT(Codes(*reading), ElementsAre("bare_sensor"));
+  EXPECT_THAT(Codes(*reading), testing::IsEmpty());
 }
 
 TEST(IioMeter, TheSecondOfTwoReadingsIsKept) {
@@ -157,12 +157,12 @@ TEST(IioMeter, ColourThatIsNoneIsLeftOutWithAWarning) {
   for (const char* x : {"0\n", "12000\n", "-5\n"}) {
     const auto reading = Measured(With(kColour, {{"in_chromaticity_x_raw", x}}));
     EXPECT_FALSE(reading->reading.xy || reading->reading.cct) << x;
-    EXPECT_THAT(Codes(*reading), ElementsAre("bare_sensor", "bad_chromaticity"));
+    EXPECT_THAT(Codes(*reading), ElementsAre("bad_chromaticity"));
   }
   const auto reading = Measured(With(kColour, {{"in_colortemp_raw", "0\n"}}));
   EXPECT_FALSE(reading->reading.cct);
   EXPECT_TRUE(reading->reading.xy);
-  EXPECT_THAT(Codes(*reading), ElementsAre("bare_sensor", "cct_out_of_range"));
+  EXPECT_THAT(Codes(*reading), ElementsAre("cct_out_of_range"));
 }
 
 TEST(IioMeter, IntensityHasNoUnitAndIsNeverUsed) {

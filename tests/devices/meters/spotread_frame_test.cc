@@ -139,10 +139,12 @@ TEST(SpotreadFrame, TheOrdersToThePersonAreQuoted) {
   EXPECT_EQ(CalibrationInstructions(test::kSpotreadColorimeter), "");
 }
 
-TEST(SpotreadFrame, TheLastWordsFitAMessage) {
-  EXPECT_EQ(LastLine("a\nb\x01\x1b[0m c\n\n"), "b[0m c");
-  EXPECT_LE(LastLine(std::string(5000, 'x')).size(), 200U);
-  EXPECT_EQ(LastLine(""), "");
+TEST(SpotreadFrame, TheLineThatTellsTheEndingFitsAMessage) {
+  EXPECT_EQ(TellingLine(test::kSpotreadMisread, Ending::kMisread),
+            "Spot read failed due to misread (Readings are inconsistent)");
+  EXPECT_EQ(TellingLine("a\nb\x01\x1b[0m c\n\n", Ending::kUnknown), "b[0m c");
+  EXPECT_LE(TellingLine(std::string(5000, 'x'), Ending::kUnknown).size(), 200U);
+  EXPECT_EQ(TellingLine("", Ending::kFatal), "");
 }
 
 TEST(SpotreadFrame, TheVersionStandsInTheUsageOfItsSisters) {

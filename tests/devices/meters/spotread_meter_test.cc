@@ -241,17 +241,45 @@ INSTANTIATE_TEST_SUITE_P(
                     std::vector<std::string>{does::Print(test::kSpotreadCalibratedItself)},
                     std::vector<std::string>{does::Crash()}));
 
-TEST(SpotreadMeter, TheDriverIsListedWhereTheProgramIsOnPath) {
+constexpr const char* kDisplayPro =
+    "P: /devices/pci0000:00/usb1/1-4\n"
+    "N: bus/usb/001/004\n"
+    "E: SUBSYSTEM=usb\nE: DEVTYPE=usb_device\nE: BUSNUM=001\nE: DEVNUM=004\n"
+    "E: DEVNAME=/dev/bus/usb/001/004\nE: MAJOR=189\nE: MINOR=3\n"
+    "A: busnum=1\\n\nA: devnum=4\\n\nA: idVendor=0765\\n\nA: idProduct=5020\\n\n"
+    "A: product=i1Display3\\n\n\n";
+
+test::CliResult WithDisplayPro(const FakeSpotread& program, std::vector<std::string> arguments) {
+  const std::string device = program.dir().Write("i1d3.umockdev", kDisplayPro);
+  return test::RunLightcal(arguments, "", {program.Path()}, {"umockdev-run", "-d", device, "--"});
+}
+
+TEST(SpotreadMeter, IsListedWhileAnInstrumentIsPluggedInAndNotRunForThat) {
   const FakeSpotread program({does::Hang()});
-  const std::string former = ::getenv("PATH");
-  ::setenv("PATH", program.Path().substr(5).c_str(), 1);
-  const MeterRow& row = *FindDriver("spotread");
-  const auto found = row.line->find(row);
-  ::setenv("PATH", former.c_str(), 1);
-  ASSERT_EQ(found->size(), 1U);
-  EXPECT_EQ(found->front().address, program.program());
-  EXPECT_THAT(row.describe(found->front()), HasSubstr("ArgyllCMS"));
-  EXPECT_THAT(program.Runs(), IsEmpty());  // it was not run to be listed
+  const auto listed = WithDisplayPro(program, {"devices", "--json"});
+  EXPECT_THAT(listed.out, HasSubstr("\"spotread:" + program.program() + "\""));
+  EXPECT_THAT(listed.out, HasSubstr("0765:5020"));
+  EXPECT_THAT(program.Runs(), IsEmpty());
+}
+
+TEST(SpotreadMeter, IsReadByTheCommandLine) {
+  const FakeSpotread program({does::Print(test::kSpotreadSpectral)});
+  const auto read = WithDisplayPro(program, {"read", "--once", "--json", "--device", "spotread"});
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, HasSubstr("\"illuminance_lx\": 729.831"));
+  EXPECT_THAT(read.out, HasSubstr("\"device\": \"spotread:1234567\""));
+}
+
+TEST(SpotreadMeter, IsDescribedByItsVersionAndTheInstrumentsPluggedIn) {
+  const FakeSpotread program({does::Hang()});
+  const std::string sister = program.dir().Write(
+      "xicclu", "#!/bin/sh\necho 'Lookup ICC or CAL colors, Version 2.3.1' >&2\n");
+  std::filesystem::permissions(sister, std::filesystem::perms::owner_all);
+  FoundMeter found;
+  found.row = FindDriver("spotread");
+  found.address = program.program();
+  EXPECT_THAT(found.row->describe(found), testing::StartsWith("ArgyllCMS 2.3.1; "));
+  EXPECT_THAT(program.Runs(), IsEmpty());
 }
 
 }  // namespace

@@ -134,9 +134,6 @@ Result<MeterReading> IioMeter::Measure(const Cancellation& cancellation) {
   result.reading.device = device;
   result.reading.quality = MeterQuality::kBareSensor;
   SetIlluminance(*measured, result.reading);
-  result.warnings.push_back({"bare_sensor", device,
-                             "a chip without a cosine corrector on its maker's scale: good for "
-                             "ratios; compare it once with a light meter and give the factor"});
   if (result.reading.under_range) return result;
   if (auto added = AddColor(result); !added) return tl::unexpected(added.error());
   return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Programs that speak to instruments: there when PATH has one of the driver's name.
+// Programs that speak to instruments on USB: there when PATH has one of the driver's name and an
+// instrument of it is plugged in.
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/transport/process.h"
 #include "lightcal_devices/transport/sysfs.h"
+#include "lightcal_devices/transport/usb.h"
 
 namespace lightcal {
 namespace {
@@ -27,29 +29,33 @@ std::string WithoutSerialPorts() {
   return std::string(kSerialExclusion) + "=" + ports;
 }
 
-// Whether we may open none of the row's instruments that are plugged in.
-bool AllForbidden(const MeterRow& row) {
-  int plugged = 0;
-  int permitted = 0;
-  for (const SysfsUsbDevice& device : UsbDevicesInSysfs()) {
-    const bool ours = std::ranges::any_of(row.usb, [&](const UsbId& id) {
+// The row's instruments that are plugged in.
+std::vector<SysfsUsbDevice> Plugged(const MeterRow& row) {
+  std::vector<SysfsUsbDevice> devices = UsbDevicesInSysfs();
+  std::erase_if(devices, [&](const SysfsUsbDevice& device) {
+    return std::ranges::none_of(row.usb, [&](const UsbId& id) {
       return id.vendor == device.vendor && id.product == device.product;
     });
-    if (!ours || device.node.empty()) continue;
-    ++plugged;
-    if (::access(device.node.c_str(), R_OK | W_OK) == 0) ++permitted;
-  }
-  return plugged > 0 && permitted == 0;
+  });
+  return devices;
 }
 
+bool MayOpen(const SysfsUsbDevice& device) {
+  return device.node.empty() || ::access(device.node.c_str(), R_OK | W_OK) == 0;
+}
+
+// One, whichever instrument the program will choose; a program alone measures nothing.
 Result<std::vector<FoundMeter>> FindProgram(const MeterRow& row) {
   std::vector<FoundMeter> found;
   const auto path = ProgramOnPath(row.driver);
   if (!path) return found;
+  const auto plugged = Plugged(row);
+  if (plugged.empty()) return found;
   FoundMeter meter;
   meter.row = &row;
   meter.address = *path;
-  if (AllForbidden(row)) meter.access = MeterAccess::kNoPermission;
+  meter.usb = UsbIdText(plugged.front().vendor, plugged.front().product);
+  if (std::ranges::none_of(plugged, MayOpen)) meter.access = MeterAccess::kNoPermission;
   found.push_back(std::move(meter));
   return found;
 }

@@ -264,10 +264,14 @@ Ending EndingOf(std::string_view text) {
   return CalibrationInstructions(text).empty() ? Ending::kCalibrated : Ending::kPlacedToCalibrate;
 }
 
-std::string LastLine(std::string_view text) {
+std::string TellingLine(std::string_view text, Ending ending) {
   std::string last;
   while (!text.empty()) {
     const std::string line = TextAfter(TakeLine(text), "");
+    const bool tells = std::ranges::any_of(kPhrases, [&](const Phrase& phrase) {
+      return phrase.ending == ending && Contains(line, phrase.text);
+    });
+    if (tells) return line;
     if (!line.empty()) last = line;
   }
   return last;

@@ -68,8 +68,9 @@ enum class Ending {
 // The lines that tell the person where to put the instrument, joined by blanks; "" = none.
 [[nodiscard]] std::string CalibrationInstructions(std::string_view text);
 
-// The last line that says anything, shortened to what fits a message.
-[[nodiscard]] std::string LastLine(std::string_view text);
+// The line that tells the ending, or else the last one that says anything; shortened to what fits a
+// message.
+[[nodiscard]] std::string TellingLine(std::string_view text, Ending ending);
 
 // "Lookup ICC or CAL colors, Version 2.3.1\n..." -> "2.3.1", absent when there is none.
 [[nodiscard]] std::optional<std::string> VersionIn(std::string_view usage);

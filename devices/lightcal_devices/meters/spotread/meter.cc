@@ -25,9 +25,9 @@ constexpr std::size_t kLongestOutput = 262144;
 constexpr std::size_t kReadBytes = 4096;
 constexpr std::string_view kGiveUp = "q\n";
 
-std::string Quoted(std::string_view text) {
-  const std::string last = LastLine(text);
-  return last.empty() ? "spotread said nothing" : "spotread said: " + last;
+std::string Quoted(std::string_view text, Ending ending) {
+  const std::string line = TellingLine(text, ending);
+  return line.empty() ? "spotread said nothing" : "spotread said: " + line;
 }
 
 bool IsYes(std::string_view value) {
@@ -128,7 +128,7 @@ Result<std::string> SpotreadMeter::Listen(const Cancellation& cancellation) {
     }
   }
   return Failed(std::string(kBadReply), std::string(kModel),
-                "spotread printed without end; " + Quoted(text));
+                "spotread printed without end; " + Quoted(text, Ending::kUnknown));
 }
 
 Result<std::string> SpotreadMeter::RunOnce(const Cancellation& cancellation) {
@@ -167,12 +167,13 @@ tl::unexpected<Error> SpotreadMeter::Explain(Ending ending, std::string_view tex
           "there is too little light for a colour temperature, and spotread then gives no "
           "illuminance either; move closer");
     case Ending::kSaturated:
-      return Refused("over_range", subject,
-                     "the light is above the instrument's range; move back (" + Quoted(text) + ")");
+      return Refused(
+          "over_range", subject,
+          "the light is above the instrument's range; move back (" + Quoted(text, ending) + ")");
     case Ending::kMisread:
-      return Failed(
-          "misread", subject,
-          "the instrument misread; hold the light steady and read again (" + Quoted(text) + ")");
+      return Failed("misread", subject,
+                    "the instrument misread; hold the light steady and read again (" +
+                        Quoted(text, ending) + ")");
     case Ending::kCommunication:
       return Failed("communication", subject,
                     "spotread lost the instrument; plug it in again and read again");
@@ -184,17 +185,17 @@ tl::unexpected<Error> SpotreadMeter::Explain(Ending ending, std::string_view tex
       return Failed("communication", subject,
                     "the instrument is there but does not answer; close other programs that use it "
                     "and see lightcal devices for its permission (" +
-                        Quoted(text) + ")");
+                        Quoted(text, ending) + ")");
     case Ending::kBadOption:
-      return WrongUsage("--set ccss", Quoted(text));
+      return WrongUsage("--set ccss", Quoted(text, ending));
     case Ending::kFatal:
-      return Failed("instrument_error", subject, Quoted(text) + "; plug it in again");
+      return Failed("instrument_error", subject, Quoted(text, ending) + "; plug it in again");
     case Ending::kNoSpectrum:
     case Ending::kUnknown:
       break;
   }
   return Failed(std::string(kBadReply), subject,
-                "spotread ended without a reading; " + Quoted(text));
+                "spotread ended without a reading; " + Quoted(text, ending));
 }
 
 Result<Report> SpotreadMeter::Measured(const Cancellation& cancellation, Warnings& warnings) {
