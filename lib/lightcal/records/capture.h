@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a session says of its pictures: which frames, of what, and what to make of them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/units.h"
+
+namespace lightcal {
+
+// How a lamp makes its light: what decides how far a camera misreads its luminance.
+enum class LampClass : std::uint8_t {
+  kUnknown,
+  kWhiteLed,    // a blue LED under phosphor
+  kHighCriLed,  // the same, or a violet LED, with red enough: R9 of 70 and more
+  kRgbLed,      // red, green and blue LEDs
+  kTungsten,    // anything that glows: flames and mantles too
+  kDaylight,
+};
+inline constexpr std::array<std::string_view, 6> kLampClassWords = {
+    "unknown", "white_led", "high_cri_led", "rgb_led", "tungsten", "daylight"};
+
+// Cards and their printed reflectance agree within about this, 1 sigma.
+inline constexpr double kSigmaReflectance = 0.03;
+
+// A matt card of known reflectance that faces the lamp (or is tilted from it), photographed in its
+// light: E = pi L / reflectance.
+struct CaptureDescription {
+  std::string light;   // name of the [[light]]
+  std::string frames;  // files or a wildcard, relative to the session
+  std::string camera;  // file of spectral sensitivities, relative to the session; "" = none
+  double reflectance = 0.0;
+  double reflectance_sigma = kSigmaReflectance;  // relative
+  std::optional<Metres> distance;                // from the lamp's reference point to the card
+  Radians tilt{0.0};                             // between the card's normal and the lamp
+  std::optional<std::array<int, 4>> rect;        // x, y, width, height of the card in the picture
+  std::vector<double> exposure_s;                // one a frame; empty = from the files
+  std::optional<double> f_number, iso;           // override the files
+  std::optional<Lux> anchor_illuminance;         // a lux meter's reading at the card
+  std::string meter;                             // the [[meter]] that read it
+  LampClass lamp_class = LampClass::kUnknown;
+  std::string spectrum_file;  // of the lamp, relative to the session; "" = unknown
+  std::string where;          // "session.toml [[capture]] 1"
+};
+
+}  // namespace lightcal
