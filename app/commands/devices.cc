@@ -31,6 +31,7 @@ nlohmann::ordered_json ToJson(const FoundMeter& meter) {
   if (!meter.serial.empty()) json["serial"] = meter.serial;
   json["status"] = StatusName(meter.access);
   json["verified"] = VerifiedName(meter.row->verified);
+  if (meter.row->describe != nullptr) json["about"] = meter.row->describe(meter);
   if (const std::string remedy = Remedy(meter); !remedy.empty()) json["remedy"] = remedy;
   if (meter.access == MeterAccess::kNoPermission) json["udev_rules"] = UdevRules(*meter.row);
   return json;
@@ -43,10 +44,13 @@ std::vector<std::string> ToRow(const FoundMeter& meter) {
           std::string(VerifiedName(meter.row->verified))};
 }
 
-// What stands between the person and a reading, for each meter that is not ready.
+// What there is to know besides, and what stands between the person and a reading.
 std::string Remedies(const std::vector<FoundMeter>& found) {
   std::string text;
   for (const FoundMeter& meter : found) {
+    if (meter.row->describe != nullptr) {
+      text += "\n" + meter.id + ": " + meter.row->describe(meter) + "\n";
+    }
     const std::string remedy = Remedy(meter);
     if (!remedy.empty()) text += "\n" + meter.id + ": " + remedy + "\n";
   }

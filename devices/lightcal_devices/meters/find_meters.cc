@@ -48,6 +48,21 @@ tl::unexpected<Error> Several(const std::vector<FoundMeter>& fitting) {
   return WrongUsage("--device", "several meters are plugged in; name one of " + ids);
 }
 
+// Whether the folder of `inner` lies within that of `outer`.
+bool IsWithin(const FoundMeter& inner, const FoundMeter& outer) {
+  return !outer.sysfs_parent.empty() && inner.sysfs_parent.starts_with(outer.sysfs_parent + "/");
+}
+
+// Of two drivers that found the same device, the one nearer to the sensor is kept: the kernel's own
+// before raw HID.
+void DropTwins(std::vector<FoundMeter>& found) {
+  const std::vector<FoundMeter> all = found;
+  std::erase_if(found, [&](const FoundMeter& meter) {
+    return std::ranges::any_of(all,
+                               [&](const FoundMeter& other) { return IsWithin(other, meter); });
+  });
+}
+
 }  // namespace
 
 Result<std::vector<FoundMeter>> FindMeters() {
@@ -61,6 +76,7 @@ Result<std::vector<FoundMeter>> FindMeters() {
       found.push_back(std::move(meter));
     }
   }
+  DropTwins(found);
   return found;
 }
 
