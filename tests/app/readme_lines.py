@@ -10,11 +10,14 @@ The session block is written where the lines expect it. Lines that need a meter 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
-README = pathlib.Path(__file__).resolve().parents[2] / "README.md"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+README = ROOT / "README.md"
+PICTURES = ROOT / "sample_data/pictures"
 CSV = "distance_m,illuminance_lx\n1.5,23.5\n"
 
 
@@ -38,6 +41,8 @@ def main():
         (home / "bin/lightcal").symlink_to(pathlib.Path(sys.argv[1]).resolve())
         (home / "desk_lamp").mkdir()
         (home / "desk_lamp/session.toml").write_text(session, encoding="utf-8")
+        shutil.copytree(PICTURES / "png_bracket", home / "bracket",
+                        ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}
         lines = list(command_lines(text))

@@ -19,7 +19,10 @@ cv::Mat ReadPgm(const std::string& path) {
   file.get();
   cv::Mat picture(height, width, CV_8UC1);
   file.read(reinterpret_cast<char*>(picture.data), static_cast<std::streamsize>(picture.total()));
-  return picture;
+  // OpenCV merges three channels only.
+  cv::Mat colour;
+  cv::merge(std::vector<cv::Mat>(3, picture), colour);
+  return colour;
 }
 
 }  // namespace
@@ -34,9 +37,9 @@ int main(int count, char** words) {
     frames.push_back(ReadPgm(directory + "/f" + std::to_string(times.size()) + ".pgm"));
     times.push_back(time);
   }
-  cv::Mat linear(256, 1, CV_32F);
+  cv::Mat linear(256, 1, CV_32FC3);
   for (int code = 0; code < 256; ++code) {
-    linear.at<float>(code) = static_cast<float>(code == 0 ? 1 : code) / 255.0F;
+    linear.at<cv::Vec3f>(code) = cv::Vec3f::all(static_cast<float>(code == 0 ? 1 : code) / 255.0F);
   }
   cv::Mat merged;
   if (method == "robertson") {
@@ -44,6 +47,7 @@ int main(int count, char** words) {
   } else {
     cv::createMergeDebevec()->process(frames, merged, times, linear);
   }
+  cv::extractChannel(merged, merged, 0);
   std::ofstream(words[3], std::ios::binary)
       .write(reinterpret_cast<const char*>(merged.data),
              static_cast<std::streamsize>(merged.total() * merged.elemSize()));
