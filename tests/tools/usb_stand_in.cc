@@ -76,7 +76,16 @@ struct UsbStandIn::Impl {
     g_signal_connect(handler, "handle-ioctl", G_CALLBACK(&Impl::OnIoctl), this);
     GError* error = nullptr;
     Check(umockdev_testbed_attach_ioctl(testbed, kNode, handler, &error), error);
-    const std::string description = SekonicDescription(usb.serial);
+    std::string description = SekonicDescription(usb.serial);
+    if (usb.interrupt) {
+      const std::string bulk =
+          "07050202400000"
+          "07058102400000";
+      const std::string interrupt =
+          "07050203400001"
+          "07058103400001";
+      description.replace(description.find(bulk), bulk.size(), interrupt);
+    }
     Check(umockdev_testbed_add_from_string(testbed, description.c_str(), &error), error);
     if (usb.forbidden) {
       const std::unique_ptr<gchar, decltype(&g_free)> root_text(
@@ -152,6 +161,12 @@ struct UsbStandIn::Impl {
     urb.buffer = umockdev_ioctl_data_resolve(urb.urb, offsetof(usbdevfs_urb, buffer),
                                              static_cast<gsize>(header->buffer_length), nullptr);
     header->status = 0;
+    const int type = usb.interrupt ? USBDEVFS_URB_TYPE_INTERRUPT : USBDEVFS_URB_TYPE_BULK;
+    if (header->type != type) {
+      Free(urb);
+      error = EINVAL;
+      return -1;
+    }
     if ((header->endpoint & 0x80U) == 0) {
       const std::span command(reinterpret_cast<const std::byte*>(urb.buffer->data),
                               static_cast<std::size_t>(header->buffer_length));

@@ -15,6 +15,7 @@ struct UsbSetting {
   std::string serial;            // "" = the device has none
   bool held_by_another = false;  // claiming its interface answers EBUSY
   bool forbidden = false;        // its node belongs to nobody
+  bool interrupt = false;        // its endpoints are interrupt ones and take no bulk transfer
 };
 
 // The device as a umockdev file describes it (for umockdev-run -d), and its place in sysfs.

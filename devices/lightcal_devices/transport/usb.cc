@@ -37,8 +37,9 @@ struct ConfigDeleter {
 };
 using Config = std::unique_ptr<libusb_config_descriptor, ConfigDeleter>;
 
-struct BulkPair {
+struct EndpointPair {
   int interface_number = 0;
+  unsigned char type = LIBUSB_TRANSFER_TYPE_BULK;  // of both
   unsigned char in = 0;
   unsigned char out = 0;
 };
@@ -113,12 +114,12 @@ std::string SerialFromSysfs(const std::string& port) {
   return std::string(TrimBlanks(line));
 }
 
-// Bulk IN and OUT of one interface's first setting.
-std::optional<BulkPair> BulkPairOf(const libusb_interface_descriptor& setting) {
-  BulkPair pair{setting.bInterfaceNumber, 0, 0};
+// IN and OUT of one type in an interface's first setting.
+std::optional<EndpointPair> PairOf(const libusb_interface_descriptor& setting, unsigned char type) {
+  EndpointPair pair{setting.bInterfaceNumber, type, 0, 0};
   for (int e = 0; e < setting.bNumEndpoints; ++e) {
     const libusb_endpoint_descriptor& endpoint = setting.endpoint[e];
-    if ((endpoint.bmAttributes & 0x03U) != LIBUSB_TRANSFER_TYPE_BULK) continue;
+    if ((endpoint.bmAttributes & 0x03U) != type) continue;
     const bool is_in = (endpoint.bEndpointAddress & LIBUSB_ENDPOINT_IN) != 0;
     unsigned char& slot = is_in ? pair.in : pair.out;
     if (slot == 0) slot = endpoint.bEndpointAddress;
@@ -127,17 +128,19 @@ std::optional<BulkPair> BulkPairOf(const libusb_interface_descriptor& setting) {
   return pair;
 }
 
-std::optional<BulkPair> FindBulkPair(libusb_device* device) {
+std::optional<EndpointPair> FindPair(libusb_device* device) {
   libusb_config_descriptor* raw = nullptr;
   if (libusb_get_active_config_descriptor(device, &raw) != LIBUSB_SUCCESS &&
       libusb_get_config_descriptor(device, 0, &raw) != LIBUSB_SUCCESS) {
     return std::nullopt;
   }
   const Config config(raw);
-  for (int i = 0; i < config->bNumInterfaces; ++i) {
-    const libusb_interface& interface = config->interface[i];
-    if (interface.num_altsetting == 0) continue;
-    if (auto pair = BulkPairOf(interface.altsetting[0])) return pair;
+  for (const unsigned char type : {LIBUSB_TRANSFER_TYPE_BULK, LIBUSB_TRANSFER_TYPE_INTERRUPT}) {
+    for (int i = 0; i < config->bNumInterfaces; ++i) {
+      const libusb_interface& interface = config->interface[i];
+      if (interface.num_altsetting == 0) continue;
+      if (auto pair = PairOf(interface.altsetting[0], type)) return pair;
+    }
   }
   return std::nullopt;
 }
@@ -145,9 +148,9 @@ std::optional<BulkPair> FindBulkPair(libusb_device* device) {
 // An opened device whose interface is ours until the end of the scope.
 struct Claimed {
   Handle handle;
-  BulkPair pair;
+  EndpointPair pair;
 
-  Claimed(Handle opened, BulkPair endpoints) : handle(std::move(opened)), pair(endpoints) {}
+  Claimed(Handle opened, EndpointPair endpoints) : handle(std::move(opened)), pair(endpoints) {}
   Claimed(Claimed&&) = default;
   Claimed& operator=(Claimed&&) = delete;
   Claimed(const Claimed&) = delete;
@@ -163,11 +166,11 @@ Result<Claimed> Claim(libusb_device* device, const std::string& name) {
     return UsbError(status, name, milliseconds(0));
   }
   Handle handle(raw);
-  const auto pair = FindBulkPair(device);
+  const auto pair = FindPair(device);
   if (!pair) {
     return Failed(std::string(fault::kIo), name,
-                  "has no interface with a bulk endpoint each way; this is not the instrument the "
-                  "id promises");
+                  "has no interface with a bulk or interrupt endpoint each way; this is not the "
+                  "instrument the id promises");
   }
   if (const int status = libusb_claim_interface(raw, pair->interface_number);
       status != LIBUSB_SUCCESS) {
@@ -230,9 +233,11 @@ class UsbTransport final : public Transport {
   int Transfer(unsigned char endpoint, Bytes& bytes, milliseconds timeout, int& done) {
     // 0 would mean: wait for ever.
     const auto wait = static_cast<unsigned>(std::max<milliseconds::rep>(1, timeout.count()));
-    return libusb_bulk_transfer(claimed_.handle.get(), endpoint,
-                                reinterpret_cast<unsigned char*>(bytes.data()),
-                                static_cast<int>(bytes.size()), &done, wait);
+    const auto transfer = claimed_.pair.type == LIBUSB_TRANSFER_TYPE_INTERRUPT
+                              ? libusb_interrupt_transfer
+                              : libusb_bulk_transfer;
+    return transfer(claimed_.handle.get(), endpoint, reinterpret_cast<unsigned char*>(bytes.data()),
+                    static_cast<int>(bytes.size()), &done, wait);
   }
 
   tl::unexpected<Error> Fail(int status, unsigned char endpoint, milliseconds timeout) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// USB bulk instruments through libusb 1.0, which no other file includes.
+// USB bulk and interrupt instruments through libusb 1.0, which no other file includes.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct UsbDeviceInfo {
   UsbAccess access = UsbAccess::kReady;
 };
 
-// Every bulk IN transfer asks for this many bytes, whatever the caller's max: recorded USB traces
+// Every IN transfer asks for this many bytes, whatever the caller's max: recorded USB traces
 // (usbmon) replay only when each request has the recorded length. The longest reply known, a
 // Sekonic measurement, has 2380 bytes.
 inline constexpr std::size_t kUsbInBufferBytes = 4160;
@@ -37,10 +37,10 @@ inline constexpr std::size_t kUsbInBufferBytes = 4160;
 [[nodiscard]] Result<std::vector<UsbDeviceInfo>> ListUsbDevices(std::uint16_t vendor,
                                                                 std::uint16_t product);
 
-// Opens the device and claims its first interface that has a bulk endpoint each way (endpoints are
-// found by direction and type, never by number). The claim ends with the transport. A Read longer
-// than its max fails as io; a stalled endpoint is cleared before the error is returned.
-// Fails: no_device, no_permission, busy, io.
+// Opens the device and claims its first interface that has a bulk endpoint each way, or else the
+// first that has an interrupt endpoint each way (endpoints are found by direction and type, never
+// by number). The claim ends with the transport. A Read longer than its max fails as io; a stalled
+// endpoint is cleared before the error is returned. Fails: no_device, no_permission, busy, io.
 [[nodiscard]] Result<std::unique_ptr<Transport>> OpenUsb(const UsbDeviceInfo& device);
 
 }  // namespace lightcal

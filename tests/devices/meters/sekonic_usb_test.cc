@@ -43,6 +43,29 @@ TEST(SekonicOverUsb, ASecondReplyIsNotTheFirst) {
   EXPECT_NEAR(MeasureOverUsb()->reading.illuminance->value(), 14.0775, 5e-5);
 }
 
+test::UsbSetting OnInterruptEndpoints() {
+  test::UsbSetting usb;
+  usb.interrupt = true;
+  return usb;
+}
+
+TEST(SekonicOverUsb, AnInterruptPairIsFoundWhereThereIsNoBulkPair) {
+  const UsbStandIn device(Answering407lx(), OnInterruptEndpoints());
+  const auto reading = MeasureOverUsb();
+  ASSERT_TRUE(reading) << reading.error().message;
+  EXPECT_NEAR(reading->reading.illuminance->value(), 406.960, 5e-4);
+  EXPECT_FALSE(device.remote());
+}
+
+TEST(SekonicOverUsb, SilenceOnAnInterruptPairIsATimeout) {
+  auto setting = Answering407lx();
+  setting.fault_command = "NR";
+  setting.fault = Fault::kSilent;
+  const UsbStandIn device(setting, OnInterruptEndpoints());
+  EXPECT_EQ(MeasureOverUsb().error().code, "timeout");
+  EXPECT_FALSE(device.remote());
+}
+
 struct FaultCase {
   const char* name;
   const char* command;
