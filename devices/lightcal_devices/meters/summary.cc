@@ -125,8 +125,8 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
     deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
     summary.spread_relative = kSigmaPerMad * Median(std::move(deviations)) / median;
-    reading.sigma_relative =
-        std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
+    const double sigma = std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
+    if (sigma > 0.0) reading.sigma_relative = sigma;
   }
   for (const MeterReading& m : measurements) AddWarnings(m.warnings, summary.kept.warnings);
   AddSeriesWarnings(values, summary, summary.kept.warnings);
