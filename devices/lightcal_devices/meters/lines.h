@@ -49,11 +49,11 @@ struct MeterLine {
 extern const MeterLine kUsbLine;
 // Serial ports. A port is listed for each driver whose cable it may be.
 extern const MeterLine kTtyLine;
-// A program of the driver's name on PATH, which runs when the driver starts it. Found while one of
-// the row's USB instruments is plugged in.
 // Lines of text from a serial port, a FIFO or a program; and from the person who typed them.
 extern const MeterLine kTextLine;
 extern const MeterLine kTypedLine;
+// A program of the driver's name on PATH, which runs when the driver starts it. Found while one of
+// the row's USB instruments is plugged in.
 extern const MeterLine kProcessLine;
 // Light sensors of the kernel's Industrial I/O.
 extern const MeterLine kSysfsLine;

@@ -25,8 +25,8 @@ constexpr std::array<UsbId, 1> kSekonicIds = {{{0x0a41, 0x7003}}};
 // The FT232 of many meters and of many cables.
 constexpr std::array<UsbId, 1> kFtdiIds = {{{0x0403, 0x6001}}};
 // Instruments that ArgyllCMS lets measure ambient light: i1 Display (1, 2), i1 Display Pro and its
-// successors, i1 Pro (1, 2, 3), ColorMunki, i1 Studio, Huey, Spyder 3, 4, 5 and X. JETI specbos hang
-// on serial ports.
+// successors, i1 Pro (1, 2, 3), ColorMunki, i1 Studio, Huey, Spyder 3, 4, 5 and X. JETI specbos
+// hang on serial ports.
 constexpr std::array<UsbId, 12> kSpotreadIds = {{{0x0765, 0x5001},
                                                  {0x0765, 0x5020},
                                                  {0x0765, 0x6008},
@@ -44,7 +44,6 @@ constexpr std::array<MeterOption, 4> kSpotreadOptions = {
      {"ccss", "a .ccss or .ccmx file that corrects a colorimeter for this kind of lamp"},
      {"hires", "yes: the spectrometer's high resolution"},
      {"spotread", "path of the program"}}};
-
 
 // Sensors on the HID sensor page are found by their usage; this one is known by name.
 constexpr std::array<UsbId, 1> kHidAlsIds = {{{0x273f, 0x1008}}};
