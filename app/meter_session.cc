@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <sstream>
 #include <utility>
 
 #include "clock.h"
@@ -46,6 +47,24 @@ class InterruptGuard {
   std::array<struct sigaction, kSignals.size()> former_{};
 };
 
+// A driver's options, as a tape keeps them.
+std::string SettingsText(const std::map<std::string, std::string>& settings) {
+  std::string text;
+  for (const auto& [name, value] : settings) {
+    text += (text.empty() ? "" : "\n") + name + "=" + value;
+  }
+  return text;
+}
+
+// What was given on the command line counts before what a tape was recorded with.
+void AddSettings(const std::string& text, std::map<std::string, std::string>& settings) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const auto equals = std::min(line.find('='), line.size());
+    settings.emplace(line.substr(0, equals), line.substr(std::min(equals + 1, line.size())));
+  }
+}
+
 }  // namespace
 
 MeterSetup MeterSession::Setup() const {
@@ -85,6 +104,7 @@ Result<void> MeterSession::OpenTape() {
   const auto colon = tape->device.find(':');
   if (colon != std::string::npos) serial_ = tape->device.substr(colon + 1);
   time_ = tape->recorded;
+  AddSettings(tape->settings, request_.settings);
   auto replay = std::make_unique<ReplayTransport>(*std::move(tape));
   replay_ = replay.get();
   line_ = std::move(replay);
@@ -95,6 +115,7 @@ void MeterSession::Record() {
   if (request_.record_file.empty()) return;
   recorded_.driver = row_->driver;
   recorded_.recorded = time_;
+  recorded_.settings = SettingsText(request_.settings);
   recorder_ = std::make_unique<RecordingTransport>(*line_, recorded_);
 }
 

@@ -26,6 +26,7 @@ struct Tape {
   std::string driver;    // a row of the meter table: "sekonic"
   std::string device;    // "sekonic:12345678"
   std::string recorded;  // ISO 8601 time of the first exchange
+  std::string settings;  // the driver's options it was recorded with: lines of name=value
   std::string note;      // where it comes from
   std::vector<TapeExchange> exchanges;
 };

@@ -22,9 +22,10 @@ struct HeaderField {
   const char* key;
   std::string Tape::* member;
 };
-constexpr std::array<HeaderField, 4> kHeader = {{{"driver", &Tape::driver},
+constexpr std::array<HeaderField, 5> kHeader = {{{"driver", &Tape::driver},
                                                  {"device", &Tape::device},
                                                  {"recorded", &Tape::recorded},
+                                                 {"settings", &Tape::settings},
                                                  {"note", &Tape::note}}};
 
 bool IsText(const Bytes& bytes) {
@@ -134,7 +135,7 @@ std::string ReadHeader(std::string_view text, Tape& tape) {
   if (line.problem().empty() && line.Text("schema") != kSchema) {
     return "a tape begins with {\"schema\":\"" + std::string(kSchema) + "\",\"driver\":...}";
   }
-  line.CheckKeys({"schema", "driver", "device", "recorded", "note"});
+  line.CheckKeys({"schema", "driver", "device", "recorded", "settings", "note"});
   for (const HeaderField& field : kHeader) {
     tape.*field.member = line.Text(field.key).value_or("");
   }

@@ -16,6 +16,7 @@ namespace lightcal {
 //   {"t_ms":1.25,"op":"read","got":"\u00060"}
 //   {"t_ms":2,"op":"control","verb":"get_feature","sent_hex":"05","got_hex":"05ff"}
 //   {"t_ms":201,"op":"read","fault":"timeout"}
+// The first line may also have "settings", lines of name=value the driver was given, and "note".
 // One exchange a line: milliseconds since the start, what was asked, the bytes that went out (sent)
 // and came in (got). Bytes below 0x7f are a JSON string, one character a byte; any others make it
 // the hexadecimal sent_hex or got_hex. No bytes, no key.

@@ -27,6 +27,7 @@ Tape AskedOnce() {
   return {"sekonic",
           "sekonic:C-800",
           "2026-11-21T10:00:00Z",
+          "",
           "made by hand",
           {{TapeOperation::kWrite, 0.0, "", Text("MN"), {}, ""},
            {TapeOperation::kRead, 1.25, "", {}, Text("MN@@@C-800"), ""},
@@ -99,8 +100,7 @@ TEST(Tape, ABadLineIsRefusedByItsNumber) {
 
 TEST(Tape, AMessageStaysShortWhateverTheLineHolds) {
   const std::string line = "{\"t_ms\":0,\"" + std::string(5000, 'k') + "\":1}\n";
-  const auto tape =
-      TapeFromText("{\"schema\":\"lightcal.tape/1\",\"driver\":\"a\"}\n" + line, "t");
+  const auto tape = TapeFromText("{\"schema\":\"lightcal.tape/1\",\"driver\":\"a\"}\n" + line, "t");
   EXPECT_LT(tape.error().message.size(), 200U);
 }
 
@@ -177,8 +177,17 @@ TEST(Recording, WritesDownExactlyWhatPassed) {
   EXPECT_LE(tape.exchanges[0].elapsed_ms, tape.exchanges[2].elapsed_ms);
 }
 
+TEST(TapeText, TheDriversOptionsAreKept) {
+  Tape tape = AskedOnce();
+  tape.settings = "sensor=bh1750\naddress=0x5c";
+  const auto read_back = TapeFromText(TapeToText(tape), "tape");
+  ASSERT_TRUE(read_back) << read_back.error().message;
+  EXPECT_EQ(read_back->settings, tape.settings);
+  EXPECT_EQ(read_back->note, tape.note);
+}
+
 TEST(Control, IsRecordedAndPlayedByItsVerbAndBytes) {
-  Tape tape{"hid", "", "", "", {}};
+  Tape tape{"hid", "", "", "", "", {}};
   tape.exchanges.push_back(
       {TapeOperation::kControl, 0.0, "get_feature", Text("5"), Text("on"), ""});
   ReplayTransport inner(tape);
