@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   Require(std::isfinite(number->value) && number->step > 0.0 && number->step <= 1.0);
   const auto value =
-      iio::ValueOf({.input = std::nullopt, .raw = number, .offset = number, .scale = number});
+      iio::ValueOf({.input = std::nullopt, .raw = *number, .offset = *number, .scale = *number});
   Require(value && std::isfinite(value->value) && std::isfinite(value->step));
   return 0;
 }
