@@ -176,6 +176,19 @@ TEST(Cl200aMeter, CtrlCInTheMiddleSetsTheMeterRunning) {
   }
 }
 
+TEST(Cl200aMeter, CtrlCDuringASilenceIsCtrlC) {
+  Cancellation cancellation;
+  const auto outcome = Cl200a(
+      [&](const std::string& command) {
+        if (command.substr(1, 4) != "0002") return KonicaAnswers(kCl200aBodies)(command);
+        cancellation.Request();
+        return std::string();
+      },
+      cancellation);
+  EXPECT_EQ(outcome.reading.error().code, "interrupted");
+  EXPECT_EQ(outcome.commands.back(), "99550  0");
+}
+
 TEST(T10aMeter, SetsAutomaticRangeOnceAndThenReads) {
   SerialFake line("\r\n", KonicaAnswers(kT10aBodies));
   T10aMeter meter(line, QuickSetup());

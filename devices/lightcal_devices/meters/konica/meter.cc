@@ -155,6 +155,7 @@ Result<MeterReading> T10aMeter::Measure(const Cancellation& cancellation) {
     return Propagate(std::move(waited));
   }
   const auto reply = link_.Ask(kReadEv, kT10aConditions);
+  if (!reply && cancellation.Requested()) return Interrupted(link_.device());
   if (!reply) return tl::unexpected(reply.error());
   return ReadingFromT10a(*reply, link_.device());
 }
@@ -213,6 +214,8 @@ Result<MeterReading> Cl200aMeter::Measure(const Cancellation& cancellation) {
                                  "the meter could not be set running again (" +
                                      running.error().message + "); switch it off and on"});
   }
+  // A wait that Ctrl-C cut short ended as a timeout.
+  if (!reading && cancellation.Requested()) return Interrupted(link_.device());
   return reading;
 }
 
