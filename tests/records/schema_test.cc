@@ -57,6 +57,23 @@ sigma_relative = 0.03
 cosine_f2 = 0.02
 spectral_f1 = 0.06
 head_radius_m = 0.01
+[[capture]]
+light = "key"
+frames = "captures/*.dng"
+camera = "camera.json"
+use = "card"
+reflectance = 0.18
+reflectance_sigma_relative = 0.02
+distance_m = 0.8
+tilt_deg = 10
+rect = [0, 0, 60, 40]
+exposure_s = [0.01, 0.1]
+f_number = 4
+iso = 100
+anchor_illuminance_lx = 900
+meter = "c800"
+lamp_class = "white_led"
+spectrum = "a.spdx"
 [[reading]]
 light = "key"
 meter = "c800"

@@ -26,7 +26,13 @@ void PrintTo(const BadSession& bad, std::ostream* out) { *out << bad.name; }
 const std::string kLight = "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n";
 const std::string kReading = kLight + "[[reading]]\nlight = \"key\"\n";  // 7
 const std::string kWholeReading = kReading + "illuminance_lx = 9\n";     // 8
-const std::string kMeter = kLight + "[[meter]]\nname = \"c800\"\n";      // 7
+const std::string kCapture =
+    kLight + "[[capture]]\nlight = \"key\"\nframes = \"captures/*.dng\"\n";  // 8
+const std::string kCardAlone =
+    "[[capture]]\nlight = \"key\"\nframes = \"captures/*.dng\"\nuse = \"card\"\n"
+    "reflectance = 0.18\ndistance_m = 0.8\n";
+const std::string kCard = kLight + kCardAlone;                       // 11
+const std::string kMeter = kLight + "[[meter]]\nname = \"c800\"\n";  // 7
 
 std::vector<BadSession> BadSessions() {
   return {
@@ -115,8 +121,30 @@ std::vector<BadSession> BadSessions() {
        "belong together"},
       {"ZeroNormal", kWholeReading + "position_m = [0, 0, 0]\nnormal = [0, 0, 0]\n", "bad_session",
        9, "no direction"},
-      {"Capture", kLight + "[[capture]]\nlight = \"key\"\nframes = \"captures/*.dng\"\n",
-       "capture_unsupported", 5, "reads meters only"},
+      {"CaptureOfAWall", kCapture + "use = \"wall\"\n", "capture_unsupported", 8, "\"card\" only"},
+      {"CaptureOfADome", kCapture + "use = \"dome\"\n", "capture_unsupported", 8, "\"card\" only"},
+      {"CaptureOfTheSource", kCapture + "use = \"source\"\n", "capture_unsupported", 8,
+       "\"card\" only"},
+      {"CaptureOfNothing", kCapture + "use = \"cart\"\n", "bad_session", 8, "card"},
+      {"CardWithoutReflectance", kCapture + "use = \"card\"\ndistance_m = 1\n", "bad_session", 5,
+       "reflectance"},
+      {"CardWithoutDistance", kCapture + "use = \"card\"\nreflectance = 0.18\n", "bad_session", 5,
+       "distance_m"},
+      {"CardBrighterThanWhite", kCapture + "use = \"card\"\nreflectance = 18\n", "bad_session", 9,
+       "up to 1"},
+      {"CardOfNoSize", kCard + "rect = [1, 2, 3]\n", "bad_session", 11, "width, height"},
+      {"CardLeftOfThePicture", kCard + "rect = [-1, 2, 3, 4]\n", "bad_session", 11, "width"},
+      {"CaptureOfNoTime", kCard + "exposure_s = [0.1, 0]\n", "bad_session", 11, "above 0"},
+      {"CaptureOfAStrangeLight",
+       kLight + "[[capture]]\nlight = \"kay\"\nframes = \"*.dng\"\nuse = \"card\"\n" +
+           "reflectance = 0.18\ndistance_m = 1\n",
+       "unknown_light", 6, "\"key\""},
+      {"CaptureByAStrangeMeter", kCard + "anchor_illuminance_lx = 9\nmeter = \"c80\"\n",
+       "unknown_meter", 12, "c80"},
+      {"MeterOfNoAnchor", kMeter + kCardAlone + "meter = \"c800\"\n", "bad_session", 13,
+       "anchor_illuminance_lx"},
+      {"SpectrumOfNoCamera", kCard + "spectrum = \"lamp.sp\"\n", "bad_session", 11, "camera"},
+      {"CaptureMisspelt", kCard + "anchor_lx = 9\n", "unknown_key", 11, "anchor_illuminance_lx"},
   };
 }
 

@@ -184,6 +184,14 @@ void FieldReader::Integers(std::string_view key, std::vector<int>& out) {
   }
 }
 
+void FieldReader::Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule) {
+  const Node* value = Take(key, Node::Kind::kArray);
+  if (value == nullptr) return;
+  for (const Node& item : value->items) {
+    if (const auto number = NumberOf(item, key, rule)) out.push_back(*number);
+  }
+}
+
 void FieldReader::Texts(std::string_view key, std::vector<std::string>& out) {
   const Node* value = Take(key, Node::Kind::kArray);
   if (value == nullptr) return;

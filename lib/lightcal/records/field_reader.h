@@ -79,6 +79,7 @@ class FieldReader {
   // [x, y] of a real colour: x >= 0, y > 0, x + y <= 1.
   void Chromaticity(std::string_view key, std::optional<Xy>& out);
   void Integers(std::string_view key, std::vector<int>& out);
+  void Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule);
   void Texts(std::string_view key, std::vector<std::string>& out);
 
   // A table of its own that becomes *out; visit(archive, value).

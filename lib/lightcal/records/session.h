@@ -10,6 +10,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 #include "lightcal/photometry/light_kind.h"
+#include "lightcal/records/capture.h"
 #include "lightcal/records/reading.h"
 
 namespace lightcal {
@@ -62,6 +63,7 @@ struct Session {
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;
   std::vector<SessionReading> readings;  // session.toml's first, then the journal's
+  std::vector<CaptureDescription> captures;
   std::vector<std::string> input_files;  // what was read, for provenance, in reading order
 };
 

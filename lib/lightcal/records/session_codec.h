@@ -23,7 +23,7 @@ struct LoadedSession {
 // its outer_deg is closed to the outer one with the warning cone_order.
 // A bad session.toml is refused: bad_session (syntax, NaN, wrong type, distance <= 0),
 // unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter,
-// capture_unsupported; the subject is "session.toml:LINE".
+// capture_unsupported (a use that is not built); the subject is "session.toml:LINE".
 // A missing path fails: not_found; one that is no file: unreadable. A session with no light is
 // refused: no_light. Readings may be none: what that means is the verb's question.
 [[nodiscard]] Result<LoadedSession> LoadSession(const std::string& path);
