@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "capture_readings.h"
 #include "clock.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
@@ -57,6 +58,14 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& con
   return {};
 }
 
+// Warnings come even where a capture is refused: they may say why.
+Result<void> AddCaptures(Session& session, Console& console) {
+  Warnings warnings;
+  auto added = AddCaptureReadings(session, warnings);
+  console.Warn(warnings);
+  return added;
+}
+
 Result<Provenance> ProvenanceOf(const Session& session) {
   Provenance provenance;
   provenance.generator = GeneratorName();
@@ -90,10 +99,18 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
       return Propagate(std::move(resolved));
     }
   }
+  if (auto added = AddCaptures(calibrated.session, console); !added) {
+    return Propagate(std::move(added));
+  }
   auto fitted = FitSession(calibrated.session, settings);
   if (!fitted) return Propagate(std::move(fitted));
   console.Warn(fitted->warnings);
   calibrated.lights = std::move(fitted->lights);
+  for (FittedLight& light : calibrated.lights.lights) {
+    if (RestsOnCameraScale(calibrated.session, light.name)) {
+      light.fit.prior.emplace_back(kCameraScalePrior);
+    }
+  }
   auto provenance = ProvenanceOf(calibrated.session);
   if (!provenance) return Propagate(std::move(provenance));
   calibrated.lights.provenance = std::move(*provenance);

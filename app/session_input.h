@@ -13,11 +13,12 @@
 namespace lightcal::app {
 
 struct CalibratedSession {
-  Session session;   // with every reading's spectrum resolved to its colour (and illuminance)
+  Session session;   // spectra resolved to colour (and illuminance), captures to readings
   LightFile lights;  // with provenance
 };
 
-// Loads the session, resolves `spectrum = "file"` of its readings through the importers, fits, and
+// Loads the session, resolves `spectrum = "file"` of its readings through the importers and its
+// [[capture]]s to readings, fits, and
 // notes the inputs with their hashes. Warnings go to the console as they come up.
 [[nodiscard]] Result<CalibratedSession> CalibrateSession(const std::string& path,
                                                          const FitSettings& settings,

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions that hold a bracket, driven as a shell would. The brackets are synthetic: a lamp of 300
+// cd and 3000 K, 0.8 m from a card of 18 %, seen by a camera 15 % less sensitive than its ISO says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "run_cli.h"
+#include "run_cli_json.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double kIntensityCd = 300.0, kKelvin = 3000.0, kLux = 300.0 / (0.8 * 0.8);
+constexpr double kCameraSensitivity = 0.85;
+const std::string kHead = "lightcal = 1\n[[light]]\nname = \"lamp\"\nkind = \"point\"\n";
+
+std::string Frames(const std::string& session) {
+  return SampleData("sessions/" + session + "/captures/");
+}
+
+// A capture of the shipped DNG frames, wherever the session lies.
+std::string Capture(const std::string& more = "") {
+  return "[[capture]]\nlight = \"lamp\"\nframes = \"" + Frames("grey_card_dng") +
+         "*.dng\"\nuse = \"card\"\nreflectance = 0.18\ndistance_m = 0.8\n"
+         "rect = [220, 120, 200, 160]\n" +
+         more;
+}
+
+std::string LuxReading(double lux, double distance) {
+  return "[[reading]]\nlight = \"lamp\"\ndistance_m = " + std::to_string(distance) +
+         "\nilluminance_lx = " + std::to_string(lux) + "\n";
+}
+
+class CaptureSession : public testing::Test {
+ protected:
+  // The first light of the fit of this session.toml.
+  json Light(const std::string& toml) {
+    document_ = LightcalJson("fit", {folder_.Write("session.toml", toml), "-o",
+                                     folder_.path() + "/light.json", "--force"});
+    return document_["lights"].at(0);
+  }
+  CliResult Fit(const std::string& toml) {
+    return RunLightcal({"fit", folder_.Write("session.toml", toml), "-o",
+                        folder_.path() + "/light.json", "--force"});
+  }
+  [[nodiscard]] bool Warned(const std::string& code) const {
+    const json warnings = document_.value("warnings", json::array());
+    return std::ranges::any_of(warnings,
+                               [&](const json& warning) { return warning["code"] == code; });
+  }
+
+  TempDir folder_;
+  json document_;
+};
+
+double RelativeU95(const json& light) {
+  return double(light["intensity_cd"]["u95"]) / double(light["intensity_cd"]["value"]);
+}
+
+void ExpectTheLamp(const json& light) {
+  const json& intensity = light["intensity_cd"];
+  EXPECT_LE(double(intensity["low95"]), kIntensityCd);
+  EXPECT_GE(double(intensity["high95"]), kIntensityCd);
+  const json& cct = light["color"]["cct_K"];
+  EXPECT_NEAR(double(cct["value"]), kKelvin, double(cct["u95"]));
+}
+
+class ShippedBracket : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedBracket, BecomesPresetsAndAReport) {
+  const TempDir out;
+  const json document =
+      LightcalJson("run", {SampleData(std::string("sessions/") + GetParam()), "-o", out.path()});
+  const json& light = document["lights"].at(0);
+  ExpectTheLamp(light);
+  // What is wrong is the camera's sensitivity, and nothing else.
+  EXPECT_NEAR(double(light["intensity_cd"]["value"]) / kIntensityCd, kCameraSensitivity, 0.01);
+  EXPECT_NEAR(double(light["color"]["cct_K"]["value"]), kKelvin, 10.0);
+  const json& prior = light["fit"]["prior"];
+  EXPECT_NE(std::ranges::find(prior, "camera_scale"), prior.end());
+  const std::string stem = GetParam();
+  for (const std::string& name : {stem + ".gltf", stem + ".preset.json", std::string("light.json"),
+                                  std::string("report.html")}) {
+    EXPECT_TRUE(fs::exists(fs::path(out.path()) / name)) << name;
+  }
+  EXPECT_THAT(ReadFile(out.path() + "/report.html"), HasSubstr("lamp"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Sessions, ShippedBracket,
+                         testing::Values("grey_card_dng", "grey_card_exr"),
+                         [](const auto& param) { return std::string(param.param); });
+
+TEST_F(CaptureSession, LuxAndABracketAreSurerThanEitherAlone) {
+  const json bracket = Light(kHead + Capture());
+  EXPECT_TRUE(Warned("scale_prior"));
+  // One reading with the sigma of a camera: the meter is an old one.
+  const std::string meter = "[[meter]]\nname = \"old\"\nsigma_relative = 0.2\n";
+  std::string reading = LuxReading(kLux * 1.05, 0.8) + "meter = \"old\"\n";
+  const json lux = Light(kHead + meter + reading);
+  const json both = Light(kHead + meter + reading + Capture());
+  EXPECT_EQ(both["fit"]["readings"], 2);
+  EXPECT_LT(RelativeU95(both), RelativeU95(bracket));
+  EXPECT_LT(RelativeU95(both), RelativeU95(lux));
+  ExpectTheLamp(both);
+  const json& prior = both["fit"]["prior"];
+  EXPECT_EQ(std::ranges::find(prior, "camera_scale"), prior.end()) << "the lux reading tells too";
+}
+
+TEST_F(CaptureSession, ASecondBracketByOneCameraDoesNotMakeItsScaleSurer) {
+  const json one = Light(kHead + Capture());
+  const json three = Light(kHead + Capture() + Capture() + Capture());
+  EXPECT_EQ(three["fit"]["readings"], 3);
+  EXPECT_NEAR(RelativeU95(three), RelativeU95(one), 0.01 * RelativeU95(one));
+}
+
+TEST_F(CaptureSession, ALuxReadingAtTheCardTakesTheCamerasScaleOut) {
+  const json light = Light(kHead + Capture("anchor_illuminance_lx = 468.75\n"));
+  EXPECT_FALSE(Warned("scale_prior"));
+  EXPECT_NEAR(double(light["intensity_cd"]["value"]), kIntensityCd, 1e-6 * kIntensityCd);
+  const json meter = Light(kHead + LuxReading(kLux, 0.8));
+  EXPECT_NEAR(RelativeU95(light), RelativeU95(meter), 1e-3);
+  EXPECT_TRUE(light["color"].contains("cct_K")) << "the picture adds the colour";
+}
+
+TEST_F(CaptureSession, TheKindOfLampChangesTheLuminanceByItsFactorAndTheInterval) {
+  const json unknown = Light(kHead + Capture());
+  const json tungsten = Light(kHead + Capture("lamp_class = \"tungsten\"\n"));
+  EXPECT_NEAR(double(tungsten["intensity_cd"]["value"]) / double(unknown["intensity_cd"]["value"]),
+              0.974, 0.001);
+  EXPECT_LT(RelativeU95(tungsten), RelativeU95(unknown));
+}
+
+TEST_F(CaptureSession, MeasuredSensitivitiesAndASpectrumAreUsed) {
+  const std::string camera =
+      "camera = \"" + SampleData("camera_sensitivities/Canon_EOS_5D_380_780_5.json") + "\"\n";
+  const std::string spectrum =
+      "spectrum = \"" + SampleData("spectra/uprtek_cv600/Osram Osconiq 3000K.xls") + "\"\n";
+  const json by_class = Light(kHead + Capture(camera + "lamp_class = \"white_led\"\n"));
+  const json by_spectrum = Light(kHead + Capture(camera + spectrum));
+  EXPECT_LT(RelativeU95(by_spectrum), RelativeU95(by_class));
+  const json& inputs = document_["provenance"]["inputs"];
+  EXPECT_EQ(inputs.size(), 8U) << "session.toml, five frames, camera, spectrum";
+}
+
+TEST_F(CaptureSession, WhatCannotBeReadIsRefusedByName) {
+  struct Case {
+    const char* code;
+    std::string toml;
+  };
+  const std::string exr = "[[capture]]\nlight = \"lamp\"\nframes = \"" + Frames("grey_card_exr") +
+                          "*.exr\"\nuse = \"card\"\nreflectance = 0.18\ndistance_m = 0.8\n";
+  const std::string dng = "[[capture]]\nlight = \"lamp\"\nframes = \"" + Frames("grey_card_dng") +
+                          "*.dng\"\nuse = \"card\"\nreflectance = 0.18\ndistance_m = 0.8\n";
+  const std::string camera =
+      "camera = \"" + SampleData("camera_sensitivities/Canon_EOS_5D_380_780_5.json") + "\"\n";
+  const std::vector<Case> cases = {
+      {"no_exposure_metadata", exr},
+      {"exposure_count", exr + "exposure_s = [0.1, 0.2]\nf_number = 4\niso = 100\n"},
+      {"camera_needs_raw", exr + camera +
+                               "exposure_s = [0.015625, 0.03125, 0.0625, 0.125, 0.25]\n"
+                               "f_number = 4\niso = 100\nrect = [55, 30, 50, 40]\n"},
+      {"card_uneven", dng + "rect = [100, 120, 200, 160]\n"},
+      {"bad_region", dng + "rect = [500, 120, 200, 160]\n"},
+      {"capture_unsupported", "[[capture]]\nlight = \"lamp\"\nframes = \"*\"\nuse = \"wall\"\n"},
+      {"bad_sensitivities", Capture("camera = \"session.toml\"\n")}};
+  for (const Case& one : cases) {
+    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml),
+                                          "-o", folder_.path() + "/light.json", "--json"});
+    EXPECT_EQ(result.exit_code, 3) << one.code << result.err;
+    const json answer = json::parse(result.out, nullptr, false);
+    ASSERT_TRUE(answer.contains("error")) << one.code << result.out;
+    EXPECT_EQ(answer["error"]["code"], one.code) << answer.dump();
+    EXPECT_FALSE(fs::exists(folder_.path() + "/light.json"));
+  }
+  const CliResult missing = Fit(kHead +
+                                "[[capture]]\nlight = \"lamp\"\nframes = \"no*.dng\"\n"
+                                "use = \"card\"\nreflectance = 0.18\ndistance_m = 1\n");
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("[[capture]] 1"));
+}
+
+TEST_F(CaptureSession, TheRemedyForMissingExposureNamesTheSessionsKeys) {
+  const CliResult result =
+      Fit(kHead + "[[capture]]\nlight = \"lamp\"\nframes = \"" + Frames("grey_card_exr") +
+          "*.exr\"\nuse = \"card\"\nreflectance = 0.18\ndistance_m = 0.8\n");
+  EXPECT_THAT(result.err, HasSubstr("exposure_s = [..]"));
+}
+
+}  // namespace
+}  // namespace lightcal::test
