@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using lightcal::fuzz::Require;
   std::array<double, 5> numbers{};
   if (size < 1 + sizeof(numbers)) {
-    lightcal::IsoTimeFromExif(std::string(reinterpret_cast<const char*>(data), size));
+    static_cast<void>(
+        lightcal::IsoTimeFromExif(std::string(reinterpret_cast<const char*>(data), size)));
     return 0;
   }
   std::memcpy(numbers.data(), data + 1, sizeof(numbers));

@@ -104,6 +104,15 @@ TEST(LuminanceOfPicture, RadiancesConventionIsItsOwn) {
               2.0 * 683.0 * 0.7152, 0.1);
 }
 
+TEST(LuminanceOfPicture, AScaleThatNoNumberHoldsIsRefused) {
+  Frame frame = FrameOf({1e30F}, 1, 1, 1);
+  frame.info.white_luminance = Nits(1e30);
+  EXPECT_EQ(LuminanceOfPicture(frame).error().code, "over_range");
+  frame.info.white_luminance.reset();
+  frame.info.radiance_exposure = 1e-29;
+  EXPECT_EQ(LuminanceOfPicture(frame).error().code, "over_range");
+}
+
 TEST(LuminanceOfPicture, OneChannelIsLuminanceAndXyzIsItsY) {
   EXPECT_FLOAT_EQ(LuminanceOfPicture(FrameOf({3, 4}, 2, 1, 1))->nits[1], 4.0F);
   Frame frame = FrameOf({1, 5, 9}, 1, 1, 3);

@@ -29,15 +29,21 @@ constexpr std::string_view kOurPrefix = "lightcal:";
 
 Xy XyOf(const Imath::V2f& v) { return {v.x, v.y}; }
 
-void TakeColor(const Imf::Header& header, FrameInfo& info) {
+Result<void> TakeColor(const Imf::Header& header, FrameInfo& info) {
   if (Imf::hasChromaticities(header)) {
     const Imf::Chromaticities& c = Imf::chromaticities(header);
     info.chromaticities = RgbPrimaries{XyOf(c.red), XyOf(c.green), XyOf(c.blue), XyOf(c.white)};
+    if (!SpanColors(*info.chromaticities)) {
+      return Refused("unsupported_picture", info.file,
+                     "its chromaticities make no RGB space; write the file anew");
+    }
   }
-  if (Imf::hasWhiteLuminance(header) && Imf::whiteLuminance(header) > 0.0F) {
-    info.white_luminance = Nits(Imf::whiteLuminance(header));
+  if (Imf::hasWhiteLuminance(header)) {
+    const float nits = Imf::whiteLuminance(header);
+    if (nits > 0.0F && std::isfinite(nits)) info.white_luminance = Nits(nits);
   }
   info.environment_latlong = Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_LATLONG;
+  return {};
 }
 
 void TakeExposure(const Imf::Header& header, FrameInfo& info) {
@@ -130,7 +136,7 @@ Result<Chosen> DescribeHeader(const Imf::Header& header, FrameInfo& info) {
   info.height = static_cast<int>(height);
   info.meaning = SampleMeaning::kLinear;
   info.format = "exr";
-  TakeColor(header, info);
+  if (auto ok = TakeColor(header, info); !ok) return Propagate(std::move(ok));
   TakeExposure(header, info);
   TakeOurAttributes(header, info);
   return chosen;

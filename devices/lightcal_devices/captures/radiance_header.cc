@@ -30,12 +30,6 @@ tl::unexpected<Error> BadLine(std::string_view name, std::string_view line) {
                  "its header line \"" + std::string(line.substr(0, 80)) + "\" is not understood");
 }
 
-bool Usable(const RgbPrimaries& p) {
-  const double area =
-      (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
-  return std::abs(area) > 1e-6 && p.white.y > 0.0;
-}
-
 Result<void> TakeLine(std::string_view line, std::string_view name, RadianceHeader& header) {
   const auto value_of = [&](std::string_view key) -> std::optional<std::string_view> {
     if (!line.starts_with(key)) return std::nullopt;
@@ -56,7 +50,7 @@ Result<void> TakeLine(std::string_view line, std::string_view name, RadianceHead
     if (std::all_of(n->begin(), n->end(), [](double v) { return v == 0.0; })) return {};
     const RgbPrimaries all{
         {(*n)[0], (*n)[1]}, {(*n)[2], (*n)[3]}, {(*n)[4], (*n)[5]}, {(*n)[6], (*n)[7]}};
-    if (!Usable(all)) return BadLine(name, line);
+    if (!SpanColors(all)) return BadLine(name, line);
     header.primaries = all;
   } else if (const auto format = value_of("FORMAT=")) {
     if (*format != "32-bit_rle_rgbe" && *format != "32-bit_rle_xyze") return BadLine(name, line);

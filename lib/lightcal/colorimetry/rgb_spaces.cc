@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/colorimetry/rgb_spaces.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace lightcal {
@@ -71,6 +72,18 @@ const Matrices& MatricesOf(RgbSpace space) { return kMatrices[static_cast<std::s
 RgbPrimaries PrimariesOf(RgbSpace space) { return kPrimaries[static_cast<std::size_t>(space)]; }
 Matrix3 XyzFromRgbMatrix(RgbSpace space) { return MatricesOf(space).to_xyz; }
 Matrix3 XyzFromRgbMatrix(const RgbPrimaries& primaries) { return Derive(primaries); }
+
+bool SpanColors(const RgbPrimaries& p) {
+  constexpr double kLeast = 1e-6, kMost = 100.0;  // the largest in use is below 2
+  for (const Xy c : {p.red, p.green, p.blue, p.white}) {
+    const bool ordinary = std::abs(c.x) < kMost && std::abs(c.y) < kMost;  // false for NaN
+    if (!ordinary || std::abs(c.y) < kLeast) return false;
+  }
+  const double area =
+      (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
+  return std::abs(area) > kLeast && p.white.y > 0.0;
+}
+
 Matrix3 RgbFromXyzMatrix(RgbSpace space) { return MatricesOf(space).from_xyz; }
 
 Rgb LinearRgbFromXyz(const Xyz& color, RgbSpace space) {

@@ -34,8 +34,10 @@ using Matrix3 = std::array<std::array<double, 3>, 3>;  // rows
 // by 3.9e-5; its last entry is 0.950532 (the seed, 6.3, prints 0.0950536, which moves white to xy
 // .435 .458). Source: SMPTE RP 177.
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(RgbSpace space);
-// The same of any primaries that are not on one line and whose y are not 0 (a picture file's).
+// The same of any primaries that SpanColors (a picture file's).
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(const RgbPrimaries& primaries);
+// Whether primaries make a space: finite, not on one line, no y of 0, a white of positive y.
+[[nodiscard]] bool SpanColors(const RgbPrimaries& primaries);
 [[nodiscard]] Matrix3 RgbFromXyzMatrix(RgbSpace space);
 
 // Colorimetric (the same XYZ, no chromatic adaptation).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/imaging/picture_luminance.h"
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 
@@ -85,6 +86,13 @@ Result<PictureLuminance> LuminanceOfPicture(const Frame& frame, LuminanceConvent
     const std::size_t first = static_cast<std::size_t>(y) * luminance.width;
     Convert(samples->row(y), samples->channels(), *weights,
             std::span(luminance.nits).subspan(first, luminance.width));
+  }
+  for (const float v : luminance.nits) {
+    if (!std::isfinite(v)) {
+      return Refused("over_range", info.file,
+                     "its samples times its scale are beyond 3e38 cd/m^2; its header or the "
+                     "convention is wrong");
+    }
   }
   return luminance;
 }

@@ -35,7 +35,7 @@ struct PictureLuminance {
 
 // Samples are divided by the file's radiance_exposure first. Negative luminance stays.
 // Refused: not_linear (sensor values, codes), no_colour (channels that are neither Y, R G B nor
-// X Y Z).
+// X Y Z), over_range (a luminance beyond 3e38).
 [[nodiscard]] Result<PictureLuminance> LuminanceOfPicture(
     const Frame& frame, LuminanceConvention convention = LuminanceConvention::kPhotometric);
 
