@@ -18,6 +18,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 PICTURES = ROOT / "sample_data/pictures"
+CARD = ROOT / "sample_data/sessions/grey_card_dng"
 CSV = "distance_m,illuminance_lx\n1.5,23.5\n"
 
 
@@ -43,6 +44,7 @@ def main():
         (home / "desk_lamp/session.toml").write_text(session, encoding="utf-8")
         shutil.copytree(PICTURES / "png_bracket", home / "bracket",
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
+        shutil.copytree(CARD, home / "grey_card", ignore=shutil.ignore_patterns("out"))
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}
         lines = list(command_lines(text))
