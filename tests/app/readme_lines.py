@@ -44,6 +44,7 @@ def main():
         (home / "desk_lamp/session.toml").write_text(session, encoding="utf-8")
         shutil.copytree(PICTURES / "png_bracket", home / "bracket",
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
+        shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
         shutil.copytree(CARD, home / "grey_card", ignore=shutil.ignore_patterns("out"))
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}
