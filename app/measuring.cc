@@ -42,15 +42,19 @@ Result<Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter, Cons
       return tl::unexpected(settled.error());
     }
   }
-  const bool until_tape_ends = meter.IsReplay() && plan.measurements == 0;
-  const int wanted = plan.measurements > 0 ? plan.measurements : kDefaultMeasurements;
+  const int asked = plan.from_memory ? 1 : plan.measurements;
+  const bool until_tape_ends = meter.IsReplay() && asked == 0;
+  const int wanted = asked > 0 ? asked : kDefaultMeasurements;
   std::vector<MeterReading> measured;
   const auto more = [&] {
     if (until_tape_ends) return measured.empty() || meter.HasMore();
     return static_cast<int>(measured.size()) < wanted;
   };
+  const auto measure = [&] {
+    return plan.from_memory ? meter.ReadMemory(*plan.from_memory) : meter.Measure();
+  };
   while (more()) {
-    auto one = meter.Measure();
+    auto one = measure();
     if (!one) return Propagate(std::move(one));
     measured.push_back(*std::move(one));
     if (wanted == 1) continue;

@@ -21,6 +21,7 @@ inline constexpr std::chrono::seconds kSettlePause{5};
 struct MeasuringPlan {
   // 0 = kDefaultMeasurements, or, of a tape, all that it holds.
   int measurements = 0;
+  std::optional<int> from_memory;         // this stored reading instead, measurements aside
   std::optional<double> settle_relative;  // first wait until the light changes by less than this
 };
 

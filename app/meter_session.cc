@@ -167,6 +167,11 @@ Result<MeterReading> MeterSession::Measure() {
   return measured;
 }
 
+Result<MeterReading> MeterSession::ReadMemory(int index) {
+  const InterruptGuard guard;
+  return meter_->ReadMemory(index, InterruptRequest());
+}
+
 Result<void> MeterSession::Finish(Console& console) {
   if (IsReplay() && replay_->Unconsumed() > 0) {
     console.Warn({"tape_not_finished", request_.replay_file,

@@ -32,6 +32,8 @@ class MeterSession {
   // One measurement with its time. Ctrl-C gives the meter back and fails as interrupted; a second
   // Ctrl-C ends the program at once.
   [[nodiscard]] Result<MeterReading> Measure();
+  // A reading the meter keeps in its memory, from 0; its time is the meter's own, or unknown.
+  [[nodiscard]] Result<MeterReading> ReadMemory(int index);
 
   [[nodiscard]] bool IsReplay() const { return replay_ != nullptr; }
   // Whether the tape holds more; always so of a device.

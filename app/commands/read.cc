@@ -19,65 +19,16 @@
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/meters/summary.h"
+#include "lightcal_devices/meters/text/frame.h"
 #include "measuring.h"
 #include "meter_calibrations.h"
 #include "meter_session.h"
-#include "session_input.h"
+#include "read_options.h"
 #include "session_names.h"
 #include "terminal.h"
 
 namespace lightcal::app {
 namespace {
-
-struct Options {
-  std::string session, light, distance, tilt, meter;
-  std::string lux;
-  std::string timeout = "1s";
-  std::string settle;  // "" = do not wait
-  std::string every = "0s";
-  std::vector<std::string> settings;  // name=value
-  MeterRequest request;
-  int measurements = 0;  // 0 = not said
-  int repeat = 1;
-  bool shadow_card = false;
-  bool lamp_off = false;
-  bool once = false;
-  bool with_spectrum = false;
-};
-
-// What every reading of this run shares: light, place, and the state of the lamp.
-Result<Reading> ReadingTemplate(const Options& options) {
-  Reading reading;
-  reading.light = options.light;
-  reading.meter = options.meter;
-  reading.shadow_card = options.shadow_card;
-  reading.lamp = options.lamp_off ? LampState::kOff : LampState::kOn;
-  if (!options.distance.empty()) {
-    const auto distance = ParseLength(options.distance);
-    if (!distance) return tl::unexpected(distance.error());
-    reading.distance = *distance;
-  }
-  if (!options.tilt.empty()) {
-    const auto tilt = ParseAngle(options.tilt);
-    if (!tilt) return tl::unexpected(tilt.error());
-    reading.tilt = *tilt;
-  }
-  return reading;
-}
-
-Result<void> CheckOptions(const Options& options) {
-  const bool into_journal = !options.session.empty();
-  if (!options.once && !into_journal) {
-    return WrongUsage("-s", "name the session the reading goes into, or pass --once");
-  }
-  if (into_journal && options.light.empty()) {
-    return WrongUsage("--light", "name the lamp the reading is of");
-  }
-  if (into_journal && options.distance.empty()) {
-    return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
-  }
-  return {};
-}
 
 // Everything but the lamp was measured once: shadow card in the beam, or the lamp off.
 bool HasBackground(const Session& session, const std::string& light) {
@@ -87,18 +38,23 @@ bool HasBackground(const Session& session, const std::string& light) {
   });
 }
 
+// What the driver `typed` understands; what is no number is a wrong command line.
 Result<Summary> TypedSummary(const std::string& text) {
-  const auto illuminance = ParseIlluminance(text);
-  if (!illuminance) return tl::unexpected(illuminance.error());
+  const auto typed = text::DecodeLine(text);
+  if (!typed || !*typed) {
+    if (auto number = ParseIlluminance(text); !number) return tl::unexpected(number.error());
+    return Refused("bad_reading", "--lux " + text, typed ? "is no reading" : typed.error().message);
+  }
   Summary summary;
   summary.count = 1;
-  summary.kept.reading.illuminance = *illuminance;
+  summary.kept.reading.illuminance = (*typed)->illuminance;
+  summary.kept.reading.cct = (*typed)->cct;
   summary.kept.reading.time = NowIso8601();
   return summary;
 }
 
 Result<Summary> AskedSummary() {
-  const auto typed = Ask("What does the meter show? (for example 192 or 17.8fc) ");
+  const auto typed = Ask("What does the meter show? (for example 192, 17.8fc, or 192,2900K) ");
   if (!typed || typed->empty()) {
     return Failed("no_device", "meter", "no meter is plugged in and no number was typed");
   }
@@ -144,7 +100,11 @@ nlohmann::ordered_json ToJson(const Reading& reading, const Summary& summary, bo
   auto json = nlohmann::ordered_json::parse(ReadingToJson(reading));
   json["measurements"] = summary.count;
   if (summary.count > 1) json["spread_relative"] = summary.spread_relative;
-  if (summary.kept.cri_Ra) json["cri_Ra"] = *summary.kept.cri_Ra;
+  const MeterReading& kept = summary.kept;
+  if (kept.cri_Ra) json["cri_Ra"] = *kept.cri_Ra;
+  if (kept.tlci_Qa) json["tlci_Qa"] = *kept.tlci_Qa;
+  if (kept.tm30_Rf) json["tm30_rf"] = *kept.tm30_Rf;
+  if (kept.tm30_Rg) json["tm30_rg"] = *kept.tm30_Rg;
   if (with_spectrum && summary.kept.spectrum) {
     json["spectrum_nm"] = summary.kept.spectrum->wavelengths_nm;
     json["spectrum_W_m2_nm"] = summary.kept.spectrum->values;
@@ -174,19 +134,15 @@ std::string Sentence(const Reading& reading, const Summary& summary) {
 // One run of the command.
 class ReadRun {
  public:
-  ReadRun(const Options& options, Console& console) : options_(options), console_(console) {}
+  ReadRun(const ReadOptions& options, Console& console) : options_(options), console_(console) {}
 
   Result<void> Execute() {
-    if (auto checked = CheckOptions(options_); !checked) return checked;
-    auto frame = ReadingTemplate(options_);
-    if (!frame) return Propagate(std::move(frame));
-    if (auto planned = MakePlan(); !planned) return planned;
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
     auto calibrations = MeterCalibrations::Load(options_.session);
     if (!calibrations) return Propagate(std::move(calibrations));
     calibrations_ = *std::move(calibrations);
     if (auto opened = OpenTheMeter(); !opened) return opened;
-    auto done = TakeSeries(*frame);
+    auto done = TakeSeries(options_.frame);
     if (meter_) {
       const auto finished = meter_->Finish(console_);
       if (done && !finished) return finished;
@@ -203,29 +159,13 @@ class ReadRun {
     Summary summary;
   };
 
-  Result<void> MakePlan() {
-    plan_.measurements = options_.once ? 1 : options_.measurements;
-    if (!options_.settle.empty()) {
-      const auto tolerance = ParseTolerance(options_.settle);
-      if (!tolerance) return tl::unexpected(tolerance.error());
-      plan_.settle_relative = *tolerance;
-    }
-    const auto every = ParseDuration(options_.every);
-    if (!every) return tl::unexpected(every.error());
-    if (every->value() < 0.0 || every->value() > 86400.0) {
-      return WrongUsage("--every " + options_.every, "give between 0s and 86400s");
-    }
-    every_ = std::chrono::milliseconds(static_cast<std::int64_t>(every->value() * 1e3));
-    return {};
-  }
-
   Result<void> LoadTheSession() {
     if (options_.session.empty()) return {};
     auto loaded = LoadSession(options_.session);
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);
-    return CheckNames(*session_, options_.light, options_.meter);
+    return CheckNames(*session_, options_.frame.light, options_.frame.meter);
   }
 
   Result<void> OpenTheMeter() {
@@ -248,7 +188,7 @@ class ReadRun {
   Result<void> TakeSeries(const Reading& frame) {
     for (int round = 0; round < options_.repeat; ++round) {
       if (round > 0 && meter_ && !meter_->HasMore()) break;
-      if (round > 0 && !(meter_ && meter_->IsReplay())) std::this_thread::sleep_for(every_);
+      if (round > 0 && !(meter_ && meter_->IsReplay())) std::this_thread::sleep_for(options_.every);
       taken_.clear();
       if (auto taken = TakeReadings(frame); !taken) return taken;
       if (auto published = Publish(); !published) return published;
@@ -258,7 +198,9 @@ class ReadRun {
 
   Result<void> TakeReadings(const Reading& frame) {
     const bool is_background = frame.shadow_card || frame.lamp == LampState::kOff;
-    if (session_ && !is_background && !HasBackground(*session_, options_.light)) {
+    const bool first_round = published_ == 0;
+    if (session_ && first_round && !is_background &&
+        !HasBackground(*session_, options_.frame.light)) {
       if (auto first = BackgroundFirst(frame); !first) return first;
     }
     return TakeOne(frame);
@@ -268,7 +210,7 @@ class ReadRun {
   Result<void> BackgroundFirst(const Reading& frame) {
     if (!AsksQuestions() || !options_.lux.empty()) {
       console_.Note(
-          "note: " + options_.light +
+          "note: " + options_.frame.light +
           " has no shadow-card reading yet, so ambient light and bounce stay assumed. "
           "Block only\nthe direct beam with a card and add --shadow-card to this command.");
       return {};
@@ -281,14 +223,14 @@ class ReadRun {
     shadow.shadow_card = true;
     if (auto taken = TakeOne(shadow); !taken) return taken;
     if (!Ask("Now take the card away and press Enter. ")) {
-      return Failed("interrupted", options_.light, "stopped by you; nothing was written");
+      return Failed("interrupted", options_.frame.light, "stopped by you; nothing was written");
     }
     return {};
   }
 
   Result<void> TakeOne(const Reading& frame) {
     auto summary = !options_.lux.empty() ? TypedSummary(options_.lux)
-                   : meter_              ? TakeSummary(plan_, *meter_, console_)
+                   : meter_              ? TakeSummary(options_.plan, *meter_, console_)
                                          : AskedSummary();
     if (!summary) return Propagate(std::move(summary));
     Warnings& warnings = summary->kept.warnings;
@@ -329,79 +271,24 @@ class ReadRun {
     return json;
   }
 
-  const Options& options_;
+  const ReadOptions& options_;
   Console& console_;
   std::optional<Session> session_;
   std::unique_ptr<MeterSession> meter_;
-  MeasuringPlan plan_;
-  std::chrono::milliseconds every_{0};
   MeterCalibrations calibrations_;
   std::vector<Taken> taken_;  // of this round: a background reading, and the one asked for
   std::set<std::string> warned_;
   int published_ = 0;
 };
 
-Result<void> RunRead(const Options& given, Console& console) {
-  Options options = given;
-  const auto timeout = ParseDuration(options.timeout);
-  if (!timeout) return tl::unexpected(timeout.error());
-  if (timeout->value() < 1e-3 || timeout->value() > 3600.0) {
-    return WrongUsage("--timeout " + options.timeout, "give between 1ms and 3600s");
-  }
-  options.request.reply_timeout =
-      std::chrono::milliseconds(static_cast<int>(timeout->value() * 1e3));
-  for (const std::string& setting : options.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      return WrongUsage("--set " + setting, "write name=value");
-    }
-    options.request.settings[setting.substr(0, equals)] = setting.substr(equals + 1);
-  }
-  return ReadRun(options, console).Execute();
-}
-
 }  // namespace
 
 Run BuildRead(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
-  parser.add_option("-s,--session", options->session, "Session the readings are appended to");
-  parser.add_option("--light", options->light, "Name of the lamp, as in session.toml");
-  parser.add_option("--distance", options->distance, "From the lamp to the meter: 0.5m, 50cm, 2ft");
-  parser.add_option("--tilt", options->tilt, "Between the meter's normal and the lamp, degrees");
-  parser.add_option("--meter", options->meter, "The session's [[meter]] that took the reading");
-  auto* count =
-      parser.add_option("-n", options->measurements, "Measurements to take the median of");
-  count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));
-  auto* settle = parser.add_option("--settle", options->settle,
-                                   "First wait until the light is steady, within 0.5% or this");
-  settle->expected(0, 1);
-  auto* repeat =
-      parser.add_option("--repeat", options->repeat, "So many readings, one after another");
-  repeat->check(CLI::Range(1, 10000000));
-  parser.add_option("--every", options->every, "Pause between repeated readings: 10s");
-  parser.add_option("--set", options->settings, "An option of the driver: name=value")
-      ->allow_extra_args(false);
-  auto* shadow =
-      parser.add_flag("--shadow-card", options->shadow_card, "A card blocks the direct beam only");
-  parser.add_flag("--lamp-off", options->lamp_off, "The lamp is switched off")->excludes(shadow);
-  auto* lux = parser.add_option("--lux", options->lux, "A typed reading: 192, 192lx, 17.8fc");
-  auto* device =
-      parser.add_option("--device", options->request.device, "A meter's id or driver's name");
-  auto* record = parser.add_option("--record", options->request.record_file,
-                                   "Write the dialogue with the meter as a tape");
-  auto* replay =
-      parser.add_option("--replay", options->request.replay_file, "Play a tape instead of a meter");
-  lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
-  lux->excludes(settle)->excludes(repeat);
-  replay->excludes(device);
-  parser.add_flag("--once", options->once, "One measurement; -s, --light and --distance optional")
-      ->excludes(count);
-  parser.add_flag("--with-spectrum", options->with_spectrum, "With --json: the spectrum too");
-  parser.add_option("--timeout", options->timeout, "Longest wait for one answer of the meter")
-      ->capture_default_str();
-  return [options, settle](Console& console) {
-    if (settle->count() > 0 && options->settle.empty()) options->settle = "0.5%";
-    return RunRead(*options, console);
+  auto arguments = AddReadOptions(parser);
+  return [arguments](Console& console) -> Result<void> {
+    const auto options = ReadOptionsFrom(*arguments);
+    if (!options) return tl::unexpected(options.error());
+    return ReadRun(*options, console).Execute();
   };
 }
 

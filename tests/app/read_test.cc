@@ -255,6 +255,20 @@ TEST(ReadSeries, SettleWaitsForSixSteadyMeasurements) {
   EXPECT_EQ(json::parse(settled.out)["measurements"], 1);
 }
 
+TEST(ReadFromMeter, AStoredReadingOfAC7000ComesFromItsMemory) {
+  auto setting = Sekonic();
+  setting.model = "C-7000";
+  setting.memory = {RecordedReply(kReply14lx), RecordedReply(kReply407lx)};
+  const UsbStandIn meter(setting);
+  const CliResult result = RunLightcal({"read", "--once", "--json", "--from-memory", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NEAR(double(json::parse(result.out)["illuminance_lx"]), 406.960, 5e-4);
+  EXPECT_THAT(result.err, HasSubstr("was never tried on one"));
+  const CliResult none = RunLightcal({"read", "--once", "--json", "--from-memory", "2"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_EQ(ErrorCode(none), "no_such_reading");
+}
+
 TEST(ReadSeries, AnUnknownSettingNamesThoseThereAre) {
   const CliResult result =
       RunLightcal({"read", "--once", "--replay", kTape407lx, "--set", "gain=3"});
@@ -404,6 +418,14 @@ TEST(ReadTape, AnUnreadableTapeIsRefusedByItsLine) {
   EXPECT_EQ(ErrorCode(result), "bad_tape");
   EXPECT_THAT(result.err, HasSubstr("bad.tape:2"));
   EXPECT_EQ(RunLightcal({"read", "--once", "--replay", dir.path() + "/none"}).exit_code, 1);
+}
+
+TEST(ReadTyped, AColourTemperatureMayStandBesideTheNumber) {
+  const SessionDir session;
+  ASSERT_EQ(RunLightcal(session.Read({"--lux", "192lx,2900K"})).exit_code, 0);
+  EXPECT_EQ(session.Journal().front()["illuminance_lx"], 192.0);
+  EXPECT_EQ(session.Journal().front()["cct_K"], 2900.0);
+  EXPECT_EQ(RunLightcal(session.Read({"--lux", "192,warm"})).exit_code, 2);
 }
 
 TEST(ReadTyped, ANumberBecomesARowOfTheJournal) {

@@ -40,6 +40,14 @@ MeterReading ReadingFromDisplay(const DisplayedIlluminance& displayed, const Dis
                                 const std::string& device) {
   const double lux = LuxFromDisplay(displayed);
   if (lux > limits.highest_lx) return OverRangeReading(limits.highest_lx, limits, device);
+  if (displayed.counts == 0) {
+    DisplayedIlluminance one_digit = displayed;
+    one_digit.counts = 1;
+    MeterReading dark = PhotometerReading(LuxFromDisplay(one_digit), device);
+    dark.reading.under_range = true;
+    dark.reading.sigma_relative = limits.sigma_relative;
+    return dark;
+  }
   MeterReading result = PhotometerReading(lux, device);
   result.reading.sigma_relative = SigmaOfDisplay(displayed, limits.sigma_relative);
   return result;

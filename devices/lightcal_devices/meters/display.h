@@ -30,7 +30,8 @@ struct DisplayLimits {
   double highest_lx = 0.0;      // where its highest range ends
 };
 
-// A photometer's reading; one above `highest_lx` is over range, at highest_lx.
+// A photometer's reading; one above `highest_lx` is over range, at highest_lx, and a display of 0 is
+// under range, at one digit.
 [[nodiscard]] MeterReading ReadingFromDisplay(const DisplayedIlluminance& displayed,
                                               const DisplayLimits& limits,
                                               const std::string& device);

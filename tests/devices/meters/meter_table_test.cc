@@ -18,7 +18,7 @@ FoundMeter Found(const std::string& id) {
 
 TEST(MeterTable, TheUdevRulesFileHoldsTheRuleOfEveryMeter) {
   const std::string rules =
-      test::ReadFile(std::string(LIGHTCAL_SOURCE_DIR) + "/devices/udev/70-lightcal.rules");
+      test::ReadFile(std::string(LIGHTCAL_SOURCE_DIR) + "/devices/70-lightcal.rules");
   ASSERT_FALSE(MeterTable().empty());
   for (const MeterRow& row : MeterTable()) {
     for (const std::string& rule : UdevRules(row)) {

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "read_options.h"
+
+#include <cstdint>
+#include <utility>
+
+#include "lightcal/core/units_text.h"
+#include "session_input.h"
+
+namespace lightcal::app {
+namespace {
+
+Result<Reading> FrameOf(const ReadArguments& arguments) {
+  Reading reading;
+  reading.light = arguments.light;
+  reading.meter = arguments.meter;
+  reading.shadow_card = arguments.shadow_card;
+  reading.lamp = arguments.lamp_off ? LampState::kOff : LampState::kOn;
+  if (!arguments.distance.empty()) {
+    const auto distance = ParseLength(arguments.distance);
+    if (!distance) return tl::unexpected(distance.error());
+    reading.distance = *distance;
+  }
+  if (!arguments.tilt.empty()) {
+    const auto tilt = ParseAngle(arguments.tilt);
+    if (!tilt) return tl::unexpected(tilt.error());
+    reading.tilt = *tilt;
+  }
+  return reading;
+}
+
+Result<void> CheckComplete(const ReadArguments& arguments) {
+  const bool into_journal = !arguments.session.empty();
+  if (!arguments.once && !into_journal) {
+    return WrongUsage("-s", "name the session the reading goes into, or pass --once");
+  }
+  if (into_journal && arguments.light.empty()) {
+    return WrongUsage("--light", "name the lamp the reading is of");
+  }
+  if (into_journal && arguments.distance.empty()) {
+    return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
+  }
+  return {};
+}
+
+Result<std::chrono::milliseconds> Milliseconds(const std::string& option, const std::string& text,
+                                               double least_s, double most_s) {
+  const auto duration = ParseDuration(text);
+  if (!duration) return tl::unexpected(duration.error());
+  if (duration->value() < least_s || duration->value() > most_s) {
+    return WrongUsage(option + " " + text,
+                      "give between " + std::to_string(std::int64_t(least_s * 1e3)) + "ms and " +
+                          std::to_string(std::int64_t(most_s)) + "s");
+  }
+  return std::chrono::milliseconds(static_cast<std::int64_t>(duration->value() * 1e3));
+}
+
+Result<MeasuringPlan> PlanOf(const ReadArguments& arguments) {
+  MeasuringPlan plan;
+  plan.measurements = arguments.once ? 1 : arguments.measurements;
+  if (arguments.from_memory >= 0) plan.from_memory = arguments.from_memory;
+  if (arguments.settles) {
+    const auto tolerance = ParseTolerance(arguments.settle);
+    if (!tolerance) return tl::unexpected(tolerance.error());
+    plan.settle_relative = *tolerance;
+  }
+  return plan;
+}
+
+}  // namespace
+
+std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
+  auto arguments = std::make_shared<ReadArguments>();
+  ReadArguments& a = *arguments;
+  parser.add_option("-s,--session", a.session, "Session the readings are appended to");
+  parser.add_option("--light", a.light, "Name of the lamp, as in session.toml");
+  parser.add_option("--distance", a.distance, "From the lamp to the meter: 0.5m, 50cm, 2ft");
+  parser.add_option("--tilt", a.tilt, "Between the meter's normal and the lamp, degrees");
+  parser.add_option("--meter", a.meter, "The session's [[meter]] that took the reading");
+  auto* count = parser.add_option("-n", a.measurements, "Measurements to take the median of");
+  count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));
+  auto* settle = parser.add_option_function<std::string>(
+      "--settle",
+      [&a](const std::string& tolerance) {
+        a.settles = true;
+        if (!tolerance.empty()) a.settle = tolerance;
+      },
+      "First wait until the light is steady, within 0.5% or this");
+  settle->expected(0, 1);
+  auto* repeat = parser.add_option("--repeat", a.repeat, "So many readings, one after another");
+  repeat->check(CLI::Range(1, 10000000));
+  parser.add_option("--every", a.every, "Pause between repeated readings: 10s");
+  parser.add_option("--set", a.settings, "An option of the driver: name=value")
+      ->allow_extra_args(false);
+  auto* memory = parser.add_option("--from-memory", a.from_memory,
+                                   "A reading the meter keeps, numbered from 0 (experimental)");
+  memory->check(CLI::Range(0, 9999))->excludes(count)->excludes(settle)->excludes(repeat);
+  auto* shadow =
+      parser.add_flag("--shadow-card", a.shadow_card, "A card blocks the direct beam only");
+  parser.add_flag("--lamp-off", a.lamp_off, "The lamp is switched off")->excludes(shadow);
+  auto* lux =
+      parser.add_option("--lux", a.lux, "A typed reading: 192, 17.8fc, or with its CCT 192,2900K");
+  auto* device = parser.add_option("--device", a.request.device, "A meter's id or driver's name");
+  auto* record =
+      parser.add_option("--record", a.request.record_file, "Write the dialogue as a tape");
+  auto* replay =
+      parser.add_option("--replay", a.request.replay_file, "Play a tape instead of a meter");
+  lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
+  lux->excludes(settle)->excludes(repeat)->excludes(memory);
+  replay->excludes(device);
+  parser.add_flag("--once", a.once, "One measurement; -s, --light and --distance optional")
+      ->excludes(count);
+  parser.add_flag("--with-spectrum", a.with_spectrum, "With --json: the spectrum too");
+  parser.add_option("--timeout", a.timeout, "Longest wait for one answer of the meter")
+      ->capture_default_str();
+  return arguments;
+}
+
+Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments) {
+  if (auto complete = CheckComplete(arguments); !complete) return Propagate(std::move(complete));
+  auto frame = FrameOf(arguments);
+  if (!frame) return Propagate(std::move(frame));
+  auto plan = PlanOf(arguments);
+  if (!plan) return Propagate(std::move(plan));
+  const auto timeout = Milliseconds("--timeout", arguments.timeout, 1e-3, 3600.0);
+  if (!timeout) return tl::unexpected(timeout.error());
+  const auto every = Milliseconds("--every", arguments.every, 0.0, 86400.0);
+  if (!every) return tl::unexpected(every.error());
+  ReadOptions options{
+      arguments.session, arguments.lux, *std::move(frame),      arguments.request, *plan,
+      arguments.repeat,  *every,        arguments.with_spectrum};
+  options.request.reply_timeout = *timeout;
+  for (const std::string& setting : arguments.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return WrongUsage("--set " + setting, "write name=value");
+    }
+    options.request.settings[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  return options;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `lightcal read` is asked, from its words to values.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/reading.h"
+#include "measuring.h"
+#include "meter_session.h"
+
+namespace lightcal::app {
+
+// As typed.
+struct ReadArguments {
+  std::string session, light, distance, tilt, meter;
+  std::string lux;
+  std::string timeout = "1s";
+  std::string settle = "0.5%";
+  std::string every = "0s";
+  std::vector<std::string> settings;  // name=value
+  MeterRequest request;
+  int measurements = 0;  // 0 = not said
+  int repeat = 1;
+  int from_memory = -1;  // -1 = not said
+  bool settles = false;
+  bool shadow_card = false;
+  bool lamp_off = false;
+  bool once = false;
+  bool with_spectrum = false;
+};
+
+struct ReadOptions {
+  std::string session;  // "" = into no journal
+  std::string lux;      // a typed reading, "" = from a meter
+  Reading frame;        // what every reading of this run shares: light, place, state of the lamp
+  MeterRequest request;
+  MeasuringPlan plan;
+  int repeat = 1;
+  std::chrono::milliseconds every{0};
+  bool with_spectrum = false;
+};
+
+// Filled when the parser has run.
+[[nodiscard]] std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser);
+
+// Wrong usage: a value that is none, no session and not --once, no light or distance for a session.
+[[nodiscard]] Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments);
+
+}  // namespace lightcal::app
