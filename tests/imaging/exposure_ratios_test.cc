@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "simulated_bracket.h"
+#include "merge_truth.h"
 
 namespace lightcal {
 namespace {
@@ -17,15 +17,7 @@ using test::StepWedge;
 using test::SyntheticCamera;
 using test::SyntheticExposure;
 
-SyntheticCamera Camera() {
-  SyntheticCamera camera;
-  camera.width = 300;
-  camera.height = 200;
-  camera.prnu_relative = 0.005;
-  camera.knee_relative = 0.01;
-  camera.row_noise_e = 0.5;
-  return camera;
-}
+SyntheticCamera Camera() { return test::FlawedCamera(300, 200); }
 
 Result<ExposureRatios> Measure(const std::vector<Frame>& frames, const std::vector<double>& label) {
   std::vector<SignalFrame> signals;

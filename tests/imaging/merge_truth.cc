@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "merge_truth.h"
 
+#include <cmath>
 #include <utility>
 
 namespace lightcal::test {
@@ -33,6 +34,48 @@ Result<MergedSamples> MergeSamples(const std::vector<Frame>& frames, const Merge
   merged.clipped = merger->MergeRows(0, height, View2d<float>(merged.value.data(), width, height),
                                      View2d<float>(merged.variance.data(), width, height));
   return merged;
+}
+
+SyntheticCamera FlawedCamera(int width, int height) {
+  SyntheticCamera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.prnu_relative = 0.005;
+  camera.knee_relative = 0.01;
+  camera.row_noise_e = 0.5;
+  return camera;
+}
+
+std::vector<Patch> PatchesOf(const StepWedge& wedge, const MergedSamples& merged, double per_nit) {
+  std::vector<Patch> patches(wedge.nits.size());
+  const auto each_green = [&](const auto& visit) {
+    for (int y = 0; y < wedge.height; ++y) {
+      for (int x = 0; x < wedge.width; ++x) {
+        if ((x & 1) == (y & 1)) continue;
+        visit(patches[static_cast<std::size_t>(wedge.PatchAt(x, y))],
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(wedge.width) +
+                  static_cast<std::size_t>(x));
+      }
+    }
+  };
+  each_green([&](Patch& patch, std::size_t i) {
+    patch.count += 1.0;
+    patch.mean += double{merged.value[i]} / per_nit;
+    patch.claimed += double{merged.variance[i]} / (per_nit * per_nit);
+  });
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    patches[p].nits = wedge.nits[p];
+    patches[p].mean /= patches[p].count;
+    patches[p].claimed /= patches[p].count;
+  }
+  each_green([&](Patch& patch, std::size_t i) {
+    const double off = double{merged.value[i]} / per_nit - patch.mean;
+    patch.variance += off * off / patch.count;
+    const double error = double{merged.value[i]} / per_nit - patch.nits;
+    const double sd = std::sqrt(double{merged.variance[i]}) / per_nit;
+    patch.covered += std::abs(error) <= sd ? 1.0 / patch.count : 0.0;
+  });
+  return patches;
 }
 
 }  // namespace lightcal::test

@@ -20,4 +20,18 @@ Result<MergedSamples> MergeSamples(const std::vector<Frame>& frames, const Merge
 // The request a reader's labels make.
 MergeRequest RequestOf(const std::vector<SyntheticExposure>& series);
 
+// A camera with what the estimator does not model: pixels of unequal gain, a knee of 1 %, noise of
+// whole rows.
+SyntheticCamera FlawedCamera(int width, int height);
+
+// Green samples of one patch, in cd/m^2.
+struct Patch {
+  double nits = 0.0;  // the truth
+  double count = 0.0, mean = 0.0, variance = 0.0;
+  double claimed = 0.0;  // mean of the variances claimed
+  double covered = 0.0;  // share of samples whose interval of one sigma holds the truth
+};
+// `per_nit` is the signal of the shortest frame for 1 cd/m^2.
+std::vector<Patch> PatchesOf(const StepWedge& wedge, const MergedSamples& merged, double per_nit);
+
 }  // namespace lightcal::test

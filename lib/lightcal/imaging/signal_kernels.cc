@@ -47,42 +47,50 @@ void SignalFromFloats(const float* in, std::size_t count, const Lanes& black, co
   }
 }
 
+namespace {
+
+// A block's numbers between the passes.
+struct Scratch {
+  float* sum;
+  float* predicted;  // X
+  float* weights;    // sum of t^2/Var
+  float* degrees;    // frames that count, less one
+  const float* limit;
+};
+
 // Pass 1, X from frames 0..i for the last i whose predicted signal t_i X is believed. X_i =
 // sum c y / sum c t is the sufficient statistic of Poisson noise, so that choosing by it does not
 // bias what is chosen; and a clipped frame can never pass, because every X_k t_i >= y_k t_i / t_k.
 LIGHTCAL_EVERY_CPU
-void MergeBlock(const BlockIn& in, const BlockOut& out) {
-  alignas(64) float sum[kBlock];
-  alignas(64) float predicted[kBlock];
-  alignas(64) float weights[kBlock];
-  alignas(64) float degrees[kBlock];
-  alignas(64) float limit[kBlock];
+void Predict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   const std::size_t count = in.count;
-  for (std::size_t i = 0; i < kBlock; ++i) limit[i] = (*in.limit)[i % kLanes];
-
   for (std::size_t i = 0; i < count; ++i) {
-    sum[i] = 0.0F;
+    scratch.sum[i] = 0.0F;
     out.used[i] = -1.0F;
-    predicted[i] = in.signals[i] / in.frames[0].exposure;
+    scratch.predicted[i] = in.signals[i] / in.frames[0].exposure;
   }
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float index = static_cast<float>(k);
     for (std::size_t i = 0; i < count; ++i) {
-      sum[i] += frame.poisson_weight * y[i];
-      const float x = sum[i] * frame.prefix_reciprocal;
-      const bool believed = x * frame.exposure < limit[i];
-      predicted[i] = believed ? x : predicted[i];
+      scratch.sum[i] += frame.poisson_weight * y[i];
+      const float x = scratch.sum[i] * frame.prefix_reciprocal;
+      const bool believed = x * frame.exposure < scratch.limit[i];
+      scratch.predicted[i] = believed ? x : scratch.predicted[i];
       out.used[i] = believed ? index : out.used[i];
     }
   }
+}
 
-  // Pass 2: weights from the predicted signal, not from the noisy sample.
+// Pass 2: weights from the predicted signal, not from the noisy sample.
+LIGHTCAL_EVERY_CPU
+void Weigh(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  const std::size_t count = in.count;
   for (std::size_t i = 0; i < count; ++i) {
-    sum[i] = 0.0F;
-    weights[i] = 0.0F;
-    degrees[i] = -1.0F;
+    scratch.sum[i] = 0.0F;
+    scratch.weights[i] = 0.0F;
+    scratch.degrees[i] = -1.0F;
   }
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
@@ -90,39 +98,65 @@ void MergeBlock(const BlockIn& in, const BlockOut& out) {
     float* precision = in.precisions + k * kBlock;
     const float index = static_cast<float>(k);
     for (std::size_t i = 0; i < count; ++i) {
-      const float x = predicted[i] > 0.0F ? predicted[i] : 0.0F;
+      const float x = scratch.predicted[i] > 0.0F ? scratch.predicted[i] : 0.0F;
       const float inverse = 1.0F / (frame.shot * x + frame.read);
       const bool seen = x * frame.exposure >= frame.floor || out.used[i] == index;
       const bool counts = index <= out.used[i] && seen;
       precision[i] = counts ? inverse : 0.0F;
-      degrees[i] += counts ? 1.0F : 0.0F;
+      scratch.degrees[i] += counts ? 1.0F : 0.0F;
       const float weight = precision[i] * frame.exposure;
-      sum[i] += weight * y[i];
-      weights[i] += weight * frame.exposure;
+      scratch.sum[i] += weight * y[i];
+      scratch.weights[i] += weight * frame.exposure;
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
     const bool clipped = out.used[i] < 0.0F;
-    out.value[i] = clipped ? predicted[i] : sum[i] / weights[i];
-    sum[i] = 0.0F;  // from here: chi-square
+    out.value[i] = clipped ? scratch.predicted[i] : scratch.sum[i] / scratch.weights[i];
   }
+}
+
+// Pass 3: chi-square of the frames about their mean, into scratch.sum.
+LIGHTCAL_EVERY_CPU
+void Contradict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  for (std::size_t i = 0; i < in.count; ++i) scratch.sum[i] = 0.0F;
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float* precision = in.precisions + k * kBlock;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < in.count; ++i) {
       const float residual = y[i] - frame.exposure * out.value[i];
-      sum[i] += precision[i] * residual * residual;
+      scratch.sum[i] += precision[i] * residual * residual;
     }
   }
-  for (std::size_t i = 0; i < count; ++i) {
+}
+
+LIGHTCAL_EVERY_CPU
+void Vary(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  for (std::size_t i = 0; i < in.count; ++i) {
     const bool clipped = out.used[i] < 0.0F;
-    const float n = degrees[i] > 1.0F ? degrees[i] : 1.0F;
-    const float widening = sum[i] > ContradictionAt(n) ? sum[i] / n : 1.0F;
+    const float n = scratch.degrees[i] > 1.0F ? scratch.degrees[i] : 1.0F;
+    const float chi2 = scratch.sum[i];
+    const float widening = chi2 > ContradictionAt(n) ? chi2 / n : 1.0F;
     const float square = out.value[i] * out.value[i];
-    const float noise = clipped ? square : widening / weights[i];
+    const float noise = clipped ? square : widening / scratch.weights[i];
     out.variance[i] = noise + in.fixed_pattern2 * square;
   }
+}
+
+}  // namespace
+
+void MergeBlock(const BlockIn& in, const BlockOut& out) {
+  alignas(64) float sum[kBlock];
+  alignas(64) float predicted[kBlock];
+  alignas(64) float weights[kBlock];
+  alignas(64) float degrees[kBlock];
+  alignas(64) float limit[kBlock];
+  for (std::size_t i = 0; i < kBlock; ++i) limit[i] = (*in.limit)[i % kLanes];
+  const Scratch scratch{sum, predicted, weights, degrees, limit};
+  Predict(in, out, scratch);
+  Weigh(in, out, scratch);
+  Contradict(in, out, scratch);
+  Vary(in, out, scratch);
 }
 
 LIGHTCAL_EVERY_CPU
