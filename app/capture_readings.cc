@@ -279,6 +279,7 @@ Result<CardReading> ReadCard(Session& session, const CaptureDescription& capture
                             : Lux(std::numbers::pi * corrected->luminance / capture.reflectance);
   reading.xy = corrected->xy;
   reading.color_source = corrected->xy ? ColorSource::kCamera : ColorSource::kUnknown;
+  if (corrected->xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
   reading.quality = MeterQuality::kDerived;
   reading.device = kDevicePrefix + (info.camera.empty() ? info.format : info.camera);
   reading.time = info.time;

@@ -5,14 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/records/camera_sensitivities.h"
+#include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "synthetic_dng.h"
 
 namespace lightcal::test {
 namespace {
@@ -151,6 +157,79 @@ TEST_F(CaptureSession, MeasuredSensitivitiesAndASpectrumAreUsed) {
   EXPECT_LT(RelativeU95(by_spectrum), RelativeU95(by_class));
   const json& inputs = document_["provenance"]["inputs"];
   EXPECT_EQ(inputs.size(), 8U) << "session.toml, five frames, camera, spectrum";
+}
+
+using Rows = std::array<std::array<double, 3>, 3>;
+
+// Adjugate over determinant.
+Rows Inverse(const Rows& m) {
+  Rows out{};
+  double determinant = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+    determinant += m[0][i] * (m[1][a] * m[2][b] - m[1][b] * m[2][a]);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const std::size_t c = (j + 1) % 3, d = (j + 2) % 3;
+      out[i][j] = m[c][a] * m[d][b] - m[c][b] * m[d][a];
+    }
+  }
+  for (auto& row : out) {
+    for (double& value : row) value /= determinant;
+  }
+  return out;
+}
+
+// A matrix that answers this lamp as the measured camera does: its D65 matrix, bent by one rank.
+Rows CameraSeeing(const SpectralCamera& camera, const Spectrum& lamp, Xy xy) {
+  Rows out = Inverse(camera.xyz_from_raw());
+  const auto raw = camera.ChannelsOf(lamp);
+  EXPECT_TRUE(raw);
+  const Xyz color = XyzFromXyAtUnitY(xy);
+  const std::array<double, 3> v = {color.X, color.Y, color.Z};
+  const double length2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double seen = out[i][0] * v[0] + out[i][1] * v[1] + out[i][2] * v[2];
+    for (std::size_t j = 0; j < 3; ++j) out[i][j] += ((*raw)[i] - seen) * v[j] / length2;
+  }
+  return out;
+}
+
+TEST_F(CaptureSession, AMeasuredCameraReadsAMeasuredLampWithinHalfAPercentOnceBothAreKnown) {
+  const std::string camera_file = SampleData("camera_sensitivities/Canon_EOS_5D_380_780_5.json");
+  const std::string lamp_file = SampleData("spectra/uprtek_cv600/Nichia 80 CRI.xls");
+  const auto sensitivities = CameraSensitivitiesFromJson(ReadFile(camera_file), "camera");
+  const auto imported = ImportFile(lamp_file);
+  ASSERT_TRUE(sensitivities && imported);
+  const Spectrum& lamp = imported->spectra.front().spectrum;
+  const auto measured = SpectralCamera::Make(*sensitivities);
+  const auto xyz = XyzFromSpectrum(lamp);
+  ASSERT_TRUE(measured && xyz);
+  const Xy xy = XyFromXyz(*xyz);
+
+  SyntheticCamera camera;
+  camera.width = 300;
+  camera.height = 200;
+  camera.camera_from_xyz = CameraSeeing(*measured, lamp, xy);
+  SyntheticDngOptions options;
+  options.white_x = xy.x;
+  options.white_y = xy.y;
+  const auto series = ExposureSeries(1.0 / 64.0, 4, 1.0, 4.0, 0.0, 5);
+  const SyntheticScene scene = [&](int x, int /*y*/) {
+    return XyzOf((x < 200 ? 0.18 : 0.5) * kLux / std::numbers::pi, xy.x, xy.y);
+  };
+  WriteDngBracket(folder_.path(), "card", camera, series, scene, options);
+  const std::string card = kHead +
+                           "[[capture]]\nlight = \"lamp\"\nframes = \"card*.dng\"\nuse = \"card\"\n"
+                           "reflectance = 0.18\ndistance_m = 0.8\nrect = [20, 20, 160, 160]\n";
+  const std::string by_camera = card + "camera = \"" + camera_file + "\"\n";
+  const auto off = [&](const std::string& toml) {
+    return double(Light(toml)["intensity_cd"]["value"]) / kIntensityCd - 1.0;
+  };
+  // The lamp reads 3.5 % low by its D65 matrix.
+  const double uncorrected = off(by_camera);
+  EXPECT_LT(uncorrected, -0.02);
+  EXPECT_LT(std::abs(off(by_camera + "lamp_class = \"white_led\"\n")), 0.02);
+  EXPECT_LT(std::abs(off(by_camera + "spectrum = \"" + lamp_file + "\"\n")), 0.005);
 }
 
 TEST_F(CaptureSession, WhatCannotBeReadIsRefusedByName) {

@@ -68,6 +68,15 @@ TEST(FitColor, ThePreciseInstrumentCountsMore) {
   EXPECT_LT(spectrometer - mired, mired - from_camera);
 }
 
+TEST(FitColor, ACamerasOwnSigmaIsItsInterval) {
+  Session session = Empty();
+  Reading& camera = Add(session, ColorSource::kCamera);
+  camera.xy = XyFromCct(Kelvin(4000.0));
+  camera.sigma_mired = Mireds(12.0);
+  const Uncertain cct = *Fit(session).cct_K;
+  EXPECT_NEAR(1e6 / *cct.low - 1e6 / cct.value, kZ95 * 12.0, 1e-3);
+}
+
 TEST(FitColor, RepeatingAReadingDoesNotLowerTheInstrumentsOwnError) {
   Session once = Empty();
   Add(once, ColorSource::kSpectrometer).xy = Xy{0.42, 0.40};

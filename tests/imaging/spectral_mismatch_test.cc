@@ -188,6 +188,33 @@ TEST(SpectralMismatch, TheGenericFactorHoldsNinetyFivePercentOfCamerasAndLamps) 
   }
 }
 
+TEST(SpectralMismatch, ColourTemperaturesOfCamerasLieWithinTheirSigma) {
+  const Bench& bench = TheBench();
+  std::map<LampClass, std::vector<double>> errors;  // mired
+  for (std::size_t i = 0; i < bench.lamps.size(); ++i) {
+    const auto xyz = XyzFromSpectrum(bench.lamps[i].spectrum);
+    ASSERT_TRUE(xyz);
+    const double truth = MiredsOfLamp(XyFromXyz(*xyz)).value();
+    for (const auto& row : bench.seen) {
+      errors[bench.lamps[i].lamp].push_back(row[i].mired - truth);
+    }
+  }
+  for (const auto& [lamp, all] : errors) {
+    const double sigma = GenericColorSigma(lamp).value();
+    double sum = 0.0;
+    int inside = 0;
+    for (const double error : all) {
+      sum += error * error;
+      if (std::abs(error) <= kZ95 * sigma) ++inside;
+    }
+    const auto count = static_cast<double>(all.size());
+    std::printf("colour %-14s rms %.1f mired, sigma %.1f, inside %.1f %%\n", Word(lamp).c_str(),
+                std::sqrt(sum / count), sigma, 100.0 * inside / count);
+    EXPECT_LE(std::sqrt(sum / count), sigma) << Word(lamp);
+    EXPECT_GE(inside, 0.95 * count) << Word(lamp);
+  }
+}
+
 TEST(SpectralMismatch, DaylightIsReadExactly) {
   const auto daylight = IlluminantSpectrum("D65");
   ASSERT_TRUE(daylight);

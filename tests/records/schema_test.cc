@@ -89,6 +89,7 @@ xy = [0.44, 0.40]
 color_source = "camera"
 spectrum = "a.spdx"
 sigma_relative = 0.1
+sigma_mired = 7
 over_range = true
 shadow_card = false
 [[reading]]

@@ -76,6 +76,7 @@ class RandomSession {
     const double x = 0.05 + 0.6 * Unit();
     reading.xy = Maybe(Xy{x, 0.01 + 0.9 * (0.98 - x) * Unit()});
     reading.sigma_relative = Maybe(0.001 + 0.9 * Unit());
+    reading.sigma_mired = Maybe(Mireds(1.0 + 20.0 * Unit()));
     reading.lamp = Coin() ? LampState::kOn : LampState::kOff;
     reading.over_range = Coin();
     reading.under_range = !reading.over_range && Coin();
@@ -151,6 +152,7 @@ void WriteReading(TomlText& toml, const Reading& reading) {
   toml.Number("duv", reading.duv);
   if (reading.xy) toml.Raw("xy", List(std::array{reading.xy->x, reading.xy->y}));
   toml.Number("sigma_relative", reading.sigma_relative);
+  toml.Number("sigma_mired", reading.sigma_mired);
   if (reading.lamp == LampState::kOff) toml.Raw("lamp", "\"off\"");
   if (reading.over_range) toml.Raw("over_range", "true");
   if (reading.under_range) toml.Raw("under_range", "true");
@@ -209,6 +211,7 @@ void ExpectSameReading(const Reading& a, const Reading& b) {
     EXPECT_EQ(a.xy->y, b.xy->y);
   }
   EXPECT_EQ(a.sigma_relative, b.sigma_relative);
+  EXPECT_EQ(a.sigma_mired, b.sigma_mired);
   EXPECT_EQ(a.lamp, b.lamp);
   EXPECT_EQ(a.over_range, b.over_range);
   EXPECT_EQ(a.under_range, b.under_range);

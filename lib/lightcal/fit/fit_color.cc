@@ -45,6 +45,10 @@ double SigmaXy(ColorSource source) {
   return kSigmaXyUnknown;
 }
 
+double SigmaMired(const Reading& reading) {
+  return reading.sigma_mired.value_or(Mireds(kSigmaMiredCamera)).value();
+}
+
 Vector2 XyFromMiredDuv(const Vector2& mired_duv) {
   const Xy xy = XyFromCct(KelvinFromMireds(Mireds(mired_duv[0])), mired_duv[1]);
   return {xy.x, xy.y};
@@ -76,7 +80,7 @@ Estimate2 FromTemperature(const Reading& reading) {
   const double sigma_xy = SigmaXy(reading.color_source);
   Matrix2 own = Matrix2::Zero();  // in (mired, Duv)
   if (camera) {
-    own(0, 0) = kSigmaMiredCamera * kSigmaMiredCamera;
+    own(0, 0) = SigmaMired(reading) * SigmaMired(reading);
     own(1, 1) = kSigmaDuvCamera * kSigmaDuvCamera;
   } else {
     const Matrix2 inverse = jacobian.inverse();
@@ -95,7 +99,7 @@ Estimate2 FromChromaticity(const Reading& reading) {
   Vector2 mired_duv;
   if (reading.color_source == ColorSource::kCamera && MiredDuvOf(xy, mired_duv)) {
     const Matrix2 jacobian = XyByMiredDuv(mired_duv);
-    const Vector2 variances(kSigmaMiredCamera * kSigmaMiredCamera,
+    const Vector2 variances(SigmaMired(reading) * SigmaMired(reading),
                             kSigmaDuvCamera * kSigmaDuvCamera);
     return {xy, jacobian * variances.asDiagonal() * jacobian.transpose()};
   }

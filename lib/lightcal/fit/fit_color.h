@@ -13,7 +13,8 @@ namespace lightcal::fit {
 // 1 sigma of one reading's colour where the reading does not say. A spectrometer of the C-800 class
 // is specified to +-0.003 in x and y (CIE illuminant A), taken as two standard deviations; a filter
 // colorimeter to about twice that; a camera is profiled to 5 mired and 0.005 of Duv at best; a
-// number of unknown origin is no better than a colorimeter's.
+// number of unknown origin is no better than a colorimeter's. A camera's reading may say its own
+// (Reading::sigma_mired).
 inline constexpr double kSigmaXySpectrometer = 0.0015;
 inline constexpr double kSigmaXyColorimeter = 0.003;
 inline constexpr double kSigmaXyUnknown = 0.003;

@@ -218,6 +218,23 @@ Mireds MiredsOfLamp(Xy xy) {
   return Mireds(std::min(kMostMired, MiredsFromKelvin(cct.temperature).value()));
 }
 
+Mireds GenericColorSigma(LampClass lamp) {
+  switch (lamp) {
+    case LampClass::kWhiteLed:
+      return Mireds(8.5);
+    case LampClass::kRgbLed:
+      return Mireds(17.5);
+    case LampClass::kHighCriLed:
+      return Mireds(6.5);
+    case LampClass::kTungsten:
+    case LampClass::kDaylight:
+      return Mireds(5.0);
+    case LampClass::kUnknown:
+      break;
+  }
+  return Mireds(12.5);
+}
+
 Result<Matrix3> DaylightXyzFromRaw(const CameraMatrices& matrices) {
   constexpr Kelvin kD65{6502.71};
   constexpr Xy kD65Xy{0.312720, 0.329031};  // CIE 15:2018, table 11.3

@@ -91,6 +91,11 @@ inline constexpr double kKnownSpectrumSigma = 0.005;
 // tests/imaging/spectral_mismatch_test.cc.
 [[nodiscard]] MismatchFactor GenericMismatch(LampClass lamp);
 
+// 1 sigma of the colour temperature that a matrix for D65 gives lamps of this class: their root
+// mean square error over the same cameras and lamps, at least the 5 mired that profiled cameras
+// reach.
+[[nodiscard]] Mireds GenericColorSigma(LampClass lamp);
+
 // XYZ from raw channels of a camera whose DNG matrices are known, by its matrix for daylight, so
 // that D65 whose green is 1 has Y = 1: the scale of ISO speeds, which the colour of the scene's own
 // light must not move.

@@ -42,6 +42,7 @@ struct Reading {
   std::optional<Xy> xy;
   std::string spectrum_file;             // relative to the session directory, "" = none
   std::optional<double> sigma_relative;  // 1 sigma, overrides the meter's
+  std::optional<Mireds> sigma_mired;     // 1 sigma of the colour along the locus, a camera's
   std::string time;                      // ISO 8601 as recorded, "" = unknown
   bool over_range = false;               // the true value is at least illuminance
   bool under_range = false;              // the true value is at most illuminance

@@ -39,6 +39,7 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.WordUnlessFirst("color_source", reading.color_source, kColorSourceWords);
   archive.Text("spectrum", reading.spectrum_file);
   archive.Number("sigma_relative", reading.sigma_relative, kSigmaRule);
+  archive.Number("sigma_mired", reading.sigma_mired, kPositive);
   archive.Flag("over_range", reading.over_range);
   archive.Flag("under_range", reading.under_range);
   archive.WordUnlessFirst("quality", reading.quality, kQualityWords);
