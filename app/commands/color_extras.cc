@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "color_spaces.h"
+#include "color_words.h"
 #include "lightcal/colorimetry/engine_kelvin.h"
-#include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/units_text.h"
 
 namespace lightcal::app {
 namespace {
@@ -27,33 +26,6 @@ Result<double> ParseSigma(const std::string& text) {
     return WrongUsage("--sigma", "\"" + text + "\" is not a share above 0 and below 100 %");
   }
   return sigma;
-}
-
-// "0.3127,0.3290", "3200K", "D65".
-Result<Xy> ParseWhite(const std::string& text) {
-  if (const auto comma = text.find(','); comma != std::string::npos) {
-    const auto x = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
-    const auto y = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
-    if (!x || !y) return WrongUsage("--white", "\"" + text + "\" is not x,y");
-    if (CctFromXy({*x, *y}).status == CctStatus::kNotAChromaticity) {
-      return Refused("bad_chromaticity", "--white", "no light has this chromaticity");
-    }
-    return Xy{*x, *y};
-  }
-  if (const auto kelvin = ParseTemperature(text)) {
-    if (!(kelvin->value() >= 400.0)) {
-      return Refused("out_of_range", "--white", "a white below 400 K is none");
-    }
-    return XyFromCct(*kelvin);
-  }
-  const auto spectrum = IlluminantSpectrum(text);
-  const auto xyz = spectrum ? XyzFromSpectrum(*spectrum) : Result<Xyz>(Xyz{});
-  if (!spectrum || !xyz) {
-    return WrongUsage("--white", "\"" + text +
-                                     "\" is no white; give x,y, a temperature such as 3200K or an "
-                                     "illuminant such as D65");
-  }
-  return XyFromXyz(*xyz);
 }
 
 GamutPolicy PolicyOf(std::string_view word) {
@@ -201,7 +173,7 @@ Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options) {
     extras.sigma = *sigma;
   }
   if (!options.white.empty()) {
-    const auto white = ParseWhite(options.white);
+    const auto white = ParseWhite("--white", options.white);
     if (!white) return tl::unexpected(white.error());
     extras.white = *white;
   }
