@@ -70,4 +70,10 @@ tl::unexpected<Error> NegativeReading(const std::string& device) {
                 "the meter shows less than no light; set its zero with the cap on, then try again");
 }
 
+tl::unexpected<Error> FrozenDisplay(std::string_view what, const std::string& device) {
+  return Failed("hold", device,
+                "the meter shows " + std::string(what) +
+                    ", not what it measures now; press that button until it is gone");
+}
+
 }  // namespace lightcal

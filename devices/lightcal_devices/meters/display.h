@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "lightcal_devices/meters/meter.h"
 
@@ -30,8 +31,8 @@ struct DisplayLimits {
   double highest_lx = 0.0;      // where its highest range ends
 };
 
-// A photometer's reading; one above `highest_lx` is over range, at highest_lx, and a display of 0 is
-// under range, at one digit.
+// A photometer's reading; one above `highest_lx` is over range, at highest_lx, and a display of 0
+// is under range, at one digit.
 [[nodiscard]] MeterReading ReadingFromDisplay(const DisplayedIlluminance& displayed,
                                               const DisplayLimits& limits,
                                               const std::string& device);
@@ -42,5 +43,7 @@ struct DisplayLimits {
 // What such meters have in common besides.
 [[nodiscard]] Warning BatteryLow(const std::string& device);
 [[nodiscard]] tl::unexpected<Error> NegativeReading(const std::string& device);
+// "hold": the display shows HOLD, MAX or the like (`what`), which is not of now.
+[[nodiscard]] tl::unexpected<Error> FrozenDisplay(std::string_view what, const std::string& device);
 
 }  // namespace lightcal

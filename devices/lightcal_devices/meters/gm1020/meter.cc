@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/meters/gm1020/meter.h"
 
+#include <span>
+
 #include "lightcal_devices/meters/display.h"
-#include "lightcal_devices/meters/frame_search.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/gm1020/frame.h"
 
 namespace lightcal::gm1020 {
 namespace {
 
+constexpr DisplayMeterName kName{.driver = "gm1020", .model = "GM1020"};
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 200000.0};
 constexpr int kMostFrames = 4;  // 2 s
 constexpr int kSilences = 3;
@@ -23,39 +26,47 @@ FrameSearch Search(const MeterTiming& timing) {
           .passing = ""};
 }
 
-}  // namespace
+class Gm1020Meter final : public DisplayMeter {
+ public:
+  using DisplayMeter::DisplayMeter;
+  Result<MeterReading> Measure(const Cancellation& cancellation) override;
 
-Result<MeterIdentity> Gm1020Meter::Identify() { return MeterIdentity{kModel, "", {}}; }
+ private:
+  // Byte by byte, as the meter wants it.
+  Result<void> Send(std::span<const std::byte> command);
+};
 
 Result<void> Gm1020Meter::Send(std::span<const std::byte> command) {
   for (std::size_t i = 0; i < command.size(); ++i) {
-    if (auto sent = transport_.Write(command.subspan(i, 1), timing_.reply); !sent) return sent;
+    if (auto sent = transport().Write(command.subspan(i, 1), timing().reply); !sent) return sent;
   }
   return {};
 }
 
 Result<MeterReading> Gm1020Meter::Measure(const Cancellation& cancellation) {
-  ForgetQueued(transport_);
+  ForgetQueued(transport());
   const auto measure = [&]() -> Result<LiveMeasurement> {
     if (auto started = Send(StartLive()); !started) return tl::unexpected(started.error());
-    return FirstDecoded(transport_, Search(timing_), kMostFrames, cancellation,
+    return FirstDecoded(transport(), Search(timing()), kMostFrames, cancellation,
                         [](const Bytes& frame) { return DecodeLive(frame); });
   };
   const auto live = measure();
   if (!live && IsGone(live.error())) return tl::unexpected(live.error());
   const auto stopped = Send(StopLive());
   if (!live) return tl::unexpected(live.error());
-  MeterReading reading = ReadingFromDisplay(live->shown, kLimits, device_);
+  MeterReading reading = ReadingFromDisplay(live->shown, kLimits, device());
   if (!stopped) {
-    reading.warnings.push_back({"not_restored", device_,
+    reading.warnings.push_back({"not_restored", device(),
                                 "live mode could not be ended (" + stopped.error().message +
                                     "); switch the meter off and on"});
   }
   return reading;
 }
 
+}  // namespace
+
 std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) {
-  return std::make_unique<Gm1020Meter>(transport, setup);
+  return std::make_unique<Gm1020Meter>(transport, setup, kName);
 }
 
 }  // namespace lightcal::gm1020

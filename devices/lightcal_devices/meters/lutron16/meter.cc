@@ -2,12 +2,13 @@
 #include "lightcal_devices/meters/lutron16/meter.h"
 
 #include "lightcal_devices/meters/display.h"
-#include "lightcal_devices/meters/frame_search.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/lutron16/frame.h"
 
 namespace lightcal::lutron16 {
 namespace {
 
+constexpr DisplayMeterName kName{.driver = "lutron16", .model = "Lutron"};
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 100000.0};
 constexpr int kMostFrames = 6;  // three of each display
 constexpr int kSilences = 3;
@@ -26,31 +27,24 @@ FrameSearch Search(const MeterTiming& timing) {
           .passing = kNoLightDisplay};
 }
 
-Result<MeterReading> ReadingFrom(const Measurement& measurement, const std::string& device) {
-  if (!measurement.upper_display) {
+Result<MeterReading> ReadingFrom(const Bytes& frame, const std::string& device) {
+  const auto measurement = DecodeMeasurement(frame);
+  if (!measurement) return tl::unexpected(measurement.error());
+  if (!measurement->upper_display) {
     return Failed(kNoLightDisplay, device,
                   "only the lower display is sent; switch the upper one to light");
   }
-  if (measurement.negative) return NegativeReading(device);
-  return ReadingFromDisplay(measurement.shown, kLimits, device);
+  if (measurement->negative) return NegativeReading(device);
+  return ReadingFromDisplay(measurement->shown, kLimits, device);
 }
 
 }  // namespace
 
-Result<MeterIdentity> Lutron16Meter::Identify() { return MeterIdentity{kModel, "", {}}; }
-
-Result<MeterReading> Lutron16Meter::Measure(const Cancellation& cancellation) {
-  ForgetQueued(transport_);
-  return FirstDecoded(transport_, Search(timing_), kMostFrames, cancellation,
-                      [&](const Bytes& frame) -> Result<MeterReading> {
-                        const auto measurement = DecodeMeasurement(frame);
-                        if (!measurement) return tl::unexpected(measurement.error());
-                        return ReadingFrom(*measurement, device_);
-                      });
-}
-
 std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) {
-  return std::make_unique<Lutron16Meter>(transport, setup);
+  return std::make_unique<StreamMeter>(
+      transport, setup, kName,
+      DisplayStream{
+          .search = Search(setup.timing), .most_frames = kMostFrames, .reading = ReadingFrom});
 }
 
 }  // namespace lightcal::lutron16
