@@ -27,13 +27,7 @@ SyntheticCamera Camera(int width, int height) {
 std::string Shoot(const TempDir& folder, const std::string& stem, const SyntheticCamera& camera,
                   const SyntheticExposure& exposure, const SyntheticScene& scene,
                   const SyntheticDngOptions& options) {
-  const double most = 3.0 * SaturatingNits(camera, exposure);
-  const SyntheticScene reachable = [&scene, most](int x, int y) {
-    const SyntheticXyz c = scene(x, y);
-    const double share = c.Y > most ? most / c.Y : 1.0;
-    return SyntheticXyz{c.X * share, c.Y * share, c.Z * share};
-  };
-  return WriteDngBracket(folder.path(), stem, camera, {exposure}, reachable, options).at(0);
+  return WriteDngBracket(folder.path(), stem, camera, {exposure}, scene, options).at(0);
 }
 
 Words ShootAll(const TempDir& folder, const SyntheticCamera& camera,

@@ -17,7 +17,7 @@ using Words = std::vector<std::string>;
 // With pixels of unequal gain, a knee of 1 % and noise of whole rows.
 SyntheticCamera Camera(int width = 300, int height = 200);
 
-// One frame as a file. What lies beyond three times saturation is as bright as that.
+// One frame as a file.
 std::string Shoot(const TempDir& folder, const std::string& stem, const SyntheticCamera& camera,
                   const SyntheticExposure& exposure, const SyntheticScene& scene,
                   const SyntheticDngOptions& options = {});

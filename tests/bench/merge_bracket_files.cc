@@ -41,13 +41,7 @@ int Write(const std::string& directory, int width, int height) {
   std::ofstream times(directory + "/times.txt");
   const auto series = ExposureSeries(1.0 / 2048, 7, 2.0, 8.0, 0.03, 3);
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const double most = 3.0 * SaturatingNits(camera, series[i]);
-    const SyntheticScene scene = wedge.Scene();
-    const auto picture = Expose(camera, series[i], [&](int x, int y) {
-      const SyntheticXyz c = scene(x, y);
-      const double share = c.Y > most ? most / c.Y : 1.0;
-      return SyntheticXyz{c.X * share, c.Y * share, c.Z * share};
-    });
+    const auto picture = Expose(camera, series[i], wedge.Scene());
     const std::string stem = directory + "/f" + std::to_string(i);
     SyntheticDngOptions options;
     options.noise_profile = false;

@@ -29,23 +29,12 @@ Frame FrameOf(const SyntheticCamera& camera, const SyntheticExposure& exposure,
   return frame;
 }
 
-SyntheticScene WithinReach(const SyntheticCamera& camera, const SyntheticExposure& exposure,
-                           const SyntheticScene& scene) {
-  const double most = 3.0 * SaturatingNits(camera, exposure);
-  return [scene, most](int x, int y) {
-    SyntheticXyz color = scene(x, y);
-    const double share = color.Y > most ? most / color.Y : 1.0;
-    return SyntheticXyz{color.X * share, color.Y * share, color.Z * share};
-  };
-}
-
 std::vector<Frame> ShootBracket(const SyntheticCamera& camera,
                                 const std::vector<SyntheticExposure>& series,
                                 const SyntheticScene& scene) {
   std::vector<Frame> frames;
   for (const SyntheticExposure& exposure : series) {
-    frames.push_back(FrameOf(camera, exposure,
-                             Expose(camera, exposure, WithinReach(camera, exposure, scene)),
+    frames.push_back(FrameOf(camera, exposure, Expose(camera, exposure, scene),
                              "frame_" + std::to_string(frames.size())));
   }
   return frames;

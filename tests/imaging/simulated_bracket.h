@@ -15,10 +15,6 @@ namespace lightcal::test {
 Frame FrameOf(const SyntheticCamera& camera, const SyntheticExposure& exposure,
               std::vector<std::uint16_t> picture, const std::string& name);
 
-// The scene as this exposure can tell it from the true one: nothing beyond three times saturation.
-SyntheticScene WithinReach(const SyntheticCamera& camera, const SyntheticExposure& exposure,
-                           const SyntheticScene& scene);
-
 std::vector<Frame> ShootBracket(const SyntheticCamera& camera,
                                 const std::vector<SyntheticExposure>& series,
                                 const SyntheticScene& scene);

@@ -74,9 +74,14 @@ class Random {
 
 constexpr double kKneeFrom = 0.8;
 
+// A parabola up to where it would turn down again; level from there, as more light is never darker.
 double Knee(double electrons, double full_well, double missing) {
+  if (missing <= 0.0) return electrons;
+  const double top = (1.0 - kKneeFrom) / (2.0 * missing);
   const double into = (electrons / full_well - kKneeFrom) / (1.0 - kKneeFrom);
-  return into <= 0.0 ? electrons : electrons - missing * full_well * into * into;
+  if (into <= 0.0) return electrons;
+  if (into >= top) return full_well * (kKneeFrom + missing * top * top);
+  return electrons - missing * full_well * into * into;
 }
 
 // Colour (0 R, 1 G, 2 B) of an RGGB mosaic.

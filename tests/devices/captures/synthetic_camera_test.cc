@@ -68,6 +68,16 @@ TEST(SyntheticCamera, TheKneeTakesWhatItSaysAtFullWellAndNothingBelowFourFifths)
               0.95 - 0.01 * std::pow(0.75, 2), 1e-4);
 }
 
+TEST(SyntheticCamera, BeyondSaturationItStaysWhiteHoweverBrightTheScene) {
+  SyntheticCamera camera;
+  camera.knee_relative = 0.01;
+  const SyntheticExposure exposure;
+  for (const double times : {1.1, 2.0, 5.0, 100.0, 1e5}) {
+    const Moments green = GreenMoments(camera, exposure, times * SaturatingNits(camera, exposure));
+    EXPECT_NEAR(green.mean / (camera.white_dn - camera.black_dn), 1.0, 1e-4) << times;
+  }
+}
+
 TEST(SyntheticCamera, PixelsKeepTheirGainFromFrameToFrame) {
   SyntheticCamera camera;
   camera.prnu_relative = 0.05;
