@@ -21,8 +21,7 @@ constexpr std::uint16_t kSingleShot = 0xCA10;  // automatic range, 800 ms
 constexpr std::uint16_t kReady = 0x0080;
 constexpr std::uint16_t kOverflow = 0x0100;
 constexpr unsigned kHighestExponent = 11;
-constexpr std::chrono::milliseconds kPause(100);
-constexpr int kPolls = 20;
+constexpr Polls kPolls{.pause = std::chrono::milliseconds(100), .count = 20};
 
 }  // namespace
 
@@ -51,23 +50,16 @@ Result<bool> IsHere(I2cBus& bus, Address address) {
 }
 
 Result<SensorLight> Measure(I2cBus& bus, Address address, const SensorContext& context) {
-  return WithRegister(
-      {bus, address, kConfiguration, kOrder}, kSingleShot, [&]() -> Result<SensorLight> {
-        for (int i = 0; i < kPolls; ++i) {
-          if (auto go_on = CheckNotCancelled(context, "OPT3001"); !go_on) {
-            return tl::unexpected(go_on.error());
-          }
-          context.timing.Pause(kPause);
-          const auto state = ReadRegister(bus, address, kConfiguration, kOrder);
-          if (!state) return tl::unexpected(state.error());
-          if ((*state & kReady) == 0) continue;
-          const auto result = ReadRegister(bus, address, kResult, kOrder);
-          if (!result) return tl::unexpected(result.error());
-          return Decode(*result, *state);
-        }
-        return Failed("not_ready", "OPT3001",
-                      "no measurement in " + std::to_string(kPolls) + " questions; try again");
-      });
+  const auto ask = [&]() -> Result<std::optional<SensorLight>> {
+    const auto state = ReadRegister(bus, address, kConfiguration, kOrder);
+    if (!state) return tl::unexpected(state.error());
+    if ((*state & kReady) == 0) return std::nullopt;
+    const auto result = ReadRegister(bus, address, kResult, kOrder);
+    if (!result) return tl::unexpected(result.error());
+    return Decode(*result, *state);
+  };
+  return WithRegister({bus, address, kConfiguration, kOrder}, kSingleShot,
+                      [&] { return PollForLight(context, "OPT3001", kPolls, ask); });
 }
 
 }  // namespace lightcal::i2c::opt3001

@@ -20,8 +20,7 @@ constexpr std::uint16_t kOneShot = 0x3218;  // automatic range, 100 ms, latched
 constexpr std::uint16_t kReady = 0x0004;
 constexpr std::uint16_t kOverload = 0x0008;
 constexpr double kLuxPerCode = 2.15e-3;
-constexpr std::chrono::milliseconds kPause(50);
-constexpr int kPolls = 40;
+constexpr Polls kPolls{.pause = std::chrono::milliseconds(50), .count = 40};
 constexpr int kTries = 2;  // a damaged burst is read once more
 
 constexpr std::array<std::array<double, 3>, 3> kXyzFromCodes = {{
@@ -98,23 +97,16 @@ Result<bool> IsHere(I2cBus& bus, Address address) {
 }
 
 Result<SensorLight> Measure(I2cBus& bus, Address address, const SensorContext& context) {
-  return WithRegister(
-      {bus, address, kConfiguration, kOrder}, kOneShot, [&]() -> Result<SensorLight> {
-        for (int i = 0; i < kPolls; ++i) {
-          if (auto go_on = CheckNotCancelled(context, "OPT4048"); !go_on) {
-            return tl::unexpected(go_on.error());
-          }
-          context.timing.Pause(kPause);
-          const auto status = ReadRegister(bus, address, kStatus, kOrder);
-          if (!status) return tl::unexpected(status.error());
-          if ((*status & (kReady | kOverload)) == 0) continue;
-          const auto channels = ReadChannels(bus, address);
-          if (!channels) return tl::unexpected(channels.error());
-          return LightFromChannels(*channels, *status);
-        }
-        return Failed("not_ready", "OPT4048",
-                      "no measurement in " + std::to_string(kPolls) + " questions; try again");
-      });
+  const auto ask = [&]() -> Result<std::optional<SensorLight>> {
+    const auto status = ReadRegister(bus, address, kStatus, kOrder);
+    if (!status) return tl::unexpected(status.error());
+    if ((*status & (kReady | kOverload)) == 0) return std::nullopt;
+    const auto channels = ReadChannels(bus, address);
+    if (!channels) return tl::unexpected(channels.error());
+    return LightFromChannels(*channels, *status);
+  };
+  return WithRegister({bus, address, kConfiguration, kOrder}, kOneShot,
+                      [&] { return PollForLight(context, "OPT4048", kPolls, ask); });
 }
 
 }  // namespace lightcal::i2c::opt4048

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 
 #include "lightcal_devices/meters/i2c_sensors/bh1750.h"
 #include "lightcal_devices/meters/i2c_sensors/opt3001.h"
@@ -54,6 +55,20 @@ const Sensor* FindSensor(std::string_view name) {
 Result<void> CheckNotCancelled(const SensorContext& context, std::string_view sensor) {
   if (!context.cancellation.Requested()) return {};
   return Failed("interrupted", std::string(sensor), "stopped by you; the sensor is released");
+}
+
+Result<SensorLight> PollForLight(const SensorContext& context, const std::string& sensor,
+                                 const Polls& polls,
+                                 const std::function<Result<std::optional<SensorLight>>()>& ask) {
+  for (int i = 0; i < polls.count; ++i) {
+    if (auto go_on = CheckNotCancelled(context, sensor); !go_on) return Propagate(std::move(go_on));
+    context.timing.Pause(polls.pause);
+    auto light = ask();
+    if (!light) return Propagate(std::move(light));
+    if (*light) return **light;
+  }
+  return Failed("not_ready", sensor,
+                "no measurement in " + std::to_string(polls.count) + " questions; try again");
 }
 
 Result<bool> SaysId(const Result<std::uint16_t>& answer, std::uint16_t id) {

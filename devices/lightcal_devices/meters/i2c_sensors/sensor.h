@@ -2,8 +2,11 @@
 // Light sensor chips on an I2C bus: what every one answers, and which there are.
 #pragma once
 
+#include <chrono>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "lightcal/colorimetry/chromaticity.h"
@@ -45,6 +48,17 @@ struct Sensor {
 
 // interrupted, when the person wished so.
 [[nodiscard]] Result<void> CheckNotCancelled(const SensorContext& context, std::string_view sensor);
+
+// How often a sensor is asked whether it is done, and the pause before each time.
+struct Polls {
+  std::chrono::milliseconds pause{0};
+  int count = 0;
+};
+// The first light that `ask` answers; it answers nothing while the measurement goes on.
+// Fails: not_ready after all polls, interrupted, and as `ask`.
+[[nodiscard]] Result<SensorLight> PollForLight(
+    const SensorContext& context, const std::string& sensor, const Polls& polls,
+    const std::function<Result<std::optional<SensorLight>>()>& ask);
 
 // What an answer of the bus about an id register means: no one there is a no.
 [[nodiscard]] Result<bool> SaysId(const Result<std::uint16_t>& answer, std::uint16_t id);
