@@ -14,15 +14,7 @@ namespace lightcal::test::merge {
 
 using nlohmann::json;
 
-SyntheticCamera Camera(int width, int height) {
-  SyntheticCamera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.prnu_relative = 0.005;
-  camera.knee_relative = 0.01;
-  camera.row_noise_e = 0.5;
-  return camera;
-}
+SyntheticCamera Camera(int width, int height) { return FlawedCamera(width, height); }
 
 std::string Shoot(const TempDir& folder, const std::string& stem, const SyntheticCamera& camera,
                   const SyntheticExposure& exposure, const SyntheticScene& scene,

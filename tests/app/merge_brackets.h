@@ -14,7 +14,7 @@ namespace lightcal::test::merge {
 
 using Words = std::vector<std::string>;
 
-// With pixels of unequal gain, a knee of 1 % and noise of whole rows.
+// FlawedCamera of a size that merges quickly.
 SyntheticCamera Camera(int width = 300, int height = 200);
 
 // One frame as a file.

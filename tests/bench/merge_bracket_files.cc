@@ -29,12 +29,7 @@ void WritePgm(const std::string& path, const SyntheticCamera& camera,
 }
 
 int Write(const std::string& directory, int width, int height) {
-  SyntheticCamera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.prnu_relative = 0.005;
-  camera.knee_relative = 0.01;
-  camera.row_noise_e = 0.5;
+  const SyntheticCamera camera = FlawedCamera(width, height);
   const StepWedge wedge{LogSteps(0.05, 1e5, 48), 8, width, height};
   std::ofstream truth(directory + "/truth.txt");
   for (const double nits : wedge.nits) truth << nits << '\n';

@@ -36,16 +36,6 @@ Result<MergedSamples> MergeSamples(const std::vector<Frame>& frames, const Merge
   return merged;
 }
 
-SyntheticCamera FlawedCamera(int width, int height) {
-  SyntheticCamera camera;
-  camera.width = width;
-  camera.height = height;
-  camera.prnu_relative = 0.005;
-  camera.knee_relative = 0.01;
-  camera.row_noise_e = 0.5;
-  return camera;
-}
-
 std::vector<Patch> PatchesOf(const StepWedge& wedge, const MergedSamples& merged, double per_nit) {
   std::vector<Patch> patches(wedge.nits.size());
   const auto each_green = [&](const auto& visit) {

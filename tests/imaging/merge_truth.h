@@ -20,10 +20,6 @@ Result<MergedSamples> MergeSamples(const std::vector<Frame>& frames, const Merge
 // The request a reader's labels make.
 MergeRequest RequestOf(const std::vector<SyntheticExposure>& series);
 
-// A camera with what the estimator does not model: pixels of unequal gain, a knee of 1 %, noise of
-// whole rows.
-SyntheticCamera FlawedCamera(int width, int height);
-
 // Green samples of one patch, in cd/m^2.
 struct Patch {
   double nits = 0.0;  // the truth

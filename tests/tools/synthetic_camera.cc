@@ -89,6 +89,16 @@ int ColorAt(int x, int y) { return (x & 1) + (y & 1); }
 
 }  // namespace
 
+SyntheticCamera FlawedCamera(int width, int height) {
+  SyntheticCamera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.prnu_relative = 0.005;
+  camera.knee_relative = 0.01;
+  camera.row_noise_e = 0.5;
+  return camera;
+}
+
 SyntheticXyz XyzOf(double luminance_nits, double x, double y) {
   return {luminance_nits * x / y, luminance_nits, luminance_nits * (1.0 - x - y) / y};
 }

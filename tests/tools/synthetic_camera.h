@@ -32,6 +32,9 @@ struct SyntheticCamera {
   double lens_q = 0.65;  // H = q L t/N^2
 };
 
+// With what no estimator models: pixels of unequal gain, a knee of 1 %, noise of whole rows.
+[[nodiscard]] SyntheticCamera FlawedCamera(int width, int height);
+
 struct SyntheticExposure {
   double true_time_s = 1.0 / 64;   // what the shutter does, jitter included
   double label_time_s = 1.0 / 60;  // EXIF ExposureTime; 0 writes 0/1
