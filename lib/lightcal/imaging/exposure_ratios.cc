@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/difference_equations.h"
 #include "lightcal/imaging/noise.h"
 #include "lightcal/imaging/parallel.h"
 
@@ -158,12 +157,19 @@ void SumUp(std::span<PairRatio> pairs, double linear_to) {
 // min sum ((e_b - e_a - ln_ratio)/sd)^2 with e of the first frame 0.
 void SolveNetwork(std::span<const PairRatio> pairs, ExposureRatios& answer) {
   const auto n = static_cast<Eigen::Index>(answer.ln_exposure.size());
-  DifferenceEquations equations(n);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
   for (const PairRatio& pair : pairs) {
-    equations.Add(static_cast<Eigen::Index>(pair.a), static_cast<Eigen::Index>(pair.b),
-                  pair.ln_ratio, 1.0 / (pair.sd * pair.sd));
+    const double weight = 1.0 / (pair.sd * pair.sd);
+    const auto a = static_cast<Eigen::Index>(pair.a);
+    const auto b = static_cast<Eigen::Index>(pair.b);
+    normal(a, a) += weight;
+    normal(b, b) += weight;
+    normal(a, b) -= weight;
+    normal(b, a) -= weight;
+    right(b) += weight * pair.ln_ratio;
+    right(a) -= weight * pair.ln_ratio;
   }
-  auto& [normal, right] = equations;
   normal.row(0).setZero();
   normal.col(0).setZero();
   normal(0, 0) = 1.0;

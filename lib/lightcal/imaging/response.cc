@@ -9,8 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "lightcal/imaging/difference_equations.h"
-
 namespace lightcal {
 namespace {
 
@@ -71,7 +69,8 @@ Eigen::VectorXd StartCurve() {
 // One weighted least squares solution, with weights of the curve so far.
 Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const Eigen::VectorXd& so_far,
                       bool trust_residuals) {
-  DifferenceEquations equations(kSteps);
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kSteps, kSteps);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kSteps);
   for (const PairCounts& pair : pairs) {
     for (int a = kLowestStep; a <= kHighestStep; ++a) {
       const double variance_a = StepVariance(so_far, a);
@@ -83,12 +82,16 @@ Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const Eigen::VectorXd& 
           const double residual = (so_far(b) - so_far(a) - pair.ln_ratio) / kMovedLn;
           weight /= (1.0 + residual * residual) * (1.0 + residual * residual);
         }
-        equations.Add(a, b, pair.ln_ratio, weight);
+        normal(a, a) += weight;
+        normal(b, b) += weight;
+        normal(a, b) -= weight;
+        normal(b, a) -= weight;
+        right(b) += weight * pair.ln_ratio;
+        right(a) -= weight * pair.ln_ratio;
       }
     }
   }
   // Smooth deviation from the power law: (h(z-1) - 2 h(z) + h(z+1))^2 with h = g - start.
-  auto& [normal, right] = equations;
   const Eigen::VectorXd start = StartCurve();
   const double smooth = kSmoothness * normal.diagonal().mean();
   for (int step = 1; step + 1 < kSteps; ++step) {
