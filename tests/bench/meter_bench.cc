@@ -42,6 +42,7 @@ void BareLine(benchmark::State& state, const Tape& tape) {
 void WholeReading(benchmark::State& state, const Tape& tape, const MeterRow& row) {
   MeterSetup setup;
   setup.timing.live = false;
+  setup.options = tape.settings;
   for (auto _ : state) {
     ReplayTransport line(tape);
     const auto meter = row.make(line, setup);
