@@ -17,9 +17,10 @@ struct Tlci {
   std::string by;               // "ArgyllCMS 2.3.1"
 };
 
-// Runs specplot, at most five seconds. Equal steps of 1 nm and more go to it as they are, all others
-// and more than 600 samples as 1 nm by area. Fails: no_program when specplot is not on PATH, io, and
-// program_failed when it prints no index; refused/"no_tlci" when it finds that the light has none.
+// Runs specplot, at most five seconds. Equal steps of 1 nm and more go to it as they are, all
+// others and more than 600 samples as 1 nm by area. Fails: no_program when specplot is not on PATH,
+// io, and program_failed when it prints no index; refused/"no_tlci" when it finds that the light
+// has none.
 [[nodiscard]] Result<Tlci> TlciByArgyll(const Spectrum& spectrum);
 
 }  // namespace lightcal::app

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include "lightcal_devices/meters/meter_table.h"
@@ -42,7 +43,11 @@ void BareLine(benchmark::State& state, const Tape& tape) {
 void WholeReading(benchmark::State& state, const Tape& tape, const MeterRow& row) {
   MeterSetup setup;
   setup.timing.live = false;
-  setup.options = tape.settings;
+  std::istringstream settings(tape.settings);
+  for (std::string line; std::getline(settings, line);) {
+    const auto equals = line.find('=');
+    setup.options[line.substr(0, equals)] = line.substr(equals + 1);
+  }
   for (auto _ : state) {
     ReplayTransport line(tape);
     const auto meter = row.make(line, setup);

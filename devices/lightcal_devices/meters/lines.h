@@ -23,8 +23,8 @@ struct FoundMeter {
   std::string serial;   // "" = none
   std::string usb;      // "0a41:7003", "" = not on USB
   MeterAccess access = MeterAccess::kReady;
-  // The device's own folder in sysfs, links resolved; "" = not asked. One instrument may be found by
-  // two drivers, one folder then lies within the other.
+  // The device's own folder in sysfs, links resolved; "" = not asked. One instrument may be found
+  // by two drivers, one folder then lies within the other.
   std::string sysfs_parent;
   std::string remedy;  // what to do when it is not ready, "" = what the access says
 };

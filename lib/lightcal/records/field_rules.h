@@ -26,9 +26,8 @@ inline constexpr NumberRule kErrorFractionRule{[](double v) { return v >= 0.0 &&
                                                "must be a fraction from 0 to below 1: 0.03 is 3 %"};
 inline constexpr NumberRule kReflectanceRule{[](double v) { return v >= 0.0 && v < 1.0; },
                                              "must be a fraction from 0 to below 1"};
-inline constexpr NumberRule kCardRule{
-    [](double v) { return v > 0.0 && v <= 1.0; },
-    "must be a fraction above 0, up to 1: 0.18 is a grey card"};
+inline constexpr NumberRule kCardRule{[](double v) { return v > 0.0 && v <= 1.0; },
+                                      "must be a fraction above 0, up to 1: 0.18 is a grey card"};
 inline constexpr NumberRule kTiltRule{
     [](double v) { return v > -90.0 && v < 90.0; },
     "must lie between -90 and 90 degrees: a meter turned further does not see the lamp"};
