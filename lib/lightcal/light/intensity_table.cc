@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/intensity_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/light/table_pieces.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSameAngleDeg = 1e-6;
+constexpr double kSameAngleRad = 1e-9;
+
+bool Same(double a_deg, double b_deg) { return std::abs(a_deg - b_deg) <= kSameAngleDeg; }
+
+double Rad(double degrees) { return RadiansFromDegrees(degrees).value(); }
+
+// ---- what a grid must satisfy ----
+
+std::string CheckAngles(const std::vector<double>& angles, double low, double high,
+                        const std::string& what) {
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (!(angles[i] >= low - kSameAngleDeg && angles[i] <= high + kSameAngleDeg)) {
+      return what + " " + std::to_string(i + 1) + " lies outside " + ShortestText(low) + " to " +
+             ShortestText(high) + " degrees";
+    }
+    if (i > 0 && !(angles[i] > angles[i - 1])) {
+      return what + " " + std::to_string(i + 1) + " does not exceed the one before it";
+    }
+  }
+  return {};
+}
+
+std::string CheckCandela(const IntensityGrid& grid) {
+  const std::size_t wanted = grid.horizontal_deg.size() * grid.vertical_deg.size();
+  if (grid.candela.size() != wanted) {
+    return std::to_string(grid.candela.size()) + " intensities where " + std::to_string(wanted) +
+           " are needed";
+  }
+  double largest = 0.0;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    if (!(grid.candela[i] >= 0.0) || !std::isfinite(grid.candela[i])) {
+      return "intensity " + std::to_string(i + 1) + " is no number of candela, zero or more";
+    }
+    largest = std::max(largest, grid.candela[i]);
+  }
+  return largest > 0.0 ? std::string() : "no direction has any light";
+}
+
+// Planes that a full turn needs but the file leaves out: the one at 360.
+bool TurnCloses(const std::vector<double>& c) {
+  const double last_gap = c.back() - c[c.size() - 2];
+  return Same(c.back(), 360.0) || 360.0 - c.back() <= last_gap + kSameAngleDeg;
+}
+
+Result<TableSymmetry> SymmetryOfC(const std::vector<double>& c, std::string_view where) {
+  if (c.size() == 1) return TableSymmetry::kAxial;
+  if (Same(c.front(), 0.0) && Same(c.back(), 90.0)) return TableSymmetry::kQuadrant;
+  if (Same(c.front(), 0.0) && Same(c.back(), 180.0)) return TableSymmetry::kBilateral;
+  if (Same(c.front(), 90.0) && Same(c.back(), 270.0)) return TableSymmetry::kBilateral90;
+  if (Same(c.front(), 0.0) && TurnCloses(c)) return TableSymmetry::kNone;
+  return Refused("bad_table", std::string(where),
+                 "C planes from " + ShortestText(c.front()) + " to " + ShortestText(c.back()) +
+                     " degrees make no whole lamp; a file holds 0, 0 to 90, 0 to 180, 90 to 270 or "
+                     "0 to 360");
+}
+
+TableSymmetry SymmetryOfAB(const IntensityGrid& grid) {
+  const bool mirror_h = Same(grid.horizontal_deg.front(), 0.0);
+  const bool mirror_v = Same(grid.vertical_deg.front(), 0.0);
+  if (mirror_h && mirror_v) return TableSymmetry::kQuadrant;
+  if (mirror_h) return TableSymmetry::kBilateral;
+  return mirror_v ? TableSymmetry::kBilateral90 : TableSymmetry::kNone;
+}
+
+Result<TableSymmetry> CheckGrid(const IntensityGrid& grid, std::string_view where) {
+  const bool is_c = grid.type == GoniometerType::kC;
+  const std::size_t least_planes = is_c ? 1 : 2;
+  std::string fault;
+  if (grid.vertical_deg.size() < 2 || grid.horizontal_deg.size() < least_planes) {
+    fault = "too few angles: two vertical ones are needed, and of types A and B two horizontal";
+  }
+  if (fault.empty()) {
+    fault =
+        CheckAngles(grid.vertical_deg, is_c ? 0.0 : -90.0, is_c ? 180.0 : 90.0, "vertical angle");
+  }
+  if (fault.empty()) {
+    fault = CheckAngles(grid.horizontal_deg, is_c ? 0.0 : -90.0, is_c ? 360.0 : 90.0,
+                        "horizontal angle");
+  }
+  if (fault.empty()) fault = CheckCandela(grid);
+  if (!fault.empty()) return Refused("bad_table", std::string(where), fault);
+  if (!is_c) return SymmetryOfAB(grid);
+  return SymmetryOfC(grid.horizontal_deg, where);
+}
+
+// ---- planes through a pole ----
+
+struct AboutPole {
+  double azimuth = 0.0;
+  double theta = 0.0;
+};
+
+AboutPole PoleAngles(GoniometerType type, const Vec3& d) {
+  switch (type) {
+    case GoniometerType::kC:
+      break;
+    case GoniometerType::kB:
+      return {std::atan2(d[1], -d[2]), std::atan2(std::hypot(d[1], d[2]), d[0])};
+    case GoniometerType::kA:
+      return {std::atan2(d[0], -d[2]), std::atan2(std::hypot(d[0], d[2]), d[1])};
+  }
+  return {std::atan2(d[1], d[0]), std::atan2(std::hypot(d[0], d[1]), -d[2])};
+}
+
+Vec3 DirectionOf(GoniometerType type, double azimuth, double theta) {
+  const double s = std::sin(theta);
+  switch (type) {
+    case GoniometerType::kC:
+      break;
+    case GoniometerType::kB:
+      return {std::cos(theta), s * std::sin(azimuth), -s * std::cos(azimuth)};
+    case GoniometerType::kA:
+      return {s * std::sin(azimuth), std::cos(theta), -s * std::cos(azimuth)};
+  }
+  return {s * std::cos(azimuth), s * std::sin(azimuth), -std::cos(theta)};
+}
+
+bool MirrorsAzimuth(GoniometerType type, TableSymmetry symmetry) {
+  if (symmetry == TableSymmetry::kQuadrant) return type != GoniometerType::kC;
+  return (type == GoniometerType::kA && symmetry == TableSymmetry::kBilateral) ||
+         (type == GoniometerType::kB && symmetry == TableSymmetry::kBilateral90);
+}
+bool MirrorsTheta(GoniometerType type, TableSymmetry symmetry) {
+  if (symmetry == TableSymmetry::kQuadrant) return type != GoniometerType::kC;
+  return (type == GoniometerType::kA && symmetry == TableSymmetry::kBilateral90) ||
+         (type == GoniometerType::kB && symmetry == TableSymmetry::kBilateral);
+}
+
+// How often the stored planes make up the sphere.
+double Copies(GoniometerType type, TableSymmetry symmetry) {
+  if (type == GoniometerType::kC) {
+    if (symmetry == TableSymmetry::kQuadrant) return 4.0;
+    return symmetry == TableSymmetry::kNone || symmetry == TableSymmetry::kAxial ? 1.0 : 2.0;
+  }
+  return (MirrorsAzimuth(type, symmetry) ? 2.0 : 1.0) * (MirrorsTheta(type, symmetry) ? 2.0 : 1.0);
+}
+
+// C of the mirrored plane among the stored ones.
+double FoldC(double c, TableSymmetry symmetry) {
+  c = std::fmod(c, 2.0 * kPi);
+  if (c < 0.0) c += 2.0 * kPi;
+  switch (symmetry) {
+    case TableSymmetry::kNone:
+      return c;
+    case TableSymmetry::kAxial:
+      return 0.0;
+    case TableSymmetry::kBilateral:
+      return c > kPi ? 2.0 * kPi - c : c;
+    case TableSymmetry::kBilateral90:
+      if (c < 0.5 * kPi) return kPi - c;
+      return c > 1.5 * kPi ? 3.0 * kPi - c : c;
+    case TableSymmetry::kQuadrant:
+      if (c > kPi) c = 2.0 * kPi - c;
+      return c > 0.5 * kPi ? kPi - c : c;
+  }
+  return c;
+}
+
+struct Found {
+  std::size_t index = 0;
+  double part = 0.0;
+  bool inside = false;
+};
+
+Found Locate(const std::vector<double>& nodes, double x) {
+  if (nodes.size() == 1) return {0, 0.0, true};
+  if (!(x >= nodes.front() - kSameAngleRad && x <= nodes.back() + kSameAngleRad)) return {};
+  const auto next = std::upper_bound(nodes.begin() + 1, nodes.end() - 1, x);
+  const auto index = static_cast<std::size_t>(next - nodes.begin()) - 1;
+  const double part = (x - nodes[index]) / (nodes[index + 1] - nodes[index]);
+  return {index, std::clamp(part, 0.0, 1.0), true};
+}
+
+}  // namespace
+
+Result<IntensityTable> IntensityTable::Make(IntensityGrid grid, std::string_view where) {
+  auto symmetry = CheckGrid(grid, where);
+  if (!symmetry) return Propagate(std::move(symmetry));
+  IntensityTable table;
+  table.symmetry_ = *symmetry;
+  table.grid_ = std::move(grid);
+  table.Lay();
+  table.FindSlopes();
+  table.FindPeak();
+  return table;
+}
+
+void IntensityTable::Lay() {
+  const std::size_t nv = grid_.vertical_deg.size();
+  const bool planes_are_vertical = grid_.type == GoniometerType::kB;
+  const auto& planes = planes_are_vertical ? grid_.vertical_deg : grid_.horizontal_deg;
+  const auto& along = planes_are_vertical ? grid_.horizontal_deg : grid_.vertical_deg;
+  const bool from_pole = grid_.type == GoniometerType::kC;
+  for (const double a : planes) azimuth_.push_back(Rad(a));
+  for (const double a : along) theta_.push_back(Rad(from_pole ? a : 90.0 - a));
+  if (!from_pole) std::reverse(theta_.begin(), theta_.end());
+  values_.reserve((planes.size() + 1) * along.size());
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    for (std::size_t t = 0; t < along.size(); ++t) {
+      const std::size_t a = from_pole ? t : along.size() - 1 - t;
+      values_.push_back(grid_.candela[planes_are_vertical ? a * nv + p : p * nv + a]);
+    }
+  }
+  const bool turn = from_pole && symmetry_ == TableSymmetry::kNone;
+  if (!turn) return;
+  if (Same(grid_.horizontal_deg.back(), 360.0)) {
+    azimuth_.back() = 2.0 * kPi;
+  } else {
+    azimuth_.push_back(2.0 * kPi);
+    values_.insert(values_.end(), grid_.candela.begin(), grid_.candela.begin() + nv);
+  }
+}
+
+std::optional<double> IntensityTable::Opposite(double azimuth, std::size_t theta) const {
+  const Found plane = Locate(azimuth_, Folded(azimuth + kPi));
+  if (!plane.inside) return std::nullopt;
+  const double before = Node(plane.index, theta);
+  return plane.part == 0.0 ? before : before + plane.part * (Node(plane.index + 1, theta) - before);
+}
+
+void IntensityTable::FindSlopes() {
+  const bool first_is_pole = std::abs(theta_.front()) <= kSameAngleRad;
+  const bool last_is_pole = std::abs(theta_.back() - kPi) <= kSameAngleRad;
+  const bool last_is_mirror = MirrorsTheta(grid_.type, symmetry_);
+  slopes_.resize(values_.size());
+  for (std::size_t p = 0; p < azimuth_.size(); ++p) {
+    const std::span<const double> plane(&values_[p * theta_.size()], theta_.size());
+    const std::span<double> slopes(&slopes_[p * theta_.size()], theta_.size());
+    ThreePointSlopes(theta_, plane, slopes);
+    const std::size_t last = theta_.size() - 1;
+    // A plane goes on beyond its pole as the one opposite.
+    if (const auto beyond = first_is_pole ? Opposite(azimuth_[p], 1) : std::nullopt) {
+      slopes[0] = (plane[1] - *beyond) / (2.0 * (theta_[1] - theta_[0]));
+    }
+    if (const auto beyond = last_is_pole ? Opposite(azimuth_[p], last - 1) : std::nullopt) {
+      slopes[last] = (*beyond - plane[last - 1]) / (2.0 * (theta_[last] - theta_[last - 1]));
+    }
+    if (last_is_mirror) slopes[last] = 0.0;
+  }
+}
+
+void IntensityTable::FindPeak() {
+  const auto largest = std::max_element(values_.begin(), values_.end());
+  const auto index = static_cast<std::size_t>(largest - values_.begin());
+  const Vec3 d =
+      DirectionOf(grid_.type, azimuth_[index / theta_.size()], theta_[index % theta_.size()]);
+  const AboutPole place = PoleAngles(GoniometerType::kC, d);
+  const bool on_axis = std::hypot(d[0], d[1]) < kSameAngleRad;
+  const double c = place.azimuth < 0.0 ? place.azimuth + 2.0 * kPi : place.azimuth;
+  peak_ = {Candela(*largest), Radians(on_axis ? 0.0 : c), Radians(place.theta)};
+}
+
+double IntensityTable::AlongPlane(std::size_t plane, std::size_t index, double part,
+                                  TableInterpolation way) const {
+  const double before = Node(plane, index);
+  const double after = Node(plane, index + 1);
+  if (way == TableInterpolation::kLinear) return before + part * (after - before);
+  const std::size_t node = plane * theta_.size() + index;
+  const double step = theta_[index + 1] - theta_[index];
+  const CubicPiece piece =
+      PieceFromSlopes(before, after, slopes_[node] * step, slopes_[node + 1] * step);
+  return std::max(0.0, piece.At(part));
+}
+
+double IntensityTable::Folded(double azimuth) const {
+  if (grid_.type == GoniometerType::kC) return FoldC(azimuth, symmetry_);
+  azimuth = std::remainder(azimuth, 2.0 * kPi);
+  return MirrorsAzimuth(grid_.type, symmetry_) ? std::abs(azimuth) : azimuth;
+}
+
+double IntensityTable::AtPole(double azimuth, double theta, TableInterpolation way) const {
+  if (MirrorsTheta(grid_.type, symmetry_)) theta = std::min(theta, kPi - theta);
+  const Found along = Locate(theta_, theta);
+  const Found plane = Locate(azimuth_, Folded(azimuth));
+  if (!along.inside || !plane.inside) return 0.0;
+  const double before = AlongPlane(plane.index, along.index, along.part, way);
+  if (plane.part == 0.0) return before;
+  const double after = AlongPlane(plane.index + 1, along.index, along.part, way);
+  return before + plane.part * (after - before);
+}
+
+Candela IntensityTable::Towards(const Vec3& direction, TableInterpolation way) const {
+  const AboutPole place = PoleAngles(grid_.type, direction);
+  return Candela(AtPole(place.azimuth, place.theta, way));
+}
+
+Candela IntensityTable::At(Radians c, Radians gamma, TableInterpolation way) const {
+  if (grid_.type == GoniometerType::kC) return Candela(AtPole(c.value(), gamma.value(), way));
+  return Towards(DirectionOf(GoniometerType::kC, c.value(), gamma.value()), way);
+}
+
+Lumens IntensityTable::Flux(TableInterpolation way) const {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < azimuth_.size(); ++p) {
+    double width = 2.0 * kPi;
+    if (azimuth_.size() > 1) {
+      const double low = azimuth_[p == 0 ? 0 : p - 1];
+      const double high = azimuth_[std::min(p + 1, azimuth_.size() - 1)];
+      width = 0.5 * (high - low);
+    }
+    const std::span<const double> plane(&values_[p * theta_.size()], theta_.size());
+    const std::span<const double> slopes(&slopes_[p * theta_.size()], theta_.size());
+    sum +=
+        width * (way == TableInterpolation::kLinear ? SineIntegralOfLinear(theta_, plane)
+                                                    : SineIntegralOfCubic(theta_, plane, slopes));
+  }
+  return Lumens(Copies(grid_.type, symmetry_) * sum);
+}
+
+IntensityTable IntensityTable::Scaled(double factor) const {
+  IntensityTable out = *this;
+  for (double& v : out.grid_.candela) v *= factor;
+  for (double& v : out.values_) v *= factor;
+  for (double& v : out.slopes_) v *= factor;
+  out.peak_.intensity = peak_.intensity * factor;
+  return out;
+}
+
+Result<IntensityTable> SampledAsTypeC(const IntensityTable& table, std::vector<double> c_deg,
+                                      std::vector<double> gamma_deg, TableInterpolation way) {
+  IntensityGrid grid{GoniometerType::kC, std::move(c_deg), std::move(gamma_deg), {}};
+  for (const double c : grid.horizontal_deg) {
+    for (const double gamma : grid.vertical_deg) {
+      grid.candela.push_back(
+          table.At(RadiansFromDegrees(c), RadiansFromDegrees(gamma), way).value());
+    }
+  }
+  return IntensityTable::Make(std::move(grid), "sampled distribution");
+}
+
+}  // namespace lightcal
