@@ -50,15 +50,16 @@ Vec3 AboutZ(const Vec3& v, double a) {
   return {std::cos(a) * v[0] - std::sin(a) * v[1], std::sin(a) * v[0] + std::cos(a) * v[1], v[2]};
 }
 
-constexpr Vec3 kAim = {0.0, 0.0, -1.0};
+constexpr Vec3 kNadir = {0.0, 0.0, -1.0};
 
-// A goniometer turns the aim by its inner angle, then by its outer one.
+// A goniometer turns the photometric zero (type A: the horizontal) by its inner angle, then by its
+// outer one; H clockwise in types A and B (LM-63-2002).
 Vec3 DirectionOf(GoniometerType type, double h_deg, double v_deg) {
   const double h = Rad(h_deg);
   const double v = Rad(v_deg);
-  if (type == kC) return AboutZ(AboutY(kAim, -v), h);
-  if (type == kB) return AboutX(AboutY(kAim, -h), v);
-  return AboutY(AboutX(kAim, v), -h);
+  if (type == kC) return AboutZ(AboutY(kNadir, -v), h);
+  if (type == kB) return AboutY(AboutX(kNadir, -h), -v);
+  return AboutZ(AboutY({1.0, 0.0, 0.0}, -v), -h);
 }
 
 // Boole's rule with 32 panels in every cell between the given angles (degrees, ends included).
@@ -322,6 +323,16 @@ TEST(IntensityTable, PeakOfEveryTypeIsFoundWhereItStands) {
   const Vec3 d = DirectionOf(kB, 20, -30);
   EXPECT_NEAR(b.peak().gamma.value(), std::acos(-d[2]), 1e-12);
   EXPECT_NEAR(b.peak().c.value(), std::atan2(d[1], d[0]) + 2.0 * kPi, 1e-12);
+}
+
+TEST(IntensityTable, HeadlampsAreMeasuredAboutTheirOwnZero) {
+  const auto a = TableOf(kA, Range(-40, 40, 1), Range(-20, 20, 1), [](double h, double v) {
+    return std::max(0.0, 100.0 * (1.0 - std::abs(h) / 30.0) * (1.0 - std::abs(v) / 12.0));
+  });
+  const auto beam = LobeWidthsAt(a, 0.5);
+  EXPECT_NEAR(DegreesFromRadians(beam.c0), 30.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(beam.c90), 12.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(a.peak().gamma), 90.0, 1e-9);
 }
 
 TEST(IntensityTable, SampledAsTypeCKeepsTheValues) {

@@ -114,9 +114,9 @@ AboutPole PoleAngles(GoniometerType type, const Vec3& d) {
     case GoniometerType::kC:
       break;
     case GoniometerType::kB:
-      return {std::atan2(d[1], -d[2]), std::atan2(std::hypot(d[1], d[2]), d[0])};
+      return {std::atan2(d[0], -d[2]), std::atan2(std::hypot(d[0], d[2]), -d[1])};
     case GoniometerType::kA:
-      return {std::atan2(d[0], -d[2]), std::atan2(std::hypot(d[0], d[2]), d[1])};
+      return {std::atan2(-d[1], d[0]), std::atan2(std::hypot(d[0], d[1]), d[2])};
   }
   return {std::atan2(d[1], d[0]), std::atan2(std::hypot(d[0], d[1]), -d[2])};
 }
@@ -127,9 +127,9 @@ Vec3 DirectionOf(GoniometerType type, double azimuth, double theta) {
     case GoniometerType::kC:
       break;
     case GoniometerType::kB:
-      return {std::cos(theta), s * std::sin(azimuth), -s * std::cos(azimuth)};
+      return {s * std::sin(azimuth), -std::cos(theta), -s * std::cos(azimuth)};
     case GoniometerType::kA:
-      return {s * std::sin(azimuth), std::cos(theta), -s * std::cos(azimuth)};
+      return {s * std::cos(azimuth), -s * std::sin(azimuth), std::cos(theta)};
   }
   return {s * std::cos(azimuth), s * std::sin(azimuth), -std::cos(theta)};
 }

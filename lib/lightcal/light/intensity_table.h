@@ -15,15 +15,15 @@
 
 namespace lightcal {
 
-// The lamp's own frame, right-handed: it aims along -Z, its C0 half-plane holds +X, its C90
-// half-plane +Y. Seen from behind the lamp, along its aim and with C90 up, C0 is to the right.
-//   type C   gamma from the aim, C about it:  x = sin g cos C, y = sin g sin C, z = -cos g
-//   type B   H within a plane that is turned by V about the X axis:
-//            x = sin H, y = cos H sin V, z = -cos H cos V
-//   type A   V within a plane that is turned by H about the Y axis:
-//            x = cos V sin H, y = sin V, z = -cos V cos H
-// Source: CIE 121 (planes), IESNA LM-63-2002 and LM-75 (types). Where C0 lies on the lamp, files
-// tell loosely; Radiance's ies2rad turns its frame another way.
+// The lamp's own frame, right-handed: it hangs with its nadir along -Z, its C0 half-plane holds +X,
+// its C90 half-plane +Y, so that C turns counterclockwise seen from above. Vertical and horizontal
+// angles as files name them:
+//   type C   gamma from nadir, C about it      x = sin g cos C, y = sin g sin C,  z = -cos g
+//   type B   planes about a horizontal axis    x = cos H sin V, y = -sin H,       z = -cos H cos V
+//   type A   V from the horizon, H about Z     x = cos V cos H, y = -cos V sin H, z = sin V
+// A lamp's aim is its nadir (types B, C); a type A lamp aims at its own (0, 0), which is +X.
+// Source: IESNA LM-63-2002, 3 (photometric zero and horizontal; H turns clockwise in A and B).
+// Where C0 lies on the lamp, files tell loosely.
 enum class GoniometerType : std::uint8_t { kC, kB, kA };
 inline constexpr std::array<std::string_view, 3> kGoniometerTypeWords = {"C", "B", "A"};
 
@@ -98,7 +98,7 @@ class IntensityTable {
     return values_[plane * theta_.size() + theta];
   }
 
-  // The planes pass through a pole (type C the aim, B +X, A +Y); theta counts from it.
+  // The planes pass through a pole (type C -Z, B -Y, A +Z); theta counts from it.
   IntensityGrid grid_;
   TableSymmetry symmetry_ = TableSymmetry::kNone;
   std::vector<double> azimuth_;  // rad, ascending, a full turn closed
@@ -109,9 +109,10 @@ class IntensityTable {
 };
 
 // Full angle of the main lobe at `level` (0.5 beam, 0.1 field) of the peak, in the plane of C and
-// C + 180 degrees: from the aim, or from straight behind where the peak lies there, both ways out
-// to where the intensity last falls below the level after that half-plane's own maximum. A side
-// that never reaches the level counts 0, one that never falls below it 180 degrees.
+// C + 180 degrees: from nadir, or from zenith where the peak lies nearer to it, both ways out to
+// where the intensity last falls below the level after that half-plane's own maximum. A side that
+// never reaches the level counts 0, one that never falls below it 180 degrees. Type A lamps are
+// measured about (0, 0): c = 0 is the plane of H, c = 90 degrees that of V.
 [[nodiscard]] Radians LobeWidth(const IntensityTable& table, Radians c, double level,
                                 TableInterpolation way = TableInterpolation::kLinear);
 

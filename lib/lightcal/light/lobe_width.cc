@@ -11,15 +11,30 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kSteps = 1800;  // of a half-plane; lobes narrower than 0.2 degrees may be missed
 
-// One half-plane, seen outwards from the pole the lamp shines at.
+// The direction a lobe is measured about, and two across it.
+struct Axes {
+  Vec3 along, c0, c90;
+};
+Axes AxesOf(const IntensityTable& table) {
+  if (table.grid().type == GoniometerType::kA) {
+    return {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
+  }
+  const double up = table.peak().gamma.value() > 0.5 * kPi ? 1.0 : -1.0;
+  return {{0.0, 0.0, up}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+}
+
+// One half-plane, seen outwards from that direction.
 class HalfPlane {
  public:
   HalfPlane(const IntensityTable& table, double c, TableInterpolation way)
-      : table_(table), c_(c), way_(way), from_behind_(table.peak().gamma.value() > 0.5 * kPi) {}
+      : table_(table), way_(way) {
+    const Axes axes = AxesOf(table);
+    along_ = axes.along;
+    out_ = axes.c0 * std::cos(c) + axes.c90 * std::sin(c);
+  }
 
   [[nodiscard]] double At(double out) const {
-    const double gamma = from_behind_ ? kPi - out : out;
-    return table_.At(Radians(c_), Radians(gamma), way_).value();
+    return table_.Towards(along_ * std::cos(out) + out_ * std::sin(out), way_).value();
   }
 
   // Where the intensity last falls below `limit` beyond its maximum; 0 where it never reaches it.
@@ -44,9 +59,9 @@ class HalfPlane {
 
  private:
   const IntensityTable& table_;
-  double c_;
   TableInterpolation way_;
-  bool from_behind_;
+  Vec3 along_{};
+  Vec3 out_{};
 };
 
 }  // namespace
