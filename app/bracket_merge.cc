@@ -236,8 +236,7 @@ Result<Scale> AnchorScale(const BracketMerger& merger, const PictureRows& rows, 
       variance += double{sigma[i]} * sigma[i];
     }
   }
-  // Interpolated neighbours share their noise: a mosaic's pixels count as a quarter.
-  const double sd = 2.0 * std::sqrt(variance) / sum;
+  const double sd = kInterpolatedNoise * std::sqrt(variance) / sum;
   if (!(sum > 0.0) || !(sd < 0.5)) {
     return Refused("bad_anchor", where, "is too dark to be measured; read a brighter place");
   }
@@ -280,12 +279,10 @@ void WarnOfClipping(MergedBracket& merged) {
 
 }  // namespace
 
-Result<MergedBracket> MergeBracketFiles(const BracketMergeRequest& request) {
-  const auto bracket = OpenBracket(request.files, request.overrides);
-  if (!bracket) return tl::unexpected(bracket.error());
+Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeRequest& request) {
   MergedBracket merged;
-  merged.warnings = bracket->warnings;
-  const auto work = Prepare(request, *bracket, merged.warnings);
+  merged.warnings = bracket.warnings;
+  const auto work = Prepare(request, bracket, merged.warnings);
   if (!work) return tl::unexpected(work.error());
   const auto merger = BracketMerger::Make((*work)->signals, (*work)->planned.plan);
   if (!merger) return tl::unexpected(merger.error());

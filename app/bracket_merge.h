@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of a bracket -> a picture in cd/m^2 with its sigma.
+// A bracket -> a picture in cd/m^2 with its sigma.
 #pragma once
 
 #include <optional>
@@ -20,9 +20,11 @@ struct SpotReading {
   double sigma_relative = 0.05;
 };
 
+// A demosaiced pixel shares its noise with its neighbours: the mean of many is this much less sure
+// than the mean of as many independent ones (they count as a quarter).
+inline constexpr double kInterpolatedNoise = 2.0;
+
 struct BracketMergeRequest {
-  std::vector<std::string> files;
-  BracketOverrides overrides;
   std::optional<SpotReading> anchor;
   std::optional<NoiseProfile> noise;
   std::optional<RgbSpace> space;  // absent: luminance alone
@@ -52,7 +54,8 @@ struct MergedBracket {
 
 // Refused: no_exposure_metadata (a frame without exposure time; ISO or f-number unknown and no
 // anchor), bad_anchor (outside the picture, clipped or black there), no_colour (a space asked of a
-// picture without), and as OpenBracket, LoadFrame, RecoverResponse, PlanMerge, MergePicture.
-[[nodiscard]] Result<MergedBracket> MergeBracketFiles(const BracketMergeRequest& request);
+// picture without), and as LoadFrame, RecoverResponse, PlanMerge, MergePicture.
+[[nodiscard]] Result<MergedBracket> MergeBracket(const Bracket& bracket,
+                                                 const BracketMergeRequest& request);
 
 }  // namespace lightcal::app

@@ -5,36 +5,18 @@
 #include <filesystem>
 #include <utility>
 
-#include "capture_readings.h"
+#include "captures/capture_readings.h"
 #include "clock.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
-#include "lightcal_devices/files/import_file.h"
 #include "output_files.h"
+#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string PathInSession(const Session& session, const std::string& name) {
-  return (fs::path(session.directory) / name).string();
-}
-
-Result<ImportedSpectrum> TheOneSpectrum(const std::string& path, const std::string& where,
-                                        Console& console) {
-  auto imported = ImportFile(path);
-  if (!imported) return Propagate(std::move(imported));
-  console.Warn(imported->warnings);
-  if (imported->spectra.size() != 1) {
-    return Refused("several_spectra", where,
-                   path + " holds " + std::to_string(imported->spectra.size()) +
-                       " spectra, a reading needs one; import the column you mean with "
-                       "lightcal import FILE --column NAME");
-  }
-  return std::move(imported->spectra.front());
-}
 
 // A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
 // none and the file's unit is an irradiance.
@@ -42,19 +24,19 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& con
   Reading& reading = row.reading;
   if (reading.spectrum_file.empty()) return {};
   const std::string path = PathInSession(session, reading.spectrum_file);
-  const auto imported = TheOneSpectrum(path, row.where, console);
-  if (!imported) return tl::unexpected(imported.error());
-  const auto xyz = XyzFromSpectrum(imported->spectrum);
+  const auto one = ReadTheOneSpectrum(path, row.where);
+  if (!one) return tl::unexpected(one.error());
+  console.Warn(one->warnings);
+  const Spectrum& spectrum = one->imported.spectrum;
+  const auto xyz = XyzFromSpectrum(spectrum);
   if (!xyz) return tl::unexpected(xyz.error());
   reading.xy = XyFromXyz(*xyz);
   if (reading.color_source == ColorSource::kUnknown) {
     reading.color_source = ColorSource::kSpectrometer;
   }
-  const bool absolute = imported->spectrum.quantity == SpectralQuantity::kIrradiance;
+  const bool absolute = spectrum.quantity == SpectralQuantity::kIrradiance;
   if (!reading.illuminance && absolute) reading.illuminance = Lux(xyz->Y);
-  if (std::ranges::find(session.input_files, path) == session.input_files.end()) {
-    session.input_files.push_back(path);
-  }
+  NoteInputFile(path, session);
   return {};
 }
 
@@ -65,6 +47,8 @@ Result<void> AddCaptures(Session& session, Console& console) {
   console.Warn(warnings);
   return added;
 }
+
+}  // namespace
 
 Result<Provenance> ProvenanceOf(const Session& session) {
   Provenance provenance;
@@ -84,8 +68,6 @@ Result<Provenance> ProvenanceOf(const Session& session) {
   }
   return provenance;
 }
-
-}  // namespace
 
 Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
                                            Console& console) {

@@ -88,13 +88,13 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
 
 // A single RAW is a bracket of one frame: its luminance by the ISO prior.
 Result<Inspected> InspectRaw(const Options& options, FrameInfo info, Console& console) {
+  const auto overrides = OverridesOf(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  const auto bracket = OpenBracket(std::vector<std::string>{options.image}, *overrides);
+  if (!bracket) return tl::unexpected(bracket.error());
   BracketMergeRequest request;
-  request.files = {options.image};
-  auto overrides = OverridesOf(options);
-  if (!overrides) return Propagate(std::move(overrides));
-  request.overrides = std::move(*overrides);
   if (info.noise.empty()) request.noise = kMiddlingSensor;
-  auto merged = MergeBracketFiles(request);
+  auto merged = MergeBracket(*bracket, request);
   if (!merged) return Propagate(std::move(merged));
   for (const Warning& warning : merged->warnings) {
     if (warning.code != "one_frame") console.Warn(warning);  // asked for one

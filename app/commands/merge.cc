@@ -98,11 +98,7 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
 
 Result<BracketMergeRequest> RequestOf(const Options& options) {
   BracketMergeRequest request;
-  request.files = options.frames;
   request.want_sigma = !options.sigma.empty();
-  auto overrides = OverridesOf(options);
-  if (!overrides) return Propagate(std::move(overrides));
-  request.overrides = std::move(*overrides);
   if (!options.anchor.empty()) {
     const auto anchor = ParseAnchor(options.anchor, options.anchor_sigma);
     if (!anchor) return tl::unexpected(anchor.error());
@@ -237,7 +233,11 @@ std::string Table(const MergedBracket& merged) {
 Result<void> RunMerge(const Options& options, Console& console) {
   const auto request = RequestOf(options);
   if (!request) return tl::unexpected(request.error());
-  const auto merged = MergeBracketFiles(*request);
+  const auto overrides = OverridesOf(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  const auto bracket = OpenBracket(options.frames, *overrides);
+  if (!bracket) return tl::unexpected(bracket.error());
+  const auto merged = MergeBracket(*bracket, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;

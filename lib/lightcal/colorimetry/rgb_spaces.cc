@@ -7,8 +7,6 @@
 namespace lightcal {
 namespace {
 
-using Column = std::array<double, 3>;
-
 constexpr Xy kD65 = {0.3127, 0.3290};
 constexpr std::array<RgbPrimaries, 4> kPrimaries = {{
     {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kD65},
@@ -20,34 +18,14 @@ constexpr std::array<RgbPrimaries, 4> kPrimaries = {{
 constexpr Matrix3 kBradford = {
     {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
 
-constexpr Column Times(const Matrix3& m, const Column& v) {
-  Column out{};
-  for (std::size_t i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
-  return out;
-}
-
-constexpr Matrix3 Inverse(const Matrix3& m) {
-  const auto cofactor = [&m](std::size_t i, std::size_t j) {
-    const std::size_t a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-    return m[a][c] * m[b][d] - m[a][d] * m[b][c];
-  };
-  const double determinant =
-      m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
-  Matrix3 out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) out[i][j] = cofactor(j, i) / determinant;
-  }
-  return out;
-}
-
-constexpr Column ColumnOf(const Xyz& c) { return {c.X, c.Y, c.Z}; }
-constexpr Column UnitY(Xy c) { return ColumnOf(XyzFromXyAtUnitY(c)); }
+constexpr Column3 ColumnOf(const Xyz& c) { return {c.X, c.Y, c.Z}; }
+constexpr Column3 UnitY(Xy c) { return ColumnOf(XyzFromXyAtUnitY(c)); }
 
 constexpr Matrix3 Derive(const RgbPrimaries& p) {
-  const Column red = UnitY(p.red), green = UnitY(p.green), blue = UnitY(p.blue);
+  const Column3 red = UnitY(p.red), green = UnitY(p.green), blue = UnitY(p.blue);
   Matrix3 m{};
   for (std::size_t i = 0; i < 3; ++i) m[i] = {red[i], green[i], blue[i]};
-  const Column luminance = Times(Inverse(m), UnitY(p.white));
+  const Column3 luminance = Times(Inverse(m), UnitY(p.white));
   for (auto& row : m) {
     for (std::size_t j = 0; j < 3; ++j) row[j] *= luminance[j];
   }
@@ -87,23 +65,23 @@ bool SpanColors(const RgbPrimaries& p) {
 Matrix3 RgbFromXyzMatrix(RgbSpace space) { return MatricesOf(space).from_xyz; }
 
 Rgb LinearRgbFromXyz(const Xyz& color, RgbSpace space) {
-  const Column c = Times(MatricesOf(space).from_xyz, ColumnOf(color));
+  const Column3 c = Times(MatricesOf(space).from_xyz, ColumnOf(color));
   return {c[0], c[1], c[2]};
 }
 
 Xyz XyzFromLinearRgb(const Rgb& color, RgbSpace space) {
-  const Column c = Times(MatricesOf(space).to_xyz, {color.r, color.g, color.b});
+  const Column3 c = Times(MatricesOf(space).to_xyz, {color.r, color.g, color.b});
   return {c[0], c[1], c[2]};
 }
 
 double LuminanceOfRgb(const Rgb& color, RgbSpace space) { return XyzFromLinearRgb(color, space).Y; }
 
 Xyz AdaptBradford(const Xyz& color, Xy from, Xy to) {
-  const Column source = Times(kBradford, UnitY(from));
-  const Column target = Times(kBradford, UnitY(to));
-  Column cones = Times(kBradford, ColumnOf(color));
+  const Column3 source = Times(kBradford, UnitY(from));
+  const Column3 target = Times(kBradford, UnitY(to));
+  Column3 cones = Times(kBradford, ColumnOf(color));
   for (std::size_t i = 0; i < 3; ++i) cones[i] *= target[i] / source[i];
-  const Column out = Times(Inverse(kBradford), cones);
+  const Column3 out = Times(Inverse(kBradford), cones);
   return {out[0], out[1], out[2]};
 }
 

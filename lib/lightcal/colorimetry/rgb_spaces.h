@@ -5,6 +5,7 @@
 #include <array>
 
 #include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/core/matrix3.h"
 
 namespace lightcal {
 
@@ -28,7 +29,6 @@ struct RgbPrimaries {
 };
 [[nodiscard]] RgbPrimaries PrimariesOf(RgbSpace space);
 
-using Matrix3 = std::array<std::array<double, 3>, 3>;  // rows
 // M with XYZ = M rgb, such that rgb = (1,1,1) is the space's white at Y = 1: the columns are the
 // primaries' XYZ, scaled to that sum. The exact sRGB matrix differs from IEC's four decimals
 // by 3.9e-5; its last entry is 0.950532 (the seed, 6.3, prints 0.0950536, which moves white to xy

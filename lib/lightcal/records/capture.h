@@ -26,12 +26,18 @@ enum class LampClass : std::uint8_t {
 inline constexpr std::array<std::string_view, 6> kLampClassWords = {
     "unknown", "white_led", "high_cri_led", "rgb_led", "tungsten", "daylight"};
 
+// What the pictures are used for.
+enum class CaptureUse : std::uint8_t { kCard, kSource, kWall, kDome };
+inline constexpr std::array<std::string_view, 4> kCaptureUseWords = {"card", "source", "wall",
+                                                                     "dome"};
+
 // Cards and their printed reflectance agree within about this, 1 sigma.
 inline constexpr double kSigmaReflectance = 0.03;
 
-// A matt card of known reflectance that faces the lamp (or is tilted from it), photographed in its
-// light: E = pi L / reflectance.
+// card: a matt card of known reflectance that faces the lamp (or is tilted from it), photographed
+// in its light: E = pi L / reflectance.
 struct CaptureDescription {
+  CaptureUse use = CaptureUse::kCard;
   std::string light;   // name of the [[light]]
   std::string frames;  // files or a wildcard, relative to the session
   std::string camera;  // file of spectral sensitivities, relative to the session; "" = none

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/records/capture_codec.h"
 #include "lightcal/records/reading_codec.h"
 #include "lightcal/records/session_toml.h"
 #include "lightcal/records/toml_codec.h"
@@ -17,9 +18,6 @@ namespace records {
 namespace {
 
 constexpr int kSessionVersion = 1;
-
-enum class CaptureUse : std::uint8_t { kCard, kSource, kWall, kDome };
-constexpr std::array<std::string_view, 4> kCaptureUseWords = {"card", "source", "wall", "dome"};
 
 template <class Named>
 void CheckName(FieldReader& reader, const std::vector<Named>& all, std::string_view what) {
@@ -82,7 +80,7 @@ class SessionReader {
     reader.List("reading", session.readings,
                 [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
     reader.List("capture", session.captures,
-                [this](FieldReader& r, CaptureDescription& capture) { ReadCapture(r, capture); });
+                [this](FieldReader& r, CaptureDescription& c) { ReadCaptureOfLight(r, c); });
   }
 
  private:
@@ -158,62 +156,16 @@ class SessionReader {
     }
   }
 
-  void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
+  void ReadCaptureOfLight(FieldReader& reader, CaptureDescription& capture) {
     capture.where = std::string(where_) + " " + reader.Place();
-    CaptureUse use = CaptureUse::kCard;
-    reader.Text("light", capture.light);
-    reader.Text("frames", capture.frames);
-    reader.Text("camera", capture.camera);
-    reader.Word("use", use, kCaptureUseWords);
-    reader.Number("reflectance", capture.reflectance, kCardRule);
-    reader.Number("reflectance_sigma_relative", capture.reflectance_sigma, kSigmaRule);
-    reader.Number("distance_m", capture.distance, kDistanceRule);
-    reader.Degrees("tilt_deg", capture.tilt, kTiltRule);
-    std::vector<int> rect;
-    reader.Integers("rect", rect);
-    reader.Numbers("exposure_s", capture.exposure_s, kPositive);
-    reader.Number("f_number", capture.f_number, kPositive);
-    reader.Number("iso", capture.iso, kPositive);
-    reader.Number("anchor_illuminance_lx", capture.anchor_illuminance, kPositive);
-    reader.Text("meter", capture.meter);
-    reader.Word("lamp_class", capture.lamp_class, kLampClassWords);
-    reader.Text("spectrum", capture.spectrum_file);
-    RefuseUse(reader, use);
-    reader.Require({"light", "frames", "use", "reflectance", "distance_m"});
-    reader.Finish();
+    ReadCapture(reader, capture);
     if (reader.Failed()) return;
-    TakeRect(reader, rect, capture);
     Reading named;
     named.light = capture.light;
     named.meter = capture.meter;
     if (const auto strange = FindStrangeName(out_.session, named)) {
       reader.Fail(strange->code, strange->key, strange->message);
     }
-    if (!capture.spectrum_file.empty() && capture.camera.empty()) {
-      reader.Fail("spectrum",
-                  "spectrum tells how far the camera misreads this lamp, and needs "
-                  "camera = a file of its spectral sensitivities");
-    }
-    if (!capture.meter.empty() && !capture.anchor_illuminance) {
-      reader.Fail("meter", "meter names what read anchor_illuminance_lx, which is missing");
-    }
-  }
-
-  static void RefuseUse(FieldReader& reader, CaptureUse use) {
-    if (reader.Failed() || use == CaptureUse::kCard) return;
-    reader.Fail("capture_unsupported", "use",
-                "use = " + Quoted(kCaptureUseWords[static_cast<std::size_t>(use)]) +
-                    ": this version reads use = \"card\" only, a matt card of known reflectance");
-  }
-
-  static void TakeRect(FieldReader& reader, const std::vector<int>& rect,
-                       CaptureDescription& capture) {
-    if (!reader.Has("rect")) return;
-    if (rect.size() != 4 || rect[0] < 0 || rect[1] < 0 || rect[2] < 1 || rect[3] < 1) {
-      reader.Fail("rect", "rect = [x, y, width, height] in pixels, from the upper left corner");
-      return;
-    }
-    capture.rect = {rect[0], rect[1], rect[2], rect[3]};
   }
 
   LoadedSession& out_;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "capture_reading.h"
+
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "session_files.h"
+
+namespace lightcal::app {
+
+tl::unexpected<Error> AtCapture(const CaptureDescription& capture, Error error) {
+  if (error.code == "no_exposure_metadata") {
+    error.message =
+        "the frames do not say their exposure; give exposure_s = [..], f_number and iso in the "
+        "[[capture]], or anchor_illuminance_lx (" +
+        error.message + ")";
+  }
+  error.subject = capture.where + " (" + error.subject + ")";
+  return tl::unexpected(std::move(error));
+}
+
+Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& capture) {
+  BracketOverrides overrides;
+  for (const double time : capture.exposure_s) overrides.exposure.emplace_back(time);
+  overrides.f_number = capture.f_number;
+  overrides.iso = capture.iso;
+  const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
+  return OpenBracket(patterns, overrides);
+}
+
+Result<Region> RegionOfCapture(const CaptureDescription& capture, const FrameInfo& info) {
+  Region region{info.width / 3, info.height / 3, info.width / 3, info.height / 3};
+  if (capture.rect) {
+    const auto& r = *capture.rect;
+    region = {r[0], r[1], r[2], r[3]};
+  }
+  if (auto inside = CheckRegion(region, info.width, info.height); !inside) {
+    return Propagate(std::move(inside));
+  }
+  return region;
+}
+
+void NoteCapture(const CaptureDescription& capture, const MergedBracket& merged, Session& session,
+                 Warnings& warnings) {
+  for (const MergedFrame& frame : merged.frames) NoteInputFile(frame.info.file, session);
+  for (const std::string& name : {capture.camera, capture.spectrum_file}) {
+    if (!name.empty()) NoteInputFile(PathInSession(session, name), session);
+  }
+  if (capture.anchor_illuminance) return;
+  warnings.push_back(
+      {"scale_prior", capture.where,
+       "its absolute scale is what the ISO speed promises, +-" +
+           RoundedText(100.0 * merged.scale_u95_relative, 2) +
+           " %; one lux reading of this light, or anchor_illuminance_lx, makes it sure"});
+}
+
+double AnchorSigma(const Session& session, const CaptureDescription& capture) {
+  Reading anchor;
+  anchor.meter = capture.meter;
+  return SigmaRelative(session, anchor);
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_luminance.h"
+
+#include <cmath>
+#include <utility>
+
+#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/records/camera_sensitivities.h"
+#include "output_files.h"
+#include "session_files.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr double kGreenOnlySigma = 0.15;  // luminance by green pixels, of lamps of any colour
+
+// The colour that another matrix makes of the raw channels which ColorOfPicture made `seen` of.
+Xyz Reinterpret(const Matrix3& xyz_from_raw, const PictureColor& color, const Xyz& seen) {
+  const Column3 raw = Times(Inverse(color.xyz_from_rgb), {seen.X, seen.Y, seen.Z});
+  const Column3 xyz = Times(xyz_from_raw, raw);
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+Result<MismatchFactor> FactorOf(const Session& session, const CaptureDescription& capture,
+                                const SpectralCamera& camera) {
+  if (capture.spectrum_file.empty()) return camera.FactorFor(capture.lamp_class);
+  const auto one =
+      ReadTheOneSpectrum(PathInSession(session, capture.spectrum_file), capture.spectrum_file);
+  if (!one) return tl::unexpected(one.error());
+  return camera.FactorFor(one->imported.spectrum);
+}
+
+Result<SpectralCamera> ReadCamera(const Session& session, const CaptureDescription& capture) {
+  const auto text = ReadWholeFile(PathInSession(session, capture.camera));
+  if (!text) return tl::unexpected(text.error());
+  const auto sensitivities = CameraSensitivitiesFromJson(*text, capture.camera);
+  if (!sensitivities) return tl::unexpected(sensitivities.error());
+  return SpectralCamera::Make(*sensitivities);
+}
+
+LampLuminance Corrected(const MismatchFactor& factor, const Xyz& by_luminance, Xy xy) {
+  return {by_luminance.Y * factor.At(MiredsOfLamp(xy)), factor.sigma, xy};
+}
+
+}  // namespace
+
+Result<LampLuminance> LuminanceOfLamp(const Session& session, const CaptureDescription& capture,
+                                      const FrameInfo& info, const PictureColor& color,
+                                      const Xyz& seen) {
+  const bool raw = info.meaning == SampleMeaning::kMosaic || info.meaning == SampleMeaning::kSensor;
+  if (!capture.camera.empty()) {
+    if (!raw || info.channels == 2 || !color.has_colour) {
+      return Refused("camera_needs_raw", capture.frames,
+                     "spectral sensitivities speak of raw channels; leave camera out for pictures "
+                     "that were rendered");
+    }
+    const auto camera = ReadCamera(session, capture);
+    if (!camera) return tl::unexpected(camera.error());
+    const auto factor = FactorOf(session, capture, *camera);
+    if (!factor) return tl::unexpected(factor.error());
+    const Xyz own = Reinterpret(camera->xyz_from_raw(), color, seen);
+    return Corrected(*factor, own, XyFromXyz(own));
+  }
+  if (!color.has_colour) return LampLuminance{seen.Y, kGreenOnlySigma, std::nullopt};
+  const MismatchFactor generic = GenericMismatch(capture.lamp_class);
+  if (raw && info.matrices) {
+    const auto daylight = DaylightXyzFromRaw(*info.matrices);
+    if (!daylight) return tl::unexpected(daylight.error());
+    return Corrected(generic, Reinterpret(*daylight, color, seen), XyFromXyz(seen));
+  }
+  // A rendered picture: nobody knows by which matrix, so the mean stays an error.
+  const double off = generic.At(MiredsOfLamp(XyFromXyz(seen))) - 1.0;
+  return LampLuminance{seen.Y, std::hypot(generic.sigma, off), XyFromXyz(seen)};
+}
+
+}  // namespace lightcal::app

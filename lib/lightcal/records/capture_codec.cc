@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/capture_codec.h"
+
+#include <string>
+#include <vector>
+
+namespace lightcal::records {
+namespace {
+
+void ReadRect(FieldReader& reader, CaptureDescription& capture) {
+  std::vector<int> rect;
+  reader.Integers("rect", rect);
+  if (!reader.Has("rect") || reader.Failed()) return;
+  if (rect.size() != 4 || rect[0] < 0 || rect[1] < 0 || rect[2] < 1 || rect[3] < 1) {
+    reader.Fail("rect", "rect = [x, y, width, height] in pixels, from the upper left corner");
+    return;
+  }
+  capture.rect = {rect[0], rect[1], rect[2], rect[3]};
+}
+
+// What must be there for what the pictures are used for.
+void RequireForUse(FieldReader& reader, CaptureUse use) {
+  switch (use) {
+    case CaptureUse::kCard:
+      reader.Require({"reflectance", "distance_m"});
+      return;
+    case CaptureUse::kSource:
+    case CaptureUse::kWall:
+    case CaptureUse::kDome:
+      reader.Fail("capture_unsupported", "use",
+                  "use = " + Quoted(kCaptureUseWords[static_cast<std::size_t>(use)]) +
+                      ": this version reads use = \"card\" only, a matt card of known "
+                      "reflectance");
+      return;
+  }
+}
+
+void CheckCompanions(FieldReader& reader, const CaptureDescription& capture) {
+  if (!capture.spectrum_file.empty() && capture.camera.empty()) {
+    reader.Fail("spectrum",
+                "spectrum tells how far the camera misreads this lamp, and needs "
+                "camera = a file of its spectral sensitivities");
+  }
+  if (!capture.meter.empty() && !capture.anchor_illuminance) {
+    reader.Fail("meter", "meter names what read anchor_illuminance_lx, which is missing");
+  }
+}
+
+}  // namespace
+
+void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
+  reader.Text("light", capture.light);
+  reader.Text("frames", capture.frames);
+  reader.Text("camera", capture.camera);
+  reader.Word("use", capture.use, kCaptureUseWords);
+  reader.Number("reflectance", capture.reflectance, kCardRule);
+  reader.Number("reflectance_sigma_relative", capture.reflectance_sigma, kSigmaRule);
+  reader.Number("distance_m", capture.distance, kDistanceRule);
+  reader.Degrees("tilt_deg", capture.tilt, kTiltRule);
+  ReadRect(reader, capture);
+  reader.Numbers("exposure_s", capture.exposure_s, kPositive);
+  reader.Number("f_number", capture.f_number, kPositive);
+  reader.Number("iso", capture.iso, kPositive);
+  reader.Number("anchor_illuminance_lx", capture.anchor_illuminance, kPositive);
+  reader.Text("meter", capture.meter);
+  reader.Word("lamp_class", capture.lamp_class, kLampClassWords);
+  reader.Text("spectrum", capture.spectrum_file);
+  reader.Require({"light", "frames", "use"});
+  if (!reader.Failed()) RequireForUse(reader, capture.use);
+  reader.Finish();
+  if (!reader.Failed()) CheckCompanions(reader, capture);
+}
+
+}  // namespace lightcal::records
