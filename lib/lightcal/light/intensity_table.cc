@@ -18,6 +18,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSameAngleDeg = 1e-6;
 constexpr double kSameAngleRad = 1e-9;
+// Beyond any lamp; keeps sums finite.
+constexpr double kMostCandela = 1e18;
 
 bool Same(double a_deg, double b_deg) { return std::abs(a_deg - b_deg) <= kSameAngleDeg; }
 
@@ -47,8 +49,8 @@ std::string CheckCandela(const IntensityGrid& grid) {
   }
   double largest = 0.0;
   for (std::size_t i = 0; i < wanted; ++i) {
-    if (!(grid.candela[i] >= 0.0) || !std::isfinite(grid.candela[i])) {
-      return "intensity " + std::to_string(i + 1) + " is no number of candela, zero or more";
+    if (!(grid.candela[i] >= 0.0 && grid.candela[i] <= kMostCandela)) {
+      return "intensity " + std::to_string(i + 1) + " is no lamp's number of candela, zero or more";
     }
     largest = std::max(largest, grid.candela[i]);
   }

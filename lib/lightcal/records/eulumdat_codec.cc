@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grammar: EULUMDAT (Stockmar 1990) as published summaries give it, one value a line.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/records/photometric_codec.h"
+#include "lightcal/records/photometric_text.h"
+
+namespace lightcal {
+namespace {
+
+using records::BadPhotometric;
+using records::HeaderText;
+
+constexpr double kMostAngles = 1e5;
+constexpr int kDirectRatios = 10;
+// What a lamp may have, generously.
+constexpr double kLeastLumens = 1e-9;
+constexpr double kMostLumens = 1e15;
+constexpr std::string_view kLab = " / ";  // between date and user on line 12
+
+// Stored planes are Mc1 ... Mc2 of the Mc C angles.
+struct StoredPlanes {
+  std::size_t first = 0, count = 0;
+};
+StoredPlanes PlanesOf(int symmetry, std::size_t mc) {
+  switch (symmetry) {
+    case 1:
+      return {0, 1};
+    case 2:
+      return {0, mc / 2 + 1};
+    case 3:
+      return {3 * mc / 4, mc / 2 + 1};
+    case 4:
+      return {0, mc / 4 + 1};
+    default:
+      return {0, mc};
+  }
+}
+
+class EulumdatReader {
+ public:
+  EulumdatReader(std::string_view text, std::string_view where) : lines_(text), where_(where) {}
+
+  Result<ReadPhotometric> Read() {
+    ReadHeader();
+    ReadLamps();
+    ReadIntensities();
+    if (error_) return tl::unexpected(*error_);
+    auto table = IntensityTable::Make(std::move(grid_), where_);
+    if (!table) return Propagate(std::move(table));
+    if (auto line = lines_.Next(); line && !line->empty()) {
+      Warn("trailing_data", "more stands behind the last intensity; it is not used");
+    }
+    return ReadPhotometric{{std::move(header_), std::move(*table)}, std::move(warnings_)};
+  }
+
+ private:
+  std::string_view Line(std::string_view what) {
+    if (error_) return {};
+    const auto line = lines_.Next();
+    if (!line) Fail(std::string(what) + " is missing: the file ends too early");
+    return line.value_or("");
+  }
+  std::string Text(std::string_view what) { return HeaderText(Line(what)); }
+  double Number(std::string_view what) { return NumberOf(Line(what), what); }
+  // Where files leave lines empty.
+  double NumberOrZero(std::string_view what) {
+    const std::string_view line = Line(what);
+    return line.empty() ? 0.0 : NumberOf(line, what);
+  }
+  double NumberOf(std::string_view line, std::string_view what) {
+    if (error_) return 0.0;
+    const auto value = records::NumberEitherWay(line);
+    if (!value) {
+      Fail(std::string(what) + " (line " + std::to_string(lines_.number()) + ") is \"" +
+           HeaderText(line.substr(0, 40)) + "\", no number");
+    }
+    return value.value_or(0.0);
+  }
+  int Whole(std::string_view what, double least, double most) {
+    const double value = Number(what);
+    if (!error_ && (value < least || value > most || value != std::floor(value))) {
+      Fail(std::string(what) + " (line " + std::to_string(lines_.number()) + ") is " +
+           ShortestText(value) + "; a whole number from " + ShortestText(least) + " to " +
+           ShortestText(most) + " is needed");
+    }
+    return error_ ? 0 : static_cast<int>(value);
+  }
+  std::vector<double> List(std::size_t count, std::string_view what) {
+    std::vector<double> out;
+    // Each value takes two characters at least, so that a count cannot claim memory.
+    if (!error_ && count > lines_.rest().size() / 2 + 1) {
+      Fail(std::to_string(count) + " numbers (" + std::string(what) +
+           ") are announced, the file is too short for them");
+    }
+    if (error_) return out;
+    out.reserve(count);
+    for (std::size_t i = 0; i < count && !error_; ++i) out.push_back(Number(what));
+    return out;
+  }
+  void Fail(const std::string& why) {
+    if (!error_) error_ = BadPhotometric(where_, why).value();
+  }
+  void Warn(std::string code, std::string message) {
+    warnings_.push_back({std::move(code), std::string(where_), std::move(message)});
+  }
+
+  void ReadHeader() {
+    header_.format = PhotometricFormat::kEulumdat;
+    header_.version = "EULUMDAT";
+    header_.manufacturer = Text("the company");
+    (void)NumberOrZero("the type of luminaire");
+    symmetry_ = Whole("the symmetry (Isym)", 0, 4);
+    mc_ = static_cast<std::size_t>(Whole("the number of C planes (Mc)", 1, kMostAngles));
+    (void)NumberOrZero("the step of C planes");
+    ng_ = static_cast<std::size_t>(Whole("the number of gamma angles (Ng)", 2, kMostAngles));
+    (void)NumberOrZero("the step of gamma angles");
+    header_.report = Text("the measurement report");
+    header_.luminaire = Text("the luminaire's name");
+    header_.catalogue = Text("the luminaire's number");
+    (void)Text("the file name");
+    TakeDate(Text("date and user"));
+    ReadSizes();
+    (void)NumberOrZero("the downward flux fraction");
+    const double ratio = NumberOrZero("the light output ratio");
+    if (ratio > 0.0) header_.output_ratio = ratio / 100.0;
+    conversion_ = NumberOrZero("the conversion factor for intensities");
+    if (conversion_ == 0.0) conversion_ = 1.0;
+    if (conversion_ < 0.0) Fail("the conversion factor for intensities is below 0");
+    (void)NumberOrZero("the tilt in measurement");
+  }
+
+  void TakeDate(const std::string& line) {
+    const std::size_t cut = line.find(kLab);
+    header_.date = line.substr(0, cut);
+    if (cut != std::string::npos) header_.laboratory = line.substr(cut + kLab.size());
+  }
+
+  void ReadSizes() {
+    for (const auto* what : {"the luminaire's length", "its width", "its height"}) {
+      (void)NumberOrZero(what);
+    }
+    const auto metres = [&](std::string_view what) {
+      return Metres(std::max(0.0, NumberOrZero(what)) / 1000.0);
+    };
+    LuminousOpening& opening = header_.opening;
+    opening.along_c90 = metres("the length of the luminous area");
+    opening.along_c0 = metres("the width of the luminous area");
+    for (const auto* what : {"its height in C0", "in C90", "in C180", "in C270"}) {
+      opening.height = std::max(opening.height, metres(what));
+    }
+    if (opening.along_c90.value() == 0.0) return;
+    opening.shape = OpeningShape::kRect;
+    if (opening.along_c0.value() == 0.0) {
+      opening.shape = OpeningShape::kRound;
+      opening.along_c0 = opening.along_c90;
+    }
+  }
+
+  void ReadLamps() {
+    constexpr double kMostSets = 100;
+    constexpr double kMostLamps = 1e6;
+    const int sets = Whole("the number of lamp sets", 1, kMostSets);
+    double flux = 0.0;
+    double power = 0.0;
+    for (int i = 0; i < sets && !error_; ++i) {
+      LampSet set;
+      const int count = Whole("the number of lamps", -kMostLamps, kMostLamps);
+      header_.absolute = header_.absolute || count < 0;
+      set.count = std::max(1, std::abs(count));
+      set.type = Text("the type of lamps");
+      set.flux = Lumens(Number("the lamps' luminous flux"));
+      set.color = Text("the colour of the lamps");
+      set.rendering = Text("the colour rendering group");
+      set.power = Watts(std::max(0.0, NumberOrZero("the lamps' wattage")));
+      flux += set.flux.value();
+      power += set.power.value();
+      header_.lamps.push_back(std::move(set));
+    }
+    if (!error_ && !(flux > kLeastLumens && flux < kMostLumens)) {
+      Fail("the lamps' luminous flux is " + ShortestText(flux) +
+           " lm, so that candela per 1000 lm mean nothing");
+    }
+    header_.lamp_flux = Lumens(flux);
+    header_.power = Watts(power);
+    for (int i = 0; i < kDirectRatios; ++i) (void)NumberOrZero("a direct ratio");
+  }
+
+  void ReadIntensities() {
+    const std::vector<double> c = List(mc_, "a C angle");
+    grid_.vertical_deg = List(ng_, "a gamma angle");
+    const StoredPlanes stored = PlanesOf(symmetry_, mc_);
+    grid_.candela = List(stored.count * ng_, "an intensity");
+    if (error_) return;
+    const double scale = header_.lamp_flux->value() / 1000.0 * conversion_;
+    for (double& v : grid_.candela) v *= scale;
+    if (stored.count == 1) {
+      grid_.horizontal_deg = {0.0};
+      return;
+    }
+    for (std::size_t i = 0; i < stored.count; ++i) {
+      grid_.horizontal_deg.push_back(c[(stored.first + i) % mc_]);
+    }
+    if (symmetry_ == 2) grid_.horizontal_deg.back() = 180.0;
+    if (symmetry_ == 4) grid_.horizontal_deg.back() = 90.0;
+    if (symmetry_ == 3) MirrorInto90To270();
+    if (symmetry_ == 0) CloseTurn();
+  }
+
+  // Planes come from C270 over C360 to C90; their mirror images run from C270 down to C90.
+  void MirrorInto90To270() {
+    std::vector<double> mirrored;
+    std::vector<double> candela;
+    for (std::size_t i = grid_.horizontal_deg.size(); i-- > 0;) {
+      const double c = grid_.horizontal_deg[i];
+      mirrored.push_back(c >= 270.0 ? 540.0 - c : 180.0 - c);
+      candela.insert(candela.end(), grid_.candela.begin() + static_cast<std::ptrdiff_t>(i * ng_),
+                     grid_.candela.begin() + static_cast<std::ptrdiff_t>((i + 1) * ng_));
+    }
+    grid_.horizontal_deg = std::move(mirrored);
+    grid_.candela = std::move(candela);
+  }
+
+  void CloseTurn() {
+    grid_.horizontal_deg.push_back(360.0);
+    const std::vector<double> first(grid_.candela.begin(),
+                                    grid_.candela.begin() + static_cast<std::ptrdiff_t>(ng_));
+    grid_.candela.insert(grid_.candela.end(), first.begin(), first.end());
+  }
+
+  records::Lines lines_;
+  std::string_view where_;
+  PhotometricHeader header_;
+  IntensityGrid grid_;
+  Warnings warnings_;
+  std::optional<Error> error_;
+  int symmetry_ = 0;
+  std::size_t mc_ = 0, ng_ = 0;
+  double conversion_ = 1.0;
+};
+
+}  // namespace
+
+Result<ReadPhotometric> EulumdatFromText(std::string_view text, std::string_view where) {
+  return EulumdatReader(text, where).Read();
+}
+
+// ---- writing ----
+
+namespace {
+
+constexpr int kDigits = 10;
+
+std::string Number(double value) { return records::PlainNumber(value, kDigits); }
+
+// Part of the flux below the horizon.
+double DownwardPart(const IntensityTable& table) {
+  const IntensityGrid& grid = table.grid();
+  IntensityGrid lower{GoniometerType::kC, grid.horizontal_deg, {}, {}};
+  for (const double g : grid.vertical_deg) {
+    if (g < 90.0) lower.vertical_deg.push_back(g);
+  }
+  if (lower.vertical_deg.empty()) return 0.0;
+  if (grid.vertical_deg.back() >= 90.0) lower.vertical_deg.push_back(90.0);
+  for (const double c : lower.horizontal_deg) {
+    for (const double g : lower.vertical_deg) {
+      lower.candela.push_back(table.At(RadiansFromDegrees(c), RadiansFromDegrees(g)).value());
+    }
+  }
+  const auto made = IntensityTable::Make(std::move(lower), "");
+  return made ? made->Flux() / table.Flux() : 0.0;
+}
+
+// A table's planes as EULUMDAT counts and orders them.
+struct Planes {
+  int symmetry = 0;
+  std::vector<double> all_c;        // the whole turn, from 0, without 360
+  std::vector<std::size_t> stored;  // indices of grid planes in writing order
+};
+
+Planes PlanesFrom(const IntensityTable& table) {
+  Planes out;
+  const std::vector<double>& c = table.grid().horizontal_deg;
+  const std::size_t n = c.size();
+  for (std::size_t i = 0; i < n; ++i) out.stored.push_back(i);
+  out.all_c = c;
+  const auto mirror = [&](double about) {
+    for (std::size_t i = out.all_c.size(); i-- > 0;) {
+      const double image = std::fmod(2.0 * about - out.all_c[i] + 720.0, 360.0);
+      out.all_c.push_back(image);
+    }
+  };
+  switch (table.symmetry()) {
+    case TableSymmetry::kAxial:
+      out.symmetry = 1;
+      break;
+    case TableSymmetry::kBilateral:
+      out.symmetry = 2;
+      mirror(180.0);
+      break;
+    case TableSymmetry::kBilateral90:
+      out.symmetry = 3;
+      mirror(90.0);
+      std::reverse(out.stored.begin(), out.stored.end());
+      break;
+    case TableSymmetry::kQuadrant:
+      out.symmetry = 4;
+      mirror(90.0);
+      mirror(180.0);
+      break;
+    case TableSymmetry::kNone:
+      if (c.back() > 360.0 - 1e-6) {
+        out.all_c.pop_back();
+        out.stored.pop_back();
+      }
+      break;
+  }
+  std::sort(out.all_c.begin(), out.all_c.end());
+  const auto same = [](double a, double b) { return std::abs(a - b) < 1e-6; };
+  out.all_c.erase(std::unique(out.all_c.begin(), out.all_c.end(), same), out.all_c.end());
+  return out;
+}
+
+double EvenStep(const std::vector<double>& angles) {
+  if (angles.size() < 2) return 0.0;
+  const double step = angles[1] - angles[0];
+  for (std::size_t i = 2; i < angles.size(); ++i) {
+    if (std::abs(angles[i] - angles[i - 1] - step) > 1e-6) return 0.0;
+  }
+  return step;
+}
+
+}  // namespace
+
+Result<std::string> EulumdatText(const PhotometricFile& file) {
+  const PhotometricHeader& header = file.header;
+  const IntensityGrid& grid = file.table.grid();
+  if (grid.type != GoniometerType::kC) {
+    return Refused("needs_type_c", header.luminaire,
+                   "EULUMDAT knows type C only; sample the table as type C first");
+  }
+  const double table_flux = file.table.Flux().value();
+  const double lamp_flux = header.lamp_flux.value_or(Lumens(table_flux)).value();
+  const bool absolute = header.absolute || !header.lamp_flux;
+  const Planes planes = PlanesFrom(file.table);
+  std::string out;
+  const auto line = [&](const std::string& text) { out += text + "\r\n"; };
+  const auto text = [&](const std::string& utf8) { line(records::Latin1FromUtf8(utf8)); };
+  const auto millimetres = [](Metres m) { return records::PlainNumber(m.value() * 1000.0, 6); };
+
+  text(header.manufacturer);
+  line(planes.symmetry == 1 ? "1" : "3");
+  line(std::to_string(planes.symmetry));
+  line(std::to_string(planes.all_c.size()));
+  line(Number(EvenStep(planes.all_c)));
+  line(std::to_string(grid.vertical_deg.size()));
+  line(Number(EvenStep(grid.vertical_deg)));
+  text(header.report);
+  text(header.luminaire);
+  text(header.catalogue);
+  line("written by lightcal");
+  const std::string date = header.date.empty() ? "unknown" : header.date;
+  text(header.laboratory.empty() ? header.date : date + std::string(kLab) + header.laboratory);
+  const LuminousOpening& opening = header.opening;
+  const bool round =
+      opening.shape == OpeningShape::kRound || opening.shape == OpeningShape::kSphere;
+  for (int luminous = 0; luminous < 2; ++luminous) {
+    line(millimetres(opening.along_c90));
+    line(round ? "0" : millimetres(opening.along_c0));
+    if (luminous == 0) line(millimetres(opening.height));
+  }
+  for (int side = 0; side < 4; ++side) line(millimetres(opening.height));
+  line(records::PlainNumber(100.0 * DownwardPart(file.table), 6));
+  line(records::PlainNumber(absolute ? 100.0 : 100.0 * table_flux / lamp_flux, 6));
+  line("1");
+  line("0");
+  std::vector<LampSet> lamps = header.lamps;
+  if (lamps.empty()) lamps.resize(1);
+  if (!header.lamp_flux) {
+    lamps.resize(1);
+    lamps.front().flux = Lumens(lamp_flux);
+  }
+  line(std::to_string(lamps.size()));
+  for (const LampSet& set : lamps) {
+    line(std::to_string(absolute ? -set.count : set.count));
+    text(set.type);
+    line(Number(set.flux.value()));
+    text(set.color);
+    text(set.rendering);
+    line(Number(set.power.value()));
+  }
+  for (int i = 0; i < kDirectRatios; ++i) line("0");
+  for (const double c : planes.all_c) line(Number(c));
+  for (const double g : grid.vertical_deg) line(Number(g));
+  // What is printed as the lamps' flux is what divides.
+  double printed_flux = 0.0;
+  for (const LampSet& set : lamps)
+    printed_flux += records::NumberEitherWay(Number(set.flux.value())).value_or(0.0);
+  for (const std::size_t plane : planes.stored) {
+    for (std::size_t g = 0; g < grid.vertical_deg.size(); ++g) {
+      line(Number(grid.candela[plane * grid.vertical_deg.size() + g] * 1000.0 / printed_flux));
+    }
+  }
+  return out;
+}
+
+}  // namespace lightcal

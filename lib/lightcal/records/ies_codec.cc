@@ -1,0 +1,414 @@
+// SPDX-License-Identifier: Apache-2.0
+// Grammar: ANSI/IESNA LM-63-1986, -91, -95, -02 and IES LM-63-19; the differences as Radiance's
+// ies2rad and the standards' own summaries tell them.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/records/photometric_codec.h"
+#include "lightcal/records/photometric_text.h"
+
+namespace lightcal {
+namespace {
+
+using records::BadPhotometric;
+using records::HeaderText;
+
+constexpr std::string_view kTilt = "TILT=";
+constexpr double kMetresPerFoot = 0.3048;
+constexpr double kMostAngles = 1e6;
+// What a lamp may have, generously; -1 means "not relative to a lamp".
+constexpr double kLeastLumens = 1e-9;
+constexpr double kMostLumens = 1e15;
+
+enum class Edition : std::uint8_t { k1986, k1991, k1995, k2002, k2019 };
+struct EditionName {
+  std::string_view begins;
+  Edition edition;
+  std::string_view name;
+};
+constexpr std::array<EditionName, 5> kEditions = {
+    {{"IESNA91", Edition::k1991, "LM-63-1991"},
+     {"IESNA:LM-63-1995", Edition::k1995, "LM-63-1995"},
+     {"IESNA:LM-63-2002", Edition::k2002, "LM-63-2002"},
+     {"IES:LM-63-2019", Edition::k2019, "LM-63-2019"},
+     {"IES", Edition::k2002, ""}}};
+
+bool StartsWithTilt(std::string_view line) {
+  return line.size() >= kTilt.size() &&
+         LowerAscii(line.substr(0, kTilt.size())) == LowerAscii(kTilt);
+}
+
+// ---- numbers behind the header ----
+
+class Numbers {
+ public:
+  Numbers(std::string_view text, std::string_view where) : text_(text), where_(where) {}
+
+  // The next number; what it is goes into the message. Once one fails, all fail.
+  double Take(std::string_view what) {
+    SkipBlanks();
+    if (error_) return 0.0;
+    if (text_.empty()) {
+      Fail(std::string(what) + " is missing: the file ends too early");
+      return 0.0;
+    }
+    const std::size_t end = std::min(text_.find_first_of(kBlanks), text_.size());
+    const std::string_view token = text_.substr(0, end);
+    text_.remove_prefix(end);
+    constexpr std::size_t kLongestNumber = 64;
+    const auto value = token.size() <= kLongestNumber ? ParseNumber(token) : std::nullopt;
+    if (!value) {
+      Fail(std::string(what) + " is \"" + HeaderText(token.substr(0, 40)) + "\", no number");
+    }
+    return value.value_or(0.0);
+  }
+  int Whole(std::string_view what, double least, double most) {
+    const double value = Take(what);
+    if (!error_ && (value < least || value > most || value != std::floor(value))) {
+      Fail(std::string(what) + " is " + ShortestText(value) + "; a whole number from " +
+           ShortestText(least) + " to " + ShortestText(most) + " is needed");
+    }
+    return error_ ? 0 : static_cast<int>(value);
+  }
+  double Positive(std::string_view what) {
+    const double value = Take(what);
+    if (!error_ && !(value > 0.0)) Fail(std::string(what) + " must be above 0");
+    return value;
+  }
+  std::vector<double> List(std::size_t count, std::string_view what) {
+    std::vector<double> out;
+    // Each number takes two characters at least, so that a count cannot claim memory.
+    if (!error_ && count > text_.size() / 2 + 1) {
+      Fail(std::to_string(count) + " numbers (" + std::string(what) +
+           ") are announced, the file is too short for them");
+    }
+    if (error_) return out;
+    out.reserve(count);
+    for (std::size_t i = 0; i < count && !error_; ++i) out.push_back(Take(what));
+    return out;
+  }
+
+  void SkipBlanks() {
+    text_.remove_prefix(std::min(text_.find_first_not_of(kBlanks), text_.size()));
+  }
+  [[nodiscard]] bool AtEnd() {
+    SkipBlanks();
+    return text_.empty();
+  }
+  void Fail(const std::string& why) {
+    if (!error_) error_ = BadPhotometric(where_, why).value();
+  }
+  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+
+ private:
+  static constexpr std::string_view kBlanks = " \t\r\n,\x1a";
+  std::string_view text_;
+  std::string_view where_;
+  std::optional<Error> error_;
+};
+
+// ---- the header ----
+
+void TakeKeyword(std::string_view line, PhotometricHeader& header, std::string*& last) {
+  const std::size_t close = line.find(']');
+  if (!line.starts_with('[') || close == std::string_view::npos) {
+    // Before keywords existed the first line was free text, mostly the luminaire's name.
+    if (header.luminaire.empty() && !line.empty()) header.luminaire = HeaderText(line);
+    return;
+  }
+  const std::string key = LowerAscii(TrimBlanks(line.substr(1, close - 1)));
+  const std::string value = HeaderText(line.substr(close + 1));
+  const std::array<std::pair<std::string_view, std::string*>, 8> known = {
+      {{"test", &header.report},
+       {"testlab", &header.laboratory},
+       {"issuedate", &header.date},
+       {"date", &header.date},
+       {"manufac", &header.manufacturer},
+       {"lumcat", &header.catalogue},
+       {"luminaire", &header.luminaire},
+       {"lamp", &header.lamps.front().type}}};
+  if (key == "more") {
+    if (last != nullptr && !value.empty()) *last = HeaderText(*last + " " + value);
+    return;
+  }
+  last = nullptr;
+  for (const auto& [name, field] : known) {
+    if (name == key && field->empty()) last = field;
+  }
+  if (last != nullptr) *last = value;
+}
+
+// Reads to the TILT line; the rest of the text is numbers. Absent: there is none.
+std::optional<std::string_view> TakeHeader(records::Lines& lines, PhotometricHeader& header,
+                                           Edition& edition) {
+  std::string* last = nullptr;
+  edition = Edition::k1986;
+  header.version = "LM-63-1986";
+  while (const auto line = lines.Next()) {
+    if (StartsWithTilt(*line)) return TrimBlanks(line->substr(kTilt.size()));
+    if (lines.number() == 1 && line->starts_with("IES")) {
+      const auto known = std::ranges::find_if(
+          kEditions, [&](const EditionName& e) { return line->starts_with(e.begins); });
+      edition = known->edition;
+      header.version = known->name.empty() ? HeaderText(*line) : std::string(known->name);
+      continue;
+    }
+    TakeKeyword(*line, header, last);
+  }
+  return std::nullopt;
+}
+
+// ---- TILT ----
+
+LampTilt TakeTilt(Numbers& numbers) {
+  LampTilt tilt;
+  tilt.geometry = numbers.Whole("TILT's lamp geometry", 1, 3);
+  const int count = numbers.Whole("TILT's count of angles", 1, kMostAngles);
+  tilt.angle_deg = numbers.List(static_cast<std::size_t>(count), "a TILT angle");
+  tilt.factor = numbers.List(static_cast<std::size_t>(count), "a TILT factor");
+  return tilt;
+}
+
+// A plain name beside the file: nothing that leads elsewhere.
+bool IsPlainName(std::string_view name) {
+  return !name.empty() && name.size() <= 255 && name.front() != '.' &&
+         name.find_first_of("/\\:") == std::string_view::npos &&
+         std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20U; });
+}
+
+Result<std::optional<LampTilt>> TiltFromFile(std::string_view name, std::string_view where,
+                                             const TiltText& read, Warnings& warnings) {
+  if (!IsPlainName(name)) {
+    return Refused("unsafe_path", std::string(where),
+                   "TILT names \"" + HeaderText(name) +
+                       "\"; only a file in the same directory is read. Put it there and name it "
+                       "without a path");
+  }
+  const auto text =
+      read ? read(std::string(name))
+           : Result<std::string>(tl::unexpected(Error{ErrorKind::kFailed, "", "", ""}));
+  if (!text) {
+    warnings.push_back({"tilt_missing", std::string(where),
+                        "the TILT file " + HeaderText(name) +
+                            " is not there; how the lamp dims when tilted is unknown"});
+    return std::optional<LampTilt>();
+  }
+  Numbers numbers(*text, name);
+  LampTilt tilt = TakeTilt(numbers);
+  if (numbers.error()) return tl::unexpected(*numbers.error());
+  return std::optional<LampTilt>(std::move(tilt));
+}
+
+// ---- the numbers of the luminaire ----
+
+LuminousOpening OpeningFrom(double width, double length, double height, double metres) {
+  LuminousOpening out;
+  const auto size = [&](double v) { return Metres(std::abs(v) * metres); };
+  out.along_c0 = size(length);
+  out.along_c90 = size(width);
+  out.height = size(height);
+  if (width == 0.0 && length == 0.0 && height == 0.0) return out;
+  out.shape = OpeningShape::kRect;
+  if (width < 0.0 || length < 0.0) {
+    out.shape = width < 0.0 && height < 0.0 ? OpeningShape::kSphere : OpeningShape::kRound;
+    // Up to 1995 the diameter stands in the width alone.
+    if (length == 0.0) out.along_c0 = out.along_c90;
+    if (width == 0.0) out.along_c90 = out.along_c0;
+  }
+  return out;
+}
+
+std::string GenerationOf(double value) {
+  const auto is = [&](double v) { return std::abs(value - v) < 1e-9; };
+  if (is(1.00001)) return "undefined";
+  if (is(1.0001)) return "simulation";
+  const auto digits = static_cast<int>(std::lround((value - 1.0) * 1000.0));
+  if (digits < 0 || digits > 111 || !is(1.0 + digits / 1000.0)) return {};
+  std::string text = digits >= 100 ? "accredited laboratory" : "laboratory";
+  if (digits / 10 % 10 == 1) text += ", interpolated";
+  if (digits % 10 == 1) text += ", scaled";
+  return text;
+}
+
+struct Body {
+  IntensityGrid grid;
+  PhotometricHeader header;
+  Warnings warnings;
+};
+
+// The twelfth number: a factor, nothing, or how the data came to be.
+double TwelfthFactor(double value, Edition edition, std::string_view where, Body& body) {
+  if (edition == Edition::k2019) {
+    body.header.generation = GenerationOf(value);
+    return 1.0;
+  }
+  if (edition == Edition::k1986 || edition == Edition::k1991) return value;
+  if (value != 1.0) {
+    body.warnings.push_back({"reserved_field", std::string(where),
+                             "the number after the ballast factor is " + ShortestText(value) +
+                                 "; this edition reserves it, so it multiplies nothing"});
+  }
+  return 1.0;
+}
+
+void TakeBody(Numbers& numbers, Edition edition, std::string_view where, Body& body) {
+  PhotometricHeader& header = body.header;
+  LampSet& lamps = header.lamps.front();
+  lamps.count = numbers.Whole("the number of lamps", 0, kMostAngles);
+  const double lumens = numbers.Take("lumens per lamp");
+  if (lumens > kMostLumens) numbers.Fail("lumens per lamp are more than any lamp has");
+  double factor = numbers.Positive("the candela multiplier");
+  const int vertical = numbers.Whole("the count of vertical angles", 2, kMostAngles);
+  const int horizontal = numbers.Whole("the count of horizontal angles", 1, kMostAngles);
+  const int type = numbers.Whole("the photometric type", 1, 3);
+  const int units = numbers.Whole("the units type (1 feet, 2 metres)", 1, 2);
+  const double width = numbers.Take("width");
+  const double length = numbers.Take("length");
+  const double height = numbers.Take("height");
+  factor *= numbers.Positive("the ballast factor");
+  factor *=
+      TwelfthFactor(numbers.Positive("the number after the ballast factor"), edition, where, body);
+  header.power = lamps.power = Watts(std::max(0.0, numbers.Take("input watts")));
+  header.opening = OpeningFrom(width, length, height, units == 1 ? kMetresPerFoot : 1.0);
+  lamps.count = std::max(1, lamps.count);
+  header.absolute = !(lumens > kLeastLumens);
+  if (!header.absolute) {
+    lamps.flux = Lumens(lumens * lamps.count);
+    header.lamp_flux = lamps.flux;
+  }
+  body.grid.type = static_cast<GoniometerType>(type - 1);
+  body.grid.vertical_deg = numbers.List(static_cast<std::size_t>(vertical), "a vertical angle");
+  body.grid.horizontal_deg =
+      numbers.List(static_cast<std::size_t>(horizontal), "a horizontal angle");
+  body.grid.candela = numbers.List(
+      static_cast<std::size_t>(vertical) * static_cast<std::size_t>(horizontal), "an intensity");
+  for (double& candela : body.grid.candela) candela *= factor;
+}
+
+}  // namespace
+
+bool IsIes(std::string_view text) {
+  records::Lines lines(text);
+  constexpr int kMostHeaderLines = 10000;
+  while (const auto line = lines.Next()) {
+    if (StartsWithTilt(*line)) return true;
+    if (lines.number() == 1 && line->starts_with("IES")) return true;
+    if (lines.number() > kMostHeaderLines) return false;
+  }
+  return false;
+}
+
+Result<ReadPhotometric> IesFromText(std::string_view text, std::string_view where,
+                                    const TiltText& tilt) {
+  Body body;
+  body.header.format = PhotometricFormat::kIes;
+  body.header.lamps.resize(1);
+  Edition edition = Edition::k1986;
+  records::Lines lines(text);
+  const auto tilt_word = TakeHeader(lines, body.header, edition);
+  if (!tilt_word) return BadPhotometric(where, "has no TILT= line, which every IES file has");
+  Numbers numbers(lines.rest(), where);
+  const std::string word = LowerAscii(*tilt_word);
+  if (word == "include") {
+    body.header.tilt = TakeTilt(numbers);
+  } else if (word != "none" && !numbers.error()) {
+    auto from_file = TiltFromFile(*tilt_word, where, tilt, body.warnings);
+    if (!from_file) return Propagate(std::move(from_file));
+    body.header.tilt = std::move(*from_file);
+  }
+  TakeBody(numbers, edition, where, body);
+  if (numbers.error()) return tl::unexpected(*numbers.error());
+  if (!numbers.AtEnd()) {
+    body.warnings.push_back({"trailing_data", std::string(where),
+                             "more stands behind the last intensity; it is not used"});
+  }
+  auto table = IntensityTable::Make(std::move(body.grid), where);
+  if (!table) return Propagate(std::move(table));
+  return ReadPhotometric{{std::move(body.header), std::move(*table)}, std::move(body.warnings)};
+}
+
+// ---- writing ----
+
+namespace {
+
+constexpr int kDigits = 8;
+constexpr std::size_t kLongestLine = 120;
+
+std::string Number(double value) { return records::PlainNumber(value, kDigits); }
+
+void AppendNumbers(std::string& out, const double* values, std::size_t count) {
+  std::string line;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string number = Number(values[i]);
+    if (!line.empty() && line.size() + 1 + number.size() > kLongestLine) {
+      out += line + "\r\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + number;
+  }
+  out += line + "\r\n";
+}
+
+// Loaders look for "TILT" anywhere; a keyword's text must not hold it.
+std::string KeywordText(const std::string& text) {
+  std::string ascii = records::AsciiFromUtf8(text);
+  for (std::string lower = LowerAscii(ascii); lower.find("tilt") != std::string::npos;
+       lower = LowerAscii(ascii)) {
+    ascii.replace(lower.find("tilt"), 4, "t-lt");
+  }
+  return ascii;
+}
+
+void AppendKeyword(std::string& out, std::string_view key, const std::string& text) {
+  if (text.empty()) return;
+  out += "[" + std::string(key) + "] " + KeywordText(text) + "\r\n";
+}
+
+std::string OpeningText(const LuminousOpening& opening) {
+  const auto size = [](Metres m, bool negative) {
+    return (negative && m.value() > 0.0 ? "-" : "") + records::PlainNumber(m.value(), 6);
+  };
+  const bool round = opening.shape == OpeningShape::kRound;
+  const bool sphere = opening.shape == OpeningShape::kSphere;
+  return size(opening.along_c90, round || sphere) + " " + size(opening.along_c0, round || sphere) +
+         " " + size(opening.height, sphere);
+}
+
+}  // namespace
+
+std::string IesText(const PhotometricFile& file) {
+  const PhotometricHeader& header = file.header;
+  const IntensityGrid& grid = file.table.grid();
+  int count = 0;
+  for (const LampSet& set : header.lamps) count += set.count;
+  if (!header.lamp_flux || count < 1) count = 1;
+  const double flux = header.lamp_flux.value_or(file.table.Flux()).value();
+  const auto or_unknown = [](const std::string& text) { return text.empty() ? "unknown" : text; };
+
+  std::string out = "IESNA:LM-63-2002\r\n";
+  AppendKeyword(out, "TEST", or_unknown(header.report));
+  AppendKeyword(out, "TESTLAB", or_unknown(header.laboratory));
+  AppendKeyword(out, "ISSUEDATE", or_unknown(header.date));
+  AppendKeyword(out, "MANUFAC", or_unknown(header.manufacturer));
+  AppendKeyword(out, "LUMCAT", header.catalogue);
+  AppendKeyword(out, "LUMINAIRE", header.luminaire);
+  AppendKeyword(out, "LAMP", header.lamps.empty() ? "" : header.lamps.front().type);
+  AppendKeyword(out, "OTHER", "written by lightcal");
+  out += "TILT=NONE\r\n";
+  out += std::to_string(count) + " " + Number(flux / count) + " 1 " +
+         std::to_string(grid.vertical_deg.size()) + " " +
+         std::to_string(grid.horizontal_deg.size()) + " " +
+         std::to_string(static_cast<int>(grid.type) + 1) + " 2 " + OpeningText(header.opening) +
+         "\r\n";
+  out += "1 1 " + Number(header.power.value()) + "\r\n";
+  AppendNumbers(out, grid.vertical_deg.data(), grid.vertical_deg.size());
+  AppendNumbers(out, grid.horizontal_deg.data(), grid.horizontal_deg.size());
+  for (std::size_t h = 0; h < grid.horizontal_deg.size(); ++h) {
+    AppendNumbers(out, &grid.candela[h * grid.vertical_deg.size()], grid.vertical_deg.size());
+  }
+  return out;
+}
+
+}  // namespace lightcal

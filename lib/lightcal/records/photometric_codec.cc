@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/records/photometric_codec.h"
+
+#include <cmath>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kFluxTolerance = 0.05;
+
+// A header that promises other lumens than its own intensities carry.
+void CheckFlux(ReadPhotometric& read, std::string_view where) {
+  const PhotometricHeader& header = read.file.header;
+  if (!header.lamp_flux || !header.output_ratio) return;
+  const double promised = header.lamp_flux->value() * *header.output_ratio;
+  const double carried = read.file.table.Flux().value();
+  if (std::abs(carried - promised) <= kFluxTolerance * promised) return;
+  read.warnings.push_back({"flux_disagrees", std::string(where),
+                           "its intensities carry " + RoundedText(carried, 4) +
+                               " lm, its lamps and output ratio promise " +
+                               RoundedText(promised, 4) + " lm; the intensities are believed"});
+}
+
+}  // namespace
+
+Result<ReadPhotometric> PhotometricFromText(std::string_view text, std::string_view where,
+                                            const TiltText& tilt) {
+  if (text.size() > kMaxPhotometricBytes) {
+    return Refused("too_large", std::string(where),
+                   "is larger than 32 MiB, which no lamp's file is");
+  }
+  if (IsIes(text)) return IesFromText(text, where, tilt);
+  auto read = EulumdatFromText(text, where);
+  if (!read && read.error().code == "bad_photometric") {
+    return Refused("unknown_format", std::string(where),
+                   "is neither IES LM-63 (no TILT= line) nor EULUMDAT: " + read.error().message);
+  }
+  if (read) CheckFlux(*read, where);
+  return read;
+}
+
+}  // namespace lightcal
