@@ -7,6 +7,7 @@
 
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/photometry/solid_angle.h"
+#include "lightcal/photometry/spot_profile.h"
 
 namespace lightcal {
 namespace {
@@ -32,14 +33,8 @@ double PenumbraMean(SpotFalloff falloff) {
 
 double SpotAttenuation(Radians from_axis, const SpotCone& cone, SpotFalloff falloff) {
   const SpotCone ordered = Ordered(cone);
-  if (from_axis > ordered.outer) return 0.0;
-  if (falloff == SpotFalloff::kHard || from_axis <= ordered.inner) return 1.0;
-  // Both differences of cosines as products of sines: no cancellation in a narrow cone.
-  const double t = std::clamp(
-      SolidAngleOfZone(from_axis, ordered.outer) / SolidAngleOfZone(ordered.inner, ordered.outer),
-      0.0, 1.0);
-  if (falloff == SpotFalloff::kLinear) return t;
-  return falloff == SpotFalloff::kSquaredLinear ? t * t : t * t * (3.0 - 2.0 * t);
+  return SpotProfile(HalfVersine(from_axis.value()), HalfVersine(ordered.inner.value()),
+                     HalfVersine(ordered.outer.value()), falloff);
 }
 
 Radians AngleFromAim(const Vec3& aim, const Vec3& lamp_to_point) {
