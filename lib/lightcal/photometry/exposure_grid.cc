@@ -40,6 +40,13 @@ constexpr Label kFNumbersInThirds[] = {
 constexpr Label kFNumbersInHalves[] = {{1.2, 1},  {1.7, 3},  {2.4, 5}, {3.3, 7}, {4.8, 9},
                                        {6.7, 11}, {9.5, 13}, {19, 17}, {27, 19}};
 
+std::optional<double> LabelOf(int steps, std::span<const Label> labels) {
+  for (const Label& l : labels) {
+    if (l.steps == steps) return l.label;
+  }
+  return std::nullopt;
+}
+
 std::optional<int> StepsOf(double value, std::span<const Label> labels) {
   for (const Label& l : labels) {
     if (std::abs(value / l.label - 1.0) <= kLabelTolerance) return l.steps;
@@ -56,6 +63,21 @@ std::optional<Seconds> TimeOfLabel(Seconds label) {
   if (const auto k = StepsOf(time, kTimesInThirds)) return Seconds(std::exp2(*k / 3.0));
   if (const auto k = StepsOf(1.0 / time, kSpeedsInHalves)) return Seconds(std::exp2(-*k / 2.0));
   if (const auto k = StepsOf(time, kTimesInHalves)) return Seconds(std::exp2(*k / 2.0));
+  return std::nullopt;
+}
+
+std::optional<Seconds> LabelOfTime(Seconds time) {
+  if (!(time.value() > 0.0)) return std::nullopt;
+  const double thirds = 3.0 * std::log2(time.value());
+  const double nearest = std::round(thirds);
+  if (!(std::abs(std::exp2((thirds - nearest) / 3.0) - 1.0) <= kLabelTolerance)) {
+    return std::nullopt;
+  }
+  const int k = static_cast<int>(nearest);
+  if (const auto time_label = LabelOf(k, kTimesInThirds); k > 0 && time_label) {
+    return Seconds(*time_label);
+  }
+  if (const auto speed = LabelOf(-k, kSpeedsInThirds)) return Seconds(1.0 / *speed);
   return std::nullopt;
 }
 

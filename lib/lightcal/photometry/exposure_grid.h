@@ -16,6 +16,10 @@ namespace lightcal {
 // Source: APEX (ANSI PH2.5-1960); labels as Canon, Nikon and Sony dials print them.
 [[nodiscard]] std::optional<Seconds> TimeOfLabel(Seconds label);
 
+// The label that third stop dials print for a time: the inverse, absent beyond their ends and more
+// than 0.5 % off the grid.
+[[nodiscard]] std::optional<Seconds> LabelOfTime(Seconds time);
+
 // The f-number N = 2^(k/6), or 2^(k/4) for half stop labels, that the label stands for; absent when
 // it is no such label.   Holds from f/1 to f/32.   Source: ISO 517:2008.
 [[nodiscard]] std::optional<double> FNumberOfLabel(double label);
