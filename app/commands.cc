@@ -52,6 +52,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"
      "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
+    {"photometric", "Flux, peak, beam and field of an IES or EULUMDAT file; conversion, polar plot",
+     "  lightcal photometric sample_data/photometric/sample2.ldt\n"
+     "  lightcal photometric lamp.ldt --to ies -o lamp.ies\n"
+     "  lightcal photometric lamp.ies --plot lamp.png --json", BuildPhotometric},
     {"convert", "One value of a lamp into all the others: lm, cd, lx, nits, W with lm/W",
      "  lightcal convert 60W --efficacy 10lm/W --kind point --distance 0.5m --reflectance 0.9\n"
      "  lightcal convert 806lm --kind spot --inner 20 --outer 35 --distance 2m\n"

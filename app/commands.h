@@ -20,6 +20,7 @@ Run BuildFit(CLI::App& parser);
 Run BuildExplain(CLI::App& parser);
 Run BuildExport(CLI::App& parser);
 Run BuildReport(CLI::App& parser);
+Run BuildPhotometric(CLI::App& parser);
 Run BuildConvert(CLI::App& parser);
 Run BuildExposure(CLI::App& parser);
 Run BuildReference(CLI::App& parser);

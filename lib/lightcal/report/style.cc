@@ -60,6 +60,8 @@ svg .whisker { stroke: var(--ink); stroke-width: 1.4; }
 svg .used { fill: var(--ink); stroke: var(--page); stroke-width: 1.2; }
 svg .rejected { fill: none; stroke: var(--warn); stroke-width: 2.4; stroke-linecap: round; }
 svg .locus { fill: none; stroke: var(--accent); stroke-width: 2; }
+svg .second { fill: none; stroke: var(--warn); stroke-width: 2; stroke-dasharray: 7 4; }
+svg .ring { fill: none; stroke: var(--rule); stroke-width: 1; }
 svg .guide { fill: none; stroke: var(--accent); stroke-width: 1; stroke-dasharray: 4 4; opacity: .7; }
 svg .isotherm { stroke: var(--soft); stroke-width: 1; }
 svg .ellipse { fill: var(--band); stroke: var(--ink); stroke-width: 1.2; }

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal photometric: what an IES or EULUMDAT file says, converted, drawn.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/report/polar_plot.h"
+#include "output_files.h"
+#include "photometric_input.h"
+#include "picture_file.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr int kTableDigits = 5;
+
+struct Options {
+  std::string file, to, output, plot;
+  bool force = false;
+};
+
+Result<PhotometricFormat> FormatWanted(const Options& options) {
+  for (std::size_t i = 0; i < kPhotometricFormatWords.size(); ++i) {
+    if (options.to == kPhotometricFormatWords[i]) return static_cast<PhotometricFormat>(i);
+  }
+  return WrongUsage("--to " + options.to, "is no photometric format; use ies or ldt");
+}
+
+Result<void> CheckOptions(const Options& options) {
+  if (options.to.empty() != options.output.empty()) {
+    return WrongUsage("--to", "goes with -o: --to ldt -o lamp.ldt");
+  }
+  if (!options.to.empty()) {
+    if (auto format = FormatWanted(options); !format) return Propagate(std::move(format));
+  }
+  if (!options.plot.empty()) return CheckPictureName("--plot", options.plot);
+  return {};
+}
+
+Result<OutputFile> Converted(const Options& options, PhotometricFile file, Console& console) {
+  const auto format = FormatWanted(options);
+  if (!format) return tl::unexpected(format.error());
+  if (file.header.tilt) {
+    console.Warn({"tilt_dropped", options.file,
+                  "how the lamp dims when tilted is not written; the intensities are those of the "
+                  "tested position"});
+  }
+  if (*format == PhotometricFormat::kIes) return OutputFile{options.output, IesText(file)};
+  const double before = file.table.Flux().value();
+  const bool sampled = file.table.grid().type != GoniometerType::kC;
+  auto as_c = AsTypeC(std::move(file));
+  if (!as_c) return Propagate(std::move(as_c));
+  if (sampled) {
+    const double change = 100.0 * (as_c->table.Flux().value() / before - 1.0);
+    console.Warn({"resampled", options.file,
+                  "EULUMDAT holds type C only: the table was sampled anew, its flux changed by " +
+                      RoundedText(change, 2) + " %"});
+  }
+  auto text = EulumdatText(*as_c);
+  if (!text) return Propagate(std::move(text));
+  return OutputFile{options.output, std::move(*text)};
+}
+
+nlohmann::ordered_json ToJson(const PhotometricFile& file) {
+  const PhotometricHeader& header = file.header;
+  const IntensityTable& table = file.table;
+  const auto word = [](const auto& words, auto value) {
+    return std::string(words[static_cast<std::size_t>(value)]);
+  };
+  nlohmann::ordered_json json = {{"format", word(kPhotometricFormatWords, header.format)},
+                                 {"version", header.version},
+                                 {"type", word(kGoniometerTypeWords, table.grid().type)},
+                                 {"flux_lm", table.Flux().value()},
+                                 {"flux_cubic_lm", table.Flux(TableInterpolation::kCubic).value()},
+                                 {"peak_cd", table.peak().intensity.value()},
+                                 {"peak_at",
+                                  {{"c_deg", DegreesFromRadians(table.peak().c)},
+                                   {"gamma_deg", DegreesFromRadians(table.peak().gamma)}}}};
+  if (header.lamp_flux) json["lamp_lumens"] = header.lamp_flux->value();
+  if (header.lamp_flux) json["light_output_ratio"] = table.Flux() / *header.lamp_flux;
+  json["absolute"] = header.absolute;
+  json["planes"] = table.grid().horizontal_deg.size();
+  json["vertical_angles"] = table.grid().vertical_deg.size();
+  json["symmetry"] = word(kTableSymmetryWords, table.symmetry());
+  const LobeWidths beam = LobeWidthsAt(table, 0.5);
+  const LobeWidths field = LobeWidthsAt(table, 0.1);
+  json["beam_deg"] = DegreesFromRadians(beam.mean);
+  json["field_deg"] = DegreesFromRadians(field.mean);
+  json["beam_by_plane_deg"] = {DegreesFromRadians(beam.c0), DegreesFromRadians(beam.c90)};
+  json["field_by_plane_deg"] = {DegreesFromRadians(field.c0), DegreesFromRadians(field.c90)};
+  json["power_W"] = header.power.value();
+  json["opening"] = {{"shape", word(kOpeningShapeWords, header.opening.shape)},
+                     {"along_c0_m", header.opening.along_c0.value()},
+                     {"along_c90_m", header.opening.along_c90.value()},
+                     {"height_m", header.opening.height.value()}};
+  const std::pair<const char*, const std::string&> texts[] = {
+      {"manufacturer", header.manufacturer}, {"luminaire", header.luminaire},
+      {"catalogue", header.catalogue},       {"report", header.report},
+      {"laboratory", header.laboratory},     {"date", header.date},
+      {"generation", header.generation}};
+  for (const auto& [key, text] : texts) {
+    if (!text.empty()) json[key] = text;
+  }
+  if (header.tilt) {
+    json["tilt"] = {{"geometry", header.tilt->geometry},
+                    {"angle_deg", header.tilt->angle_deg},
+                    {"factor", header.tilt->factor}};
+  }
+  return json;
+}
+
+std::string TitleOf(const Options& options, const PhotometricHeader& header) {
+  const std::string file = std::filesystem::path(options.file).filename().string();
+  return header.luminaire.empty() ? file : header.luminaire + " (" + file + ")";
+}
+
+std::string Table(const Options& options, const PhotometricFile& file) {
+  const PhotometricHeader& header = file.header;
+  const IntensityTable& table = file.table;
+  const auto text = [](double value) { return RoundedText(value, kTableDigits); };
+  const auto widths = [&](double level) {
+    const LobeWidths lobe = LobeWidthsAt(table, level);
+    std::string out = text(DegreesFromRadians(lobe.mean));
+    if (table.symmetry() != TableSymmetry::kAxial) {
+      out += " (" + text(DegreesFromRadians(lobe.c0)) + " by " +
+             text(DegreesFromRadians(lobe.c90)) + ")";
+    }
+    return out;
+  };
+  std::vector<std::vector<std::string>> rows = {
+      {"luminous flux", text(table.Flux().value()), "lm"}};
+  if (header.lamp_flux) {
+    rows.push_back({"of lamp lumens", text(header.lamp_flux->value()), "lm"});
+    rows.push_back({"light output ratio", text(100.0 * (table.Flux() / *header.lamp_flux)), "%"});
+  }
+  rows.push_back({"peak intensity", text(table.peak().intensity.value()), "cd"});
+  rows.push_back({"peak at gamma", text(DegreesFromRadians(table.peak().gamma)), "deg"});
+  rows.push_back({"beam angle (50 %)", widths(0.5), "deg"});
+  rows.push_back({"field angle (10 %)", widths(0.1), "deg"});
+  const std::string planes = std::to_string(table.grid().horizontal_deg.size());
+  return TitleOf(options, header) + "\n" + header.version + ", type " +
+         std::string(kGoniometerTypeWords[static_cast<std::size_t>(table.grid().type)]) +
+         ", symmetry " +
+         std::string(kTableSymmetryWords[static_cast<std::size_t>(table.symmetry())]) + ", " +
+         planes + " planes of " + std::to_string(table.grid().vertical_deg.size()) + " angles\n" +
+         TextTable({"quantity", "value", "unit"}, rows);
+}
+
+Result<void> RunPhotometric(const Options& options, Console& console) {
+  if (auto ok = CheckOptions(options); !ok) return ok;
+  const auto read = ReadPhotometricFile(options.file);
+  if (!read) return tl::unexpected(read.error());
+  console.Warn(read->warnings);
+  std::vector<OutputFile> files;
+  if (!options.to.empty()) {
+    auto converted = Converted(options, read->file, console);
+    if (!converted) return Propagate(std::move(converted));
+    files.push_back(std::move(*converted));
+  }
+  if (!options.plot.empty()) {
+    auto picture = PictureFile(
+        options.plot, report::PolarPlot(read->file.table, TitleOf(options, read->file.header)));
+    if (!picture) return Propagate(std::move(picture));
+    files.push_back(std::move(*picture));
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (auto written = WriteOutputs(files, options.force); !written) return written;
+  console.Print(Table(options, read->file));
+  for (const OutputFile& file : files) console.Print("wrote " + file.path + "\n");
+  console.PrintJson(ToJson(read->file));
+  return {};
+}
+
+}  // namespace
+
+Run BuildPhotometric(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("file", options->file, "IES LM-63 (.ies) or EULUMDAT (.ldt); told by content")
+      ->required();
+  parser.add_option("--to", options->to, "Convert: ies (LM-63-2002) or ldt (EULUMDAT)");
+  parser.add_option("-o,--output", options->output, "Where the converted file goes");
+  parser.add_option("--plot", options->plot, "Write a polar diagram, .svg or .png");
+  parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
+  return [options](Console& console) { return RunPhotometric(*options, console); };
+}
+
+}  // namespace lightcal::app

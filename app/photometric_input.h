@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A photometric file on disk -> what it says.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/photometric_codec.h"
+
+namespace lightcal::app {
+
+// Reads at most kMaxPhotometricBytes, whatever the path names, and the TILT file beside it.
+// Fails: not_found, unreadable. Refused: too_large, and as PhotometricFromText.
+[[nodiscard]] Result<ReadPhotometric> ReadPhotometricFile(const std::string& path);
+
+// A table of type A or B sampled as type C for formats and engines that know no other: every 2.5
+// degrees of C, every degree of gamma, or finer where the file is. Type C comes back as it is.
+[[nodiscard]] Result<PhotometricFile> AsTypeC(PhotometricFile file);
+
+}  // namespace lightcal::app

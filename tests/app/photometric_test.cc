@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal photometric, driven as a shell would.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "run_cli.h"
+#include "run_cli_json.h"
+
+namespace lightcal::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+std::string Ldt(const std::string& name) { return SampleData("photometric/" + name + ".ldt"); }
+
+const std::string kUniform =
+    "IESNA:LM-63-2002\r\n[TEST] 1\r\n[MANUFAC] Ours\r\nTILT=NONE\r\n"
+    "1 1000 1 2 1 1 2 0 0 0\r\n1 1 60\r\n0 180\r\n0\r\n100 100\r\n";
+
+TEST(PhotometricCommand, FluxOfTheRealFilesIsTheirLampsWithinAThousandth) {
+  const std::pair<const char*, double> lamps[] = {
+      {"sample1", 4626.0}, {"sample2", 4600.0}, {"sample5", 611.9}, {"sample10", 7000.0}};
+  for (const auto& [name, lumens] : lamps) {
+    const json got = LightcalJson("photometric", {Ldt(name)});
+    EXPECT_NEAR(got["flux_lm"].get<double>() / lumens, 1.0, 1e-3) << name;
+    EXPECT_NEAR(got["lamp_lumens"].get<double>(), lumens, 1e-9);
+    EXPECT_EQ(got["format"], "ldt");
+    EXPECT_EQ(got["type"], "C");
+  }
+  const json erco = LightcalJson("photometric", {Ldt("sample5")});
+  EXPECT_EQ(erco["symmetry"], "axial");
+  EXPECT_EQ(erco["planes"], 1);
+  EXPECT_EQ(erco["absolute"], true);
+  EXPECT_NEAR(erco["peak_cd"].get<double>(), 471.3, 0.05);
+  EXPECT_GT(erco["field_deg"].get<double>(), erco["beam_deg"].get<double>());
+}
+
+TEST(PhotometricCommand, UniformLampIsFourPiAndShinesAllRound) {
+  const TempDir folder;
+  const json got = LightcalJson("photometric", {folder.Write("a.ies", kUniform)});
+  EXPECT_NEAR(got["flux_lm"].get<double>(), 400.0 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(got["beam_deg"].get<double>(), 360.0, 1e-9);
+  EXPECT_EQ(got["format"], "ies");
+}
+
+TEST(PhotometricCommand, TheFieldOf2019DoesNotMultiply) {
+  const TempDir folder;
+  std::string text = kUniform;
+  text.replace(0, 16, "IES:LM-63-2019");
+  text.replace(text.find("1 1 60"), 6, "1 1.10000 60");
+  const std::string file = folder.Write("a.ies", text);
+  EXPECT_NEAR(LightcalJson("photometric", {file})["peak_cd"].get<double>(), 100.0, 1e-12);
+  const std::string out = folder.path() + "/b.ies";
+  ASSERT_EQ(RunLightcal({"photometric", file, "--to", "ies", "-o", out}).exit_code, 0);
+  EXPECT_THAT(ReadFile(out), HasSubstr("\r\n1 1 60\r\n"));
+}
+
+TEST(PhotometricCommand, ConvertsBothWaysToTheSameDigits) {
+  const TempDir folder;
+  for (const char* name : {"sample1", "sample2", "sample5", "sample10"}) {
+    const auto path = [&](const char* file) { return folder.path() + "/" + name + file; };
+    const auto convert = [&](const std::string& from, const char* to, const std::string& out) {
+      const CliResult made = RunLightcal({"photometric", from, "--to", to, "-o", out});
+      EXPECT_EQ(made.exit_code, 0) << made.err;
+    };
+    convert(Ldt(name), "ies", path("1.ies"));
+    convert(path("1.ies"), "ldt", path("2.ldt"));
+    convert(path("2.ldt"), "ies", path("3.ies"));
+    EXPECT_EQ(ReadFile(path("1.ies")), ReadFile(path("3.ies"))) << name;
+  }
+}
+
+TEST(PhotometricCommand, TypeBIsSampledForEulumdatAndSaysSo) {
+  const TempDir folder;
+  std::string ies = kUniform.substr(0, kUniform.find("1 1000"));
+  ies += "1 -1 1 5 5 2 2 0 0 0\r\n1 1 60\r\n-20 -10 0 10 20\r\n-40 -20 0 20 40\r\n";
+  for (int h = 0; h < 5; ++h) ies += "10 50 100 50 10\r\n";
+  const std::string file = folder.Write("b.ies", ies);
+  const std::string out = folder.path() + "/b.ldt";
+  const CliResult made = RunLightcal({"photometric", file, "--to", "ldt", "-o", out, "--json"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(json::parse(made.out)["warnings"][0]["code"], "resampled");
+  EXPECT_EQ(json::parse(made.out)["type"], "B");
+  EXPECT_NEAR(LightcalJson("photometric", {out})["flux_lm"].get<double>() /
+                  json::parse(made.out)["flux_lm"].get<double>(),
+              1.0, 0.02);
+}
+
+TEST(PhotometricCommand, DrawsThePolarDiagramAsSvgAndPng) {
+  const TempDir folder;
+  for (const char* name : {"polar.svg", "polar.png"}) {
+    const std::string out = folder.path() + "/" + name;
+    const CliResult made = RunLightcal({"photometric", Ldt("sample2"), "--plot", out});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_GT(ReadFile(out).size(), 4000U);
+  }
+  const std::string svg = ReadFile(folder.path() + "/polar.svg");
+  EXPECT_THAT(svg, HasSubstr("C90"));
+  EXPECT_THAT(svg, HasSubstr("TRAQ"));
+  EXPECT_EQ(RunLightcal({"photometric", Ldt("sample2"), "--plot", "x.gif"}).exit_code, 2);
+}
+
+TEST(PhotometricCommand, TiltFilesAreReadBesideTheFileAndNowhereElse) {
+  const TempDir folder;
+  std::string text = kUniform;
+  const auto with_tilt = [&](const std::string& tilt) {
+    std::string changed = kUniform;
+    changed.replace(changed.find("TILT=NONE"), 9, "TILT=" + tilt);
+    return folder.Write("a.ies", changed);
+  };
+  folder.Write("mh.tlt", "1\n2\n0 90\n1 0.8\n");
+  const json got = LightcalJson("photometric", {with_tilt("mh.tlt")});
+  EXPECT_EQ(got["tilt"]["factor"], (std::vector<double>{1.0, 0.8}));
+  for (const char* evil : {"../../../etc/passwd", "/etc/passwd", "..\\x"}) {
+    const CliResult refused = RunLightcal({"photometric", with_tilt(evil), "--json"});
+    EXPECT_EQ(refused.exit_code, 3);
+    EXPECT_EQ(json::parse(refused.out)["error"]["code"], "unsafe_path");
+    EXPECT_EQ(refused.out.find("root:"), std::string::npos);
+  }
+}
+
+TEST(PhotometricCommand, AGigabyteLineIsRefusedInBoundedMemory) {
+  const TempDir folder;
+  const std::string path = folder.Write("big.ies", "IESNA:LM-63-2002\r\nTILT=NONE\r\n");
+  // Sparse: a line of a gigabyte of zero bytes that costs no disk.
+  ASSERT_EQ(::truncate(path.c_str(), 1 << 30), 0);
+  rusage before{};
+  getrusage(RUSAGE_CHILDREN, &before);
+  const CliResult refused = RunLightcal({"photometric", path, "--json"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(json::parse(refused.out)["error"]["code"], "too_large");
+  rusage after{};
+  getrusage(RUSAGE_CHILDREN, &after);
+  EXPECT_LT(after.ru_maxrss, std::max(before.ru_maxrss, 300L * 1024)) << "kB";
+}
+
+TEST(PhotometricCommand, LiesAndRubbishAreRefusedByName) {
+  const TempDir folder;
+  const auto code = [&](const std::string& text) {
+    const CliResult result = RunLightcal({"photometric", folder.Write("x", text), "--json"});
+    EXPECT_EQ(result.exit_code, 3);
+    return json::parse(result.out)["error"]["code"].get<std::string>();
+  };
+  const std::string head = "IESNA:LM-63-2002\nTILT=NONE\n";
+  EXPECT_EQ(code(head + "1 1 1 1000000 1000000 1 2 0 0 0\n1 1 1\n"), "bad_photometric");
+  EXPECT_EQ(code(head + "1 1 nan 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n1 1\n"), "bad_photometric");
+  EXPECT_EQ(code(head + "1 1 1 2 1 1 2 0 0 0\n1 1 1\n90 0\n0\n1 1\n"), "bad_table");
+  EXPECT_EQ(code("hello\n"), "unknown_format");
+  EXPECT_EQ(code(""), "unknown_format");
+  EXPECT_EQ(RunLightcal({"photometric", folder.path() + "/none"}).exit_code, 1);
+  EXPECT_EQ(RunLightcal({"photometric", Ldt("sample1"), "--to", "ies"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"photometric", Ldt("sample1"), "--to", "pdf", "-o", "x"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace lightcal::test
