@@ -63,6 +63,7 @@ Frame FrameOf(std::vector<float> samples, int width, int height, int channels) {
   auto owner = std::make_shared<std::vector<float>>(std::move(samples));
   Frame frame;
   frame.info.file = "a.exr";
+  frame.info.format = "exr";
   frame.info.width = width;
   frame.info.height = height;
   frame.info.channels = channels;

@@ -34,6 +34,7 @@ constexpr double kRefuseEv = 1.0;
 struct PairRatio {
   std::size_t a = 0, b = 0;
   double ln_ratio = 0.0, sd = 0.0;
+  bool clip_known = true;
   PairSums sums{};
 };
 
@@ -87,13 +88,14 @@ std::optional<LevelSums> TellingLevels(const PairSums& sums, double to) {
 std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t a, std::size_t b) {
   const auto& first = signals.frames[a];
   const auto& second = signals.frames[b];
-  const auto rough = RoughRatio(first, second, signals.clip);
+  const PairClips clips = ClipsOfPair(signals, a, b);
+  const auto rough = RoughRatio(first, second, clips.clip);
   if (!rough) return std::nullopt;
-  PairRatio pair{.a = a, .b = b};
+  PairRatio pair{.a = a, .b = b, .clip_known = clips.known};
   PairSetting setting{.ratio = *rough, .noise = kMiddlingNoise};
-  setting.gate = FirstGates(first, second, signals.clip, setting);
+  setting.gate = FirstGates(first, second, clips.clip, setting);
   for (int pass = 0; pass < kPasses; ++pass) {
-    pair.sums = ComparePair(first, second, signals.clip, setting);
+    pair.sums = ComparePair(first, second, clips.clip, setting);
     const auto total = TellingLevels(pair.sums, kBelievedTo);
     if (!total) return std::nullopt;
     setting.ratio = total->b / total->a;
@@ -102,12 +104,14 @@ std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t 
   return pair;
 }
 
-// The level from which longer frames fall behind what shorter ones predict, over all pairs.
+// The level from which longer frames fall behind what shorter ones predict, over all pairs. Where
+// nobody knows the clip there is no level.
 double LinearTo(std::span<const PairRatio> pairs) {
   for (int bin = 0; bin < kLevelBins; ++bin) {
     if (BinLowerLevel(bin) < kStraightTo || BinLowerLevel(bin + 1) > kHighestLinear) continue;
     double behind = 0.0, of = 0.0, variance = 0.0;
     for (const PairRatio& pair : pairs) {
+      if (!pair.clip_known) continue;
       const auto straight = TellingLevels(pair.sums, kStraightTo);
       const LevelSums& sum = pair.sums[static_cast<std::size_t>(bin)];
       if (!straight || sum.count < kLeastSamples) continue;

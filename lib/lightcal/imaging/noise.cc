@@ -82,8 +82,9 @@ std::optional<NoiseProfile> EstimateNoise(const SampledSignals& signals,
                           .gate = gates[a]};
       const auto& shorter = signals.frames[a];
       const auto& longer = signals.frames[a + 1];
-      if (pass == 0) setting.gate = FirstGates(shorter, longer, signals.clip, setting);
-      const PairSums sums = ComparePair(shorter, longer, signals.clip, setting);
+      const PairClips clips = ClipsOfPair(signals, a, a + 1);
+      if (pass == 0) setting.gate = FirstGates(shorter, longer, clips.clip, setting);
+      const PairSums sums = ComparePair(shorter, longer, clips.clip, setting);
       gates[a] = GatesOf(sums);
       points[a] = PointsOf(sums, setting.ratio);
     });

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 
+#include "lightcal/imaging/sensor_to_xyz.h"
 #include "lightcal/photometry/luminous_efficacy.h"
 
 namespace lightcal {
@@ -13,20 +15,16 @@ namespace {
 constexpr double kRadianceEfficacy = 179.0;  // lm/W
 constexpr std::array<double, 3> kRadianceWeights = {0.265, 0.670, 0.065};
 
-bool IsXyz(const FrameInfo& info) {
-  return info.channel_names == std::vector<std::string>{"X", "Y", "Z"};
-}
-
-Result<std::array<double, 3>> Weights(const FrameInfo& info, LuminanceConvention convention) {
-  if (info.channels == 1) return std::array<double, 3>{1.0, 0.0, 0.0};
-  if (info.channels != 3) {
-    return Refused("no_colour", info.file,
-                   "it has " + std::to_string(info.channels) + " channels; 1 or 3 are understood");
+Result<std::array<double, 3>> Weights(const FrameInfo& info, LuminanceConvention convention,
+                                      Warnings& warnings) {
+  auto color = ColorOfPicture(info);
+  if (!color) return Propagate(std::move(color));
+  const bool xyz = color->xyz_from_rgb[1] == std::array<double, 3>{0.0, 1.0, 0.0};
+  if (convention == LuminanceConvention::kRadiance && info.channels == 3 && !xyz) {
+    return kRadianceWeights;
   }
-  if (IsXyz(info)) return std::array<double, 3>{0.0, 1.0, 0.0};
-  if (convention == LuminanceConvention::kRadiance) return kRadianceWeights;
-  const RgbPrimaries primaries = info.chromaticities.value_or(PrimariesOf(RgbSpace::kSrgb));
-  return XyzFromRgbMatrix(primaries)[1];
+  warnings.insert(warnings.end(), color->warnings.begin(), color->warnings.end());
+  return color->xyz_from_rgb[1];
 }
 
 double Scale(const FrameInfo& info, LuminanceConvention convention, PictureLuminance& luminance) {
@@ -74,12 +72,13 @@ Result<PictureLuminance> LuminanceOfPicture(const Frame& frame, LuminanceConvent
     return Refused("not_linear", info.file,
                    "its samples are no luminance yet; merge its bracket first (lightcal merge)");
   }
-  auto weights = Weights(info, convention);
-  if (!weights) return Propagate(std::move(weights));
   PictureLuminance luminance;
+  const double scale = Scale(info, convention, luminance) / info.radiance_exposure;
+  luminance.nits_per_unit = scale;
+  auto weights = Weights(info, convention, luminance.warnings);
+  if (!weights) return Propagate(std::move(weights));
   luminance.width = samples->width();
   luminance.height = samples->height();
-  const double scale = Scale(info, convention, luminance) / info.radiance_exposure;
   for (double& w : *weights) w *= scale;
   luminance.nits.resize(static_cast<std::size_t>(luminance.width) * luminance.height);
   for (int y = 0; y < luminance.height; ++y) {

@@ -26,9 +26,10 @@ enum class LuminanceConvention {
 
 struct PictureLuminance {
   int width = 0, height = 0;
-  std::vector<float> nits;  // row after row
-  std::string scale;        // "white_luminance" "assumed_nits" "radiometric_683" "radiance_179"
-  Warnings warnings;        // relative_scale
+  std::vector<float> nits;     // row after row
+  double nits_per_unit = 1.0;  // luminance of the file's samples (1, 1, 1)
+  std::string scale;           // "white_luminance" "assumed_nits" "radiometric_683" "radiance_179"
+  Warnings warnings;           // relative_scale, primaries_assumed
 
   [[nodiscard]] View2d<const float> view() const { return {nits.data(), width, height}; }
 };

@@ -9,6 +9,8 @@ namespace lightcal {
 namespace {
 
 constexpr double kGateSigmas = 4.0;
+constexpr double kOrdinary = 0.999;  // of the samples, where no clip is known
+constexpr float kAboveOrdinary = 1.5F;
 constexpr float kClippedFrom = 0.98F;  // of the clip: such a sample compares with nothing
 
 // The level bin of two samples of one place; absent near the clip.
@@ -47,6 +49,25 @@ SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t sampl
     }
   }
   return sampled;
+}
+
+PairClips ClipsOfPair(const SampledSignals& signals, std::size_t a, std::size_t b) {
+  PairClips pair{signals.clip, true};
+  const auto unknown = [](float clip) { return clip > kClipUnknownFrom; };
+  pair.known = std::none_of(pair.clip.begin(), pair.clip.end(), unknown);
+  if (pair.known) return pair;
+  float level = 0.0F;
+  for (const std::size_t frame : {a, b}) {
+    std::vector<float> values = signals.frames[frame];
+    const auto high = values.begin() + static_cast<std::ptrdiff_t>(
+                                           kOrdinary * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), high, values.end());
+    level = std::max(level, kAboveOrdinary * *high);
+  }
+  for (float& clip : pair.clip) {
+    if (unknown(clip)) clip = level;
+  }
+  return pair;
 }
 
 PairSums ComparePair(std::span<const float> a, std::span<const float> b,

@@ -17,6 +17,15 @@ struct SampledSignals {
   std::vector<float> clip;                 // of each sample
 };
 
+// The clips that levels of two frames are shares of: those of the samples, and where no clip is
+// known (scene-linear files), 1.5 times what all but a thousandth of both frames' samples stay
+// below.
+struct PairClips {
+  std::vector<float> clip;
+  bool known = true;  // of all samples
+};
+[[nodiscard]] PairClips ClipsOfPair(const SampledSignals& signals, std::size_t a, std::size_t b);
+
 // Whole rows, spread evenly; about `samples` a frame.
 [[nodiscard]] SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t samples);
 

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/imaging/sensor_to_xyz.h"
 
-#include <Eigen/Dense>
-#include <cmath>
+#include <string>
+#include <vector>
 
-#include "lightcal/colorimetry/camera_neutral.h"
-#include "lightcal/colorimetry/cct.h"
+#include "lightcal/imaging/spectral_mismatch.h"
 
 namespace lightcal {
 namespace {
-
-constexpr Kelvin kDaylight{6502.71};
-// Radiance's RGB: equal-energy white, luminance .265 R + .670 G + .065 B.
-// Source: Ward, Radiance color.h (STDPRIMARIES).
-constexpr RgbPrimaries kRadiance = {
-    {0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {1.0 / 3.0, 1.0 / 3.0}};
-
-Eigen::Matrix3d ToEigen(const Matrix3& m) {
-  Eigen::Matrix3d out;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      out(i, j) = m[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    }
-  }
-  return out;
-}
 
 PictureColor GreenOnly(const FrameInfo& info, bool warn) {
   PictureColor color;
@@ -39,39 +22,13 @@ PictureColor GreenOnly(const FrameInfo& info, bool warn) {
   return color;
 }
 
-// The temperature whose matrix to take: that of the neutral's light, else daylight.
-Kelvin TemperatureOf(const CameraMatrices& matrices, const std::array<double, 3>& neutral) {
-  const auto xy = XyFromCameraNeutral(matrices, neutral);
-  if (!xy) return kDaylight;
-  const CctResult cct = CctFromXy(*xy);
-  return cct.valid() ? cct.temperature : kDaylight;
-}
-
 Result<PictureColor> CameraColor(const FrameInfo& info) {
-  const CameraMatrices& matrices = *info.matrices;
-  const bool balanced = info.as_shot_neutral.has_value();
-  const Kelvin temperature = balanced ? TemperatureOf(matrices, *info.as_shot_neutral) : kDaylight;
-  const Eigen::Matrix3d camera_from_xyz = ToEigen(CameraMatrixAt(matrices, temperature));
-  if (!(std::abs(camera_from_xyz.determinant()) > 1e-9)) {
-    return Refused("no_colour", info.file, "its colour matrix cannot be inverted");
+  auto xyz_from_raw = DaylightXyzFromRaw(*info.matrices);
+  if (!xyz_from_raw) {
+    return Refused("no_colour", info.file, xyz_from_raw.error().message);
   }
-  const Eigen::Matrix3d inverse = camera_from_xyz.inverse();
-  Eigen::Vector3d neutral = camera_from_xyz * Eigen::Vector3d(0.95047, 1.0, 1.08883);
-  if (balanced) {
-    const auto& n = *info.as_shot_neutral;
-    neutral = Eigen::Vector3d(n[0], n[1], n[2]);
-  }
-  const double luminance = (inverse * neutral)(1);
-  if (!(luminance > 0.0) || !(neutral(1) > 0.0)) {
-    return Refused("no_colour", info.file, "its matrix gives its own neutral no luminance");
-  }
-  const Eigen::Matrix3d scaled = inverse * (neutral(1) / luminance);
   PictureColor color;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      color.xyz_from_rgb[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = scaled(i, j);
-    }
-  }
+  color.xyz_from_rgb = *xyz_from_raw;
   return color;
 }
 
@@ -92,14 +49,20 @@ Result<PictureColor> ColorOfPicture(const FrameInfo& info) {
     return info.matrices ? CameraColor(info) : GreenOnly(info, true);
   }
   PictureColor color;
-  color.xyz_from_rgb = XyzFromRgbMatrix(RgbSpace::kSrgb);
-  if (info.chromaticities) {
-    color.xyz_from_rgb = XyzFromRgbMatrix(*info.chromaticities);
-  } else if (info.format == "hdr") {
-    color.xyz_from_rgb = XyzFromRgbMatrix(kRadiance);
-  } else if (info.meaning == SampleMeaning::kLinear) {
+  if (info.channel_names == std::vector<std::string>{"X", "Y", "Z"}) {
+    color.xyz_from_rgb = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+    return color;
+  }
+  color.xyz_from_rgb = XyzFromRgbMatrix(info.chromaticities.value_or(PrimariesOf(RgbSpace::kSrgb)));
+  // OpenEXR says what its absence means (Rec. 709); other formats do not.
+  const bool assumed = info.meaning == SampleMeaning::kLinear && info.format != "exr";
+  if (assumed && !info.chromaticities) {
     color.warnings.push_back(
-        {"primaries_assumed", info.file, "the file names no chromaticities; Rec. 709 is assumed"});
+        {"primaries_assumed", info.file,
+         "the file names no primaries; those of Rec. 709 are assumed, as most programs mean" +
+             std::string(info.format == "hdr" ? " (Radiance's own differ by up to a quarter in "
+                                                "the luminance of red)"
+                                              : "")});
   }
   return color;
 }

@@ -155,6 +155,7 @@ Result<SignalFrame> SignalOf(const Frame& frame, const ResponseCurves* response)
   signal.height = info.height;
   signal.channels = info.channels;
   signal.row_period = rows;
+  signal.column_period = columns;
   for (int y = 0; y < rows; ++y) {
     auto& black = signal.black.emplace_back();
     auto& scale = signal.scale.emplace_back();
@@ -203,7 +204,7 @@ void FindClipping(std::span<SignalFrame> frames) {
   }
   for (SignalFrame& frame : frames) {
     for (std::size_t c = 0; c < highest.size(); ++c) {
-      const bool plausible = highest[c] && (frame.clip[c] > kNoClipping / 2.0F ||
+      const bool plausible = highest[c] && (frame.clip[c] > kClipUnknownFrom ||
                                             *highest[c] > kLowestClip * frame.clip[c]);
       if (plausible) frame.clip[c] = std::min(frame.clip[c], *highest[c]);
     }

@@ -19,6 +19,9 @@ namespace lightcal {
 // level) repeats with a period that divides this number, so that loops run over whole lanes.
 inline constexpr int kLanes = 48;
 
+// A clip above this is none: scene-linear files that do not show one.
+inline constexpr float kClipUnknownFrom = 1e30F;
+
 // Code -> signal for each channel, increasing; what RecoverResponse finds.
 struct ResponseCurves {
   std::array<std::vector<float>, 3> signal_of_code;
@@ -29,13 +32,15 @@ struct SignalFrame {
   std::string name;
   SampleView samples;
   int width = 0, height = 0, channels = 1;
-  int row_period = 1;  // rows after which the lanes repeat
+  int row_period = 1;     // rows after which the lanes repeat
+  int column_period = 1;  // pixels after which they do
   // [row % row_period][sample index % kLanes]
   std::vector<std::array<float, kLanes>> black;
   std::vector<std::array<float, kLanes>> scale;  // 1 / (white - black)
   std::vector<std::array<int, kLanes>> channel;  // 0 R, 1 G, 2 B; all 0 for a single channel
   // Signal at which the sensor clips, per channel: the white level, or the spike that the histogram
-  // shows below it (sensors clip earlier than their tags say). Above 1e30: no clipping known.
+  // shows below it (sensors clip earlier than their tags say). Above kClipUnknownFrom: no clipping
+  // known.
   std::array<float, 4> clip{1.0F, 1.0F, 1.0F, 1.0F};
   const ResponseCurves* response = nullptr;
 

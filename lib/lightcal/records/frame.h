@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
+#include "lightcal/photometry/exposure.h"
 
 namespace lightcal {
 
@@ -58,6 +60,9 @@ struct WrittenExposure {
   std::optional<double> f_number{};         // EXIF FNumber
   std::optional<double> aperture_apex{};    // EXIF ApertureValue, Av
   std::optional<double> iso{};
+  std::optional<double> t_stop{};             // cine lenses: f-number and transmittance in one
+  std::optional<double> shutter_angle_deg{};  // cine cameras: open for angle/360 of a frame
+  std::optional<double> frames_per_second{};
 };
 
 // Exposure as it is believed to have been. Absent where the file says nothing, zero, or nonsense:
@@ -65,11 +70,18 @@ struct WrittenExposure {
 struct FrameExposure {
   std::optional<Seconds> time;
   std::optional<double> f_number;
+  std::optional<double> t_stop;  // measured transmission: for light it stands before the f-number
   std::optional<double> iso;
   bool time_snapped = false;      // moved from its label to the true grid (1/60 -> 2^-6 s)
   bool f_number_snapped = false;  // likewise (f/5.6 -> 2^(5/2))
   bool overridden = false;        // the session or the command line gave some of it
   WrittenExposure written;
+
+  // N of H = q L t / N^2 with the q of ordinary lenses, whose transmittance is 0.9: N = T sqrt(0.9)
+  // of a T-stop.
+  [[nodiscard]] std::optional<double> light_f_number() const {
+    return t_stop ? std::optional(*t_stop * std::sqrt(LensTransmission{}.transmittance)) : f_number;
+  }
 };
 
 // DNG NoiseProfile of one plane: Var(x) = scale x + offset, x = (sample - black)/(white - black).
@@ -89,6 +101,7 @@ struct FrameInfo {
   FrameExposure exposure;
   std::optional<Metres> focal_length;
   std::optional<Metres> subject_distance;  // EXIF SubjectDistance, where the lens tells
+  std::optional<int> image_counter;        // OpenEXR imageCounter
   std::string time;                        // ISO 8601 without zone, "" = unknown
 
   // Mosaic and sensor frames.
@@ -122,6 +135,7 @@ struct Frame {
   FrameInfo info;
   SampleView samples;
   std::shared_ptr<const void> owner;  // keeps what `samples` looks at
+  bool in_file = false;               // they lie in a mapped file, from which they can come back
 };
 
 }  // namespace lightcal
