@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/records/camera_profile.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "run_cli.h"
@@ -61,6 +62,7 @@ head_radius_m = 0.01
 light = "key"
 frames = "captures/*.dng"
 camera = "camera.json"
+nd = "nd3"
 use = "card"
 reflectance = 0.18
 reflectance_sigma_relative = 0.02
@@ -100,6 +102,41 @@ illuminance_lx = 1
 under_range = true
 quality = "spectral"
 calibration_factor = 1.02
+[camera]
+sensitivities = "sensitivities.json"
+[[camera_frames]]
+use = "scale"
+frames = "card_*.dng"
+rect = [0, 0, 60, 40]
+exposure_s = [0.01, 0.1]
+f_number = 4
+iso = 100
+illuminance_lx = 900
+reflectance = 0.18
+reflectance_sigma_relative = 0.02
+sigma_relative = 0.03
+lamp_class = "white_led"
+spectrum = "a.spdx"
+[[camera_frames]]
+use = "scale"
+frames = "wall_*.dng"
+luminance_nits = 312
+meter = "c800"
+[[camera_frames]]
+use = "scale"
+frames = "sky_*.dng"
+illuminance_lx = 900
+projection = "equisolid"
+fov_deg = 180
+[[camera_frames]]
+use = "nd"
+name = "nd3"
+frames = "with_*.dng"
+without = "without_*.dng"
+[[camera_frames]]
+use = "chart"
+frames = "chart_*.dng"
+chart = "chart.csv"
 )";
 
 TEST(Schemas, SessionSchemaAndParserKnowTheSameKeys) {
@@ -127,6 +164,15 @@ TEST(Schemas, LightSchemaAndWriterKnowTheSameKeys) {
   text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],)");
   EXPECT_TRUE(LightFileFromJson(text, "light.json"));
   ExpectValid("light", {"--every-key", dir.Write("light.json", text)});
+}
+
+TEST(Schemas, CameraSchemaAndReaderKnowTheSameKeys) {
+  const std::string path = kSource + "/tests/fuzz/seeds/camera_json/every_key.json";
+  const auto profile = CameraProfileFromJson(test::ReadFile(path), "camera.json");
+  ASSERT_TRUE(profile) << profile.error().message;
+  ExpectValid("camera", {"--every-key", path});
+  const TempDir dir;
+  ExpectValid("camera", {dir.Write("camera.json", CameraProfileToJson(*profile).value())});
 }
 
 TEST(Schemas, CommittedSessionsAreValidAndLoad) {

@@ -26,4 +26,8 @@ struct CameraSensitivities {
 [[nodiscard]] Result<CameraSensitivities> CameraSensitivitiesFromJson(std::string_view text,
                                                                       std::string_view where);
 
+// Why these are no sensitivities (lengths, 400-700 nm not covered, a blind channel); empty where
+// they are.
+[[nodiscard]] std::string FaultOf(const CameraSensitivities& sensitivities);
+
 }  // namespace lightcal

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -55,14 +56,6 @@ std::string FaultOf(const std::vector<Row>& rows) {
       return "its wavelengths are not equally spaced";
     }
   }
-  if (rows.front().wavelength_nm > kFromNm || rows.back().wavelength_nm < kToNm) {
-    return "does not cover 400-700 nm";
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    double sum = 0.0;
-    for (const Row& row : rows) sum += row.channels[c];
-    if (!(sum > 0.0)) return "has a channel that sees nothing";
-  }
   return {};
 }
 
@@ -108,7 +101,24 @@ Result<CameraSensitivities> CameraSensitivitiesFromJson(std::string_view text,
   for (const Row& row : rows) {
     for (std::size_t c = 0; c < 3; ++c) out.channels[c].push_back(row.channels[c]);
   }
+  if (const std::string fault = FaultOf(out); !fault.empty()) return Bad(where, fault);
   return out;
+}
+
+std::string FaultOf(const CameraSensitivities& sensitivities) {
+  const auto& channels = sensitivities.channels;
+  const std::size_t count = channels[0].size();
+  if (count < 2 || channels[1].size() != count || channels[2].size() != count) {
+    return "holds fewer than two wavelengths, or channels of unequal length";
+  }
+  const double last =
+      sensitivities.first_nm + sensitivities.step_nm * static_cast<double>(count - 1);
+  if (sensitivities.first_nm > kFromNm || !(last >= kToNm)) return "does not cover 400-700 nm";
+  for (const auto& channel : channels) {
+    const double sum = std::accumulate(channel.begin(), channel.end(), 0.0);
+    if (!(sum > 0.0) || !std::isfinite(sum)) return "has a channel that sees nothing";
+  }
+  return {};
 }
 
 }  // namespace lightcal

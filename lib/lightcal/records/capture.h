@@ -40,7 +40,8 @@ struct CaptureDescription {
   CaptureUse use = CaptureUse::kCard;
   std::string light;   // name of the [[light]]
   std::string frames;  // files or a wildcard, relative to the session
-  std::string camera;  // file of spectral sensitivities, relative to the session; "" = none
+  std::string camera;  // its profile or spectral sensitivities, relative to the session; "" = none
+  std::string nd;      // the profile's filter that the frames were taken through; "" = none
   double reflectance = 0.0;
   double reflectance_sigma = kSigmaReflectance;  // relative
   std::optional<Metres> distance;                // from the lamp's reference point to the card

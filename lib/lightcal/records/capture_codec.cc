@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/records/capture_codec.h"
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace lightcal::records {
-namespace {
 
-void ReadRect(FieldReader& reader, CaptureDescription& capture) {
+void ReadRect(FieldReader& reader, std::optional<std::array<int, 4>>& out) {
   std::vector<int> rect;
   reader.Integers("rect", rect);
   if (!reader.Has("rect") || reader.Failed()) return;
@@ -15,8 +16,10 @@ void ReadRect(FieldReader& reader, CaptureDescription& capture) {
     reader.Fail("rect", "rect = [x, y, width, height] in pixels, from the upper left corner");
     return;
   }
-  capture.rect = {rect[0], rect[1], rect[2], rect[3]};
+  out = {rect[0], rect[1], rect[2], rect[3]};
 }
+
+namespace {
 
 // What must be there for what the pictures are used for.
 void RequireForUse(FieldReader& reader, CaptureUse use) {
@@ -41,6 +44,9 @@ void CheckCompanions(FieldReader& reader, const CaptureDescription& capture) {
                 "spectrum tells how far the camera misreads this lamp, and needs "
                 "camera = a file of its spectral sensitivities");
   }
+  if (!capture.nd.empty() && capture.camera.empty()) {
+    reader.Fail("nd", "nd names a filter of the camera's profile, and needs camera = that profile");
+  }
   if (!capture.meter.empty() && !capture.anchor_illuminance) {
     reader.Fail("meter", "meter names what read anchor_illuminance_lx, which is missing");
   }
@@ -52,12 +58,13 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Text("light", capture.light);
   reader.Text("frames", capture.frames);
   reader.Text("camera", capture.camera);
+  reader.Text("nd", capture.nd);
   reader.Word("use", capture.use, kCaptureUseWords);
   reader.Number("reflectance", capture.reflectance, kCardRule);
   reader.Number("reflectance_sigma_relative", capture.reflectance_sigma, kSigmaRule);
   reader.Number("distance_m", capture.distance, kDistanceRule);
   reader.Degrees("tilt_deg", capture.tilt, kTiltRule);
-  ReadRect(reader, capture);
+  ReadRect(reader, capture.rect);
   reader.Numbers("exposure_s", capture.exposure_s, kPositive);
   reader.Number("f_number", capture.f_number, kPositive);
   reader.Number("iso", capture.iso, kPositive);

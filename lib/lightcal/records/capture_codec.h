@@ -10,4 +10,7 @@ namespace lightcal::records {
 // Reads every key of a capture and checks that they agree with one another and with its `use`.
 void ReadCapture(FieldReader& reader, CaptureDescription& capture);
 
+// rect = [x, y, width, height] in pixels; also of [[camera_frames]].
+void ReadRect(FieldReader& reader, std::optional<std::array<int, 4>>& out);
+
 }  // namespace lightcal::records

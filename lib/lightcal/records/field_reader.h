@@ -47,6 +47,10 @@ class FieldReader {
   void Number(std::string_view key, double& out, const NumberRule& rule = kAnyNumber) {
     out = TakeNumber(key, rule).value_or(out);
   }
+  template <class Kind>
+  void Number(std::string_view key, Quantity<Kind>& out, const NumberRule& rule = kAnyNumber) {
+    if (const auto value = TakeNumber(key, rule)) out = Quantity<Kind>(*value);
+  }
   void Degrees(std::string_view key, std::optional<Radians>& out, const NumberRule& rule) {
     if (const auto value = TakeNumber(key, rule)) out = RadiansFromDegrees(*value);
   }

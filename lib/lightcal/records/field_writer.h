@@ -34,6 +34,11 @@ class FieldWriter {
               const NumberRule& /*rule*/ = kAnyNumber) {
     if (value) Put(key, Node::Number(value->value()));
   }
+  template <class Kind>
+  void Number(std::string_view key, const Quantity<Kind>& value,
+              const NumberRule& /*rule*/ = kAnyNumber) {
+    Put(key, Node::Number(value.value()));
+  }
   void Degrees(std::string_view key, Radians value, const NumberRule& rule);
   void Integer(std::string_view key, int value) { Put(key, Node::Integer(value)); }
   void Text(std::string_view key, const std::string& value) {
@@ -57,6 +62,15 @@ class FieldWriter {
   void Array(std::string_view key, const std::optional<std::array<double, N>>& values,
              const NumberRule& /*rule*/ = kAnyNumber) {
     if (values) PutNumbers(key, *values);
+  }
+  template <std::size_t N>
+  void Array(std::string_view key, const std::array<double, N>& values,
+             const NumberRule& /*rule*/ = kAnyNumber) {
+    PutNumbers(key, values);
+  }
+  void Numbers(std::string_view key, const std::vector<double>& values,
+               const NumberRule& /*rule*/ = kAnyNumber) {
+    PutNumbers(key, values);
   }
   void Chromaticity(std::string_view key, const std::optional<Xy>& xy) {
     if (xy) PutNumbers(key, std::array{xy->x, xy->y});

@@ -8,6 +8,7 @@
 #include "lightcal/records/field_reader.h"
 #include "lightcal/records/field_writer.h"
 #include "lightcal/records/json_codec.h"
+#include "lightcal/records/provenance_fields.h"
 
 namespace lightcal {
 namespace records {
@@ -126,20 +127,10 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Require({"name", "kind"});
 };
 
-constexpr auto kVisitInput = [](auto& archive, auto& input) {
-  archive.Text("path", input.path);
-  archive.Text("sha256", input.sha256);
-  archive.Require({"path", "sha256"});
-};
-
 template <class Archive, class SomeFile>
 void VisitFile(Archive& archive, SomeFile& file) {
   archive.List("lights", file.lights, kVisitLight);
-  archive.Group("provenance", [&](auto& provenance) {
-    provenance.Text("generator", file.provenance.generator);
-    provenance.Text("time", file.provenance.time);
-    provenance.List("inputs", file.provenance.inputs, kVisitInput);
-  });
+  VisitProvenance(archive, file.provenance);
   archive.Require({"lights"});
 }
 

@@ -9,7 +9,9 @@
 
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/light/intensity_table.h"
 #include "lightcal/photometry/light_kind.h"
+#include "lightcal/records/camera_frames.h"
 #include "lightcal/records/capture.h"
 #include "lightcal/records/reading.h"
 
@@ -33,6 +35,9 @@ struct LightDescription {
   std::optional<Watts> electrical;       // data sheet
   std::optional<Lumens> flux;            // data sheet
   std::optional<Radians> beam, field;    // data sheet: full angles at 50 % and 10 % of the peak
+  std::string distribution_file{};       // photometric: an IES or EULUMDAT file, "" = none named
+  // What that file holds, type C about the aim; whoever loads the session fills it.
+  std::optional<IntensityTable> distribution{};
 };
 
 // 1 sigma of one reading, relative.
@@ -64,6 +69,8 @@ struct Session {
   std::vector<MeterDescription> meters;
   std::vector<SessionReading> readings;  // session.toml's first, then the journal's
   std::vector<CaptureDescription> captures;
+  CameraDescription camera;
+  std::vector<CameraFramesDescription> camera_frames;
   std::vector<std::string> input_files;  // what was read, for provenance, in reading order
 };
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/records/camera_frames_codec.h"
 #include "lightcal/records/capture_codec.h"
 #include "lightcal/records/reading_codec.h"
 #include "lightcal/records/session_toml.h"
@@ -81,6 +82,14 @@ class SessionReader {
                 [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
     reader.List("capture", session.captures,
                 [this](FieldReader& r, CaptureDescription& c) { ReadCaptureOfLight(r, c); });
+    std::optional<CameraDescription> camera;
+    reader.Object("camera", camera, [](FieldReader& r, CameraDescription& c) {
+      r.Text("sensitivities", c.sensitivities);
+      r.Require({"sensitivities"});
+    });
+    session.camera = camera.value_or(CameraDescription{});
+    reader.List("camera_frames", session.camera_frames,
+                [this](FieldReader& r, CameraFramesDescription& f) { ReadFramesOfCamera(r, f); });
   }
 
  private:
@@ -122,9 +131,14 @@ class SessionReader {
     reader.Number("flux_lm", light.flux, kPositive);
     reader.Degrees("beam_deg", light.beam, kFullAngleRule);
     reader.Degrees("field_deg", light.field, kFullAngleRule);
+    reader.Text("distribution", light.distribution_file);
     reader.Require({"name", "kind"});
     reader.Finish();
     CheckAngles(reader, light, where_, out_.warnings);
+    if (!light.distribution_file.empty() && light.kind != LightKind::kPhotometric) {
+      reader.Fail("distribution",
+                  "distribution names a photometric file, which goes with kind = \"photometric\"");
+    }
     if (light.name.find('/') != std::string::npos) {
       reader.Fail("name", "name = " + Quoted(light.name) +
                               " holds a slash; names become parts of file names");
@@ -166,6 +180,20 @@ class SessionReader {
     if (const auto strange = FindStrangeName(out_.session, named)) {
       reader.Fail(strange->code, strange->key, strange->message);
     }
+  }
+
+  void ReadFramesOfCamera(FieldReader& reader, CameraFramesDescription& frames) {
+    frames.where = std::string(where_) + " " + reader.Place();
+    ReadCameraFrames(reader, frames);
+    if (reader.Failed() || frames.meter.empty()) return;
+    const auto meter =
+        std::ranges::find(out_.session.meters, frames.meter, &MeterDescription::name);
+    if (meter == out_.session.meters.end()) {
+      reader.Fail("unknown_meter", "meter",
+                  "meter = " + Quoted(frames.meter) + " names no [[meter]]");
+      return;
+    }
+    frames.sigma_relative = meter->sigma_relative;
   }
 
   LoadedSession& out_;
@@ -212,7 +240,7 @@ Result<LoadedSession> ParseSession(std::string_view text, std::string_view where
   SessionReader(loaded, where).Read(reader);
   reader.Finish();
   if (file.error) return tl::unexpected(*std::move(file.error));
-  if (loaded.session.lights.empty()) {
+  if (loaded.session.lights.empty() && loaded.session.camera_frames.empty()) {
     return Refused("no_light", std::string(where),
                    "no [[light]] is described; add one with a name and a kind");
   }

@@ -25,7 +25,8 @@ struct LoadedSession {
 // unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter,
 // capture_unsupported (a use that is not built); the subject is "session.toml:LINE".
 // A missing path fails: not_found; one that is no file: unreadable. A session with no light is
-// refused: no_light. Readings may be none: what that means is the verb's question.
+// refused: no_light (unless it calibrates a camera). Readings may be none: what that means is the
+// verb's question.
 [[nodiscard]] Result<LoadedSession> LoadSession(const std::string& path);
 
 // Where the journal of a session lies: DIR/readings.jsonl of a directory or of its session.toml,
