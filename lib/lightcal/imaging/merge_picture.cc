@@ -104,8 +104,9 @@ Kernel KernelOf(const SignalFrame& frame, const std::array<double, 3>& row) {
 // outside is taken from one period further inside, where the same colours are.
 class Strip {
  public:
-  Strip(const BracketMerger& merger, int most_rows)
+  Strip(const BracketMerger& merger, const SampleCorrections& corrections, int most_rows)
       : merger_(merger),
+        corrections_(corrections),
         samples_(merger.frames()[0].row_samples()),
         stride_(samples_ + 2 * kPad),
         column_period_(ColumnPeriod(merger.frames()[0])),
@@ -143,6 +144,10 @@ class Strip {
         source, count, View2d<float>(Row(value_, y, first), width, count, 1, stride),
         View2d<float>(Row(variance_, y, first), width, count, 1, stride));
     for (int i = 0; i < count; ++i) {
+      if (!corrections_.empty()) {
+        corrections_.Apply(merger_.frames()[0], source + i, Row(value_, y + i, first),
+                           Row(variance_, y + i, first));
+      }
       PadRow(Row(value_, y + i, first));
       PadRow(Row(variance_, y + i, first));
     }
@@ -154,6 +159,7 @@ class Strip {
   }
 
   const BracketMerger& merger_;
+  const SampleCorrections& corrections_;
   std::size_t samples_, stride_;
   std::size_t column_period_;
   std::vector<float> value_, variance_;
@@ -264,7 +270,7 @@ Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows&
   ParallelFor(strips, [&](int i) {
     const int y0 = first + i * strip_rows;
     const int n = std::min(strip_rows, first + count - y0);
-    Strip strip(merger, std::max(n, frame.row_period));
+    Strip strip(merger, rows.corrections, std::max(n, frame.row_period));
     clipped += strip.Fill(y0, n);
     WriteStrip(mapper, strip, y0, n, first, picture, sigma);
   });

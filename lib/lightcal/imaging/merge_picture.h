@@ -10,6 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/imaging/merge_bracket.h"
+#include "lightcal/imaging/sample_corrections.h"
 
 namespace lightcal {
 
@@ -18,6 +19,7 @@ namespace lightcal {
 struct PictureRows {
   std::vector<std::array<double, 3>> picture;  // one row a channel of the picture: 1 or 3
   std::array<double, 3> luminance{};           // what sigma is the uncertainty of
+  SampleCorrections corrections{};             // of the samples, before anything else
 };
 
 // Rows [first, first + count) of the picture, row i of the views being row first + i; `sigma` (one

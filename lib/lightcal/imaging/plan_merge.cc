@@ -54,7 +54,7 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   }
   const auto estimate = EstimateNoise(signals, planned.plan.exposure);
   if (const auto file = NoiseInFiles(request, planned.order)) {
-    planned.noise_source = NoiseSource::kFile;
+    planned.noise_source = request.noise_of_camera ? NoiseSource::kCamera : NoiseSource::kFile;
     planned.plan.noise = *file;
     if (!estimate) return {};
     const double ratio =
@@ -62,9 +62,10 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
     if (std::abs(ratio - 1.0) > kNoiseDisagreement) {
       planned.warnings.push_back(
           {"noise_disagrees", frames[n / 2].name,
-           "the frames scatter " + RoundedText(ratio, 2) +
-               " times what the file's NoiseProfile says (variance), which is used: the scene "
-               "moved, or the profile is wrong; --noise replaces it"});
+           "the frames scatter " + RoundedText(ratio, 2) + " times what the " +
+               (request.noise_of_camera ? "camera's profile" : "file's NoiseProfile") +
+               " says (variance), which is used: the scene moved, or the profile is wrong; "
+               "--noise replaces it"});
     }
     return {};
   }

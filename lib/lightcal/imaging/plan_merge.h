@@ -21,9 +21,10 @@ struct MergeRequest {
   bool keep_labels = false;
   std::optional<NoiseProfile> noise;                     // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
+  bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files
 };
 
-enum class NoiseSource { kGiven, kFile, kEstimated, kAssumed };
+enum class NoiseSource { kGiven, kCamera, kFile, kEstimated, kAssumed };
 
 struct PlannedMerge {
   MergePlan plan;  // for frames in the order below
