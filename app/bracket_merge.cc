@@ -9,6 +9,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/flat_field.h"
 #include "lightcal/imaging/frame_agreement.h"
 #include "lightcal/imaging/merge_picture.h"
 #include "lightcal/imaging/parallel.h"
@@ -94,14 +95,49 @@ struct Work {
   std::vector<SignalFrame> signals;
   PlannedMerge planned;
   PictureColor color;
+  SampleCorrections corrections;
 };
+
+// An ideal lens's loss of light, for a sensor of this width.
+Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
+  if (!info.focal_length) {
+    return Refused("no_focal_length", info.file,
+                   "the file does not say its focal length, which cos^4 needs; take a flat field "
+                   "with lightcal camera instead");
+  }
+  const Metres half_diagonal(0.5 * sensor_width.value() *
+                             std::hypot(1.0, static_cast<double>(info.height) / info.width));
+  return CosineFourthFlat(half_diagonal, *info.focal_length, info.exposure.f_number.value_or(1.0));
+}
+
+Result<void> SetCorrections(const BracketMergeRequest& request, Work& work) {
+  std::vector<FrameInfo> infos;
+  for (const std::size_t i : work.planned.order) infos.push_back(work.frames[i].info);
+  work.corrections = SampleCorrections(infos.front().width, infos.front().height, 0, 0);
+  if (request.camera) {
+    auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, 0, 0);
+    if (!corrections) return Propagate(std::move(corrections));
+    work.corrections = std::move(*corrections);
+  }
+  if (!request.cosine_fourth || work.corrections.flat()) return {};
+  const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
+  if (!flat) return tl::unexpected(flat.error());
+  work.corrections.SetFlat(*flat, SampleCorrections::FlatSource::kCosineFourth);
+  return {};
+}
 
 Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const Bracket& bracket,
                                       Warnings& warnings) {
   const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
   if (!labels) return tl::unexpected(labels.error());
+  if (request.camera) {
+    if (auto fits = CheckCameraUse(*request.camera, bracket.frames.front()); !fits) {
+      return Propagate(std::move(fits));
+    }
+  }
   auto color = ColorOfPicture(bracket.frames.front());
   if (!color) return Propagate(std::move(color));
+  if (request.camera) *color = CameraColorOf(*request.camera, std::move(*color));
   if (request.space && !color->has_colour) {
     return Refused(
         "no_colour", bracket.frames.front().file,
@@ -126,13 +162,33 @@ Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const 
     auto signal = SignalOf(frame, &work->response);
     if (!signal) return Propagate(std::move(signal));
     work->signals.push_back(std::move(*signal));
-    merge.noise_in_file.push_back(frame.info.noise);
+    merge.noise_in_file.push_back(request.own_noise ? std::vector<NoiseProfile>()
+                                                    : frame.info.noise);
+  }
+  if (request.camera) {
+    CorrectBlack(*request.camera, bracket.frames, work->signals);
+    auto noise = CameraNoiseOf(*request.camera, bracket.frames);
+    merge.noise_of_camera = !noise.empty();
+    if (!noise.empty()) merge.noise_in_file = std::move(noise);
   }
   auto planned = PlanMerge(work->signals, merge);
   if (!planned) return Propagate(std::move(planned));
   work->planned = std::move(*planned);
   Append(work->planned.warnings, warnings);
+  if (auto set = SetCorrections(request, *work); !set) return Propagate(std::move(set));
   return work;
+}
+
+// How much less light focusing near lets onto the sensor.
+double FocusOf(const FrameInfo& info) {
+  if (!info.focal_length || !info.subject_distance) return 1.0;
+  return FocusFactor(*info.focal_length, *info.subject_distance).value_or(1.0);
+}
+
+// Signals of the shortest frame per unit of exposure t S/N^2.
+double PerExposure(const Work& work) {
+  return FocusOf(work.frames[work.planned.order.front()].info) /
+         std::exp(work.planned.ln_exposure.front());
 }
 
 // Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
@@ -149,16 +205,22 @@ Nits PriorScale(const Work& work) {
     const bool rgb = info.channels == 3 || info.meaning == SampleMeaning::kMosaic;
     nits /= double{work.signals.front().clip[rgb ? kGreenChannel : 0]};
   }
-  if (info.focal_length && info.subject_distance) {
-    nits *= FocusFactor(*info.focal_length, *info.subject_distance).value_or(1.0);
-  }
-  return Nits(nits);
+  return Nits(nits * FocusOf(info));
 }
 
 // Row by row product, then a scale.
 PictureRows RowsOf(const Work& work, const BracketMergeRequest& request, double scale) {
   const Matrix3& xyz = work.color.xyz_from_rgb;
   PictureRows rows;
+  rows.corrections = work.corrections;
+  if (request.raw) {
+    const bool one = work.signals.front().channels == 1 &&
+                     work.frames.front().info.meaning != SampleMeaning::kMosaic;
+    rows.picture = {{scale, 0.0, 0.0}, {0.0, scale, 0.0}, {0.0, 0.0, scale}};
+    if (one) rows.picture.assign(3, {scale, 0.0, 0.0});
+    rows.luminance = rows.picture[1];
+    return rows;
+  }
   for (std::size_t c = 0; c < 3; ++c) rows.luminance[c] = scale * xyz[1][c];
   if (!request.space) {
     rows.picture = {rows.luminance};
@@ -257,15 +319,44 @@ std::vector<MergedFrame> FramesOf(const Work& work) {
   return frames;
 }
 
+// Of the light that the camera balanced for; the middle of the factor's lamps where it does not
+// say.
+Mireds MiredsOfFrame(const FrameInfo& info, const MismatchFactor& lamp) {
+  if (info.matrices && info.as_shot_neutral) {
+    if (const auto xy = XyFromCameraNeutral(*info.matrices, *info.as_shot_neutral)) {
+      return MiredsOfLamp(*xy);
+    }
+  }
+  return Mireds(lamp.middle_mired);
+}
+
+const char* ScaleSourceOf(const BracketMergeRequest& request) {
+  if (request.anchor) return "anchor";
+  const bool read = request.camera && !request.camera->profile->scale.readings.empty();
+  return read ? kCameraScale : "iso_prior";
+}
+
 Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
                       const BracketMergeRequest& request) {
+  if (request.raw) return Scale{PerExposure(work), work.planned.gauge_sd};
   const double prior = PriorScale(work).value();
   if (request.anchor) {
     const double ratio_sd = *std::max_element(work.planned.sd_ln.begin(), work.planned.sd_ln.end());
     return AnchorScale(merger, RowsOf(work, request, prior), prior, *request.anchor, ratio_sd);
   }
   const bool encoded = work.frames[0].info.meaning == SampleMeaning::kEncoded;
-  return Scale{prior, std::hypot(encoded ? kEncodedPriorSd : kIsoPriorSd, work.planned.gauge_sd)};
+  const FrameInfo& info = work.frames[work.planned.order.front()].info;
+  Scale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd};
+  if (request.camera && !request.camera->profile->scale.readings.empty()) {
+    scale = {request.camera->profile->scale.full_scale_constant * PerExposure(work),
+             CameraScaleSigma(*request.camera, info)};
+  }
+  scale.sd_relative = std::hypot(scale.sd_relative, work.planned.gauge_sd);
+  if (request.lamp) {
+    scale.nits_per_unit *= request.lamp->At(MiredsOfFrame(info, *request.lamp));
+    scale.sd_relative = std::hypot(scale.sd_relative, request.lamp->sigma);
+  }
+  return scale;
 }
 
 void WarnOfClipping(MergedBracket& merged) {
@@ -293,9 +384,11 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   merged.frames = FramesOf(**work);
   merged.width = merger->frames()[0].width;
   merged.height = merger->frames()[0].height;
-  merged.channels = request.space ? 3 : 1;
+  merged.channels = request.space || request.raw ? 3 : 1;
   merged.nits_per_unit = scale->nits_per_unit;
-  merged.scale_source = request.anchor ? "anchor" : "iso_prior";
+  merged.scale_source = ScaleSourceOf(request);
+  merged.gauge_sd = (*work)->planned.gauge_sd;
+  merged.corrections = (*work)->corrections;
   merged.scale_u95_relative = kZ95 * scale->sd_relative;
   merged.plan = merger->plan();
   merged.noise_source = (*work)->planned.noise_source;
@@ -315,6 +408,20 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
                             static_cast<double>(merger->frames()[0].row_samples()) / merged.height;
   WarnOfClipping(merged);
   return merged;
+}
+
+Result<std::optional<NoiseProfile>> MeasureBracketNoise(const Bracket& bracket,
+                                                        const CameraUse& camera) {
+  BracketMergeRequest request;
+  request.camera = camera;
+  request.camera->flat = false;
+  request.own_noise = true;
+  Warnings ignored;
+  const auto work = Prepare(request, bracket, ignored);
+  if (!work) return tl::unexpected(work.error());
+  const PlannedMerge& planned = (*work)->planned;
+  if (planned.noise_source != NoiseSource::kEstimated) return std::nullopt;
+  return planned.plan.noise.front();
 }
 
 }  // namespace lightcal::app

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "camera/camera_use.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/imaging/plan_merge.h"
@@ -24,12 +25,22 @@ struct SpotReading {
 // than the mean of as many independent ones (they count as a quarter).
 inline constexpr double kInterpolatedNoise = 2.0;
 
+// MergedBracket::scale_source where a camera's profile knows its scale.
+inline constexpr const char* kCameraScale = "camera";
+
 struct BracketMergeRequest {
   std::optional<SpotReading> anchor;
   std::optional<NoiseProfile> noise;
   std::optional<RgbSpace> space;  // absent: luminance alone
   std::optional<Xy> white;        // what becomes the space's white
   bool want_sigma = false;
+  std::optional<CameraUse> camera;     // what is known of it; an anchor or noise above comes first
+  std::optional<MismatchFactor> lamp;  // corrects luminance by the camera's scale for the lamp
+  // Width of the sensor, where cos^4 is to be taken out for want of a flat field; a prior.
+  std::optional<Metres> cosine_fourth;
+  // Raw red, green and blue per unit of exposure t S/N^2 instead, sigma of green; what a profile is
+  // made of. own_noise: from the frames alone, whatever their files say.
+  bool raw = false, own_noise = false;
 };
 
 struct MergedFrame {
@@ -44,8 +55,10 @@ struct MergedBracket {
   std::vector<float> picture;  // cd/m^2: Y, or RGB whose (1,1,1) is 1 cd/m^2
   std::vector<float> sigma;    // of the luminance, 1 standard deviation, cd/m^2
   double nits_per_unit = 0.0;  // luminance of full scale in the shortest frame
-  std::string scale_source;    // "iso_prior" "anchor"
+  std::string scale_source;    // "iso_prior" "anchor" "camera"
   double scale_u95_relative = 0.0;
+  double gauge_sd = 0.0;          // what labels leave open about all exposures together, relative
+  SampleCorrections corrections;  // by the camera's profile
   double clipped_fraction = 0.0;  // of the samples, in every frame
   MergePlan plan;
   NoiseSource noise_source = NoiseSource::kEstimated;
@@ -54,8 +67,14 @@ struct MergedBracket {
 
 // Refused: no_exposure_metadata (a frame without exposure time; ISO or f-number unknown and no
 // anchor), bad_anchor (outside the picture, clipped or black there), no_colour (a space asked of a
-// picture without), and as LoadFrame, RecoverResponse, PlanMerge, MergePicture.
+// picture without), and as CheckCameraUse, CorrectionsOf, LoadFrame, RecoverResponse, PlanMerge,
+// MergePicture.
 [[nodiscard]] Result<MergedBracket> MergeBracket(const Bracket& bracket,
                                                  const BracketMergeRequest& request);
+
+// Noise that a bracket shows, after the camera's black; absent where no two frames share enough.
+// Refused as MergeBracket.
+[[nodiscard]] Result<std::optional<NoiseProfile>> MeasureBracketNoise(const Bracket& bracket,
+                                                                      const CameraUse& camera);
 
 }  // namespace lightcal::app

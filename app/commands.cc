@@ -27,6 +27,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal import lamp.xls -s my_lamp --light key --distance 0.5m --meter cv600\n"
      "  lightcal import tape_measure.csv -s my_lamp --light key\n"
      "  lightcal import sweep.csv -s my_lamp --light key --column 560nm --color-only", BuildImport},
+    {"camera", "What a camera needs to measure: its scale, noise, black, lens, filters, colours",
+     "  lightcal camera my_camera -o camera.json\n"
+     "  lightcal merge bracket/*.dng -o lum.exr --camera camera.json", BuildCamera},
     {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",
      "  lightcal merge bracket/*.dng -o lum.exr --sigma sigma.exr\n"
      "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"

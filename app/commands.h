@@ -13,6 +13,7 @@ namespace lightcal::app {
 // One file each in commands/.
 Run BuildQuick(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
+Run BuildCamera(CLI::App& parser);
 Run BuildMerge(CLI::App& parser);
 Run BuildInspect(CLI::App& parser);
 Run BuildRun(CLI::App& parser);

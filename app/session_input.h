@@ -24,6 +24,10 @@ struct CalibratedSession {
                                                          const FitSettings& settings,
                                                          Console& console);
 
+// Who made an output from what: the session's input files with their hashes, the newest time found
+// in its readings (or SOURCE_DATE_EPOCH).  Fails as ReadWholeFile.
+[[nodiscard]] Result<Provenance> ProvenanceOf(const Session& session);
+
 // Where a session's outputs go when the person names no place: <session directory>/out.
 [[nodiscard]] std::string DefaultOutputDirectory(const Session& session);
 

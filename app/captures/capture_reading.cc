@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture_reading.h"
 
+#include <memory>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "output_files.h"
 #include "session_files.h"
 
 namespace lightcal::app {
@@ -28,6 +30,31 @@ Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& ca
   return OpenBracket(patterns, overrides);
 }
 
+Result<CameraFile> CameraOfCapture(const Session& session, const CaptureDescription& capture) {
+  if (capture.camera.empty()) return CameraFile{};
+  const auto text = ReadWholeFile(PathInSession(session, capture.camera));
+  if (!text) return tl::unexpected(text.error());
+  return CameraFileFromJson(*text, capture.camera);
+}
+
+Result<void> UseCameraOfCapture(const Session& session, const CaptureDescription& capture,
+                                BracketMergeRequest& request) {
+  auto file = CameraOfCapture(session, capture);
+  if (!file) return Propagate(std::move(file));
+  if (!file->profile) {
+    if (capture.nd.empty()) return {};
+    return Refused("unknown_nd", capture.nd,
+                   capture.camera +
+                       " holds spectral sensitivities, which know no filters; give a "
+                       "profile made by lightcal camera");
+  }
+  CameraUse use;
+  use.profile = std::make_shared<const CameraProfile>(std::move(*file->profile));
+  use.nd = capture.nd;
+  request.camera = std::move(use);
+  return {};
+}
+
 Result<Region> RegionOfCapture(const CaptureDescription& capture, const FrameInfo& info) {
   Region region{info.width / 3, info.height / 3, info.width / 3, info.height / 3};
   if (capture.rect) {
@@ -46,7 +73,7 @@ void NoteCapture(const CaptureDescription& capture, const MergedBracket& merged,
   for (const std::string& name : {capture.camera, capture.spectrum_file}) {
     if (!name.empty()) NoteInputFile(PathInSession(session, name), session);
   }
-  if (capture.anchor_illuminance) return;
+  if (capture.anchor_illuminance || merged.scale_source == kCameraScale) return;
   warnings.push_back(
       {"scale_prior", capture.where,
        "its absolute scale is what the ISO speed promises, +-" +

@@ -12,6 +12,8 @@
 namespace lightcal::app {
 
 inline constexpr const char* kCameraDevicePrefix = "camera:";
+// Of a camera whose profile measures its scale.
+inline constexpr const char* kCalibratedDevicePrefix = "calibrated_camera:";
 
 struct CaptureReading {
   Reading reading;
@@ -27,6 +29,14 @@ struct CaptureReading {
 // The capture's frames, with what the session says against their files.
 [[nodiscard]] Result<Bracket> OpenCapture(const Session& session,
                                           const CaptureDescription& capture);
+
+// What capture.camera is, where it is given; its profile, where it is one, goes into `request`.
+// Fails as ReadWholeFile. Refused as CameraFileFromJson.
+[[nodiscard]] Result<CameraFile> CameraOfCapture(const Session& session,
+                                                 const CaptureDescription& capture);
+[[nodiscard]] Result<void> UseCameraOfCapture(const Session& session,
+                                              const CaptureDescription& capture,
+                                              BracketMergeRequest& request);
 
 // capture.rect, else the middle ninth.  Refused: bad_region.
 [[nodiscard]] Result<Region> RegionOfCapture(const CaptureDescription& capture,

@@ -90,7 +90,12 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   if (!color) return AtCapture(capture, color.error());
   const auto card = RegionOfCapture(capture, info);
   if (!card) return AtCapture(capture, card.error());
-  const auto merged = MergeBracket(*bracket, RequestOf(capture, *card, color->has_colour));
+  BracketMergeRequest request = RequestOf(capture, *card, color->has_colour);
+  if (auto used = UseCameraOfCapture(session, capture, request); !used) {
+    return AtCapture(capture, used.error());
+  }
+  if (request.camera && request.camera->profile->color) request.space = RgbSpace::kSrgb;
+  const auto merged = MergeBracket(*bracket, request);
   if (!merged) return AtCapture(capture, merged.error());
   warnings.insert(warnings.end(), merged->warnings.begin(), merged->warnings.end());
   const auto patch = MeasureCard(*merged, *card);
@@ -117,7 +122,9 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   reading.color_source = corrected->xy ? ColorSource::kCamera : ColorSource::kUnknown;
   if (corrected->xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
   reading.quality = MeterQuality::kDerived;
-  reading.device = kCameraDevicePrefix + (info.camera.empty() ? info.format : info.camera);
+  reading.device =
+      (merged->scale_source == kCameraScale ? kCalibratedDevicePrefix : kCameraDevicePrefix) +
+      (info.camera.empty() ? info.format : info.camera);
   reading.time = info.time;
   return out;
 }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "camera/camera_use.h"
+#include "capture_reading.h"
 #include "lightcal/imaging/spectral_mismatch.h"
-#include "lightcal/records/camera_sensitivities.h"
-#include "output_files.h"
 #include "session_files.h"
 
 namespace lightcal::app {
@@ -21,8 +21,10 @@ Xyz Reinterpret(const Matrix3& xyz_from_raw, const PictureColor& color, const Xy
   return {xyz[0], xyz[1], xyz[2]};
 }
 
+// `camera` answers for a class of lamps and for a spectrum.
+template <class Camera>
 Result<MismatchFactor> FactorOf(const Session& session, const CaptureDescription& capture,
-                                const SpectralCamera& camera) {
+                                const Camera& camera) {
   if (capture.spectrum_file.empty()) return camera.FactorFor(capture.lamp_class);
   const auto one =
       ReadTheOneSpectrum(PathInSession(session, capture.spectrum_file), capture.spectrum_file);
@@ -30,13 +32,17 @@ Result<MismatchFactor> FactorOf(const Session& session, const CaptureDescription
   return camera.FactorFor(one->imported.spectrum);
 }
 
-Result<SpectralCamera> ReadCamera(const Session& session, const CaptureDescription& capture) {
-  const auto text = ReadWholeFile(PathInSession(session, capture.camera));
-  if (!text) return tl::unexpected(text.error());
-  const auto sensitivities = CameraSensitivitiesFromJson(*text, capture.camera);
-  if (!sensitivities) return tl::unexpected(sensitivities.error());
-  return SpectralCamera::Make(*sensitivities);
-}
+struct ProfiledCamera {
+  const CameraProfile& profile;
+  const CaptureDescription& capture;
+
+  [[nodiscard]] Result<MismatchFactor> FactorFor(LampClass lamp) const {
+    return CameraMismatch(profile, lamp);
+  }
+  [[nodiscard]] Result<MismatchFactor> FactorFor(const Spectrum& lamp) const {
+    return CameraMismatch(profile, lamp, capture.spectrum_file);
+  }
+};
 
 LampLuminance Corrected(const MismatchFactor& factor, const Xyz& by_luminance, Xy xy) {
   return {by_luminance.Y * factor.At(MiredsOfLamp(xy)), factor.sigma, xy};
@@ -48,13 +54,22 @@ Result<LampLuminance> LuminanceOfLamp(const Session& session, const CaptureDescr
                                       const FrameInfo& info, const PictureColor& color,
                                       const Xyz& seen) {
   const bool raw = info.meaning == SampleMeaning::kMosaic || info.meaning == SampleMeaning::kSensor;
-  if (!capture.camera.empty()) {
+  const auto file = CameraOfCapture(session, capture);
+  if (!file) return tl::unexpected(file.error());
+  if (file->profile) {
+    // `seen` is by the profile's own matrix, to which its scale belongs.
+    const auto factor = FactorOf(session, capture, ProfiledCamera{*file->profile, capture});
+    if (!factor) return tl::unexpected(factor.error());
+    if (!file->profile->color) return LampLuminance{seen.Y, factor->sigma, std::nullopt};
+    return Corrected(*factor, seen, XyFromXyz(seen));
+  }
+  if (file->sensitivities) {
     if (!raw || info.channels == 2 || !color.has_colour) {
       return Refused("camera_needs_raw", capture.frames,
                      "spectral sensitivities speak of raw channels; leave camera out for pictures "
                      "that were rendered");
     }
-    const auto camera = ReadCamera(session, capture);
+    const auto camera = SpectralCamera::Make(*file->sensitivities);
     if (!camera) return tl::unexpected(camera.error());
     const auto factor = FactorOf(session, capture, *camera);
     if (!factor) return tl::unexpected(factor.error());

@@ -20,7 +20,8 @@ struct LampLuminance {
 // Luminance of what was `seen` (a mean colour in cd/m^2 as ColorOfPicture's matrix has it), on the
 // scale that ISO speeds have (daylight) and corrected for the lamp: by the camera's spectral
 // sensitivities with the lamp's spectrum or class, else by the mean of 52 cameras for its class.
-// Refused: camera_needs_raw, several_spectra, and as CameraSensitivitiesFromJson,
+// With a camera's profile `seen` is as the profile's matrix has it.
+// Refused: camera_needs_raw, several_spectra, and as CameraOfCapture, CameraMismatch,
 // SpectralCamera::Make, DaylightXyzFromRaw.
 [[nodiscard]] Result<LampLuminance> LuminanceOfLamp(const Session& session,
                                                     const CaptureDescription& capture,

@@ -25,6 +25,8 @@ struct Options {
   std::string anchor, anchor_sigma = "5%";
   std::vector<double> noise;
   std::string space, white;
+  std::string camera, nd, lamp_class, cos4;
+  bool no_flat = false;
   bool uncompressed = false, force = false;
 };
 
@@ -96,6 +98,40 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
   return overrides;
 }
 
+// --camera with what belongs to it.
+Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
+  if (!options.cos4.empty()) {
+    const auto width = ParseLength(options.cos4);
+    if (!width) return tl::unexpected(width.error());
+    if (!(width->value() > 1e-4 && width->value() < 1.0)) {
+      return WrongUsage("--cos4", "takes the width of the sensor, e.g. 36mm");
+    }
+    request.cosine_fourth = *width;
+  }
+  if (options.camera.empty()) {
+    if (options.nd.empty() && options.lamp_class.empty() && !options.no_flat) return {};
+    return WrongUsage("--nd, --lamp-class, --no-flat", "belong to a profile: add --camera");
+  }
+  auto profile = ReadCameraProfile(options.camera);
+  if (!profile) return Propagate(std::move(profile));
+  LampClass lamp = LampClass::kUnknown;
+  if (!options.lamp_class.empty()) {
+    const auto word = std::ranges::find(kLampClassWords, options.lamp_class);
+    if (word == kLampClassWords.end()) {
+      return WrongUsage("--lamp-class", "\"" + options.lamp_class +
+                                            "\" is none of unknown, white_led, high_cri_led, "
+                                            "rgb_led, tungsten, daylight");
+    }
+    lamp = static_cast<LampClass>(word - kLampClassWords.begin());
+  }
+  const auto factor = CameraMismatch(*profile, lamp);
+  if (!factor) return tl::unexpected(factor.error());
+  request.lamp = *factor;
+  request.camera = CameraUse{std::make_shared<const CameraProfile>(std::move(*profile)), options.nd,
+                             !options.no_flat};
+  return {};
+}
+
 Result<BracketMergeRequest> RequestOf(const Options& options) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
@@ -123,11 +159,14 @@ Result<BracketMergeRequest> RequestOf(const Options& options) {
     if (!white) return tl::unexpected(white.error());
     request.white = *white;
   }
+  if (auto added = AddCamera(options, request); !added) return Propagate(std::move(added));
   return request;
 }
 
 const char* NoiseWord(NoiseSource source) {
   switch (source) {
+    case NoiseSource::kCamera:
+      return "camera";
     case NoiseSource::kGiven:
       return "given";
     case NoiseSource::kFile:
@@ -207,9 +246,26 @@ nlohmann::ordered_json ToJson(const MergedBracket& merged) {
                        {"scale", merged.plan.noise.front().scale},
                        {"offset", merged.plan.noise.front().offset},
                        {"fixed_pattern", merged.plan.fixed_pattern}};
+  const SampleCorrections& corrections = merged.corrections;
+  if (!corrections.empty()) {
+    auto& camera =
+        document["camera"] = {{"hot_pixels", corrections.hot_pixels()},
+                              {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};
+    if (const auto& flat = corrections.flat()) {
+      const bool prior = corrections.flat_source() == SampleCorrections::FlatSource::kCosineFourth;
+      camera["flat"] = {{"source", prior ? "cos4_prior" : "measured"},
+                        {"f_number", flat->f_number},
+                        {"sigma_relative", flat->sigma_relative}};
+    }
+  }
   document["width"] = merged.width;
   document["height"] = merged.height;
   return document;
+}
+
+std::string ScaleWords(const std::string& source) {
+  if (source == "anchor") return "the spot reading";
+  return source == kCameraScale ? "the camera's profile" : "the ISO speed (prior)";
 }
 
 std::string Table(const MergedBracket& merged) {
@@ -226,7 +282,7 @@ std::string Table(const MergedBracket& merged) {
   const auto [low, high] = std::minmax_element(merged.picture.begin(), merged.picture.end());
   text += "luminance up to " + RoundedText(*high, 4) + " cd/m2 (lowest " + RoundedText(*low, 2) +
           "), scale ± " + RoundedText(100.0 * merged.scale_u95_relative, 2) + " % from " +
-          (merged.scale_source == "anchor" ? "the spot reading" : "the ISO speed (prior)") + "\n";
+          ScaleWords(merged.scale_source) + "\n";
   return text;
 }
 
@@ -248,7 +304,7 @@ Result<void> RunMerge(const Options& options, Console& console) {
   console.PrintJson(ToJson(*merged));
   console.Note("wrote " + options.output +
                (request->want_sigma ? " and " + options.sigma : std::string()));
-  if (!request->anchor) {
+  if (merged->scale_source == "iso_prior") {
     console.Note(
         "next: read one spot with a luminance meter and pass --anchor x,y,w,h=NITS; the "
         "scale is a prior until then");
@@ -280,6 +336,16 @@ Run BuildMerge(CLI::App& parser) {
                   "SCALE,OFFSET of the sensor's noise [NoiseProfile of the files, else measured]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  parser.add_option("--camera", o.camera,
+                    "Profile of the camera, by lightcal camera: its scale, noise, lens, black");
+  parser.add_option("--nd", o.nd, "The filter of the profile that the frames were taken through");
+  parser.add_option("--lamp-class", o.lamp_class,
+                    "Whose light it is: white_led, high_cri_led, rgb_led, tungsten, daylight; "
+                    "corrects how the camera misreads it");
+  parser.add_flag("--no-flat", o.no_flat, "Leave the profile's flat fields out");
+  parser.add_option("--cos4", o.cos4,
+                    "Width of the sensor, e.g. 36mm: where no flat field is known, take out what "
+                    "an ideal lens loses towards the corners (a prior) [off]");
   parser.add_option("--space", o.space,
                     "RGB in rec709, acescg, rec2020 or p3 instead of luminance alone");
   parser.add_option("--white", o.white,

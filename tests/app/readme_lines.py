@@ -46,6 +46,9 @@ def main():
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
         shutil.copytree(CARD, home / "grey_card", ignore=shutil.ignore_patterns("out"))
+        shutil.copytree(CARD / "captures", home / "my_camera/captures")
+        camera = re.search(r"```toml\n([^`]*camera_frames.*?)```", text, re.S).group(1)
+        (home / "my_camera/session.toml").write_text(camera, encoding="utf-8")
         shutil.copy(ROOT / "sample_data/photometric/sample2.ldt", home / "lamp.ldt")
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}

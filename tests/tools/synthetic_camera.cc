@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <set>
 
 namespace lightcal::test {
 namespace {
@@ -113,6 +114,7 @@ std::vector<std::uint16_t> Expose(const SyntheticCamera& camera, const Synthetic
   const double full_well = camera.full_well_e * camera.base_iso / exposure.iso;
   const double electrons_per_nit = full_well / SaturatingNits(camera, exposure);
   const double dn_per_electron = (camera.white_dn - camera.black_dn) / full_well;
+  const std::set<std::array<int, 2>> hot(camera.hot_pixels.begin(), camera.hot_pixels.end());
   Random gains(camera.pixel_seed), random(exposure.seed);
 
   std::vector<std::uint16_t> picture;
@@ -121,13 +123,19 @@ std::vector<std::uint16_t> Expose(const SyntheticCamera& camera, const Synthetic
     const double row_offset = camera.row_noise_e > 0.0 ? camera.row_noise_e * random.Normal() : 0.0;
     for (int x = 0; x < camera.width; ++x) {
       const SyntheticXyz c = scene(x, y);
-      const auto& row = camera.camera_from_xyz[ColorAt(x, y)];
-      const double response = camera.monochrome ? c.Y : row[0] * c.X + row[1] * c.Y + row[2] * c.Z;
-      double electrons = random.Poisson(electrons_per_nit * response);
+      const int color = ColorAt(x, y);
+      const auto& row = camera.camera_from_xyz[color];
+      double response = camera.monochrome ? c.Y : row[0] * c.X + row[1] * c.Y + row[2] * c.Z;
+      response *= exposure.filter[color];
+      if (camera.lens) response *= camera.lens(x, y, color);
+      const double dark_e =
+          exposure.true_time_s * (hot.contains({x, y}) ? camera.hot_e_per_s : camera.dark_e_per_s);
+      double electrons = random.Poisson(electrons_per_nit * response + dark_e);
       if (camera.prnu_relative > 0.0) electrons *= 1.0 + camera.prnu_relative * gains.Normal();
       electrons = std::min(Knee(electrons, full_well, camera.knee_relative), full_well);
       electrons += camera.read_noise_e * random.Normal() + row_offset;
-      const double dn = std::round(camera.black_dn + dn_per_electron * electrons);
+      const double black = camera.black_dn + camera.black_error_dn[color];
+      const double dn = std::round(black + dn_per_electron * electrons);
       picture.push_back(static_cast<std::uint16_t>(std::clamp(dn, 0.0, camera.white_dn)));
     }
   }

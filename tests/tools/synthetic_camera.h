@@ -25,6 +25,13 @@ struct SyntheticCamera {
   double knee_relative = 0.0;    // signal missing at full well; grows as a square from 80 % on
   std::uint64_t pixel_seed = 1;  // of the gains
   bool monochrome = false;       // every pixel sees Y; written as LinearRaw
+  // True black less black_dn, of red, green, blue; charge that gathers in the dark, and in some
+  // pixels (x, y) more of it.
+  std::array<double, 3> black_error_dn{};
+  double dark_e_per_s = 0.0, hot_e_per_s = 0.0;
+  std::vector<std::array<int, 2>> hot_pixels;
+  // Share of the light that the lens lets through to a pixel, by colour 0, 1, 2; none = all.
+  std::function<double(int x, int y, int color)> lens;
   // Camera RGB of XYZ, DNG ColorMatrix1 (D65): green of the D65 white at Y = 1 is 1.
   std::array<std::array<double, 3>, 3> camera_from_xyz{{{0.634534, -0.059942, -0.090904},
                                                         {-0.404678, 1.176181, 0.191436},
@@ -41,6 +48,7 @@ struct SyntheticExposure {
   double true_f_number = 8.0;
   double label_f_number = 8.0;
   double iso = 100.0;
+  std::array<double, 3> filter{1.0, 1.0, 1.0};  // what a filter before the lens lets through
   bool apex_tags = false;  // also write ShutterSpeedValue and ApertureValue, from the label's
                            // neighbour on the third stop grid
   std::uint64_t seed = 1;

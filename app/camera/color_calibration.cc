@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera/color_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "camera/chart_file.h"
+#include "camera/raw_region.h"
+#include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/imaging/color_chart.h"
+#include "lightcal/imaging/spectral_mismatch.h"
+#include "output_files.h"
+#include "session_files.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr double kPatchShare = 0.2;  // of the distance to the next patch
+constexpr double kLargestUnevenness = 0.15;
+constexpr Xy kD50{0.34567, 0.35851};  // CIE 15:2018, table 11.3
+
+Region PatchRegion(const ChartGrid& grid, int column, int row) {
+  const auto center = grid.Place(column, row);
+  const auto right = grid.Place(column + 0.5, row), left = grid.Place(column - 0.5, row);
+  const auto below = grid.Place(column, row + 0.5), above = grid.Place(column, row - 0.5);
+  const double step = std::min(std::hypot(right[0] - left[0], right[1] - left[1]),
+                               std::hypot(below[0] - above[0], below[1] - above[1]));
+  const int half = std::max(1, static_cast<int>(kPatchShare * step));
+  return {static_cast<int>(center[0]) - half, static_cast<int>(center[1]) - half, 2 * half + 1,
+          2 * half + 1};
+}
+
+}  // namespace
+
+Result<CameraColor> ColorFromChart(Session& session, const CameraFramesDescription& what,
+                                   const MergedBracket& merged) {
+  const std::string path = PathInSession(session, what.chart);
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  const auto chart = ParseChartFile(*text, what.chart);
+  if (!chart) return tl::unexpected(chart.error());
+  NoteInputFile(path, session);
+  const auto grid = ChartGrid::Make(chart->corners, chart->columns, chart->rows);
+  if (!grid) return tl::unexpected(grid.error());
+  const Xy lamp = chart->lamp.value_or(kD50);
+  std::vector<ChartPatch> patches;
+  for (const ChartFilePatch& one : chart->patches) {
+    const std::string place =
+        what.chart + ", column " + std::to_string(one.column) + ", row " + std::to_string(one.row);
+    const auto seen =
+        MeasureRawPatch(merged, PatchRegion(*grid, one.column - 1, one.row - 1), place);
+    if (!seen) return tl::unexpected(seen.error());
+    if (seen->uneven_sd > kLargestUnevenness) {
+      return Refused("patch_uneven", place,
+                     "the picture is not even there; check corners: the centres of the corner "
+                     "patches, upper left, upper right, lower right, lower left");
+    }
+    patches.push_back({seen->rgb, AdaptBradford(one.xyz, kD50, lamp)});
+  }
+  Xyz white = XyzFromXyAtUnitY(lamp);
+  return FitChart(patches, {100.0 * white.X, 100.0, 100.0 * white.Z});
+}
+
+Result<void> AddOwnColor(Session& session, const FrameInfo& info, CameraProfile& profile) {
+  const std::string& name = session.camera.sensitivities;
+  if (!name.empty()) {
+    const std::string path = PathInSession(session, name);
+    const auto text = ReadWholeFile(path);
+    if (!text) return tl::unexpected(text.error());
+    auto sensitivities = CameraSensitivitiesFromJson(*text, name);
+    if (!sensitivities) return Propagate(std::move(sensitivities));
+    const auto camera = SpectralCamera::Make(*sensitivities);
+    if (!camera) return tl::unexpected(camera.error());
+    NoteInputFile(path, session);
+    profile.sensitivities = std::move(*sensitivities);
+    profile.color = {ColorMatrixSource::kSensitivities, camera->xyz_from_raw(), {}, {}};
+    return {};
+  }
+  if (!info.matrices) return {};
+  const auto daylight = DaylightXyzFromRaw(*info.matrices);
+  if (!daylight) return tl::unexpected(daylight.error());
+  profile.color = {ColorMatrixSource::kDng, *daylight, {}, {}};
+  return {};
+}
+
+}  // namespace lightcal::app
