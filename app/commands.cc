@@ -15,7 +15,7 @@ constexpr CommandRow kCommands[] = {
     {"run", "The main job: fit a session, write light.json, every preset and report.html",
      "  lightcal run sample_data/sessions/three_real_lights\n"
      "  lightcal run my_lamp -o calibrated --to gltf", BuildRun},
-    {"devices", "Meters found, whether they may be used, how each driver was verified",
+    {"devices", "Meters and cameras found, whether they may be used, how each was verified",
      "  lightcal devices\n"
      "  lightcal devices --json", BuildDevices},
     {"read", "Live or typed readings of a lamp into a session's journal",
@@ -23,6 +23,13 @@ constexpr CommandRow kCommands[] = {
      "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
      "  lightcal read --device sekonic --once --json\n"
      "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx_4995K.tape --once", BuildRead},
+    {"shoot", "A bracket from a camera on a cable or in the network, into a session",
+     "  lightcal shoot -s my_lamp --light key --bracket ±4EV/1EV --use card --distance 0.8m "
+     "--reflectance 0.18\n"
+     "  lightcal shoot -s my_lamp --light key --bracket 6EV/2EV --center 1/60 --mains 50 --dry-run\n"
+     "  lightcal shoot -s my_lamp --resume\n"
+     "  lightcal shoot -s my_lamp --light key --bracket 4EV/1EV --device gphoto2:ptpip:192.168.1.5",
+     BuildShoot},
     {"import", "Meter and spectrometer exports, CSV and logs into a session's journal",
      "  lightcal import lamp.xls -s my_lamp --light key --distance 0.5m --meter cv600\n"
      "  lightcal import tape_measure.csv -s my_lamp --light key\n"

@@ -2,50 +2,17 @@
 #include "meter_session.h"
 
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <sstream>
 #include <utility>
 
 #include "clock.h"
+#include "interrupt.h"
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
 
 namespace lightcal::app {
 namespace {
-
-Cancellation& InterruptRequest() {
-  static Cancellation request;
-  return request;
-}
-
-extern "C" void OnInterrupt(int /*signal*/) { InterruptRequest().Request(); }
-
-// Turns the first Ctrl-C (or SIGTERM) into a wish to stop, for the length of a measurement.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    InterruptRequest();  // built here, not inside the handler
-    struct sigaction action = {};
-    action.sa_handler = OnInterrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    for (std::size_t i = 0; i < kSignals.size(); ++i) {
-      ::sigaction(kSignals[i], &action, &former_[i]);
-    }
-  }
-  ~InterruptGuard() {
-    for (std::size_t i = 0; i < kSignals.size(); ++i) {
-      ::sigaction(kSignals[i], &former_[i], nullptr);
-    }
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  static constexpr std::array kSignals = {SIGINT, SIGTERM};
-  std::array<struct sigaction, kSignals.size()> former_{};
-};
 
 // A driver's options, as a tape keeps them.
 std::string SettingsText(const std::map<std::string, std::string>& settings) {
@@ -160,7 +127,7 @@ Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& req
 
 Result<MeterReading> MeterSession::Measure() {
   const InterruptGuard guard;
-  auto measured = meter_->Measure(InterruptRequest());
+  auto measured = meter_->Measure(InterruptGuard::Wish());
   if (!measured) return measured;
   Reading& reading = measured->reading;
   reading.time = IsReplay() ? time_ : NowIso8601();
@@ -169,7 +136,7 @@ Result<MeterReading> MeterSession::Measure() {
 
 Result<MeterReading> MeterSession::ReadMemory(int index) {
   const InterruptGuard guard;
-  return meter_->ReadMemory(index, InterruptRequest());
+  return meter_->ReadMemory(index, InterruptGuard::Wish());
 }
 
 Result<void> MeterSession::Finish(Console& console) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// lightcal devices: the meters that are plugged in, whether we may use them, and how far each
-// driver has been verified.
+// lightcal devices: the meters and cameras that are plugged in, whether we may use them, and how
+// far each driver has been verified.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "lightcal_devices/captures/tether.h"
 #include "lightcal_devices/meters/find_meters.h"
 
 namespace lightcal::app {
@@ -44,9 +45,46 @@ std::vector<std::string> ToRow(const FoundMeter& meter) {
           std::string(VerifiedName(meter.row->verified))};
 }
 
+// Shoots through the real libgphoto2, against a camera of ours in Python.
+constexpr Verified kCameraVerified = Verified::kDocumentation;
+
+std::string StatusName(CameraAccess access) {
+  switch (access) {
+    case CameraAccess::kReady:
+      return "ready";
+    case CameraAccess::kNoPermission:
+      return "no_permission";
+    case CameraAccess::kBusy:
+      return "busy";
+  }
+  return "";
+}
+
+nlohmann::ordered_json ToJson(const FoundCamera& camera) {
+  nlohmann::ordered_json json = {{"id", camera.id},
+                                 {"driver", kCameraDriver},
+                                 {"models", camera.model},
+                                 {"transport", kCameraTransport},
+                                 {"usb", camera.usb}};
+  if (!camera.serial.empty()) json["serial"] = camera.serial;
+  json["status"] = StatusName(camera.access);
+  json["verified"] = VerifiedName(kCameraVerified);
+  if (!camera.remedy.empty()) json["remedy"] = camera.remedy;
+  return json;
+}
+
+std::vector<std::string> ToRow(const FoundCamera& camera) {
+  return {camera.id, camera.model, std::string(kCameraTransport) + " " + camera.usb,
+          StatusName(camera.access), std::string(VerifiedName(kCameraVerified))};
+}
+
 // What there is to know besides, and what stands between the person and a reading.
-std::string Remedies(const std::vector<FoundMeter>& found) {
+std::string Remedies(const std::vector<FoundMeter>& found,
+                     const std::vector<FoundCamera>& cameras) {
   std::string text;
+  for (const FoundCamera& camera : cameras) {
+    if (!camera.remedy.empty()) text += "\n" + camera.id + ": " + camera.remedy + "\n";
+  }
   for (const FoundMeter& meter : found) {
     if (meter.row->describe != nullptr) {
       text += "\n" + meter.id + ": " + meter.row->describe(meter) + "\n";
@@ -68,8 +106,9 @@ std::string KnownMeters() {
 }
 
 std::string NothingFound() {
-  return "No meter found. lightcal knows:\n\n" + KnownMeters() +
-         "\nPlug one in and switch it on. Any other meter: type what it shows,\n"
+  return "No meter found, and no camera. lightcal knows:\n\n" + KnownMeters() +
+         "\nand the cameras that libgphoto2 knows. Plug one in and switch it on. Any other meter: "
+         "type what it shows,\n"
          "  lightcal read -s SESSION --light NAME --distance 0.5m --lux 192\n";
 }
 
@@ -82,11 +121,16 @@ Result<void> RunDevices(Console& console) {
     document["devices"].push_back(ToJson(meter));
     rows.push_back(ToRow(meter));
   }
-  if (found->empty()) {
+  const std::vector<FoundCamera> cameras = FindCameras();
+  for (const FoundCamera& camera : cameras) {
+    document["devices"].push_back(ToJson(camera));
+    rows.push_back(ToRow(camera));
+  }
+  if (rows.empty()) {
     console.Print(NothingFound());
   } else {
     console.Print(TextTable({"id", "models", "transport", "status", "verified"}, rows));
-    console.Print(Remedies(*found));
+    console.Print(Remedies(*found, cameras));
   }
   console.PrintJson(document);
   return {};

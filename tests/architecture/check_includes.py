@@ -33,6 +33,7 @@ DOORS = [
     (r"toml\+\+/", r"_codec\.cc$|^app/"),
     (r"pugixml", r"devices/lightcal_devices/files/.*\.cc$|lib/lightcal/presets/.*\.cc$"),
     (r"archive\.h|archive_entry\.h", r"devices/lightcal_devices/files/.*\.cc$"),
+    (r"gphoto2/", r"devices/lightcal_devices/captures/gphoto_module\.cc$"),
     (r"hidapi|libusb", r"devices/lightcal_devices/transport/.*\.cc$"),
     (r"CLI/", r"^app/"),
     (r"openssl/", r"^app/"),

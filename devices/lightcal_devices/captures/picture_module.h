@@ -7,9 +7,7 @@
 
 namespace lightcal {
 
-// Looked for beside the executable, then in ../<libdir>/lightcal from there, then where the system
-// looks for libraries (LD_LIBRARY_PATH, run path).
-// Fails: no_picture_module (says what the loader said).
+// Fails as OpenModule: no_picture_module.
 [[nodiscard]] Result<OiioRead> PictureModule();
 
 }  // namespace lightcal

@@ -95,6 +95,15 @@ std::string ThreeDigits(unsigned number) {
   return std::string(text.size() < 3 ? 3 - text.size() : 0, '0') + text;
 }
 
+std::optional<SysfsUsbInterface> UsbInterfaceOf(const std::string& folder) {
+  const auto device_class = UnsignedAttribute<std::uint8_t>(folder, "bInterfaceClass", 16);
+  const auto subclass = UnsignedAttribute<std::uint8_t>(folder, "bInterfaceSubClass", 16);
+  if (!device_class || !subclass) return std::nullopt;
+  std::error_code none;
+  const auto driver = std::filesystem::read_symlink(folder + "/driver", none);
+  return SysfsUsbInterface{*device_class, *subclass, driver.filename().string()};
+}
+
 // Absent where the folder is an interface, which has no id.
 std::optional<SysfsUsbDevice> UsbDeviceOf(const std::string& folder) {
   const auto vendor = UnsignedAttribute<std::uint16_t>(folder, "idVendor", 16);
@@ -102,7 +111,11 @@ std::optional<SysfsUsbDevice> UsbDeviceOf(const std::string& folder) {
   const auto bus = UnsignedAttribute<unsigned>(folder, "busnum", 10);
   const auto number = UnsignedAttribute<unsigned>(folder, "devnum", 10);
   if (!vendor || !product) return std::nullopt;
-  SysfsUsbDevice device{*vendor, *product, AttributeOr(folder, "product"), ""};
+  SysfsUsbDevice device;
+  device.vendor = *vendor;
+  device.product = *product;
+  device.name = AttributeOr(folder, "product");
+  device.serial = AttributeOr(folder, "serial");
   if (bus && number) device.node = "/dev/bus/usb/" + ThreeDigits(*bus) + "/" + ThreeDigits(*number);
   return device;
 }
@@ -157,8 +170,15 @@ Result<std::string> ReadSysfsAttribute(const std::string& folder, std::string_vi
 
 std::vector<SysfsUsbDevice> UsbDevicesInSysfs() {
   std::vector<SysfsUsbDevice> devices;
-  for (const std::string& folder : FoldersIn(kUsbDevices)) {
-    if (auto device = UsbDeviceOf(folder)) devices.push_back(*std::move(device));
+  const std::vector<std::string> folders = FoldersIn(kUsbDevices);
+  for (const std::string& folder : folders) {
+    auto device = UsbDeviceOf(folder);
+    if (!device) continue;
+    for (const std::string& other : folders) {
+      if (!other.starts_with(folder + ":")) continue;
+      if (auto part = UsbInterfaceOf(other)) device->interfaces.push_back(*std::move(part));
+    }
+    devices.push_back(*std::move(device));
   }
   return devices;
 }

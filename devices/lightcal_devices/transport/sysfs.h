@@ -37,12 +37,19 @@ inline constexpr std::string_view kIioDevices = "/sys/bus/iio/devices";
 // What stands in a folder of sysfs, sorted, with its path; empty where there is no such folder.
 [[nodiscard]] std::vector<std::string> FoldersIn(const std::string& path);
 
+struct SysfsUsbInterface {
+  std::uint8_t device_class = 0, subclass = 0;  // of the USB class codes
+  std::string driver;  // of the kernel; "usbfs" = a program has claimed it, "" = none
+};
+
 // A USB device as the kernel read it when it was plugged in: nothing is opened or sent.
 struct SysfsUsbDevice {
   std::uint16_t vendor = 0;
   std::uint16_t product = 0;
-  std::string name;  // of the maker, printable ASCII, "" = it has none
-  std::string node;  // "/dev/bus/usb/001/004"
+  std::string name;    // of the maker, printable ASCII, "" = it has none
+  std::string serial;  // likewise
+  std::string node;    // "/dev/bus/usb/001/004"
+  std::vector<SysfsUsbInterface> interfaces;
 };
 [[nodiscard]] std::vector<SysfsUsbDevice> UsbDevicesInSysfs();
 

@@ -33,6 +33,10 @@ struct LoadedSession {
 // NAME.readings.jsonl beside any other NAME.toml. The file may not exist yet.
 [[nodiscard]] std::string JournalPath(const std::string& session_path);
 
+// Where brackets are shot to: DIR/captures, or NAME.captures beside any other NAME.toml. What lies
+// there with a capture.json (tethered_shoot.h) belongs to the session.
+[[nodiscard]] std::string CapturesPath(const std::string& session_path);
+
 // Parses the text of a session.toml. `where` names the file in messages; directory, stem and
 // input_files stay empty. Refused as LoadSession says.
 [[nodiscard]] Result<Session> ParseSessionToml(std::string_view text, std::string_view where);

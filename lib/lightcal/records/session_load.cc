@@ -10,6 +10,7 @@
 #include "lightcal/records/reading_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_toml.h"
+#include "lightcal/records/shot_captures.h"
 
 namespace lightcal {
 namespace {
@@ -18,11 +19,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSessionFile = "session.toml";
 constexpr std::string_view kJournalFile = "readings.jsonl";
+constexpr std::string_view kCapturesFolder = "captures";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 struct SessionPaths {
   fs::path toml;
   fs::path journal;
+  fs::path captures;
   fs::path directory;
   std::string stem;
 };
@@ -38,14 +41,17 @@ SessionPaths PathsOf(const std::string& path) {
   const fs::path given(path);
   std::error_code error;
   if (fs::is_directory(given, error)) {
-    return {given / kSessionFile, given / kJournalFile, given, NameOfDirectory(given)};
+    return {given / kSessionFile, given / kJournalFile, given / kCapturesFolder, given,
+            NameOfDirectory(given)};
   }
   const fs::path directory = given.has_parent_path() ? given.parent_path() : fs::path(".");
   if (given.filename() == kSessionFile) {
-    return {given, directory / kJournalFile, directory, NameOfDirectory(directory)};
+    return {given, directory / kJournalFile, directory / kCapturesFolder, directory,
+            NameOfDirectory(directory)};
   }
   const std::string stem = given.stem().string();
-  return {given, directory / (stem + "." + std::string(kJournalFile)), directory, stem};
+  return {given, directory / (stem + "." + std::string(kJournalFile)),
+          directory / (stem + "." + std::string(kCapturesFolder)), directory, stem};
 }
 
 std::optional<std::string> ReadWhole(const fs::path& path) {
@@ -137,6 +143,10 @@ std::string JournalPath(const std::string& session_path) {
   return PathsOf(session_path).journal.string();
 }
 
+std::string CapturesPath(const std::string& session_path) {
+  return PathsOf(session_path).captures.string();
+}
+
 Result<LoadedSession> LoadSession(const std::string& path) {
   const SessionPaths paths = PathsOf(path);
   const auto text = ReadSessionFile(paths, path);
@@ -148,6 +158,9 @@ Result<LoadedSession> LoadSession(const std::string& path) {
   session.stem = paths.stem;
   if (session.name.empty()) session.name = paths.stem;
   session.input_files.push_back(paths.toml.string());
+  if (auto added = records::AddShotCaptures(paths.captures, *loaded); !added) {
+    return Propagate(std::move(added));
+  }
   std::error_code error;
   if (!fs::exists(paths.journal, error)) return loaded;
   const auto journal = ReadWhole(paths.journal);

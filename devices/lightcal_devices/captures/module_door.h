@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal's own modules: parts that load many libraries and are opened on first use.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+
+namespace lightcal {
+
+// The function `symbol` of the module `name` ("lightcal_pictures.so"), looked for beside the
+// executable, then in ../<libdir>/lightcal from there, then where the system looks for libraries
+// (LD_LIBRARY_PATH, run path). The module is never closed: its libraries' threads outlive any
+// scope. Fails: `code`, the message beginning with `what` and holding what the loader said.
+[[nodiscard]] Result<void*> OpenModule(const std::string& name, const char* symbol,
+                                       const std::string& code, const std::string& what);
+
+}  // namespace lightcal
