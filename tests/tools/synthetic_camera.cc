@@ -85,8 +85,9 @@ double Knee(double electrons, double full_well, double missing) {
   return electrons - missing * full_well * into * into;
 }
 
-// Colour (0 R, 1 G, 2 B) of an RGGB mosaic.
-int ColorAt(int x, int y) { return (x & 1) + (y & 1); }
+// Fujifilm's X-Trans, as DNG converters write it.
+constexpr int kXTrans[6][6] = {{1, 1, 0, 1, 1, 2}, {1, 1, 2, 1, 1, 0}, {2, 0, 1, 0, 2, 1},
+                               {1, 1, 2, 1, 1, 0}, {1, 1, 0, 1, 1, 2}, {0, 2, 1, 2, 0, 1}};
 
 }  // namespace
 
@@ -98,6 +99,10 @@ SyntheticCamera FlawedCamera(int width, int height) {
   camera.knee_relative = 0.01;
   camera.row_noise_e = 0.5;
   return camera;
+}
+
+int FilterAt(const SyntheticCamera& camera, int x, int y) {
+  return camera.x_trans ? kXTrans[y % 6][x % 6] : (x & 1) + (y & 1);
 }
 
 SyntheticXyz XyzOf(double luminance_nits, double x, double y) {
@@ -123,7 +128,7 @@ std::vector<std::uint16_t> Expose(const SyntheticCamera& camera, const Synthetic
     const double row_offset = camera.row_noise_e > 0.0 ? camera.row_noise_e * random.Normal() : 0.0;
     for (int x = 0; x < camera.width; ++x) {
       const SyntheticXyz c = scene(x, y);
-      const int color = ColorAt(x, y);
+      const int color = FilterAt(camera, x, y);
       const auto& row = camera.camera_from_xyz[color];
       double response = camera.monochrome ? c.Y : row[0] * c.X + row[1] * c.Y + row[2] * c.Z;
       response *= exposure.filter[color];

@@ -25,6 +25,7 @@ struct SyntheticCamera {
   double knee_relative = 0.0;    // signal missing at full well; grows as a square from 80 % on
   std::uint64_t pixel_seed = 1;  // of the gains
   bool monochrome = false;       // every pixel sees Y; written as LinearRaw
+  bool x_trans = false;          // colour filters of 6 x 6 instead of RGGB
   // True black less black_dn, of red, green, blue; charge that gathers in the dark, and in some
   // pixels (x, y) more of it.
   std::array<double, 3> black_error_dn{};
@@ -68,7 +69,10 @@ using SyntheticScene = std::function<SyntheticXyz(int x, int y)>;
 [[nodiscard]] double SaturatingNits(const SyntheticCamera& camera,
                                     const SyntheticExposure& exposure);
 
-// RGGB mosaic of DN. Each pixel: electrons from a Poisson law, gain of the pixel, knee, full well,
+// Colour (0 R, 1 G, 2 B) that the pixel (x, y) sees through its filter.
+[[nodiscard]] int FilterAt(const SyntheticCamera& camera, int x, int y);
+
+// Mosaic of DN. Each pixel: electrons from a Poisson law, gain of the pixel, knee, full well,
 // read noise of a normal law, rounding, clipping to [0, white].
 [[nodiscard]] std::vector<std::uint16_t> Expose(const SyntheticCamera& camera,
                                                 const SyntheticExposure& exposure,

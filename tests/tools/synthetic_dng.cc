@@ -255,12 +255,23 @@ std::vector<Entry> PictureEntries(const SyntheticCamera& camera, const Synthetic
     std::vector<double> matrix;
     for (const auto& row : camera.camera_from_xyz)
       matrix.insert(matrix.end(), row.begin(), row.end());
-    entries.push_back(Integers(33421, kShort, {2, 2}));
-    entries.push_back(Integers(33422, kByte, {0, 1, 1, 2}));
-    entries.push_back(Fractions(50721, kSignedRational, matrix));
+    const std::uint32_t period = camera.x_trans ? 6 : 2;
+    std::vector<std::uint32_t> filters;
+    for (std::uint32_t i = 0; i < period * period; ++i) {
+      filters.push_back(static_cast<std::uint32_t>(
+          FilterAt(camera, static_cast<int>(i % period), static_cast<int>(i / period))));
+    }
+    entries.push_back(Integers(33421, kShort, {period, period}));
+    entries.push_back(Integers(33422, kByte, filters));
     entries.push_back(Fractions(50728, kRational, Neutral(camera, options)));
-    constexpr std::uint32_t kD65 = 21;
-    entries.push_back(Integers(50778, kShort, {kD65}));
+    constexpr std::uint32_t kD65 = 21, kStandardA = 17;
+    if (options.warm_matrix) {
+      entries.push_back(Fractions(50722, kSignedRational, matrix));
+      entries.push_back(Integers(50779, kShort, {kD65}));
+      for (std::size_t i = 0; i < 9; ++i) matrix[i] *= 1.0 + 0.02 * static_cast<double>(i % 4);
+    }
+    entries.push_back(Fractions(50721, kSignedRational, matrix));
+    entries.push_back(Integers(50778, kShort, {options.warm_matrix ? kStandardA : kD65}));
   }
   if (options.noise_profile) entries.push_back(Doubles(51041, NoiseProfileOf(camera, exposure)));
   return entries;

@@ -17,6 +17,7 @@ struct SyntheticDngOptions {
   bool noise_profile = true;   // DNG NoiseProfile of the camera's true noise
   // AsShotNeutral: the chromaticity the camera took for white.
   double white_x = 0.31272, white_y = 0.32903;
+  bool warm_matrix = false;         // also a ColorMatrix for illuminant A, not quite that of D65
   double subject_distance_m = 0.0;  // 0 = no such tag
   double focal_length_mm = 35.0;    // 0 = no such tag
   std::string time = "2026:11:21 12:00:00";

@@ -132,7 +132,7 @@ void WarnOfDifferences(const std::vector<FrameInfo>& frames, Warnings& warnings)
   WarnWhereMixed(
       frames, "mixed_aperture", "f-number",
       "apertures repeat to about 5 % and blur differently; change the time instead",
-      [](const FrameInfo& f) { return f.exposure.f_number; }, warnings);
+      [](const FrameInfo& f) { return f.exposure.light_f_number(); }, warnings);
   const auto metres = [](std::optional<Metres> v) {
     return v ? std::optional(v->value()) : std::nullopt;
   };
@@ -161,7 +161,7 @@ void WarnOfExposures(const std::vector<FrameInfo>& frames, Warnings& warnings) {
     const auto& a = frames[i].exposure.time;
     const auto& b = frames[i + 1].exposure.time;
     if (a && b && std::abs(*b / *a - 1.0) <= kSameExposure &&
-        frames[i].exposure.f_number == frames[i + 1].exposure.f_number &&
+        frames[i].exposure.light_f_number() == frames[i + 1].exposure.light_f_number() &&
         frames[i].exposure.iso == frames[i + 1].exposure.iso) {
       warnings.push_back(
           {"repeated_exposure", frames[i + 1].file,
@@ -183,19 +183,21 @@ Result<void> Override(std::vector<FrameInfo>& frames, const BracketOverrides& ov
       exposure.time = overrides.exposure[i];
       exposure.time_snapped = false;
     }
-    if (overrides.f_number) {
+    if (overrides.f_number || overrides.t_stop) {
       exposure.f_number = overrides.f_number;
+      exposure.t_stop = overrides.t_stop;
       exposure.f_number_snapped = false;
     }
     if (overrides.iso) exposure.iso = overrides.iso;
-    exposure.overridden = !overrides.exposure.empty() || overrides.f_number || overrides.iso;
+    exposure.overridden =
+        !overrides.exposure.empty() || overrides.f_number || overrides.t_stop || overrides.iso;
   }
   return {};
 }
 
 // Light let onto the sensor, for sorting: t/N^2; an unknown f-number is one for all.
 double Light(const FrameInfo& frame) {
-  const double n = frame.exposure.f_number.value_or(1.0);
+  const double n = frame.exposure.light_f_number().value_or(1.0);
   return frame.exposure.time->value() * frame.exposure.iso.value_or(100.0) / (n * n);
 }
 
@@ -263,7 +265,7 @@ Result<FrameInfo> ReadFrameInfo(const std::string& path) {
 
 Result<Frame> ReadFrame(const std::string& path, SampleStore store) {
   if (LooksLikeRaw(path)) return ReadRaw(path, store);
-  auto frame = ReadPicture(path);
+  auto frame = ReadPicture(path, store);
   if (frame || frame.error().code != "unknown_format") return frame;
   auto raw = ReadRaw(path, store);
   return raw ? raw : frame;

@@ -19,6 +19,7 @@ namespace lightcal {
 struct BracketOverrides {
   std::vector<Seconds> exposure;  // one a file, in the order of the files; empty = from the files
   std::optional<double> f_number;
+  std::optional<double> t_stop;  // of the two that one stands which is given
   std::optional<double> iso;
 };
 

@@ -23,6 +23,11 @@ struct Range {
 constexpr Range kTimes{1e-7, 1e6};
 constexpr Range kFNumbers{0.3, 1000.0};
 constexpr Range kIsos{0.1, 1e8};
+constexpr Range kTStops{0.3, 1000.0};
+constexpr Range kAngles{0.1, 360.0};
+constexpr Range kFrameRates{0.01, 1e5};
+// A lens lets through at most everything and hardly less than four tenths of it: T/N.
+constexpr Range kTOverN{0.97, 1.6};
 
 std::optional<double> Plausible(std::optional<double> v, Range range) {
   return v && range.Holds(*v) ? v : std::nullopt;
@@ -77,6 +82,48 @@ Believed Believe(std::optional<double> written_label, std::optional<double> writ
   return {scale.from_stops(*apex), false};
 }
 
+// A shutter angle is exact where times are labels: 172.8 degrees at 24 frames a second are 1/50 s.
+std::optional<double> TimeOfAngle(const WrittenExposure& written) {
+  const auto angle = Plausible(written.shutter_angle_deg, kAngles);
+  const auto rate = Plausible(written.frames_per_second, kFrameRates);
+  if (!angle || !rate) return std::nullopt;
+  return *angle / 360.0 / *rate;
+}
+
+// The time by the angle, unless the time that is written contradicts it.
+void PreferAngle(const WrittenExposure& written, FrameExposure& exposure,
+                 const std::string& subject, Warnings& warnings) {
+  const auto by_angle = TimeOfAngle(written);
+  if (!by_angle) return;
+  const auto label = Plausible(written.exposure_time_s, kTimes);
+  if (label && std::abs(std::log2(*label / *by_angle)) > kLabelsStrayStops) {
+    warnings.push_back({"exposure_tags_disagree", subject,
+                        "its exposure time says " + RoundedText(*label, 4) +
+                            " s, its shutter angle at its frame rate " + RoundedText(*by_angle, 4) +
+                            " s; neither is believed: give it with the session or the command "
+                            "line"});
+    exposure.time.reset();
+    return;
+  }
+  exposure.time = Seconds(*by_angle);
+  exposure.time_snapped = false;
+}
+
+void TakeTStop(const WrittenExposure& written, FrameExposure& exposure, const std::string& subject,
+               Warnings& warnings) {
+  const auto t_stop = Plausible(written.t_stop, kTStops);
+  if (!t_stop) return;
+  if (exposure.f_number && !kTOverN.Holds(*t_stop / *exposure.f_number)) {
+    warnings.push_back({"exposure_tags_disagree", subject,
+                        "no lens of f/" + RoundedText(*exposure.f_number, 3) + " is T" +
+                            RoundedText(*t_stop, 3) +
+                            "; neither is believed: give --f-number or --t-stop"});
+    exposure.f_number.reset();
+    return;
+  }
+  exposure.t_stop = t_stop;
+}
+
 const Scale& TimeScale() {
   static const Scale scale{"exposure time in seconds", kTimes,
                            [](double t) { return -std::log2(t); },
@@ -109,6 +156,8 @@ FrameExposure ExposureFromTags(const WrittenExposure& written, const std::string
   exposure.f_number = f_number.value;
   exposure.f_number_snapped = f_number.snapped;
   exposure.iso = Plausible(written.iso, kIsos);
+  PreferAngle(written, exposure, subject, warnings);
+  TakeTStop(written, exposure, subject, warnings);
   return exposure;
 }
 

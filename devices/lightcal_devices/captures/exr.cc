@@ -3,8 +3,11 @@
 
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfRationalAttribute.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -14,8 +17,11 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lightcal_devices/captures/exposure_tags.h"
@@ -46,12 +52,38 @@ Result<void> TakeColor(const Imf::Header& header, FrameInfo& info) {
   return {};
 }
 
+// A finite number of any of the types such attributes have.
+std::optional<double> NumberOf(const Imf::Header& header, const char* name) {
+  double number = std::numeric_limits<double>::quiet_NaN();
+  if (const auto* real = header.findTypedAttribute<Imf::FloatAttribute>(name)) {
+    number = real->value();
+  } else if (const auto* whole = header.findTypedAttribute<Imf::IntAttribute>(name)) {
+    number = whole->value();
+  } else if (const auto* ratio = header.findTypedAttribute<Imf::RationalAttribute>(name)) {
+    number = static_cast<double>(ratio->value());
+  }
+  return std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
 void TakeExposure(const Imf::Header& header, FrameInfo& info) {
   WrittenExposure written;
   if (Imf::hasExpTime(header)) written.exposure_time_s = Imf::expTime(header);
   if (Imf::hasAperture(header)) written.f_number = Imf::aperture(header);
   if (Imf::hasIsoSpeed(header)) written.iso = Imf::isoSpeed(header);
+  // Standard attributes of OpenEXR 3.2 that 3.1 reads as any other; the frame rate is older.
+  written.t_stop = NumberOf(header, "tStop");
+  written.shutter_angle_deg = NumberOf(header, "shutterAngle");
+  written.frames_per_second = NumberOf(header, "captureRate");
+  if (!written.frames_per_second) {
+    written.frames_per_second = NumberOf(header, "framesPerSecond");
+  }
   info.exposure = ExposureFromTags(written, info.file, info.warnings);
+  auto focal_mm = NumberOf(header, "effectiveFocalLength");
+  if (!focal_mm) focal_mm = NumberOf(header, "nominalFocalLength");
+  if (focal_mm && *focal_mm > 0.0) info.focal_length = Metres(*focal_mm * 1e-3);
+  if (const auto counter = NumberOf(header, "imageCounter")) {
+    info.image_counter = static_cast<int>(*counter);
+  }
   if (Imf::hasFocus(header) && Imf::focus(header) > 0.0F && std::isfinite(Imf::focus(header))) {
     info.subject_distance = Metres(Imf::focus(header));
   }
@@ -142,25 +174,42 @@ Result<Chosen> DescribeHeader(const Imf::Header& header, FrameInfo& info) {
   return chosen;
 }
 
-using Floats = std::shared_ptr<std::vector<float>>;
+// Where the samples go, all of one picture.
+struct Floats {
+  std::shared_ptr<void> owner;
+  float* data = nullptr;
+};
 
-Floats ReadPlain(Imf::InputFile& file, const Chosen& chosen, const FrameInfo& info) {
+Result<Floats> Room(const FrameInfo& info, SampleStore store) {
+  const std::size_t samples = static_cast<std::size_t>(info.width) *
+                              static_cast<std::size_t>(info.height) *
+                              static_cast<std::size_t>(info.channels);
+  if (store == SampleStore::kMemory) {
+    // Not cleared: what a damaged file promises but does not hold costs no memory.
+    auto memory = std::make_shared_for_overwrite<float[]>(samples);
+    float* const data = memory.get();
+    return Floats{std::move(memory), data};
+  }
+  auto scratch = MapScratchFile(samples * sizeof(float));
+  if (!scratch) return Propagate(std::move(scratch));
+  auto* const data = static_cast<float*>(scratch->get());
+  return Floats{std::move(*scratch), data};
+}
+
+void ReadPlain(Imf::InputFile& file, const Chosen& chosen, const FrameInfo& info, float* samples) {
   const Imath::Box2i window = file.header().dataWindow();
   const std::size_t pixel = sizeof(float) * info.channels;
-  auto samples = std::make_shared<std::vector<float>>(static_cast<std::size_t>(info.width) *
-                                                      info.height * info.channels);
   Imf::FrameBuffer buffer;
   for (std::size_t c = 0; c < chosen.names.size(); ++c) {
-    buffer.insert(chosen.names[c], Imf::Slice::Make(Imf::FLOAT, samples->data() + c, window, pixel,
+    buffer.insert(chosen.names[c], Imf::Slice::Make(Imf::FLOAT, samples + c, window, pixel,
                                                     pixel * static_cast<std::size_t>(info.width)));
   }
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
-  return samples;
 }
 
 // OpenEXR's own reconstruction of chroma.
-Floats ReadLuminanceChroma(const std::string& path, const FrameInfo& info) {
+void ReadLuminanceChroma(const std::string& path, const FrameInfo& info, float* samples) {
   Imf::RgbaInputFile file(path.c_str());
   const Imath::Box2i window = file.dataWindow();
   Imf::Array2D<Imf::Rgba> pixels(info.height, info.width);
@@ -170,15 +219,12 @@ Floats ReadLuminanceChroma(const std::string& path, const FrameInfo& info) {
       sizeof(Imf::Rgba) * (window.min.x + static_cast<std::intptr_t>(window.min.y) * info.width);
   file.setFrameBuffer(reinterpret_cast<Imf::Rgba*>(origin), 1, info.width);
   file.readPixels(window.min.y, window.max.y);
-  auto samples = std::make_shared<std::vector<float>>();
-  samples->reserve(static_cast<std::size_t>(info.width) * info.height * 3);
   for (int y = 0; y < info.height; ++y) {
     for (int x = 0; x < info.width; ++x) {
       const Imf::Rgba& p = pixels[y][x];
-      samples->insert(samples->end(), {float(p.r), float(p.g), float(p.b)});
+      for (const float channel : {float(p.r), float(p.g), float(p.b)}) *samples++ = channel;
     }
   }
-  return samples;
 }
 
 // Runs `read(file, chosen, info)` over the opened file; OpenEXR speaks in exceptions.
@@ -206,13 +252,19 @@ Result<FrameInfo> ReadExrInfo(const std::string& path) {
       [](Imf::InputFile&, const Chosen&, FrameInfo info) -> Result<FrameInfo> { return info; });
 }
 
-Result<Frame> ReadExr(const std::string& path) {
+Result<Frame> ReadExr(const std::string& path, SampleStore store) {
   return WithFile<Frame>(
       path, [&](Imf::InputFile& file, const Chosen& chosen, FrameInfo info) -> Result<Frame> {
-        const Floats samples = chosen.luminance_chroma ? ReadLuminanceChroma(path, info)
-                                                       : ReadPlain(file, chosen, info);
-        const View2d<const float> view(samples->data(), info.width, info.height, info.channels);
-        return Frame{std::move(info), view, samples};
+        auto room = Room(info, store);
+        if (!room) return Propagate(std::move(room));
+        if (chosen.luminance_chroma) {
+          ReadLuminanceChroma(path, info, room->data);
+        } else {
+          ReadPlain(file, chosen, info, room->data);
+        }
+        const View2d<const float> view(room->data, info.width, info.height, info.channels);
+        return Frame{std::move(info), view, std::move(room->owner),
+                     store == SampleStore::kScratchFile};
       });
 }
 

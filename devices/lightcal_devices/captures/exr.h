@@ -7,10 +7,11 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
+#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 
 [[nodiscard]] Result<FrameInfo> ReadExrInfo(const std::string& path);
-[[nodiscard]] Result<Frame> ReadExr(const std::string& path);
+[[nodiscard]] Result<Frame> ReadExr(const std::string& path, SampleStore store);
 
 }  // namespace lightcal

@@ -13,53 +13,69 @@
 namespace lightcal {
 namespace {
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  ~FileDescriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 std::shared_ptr<void> Map(int fd, std::size_t size, int protection, int flags) {
   void* const address = mmap(nullptr, size, protection, flags, fd, 0);
   if (address == MAP_FAILED) return nullptr;
   return {address, [size](void* bytes) { munmap(bytes, size); }};
 }
 
-}  // namespace
-
-Result<std::shared_ptr<void>> MapScratchFile(std::size_t bytes) {
+std::string ScratchDirectory() {
   const char* const wanted =
       std::getenv("TMPDIR");  // NOLINT(concurrency-mt-unsafe): nobody sets it
-  const std::string directory = wanted != nullptr && *wanted != '\0' ? wanted : "/var/tmp";
-  std::string name = directory + "/lightcal-XXXXXX";
-  const FileDescriptor fd(mkostemp(name.data(), O_CLOEXEC));
-  const auto no_space = [&] {
-    return Failed("no_scratch_space", directory,
-                  std::string("cannot hold ") + std::to_string(bytes >> 20) + " MiB of samples (" +
-                      std::strerror(errno) + "); set TMPDIR to a directory with room");
-  };
-  if (fd.get() < 0) return no_space();
-  unlink(name.c_str());
-  // Reserved now, so that a full disk is an error here and not a signal later.
-  if (const int error = posix_fallocate(fd.get(), 0, static_cast<off_t>(bytes)); error != 0) {
-    errno = error;
-    return no_space();
+  return wanted != nullptr && *wanted != '\0' ? wanted : "/var/tmp";
+}
+
+tl::unexpected<Error> NoSpace(const std::string& what) {
+  return Failed("no_scratch_space", ScratchDirectory(),
+                "cannot hold " + what + " (" + std::strerror(errno) +
+                    "); set TMPDIR to a directory with room");
+}
+
+}  // namespace
+
+Scratch::~Scratch() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+Result<Scratch> OpenScratch(ScratchPlace place) {
+  if (place == ScratchPlace::kMemory) {
+    Scratch memory(memfd_create("lightcal", MFD_CLOEXEC));
+    if (memory.get() < 0) return NoSpace("samples in memory");
+    return memory;
   }
-  std::shared_ptr<void> mapped = Map(fd.get(), bytes, PROT_READ | PROT_WRITE, MAP_SHARED);
-  if (!mapped) return no_space();
+  std::string name = ScratchDirectory() + "/lightcal-XXXXXX";
+  Scratch disk(mkostemp(name.data(), O_CLOEXEC));
+  if (disk.get() < 0) return NoSpace("a file");
+  unlink(name.c_str());
+  return disk;
+}
+
+Result<std::shared_ptr<void>> MapScratchFile(std::size_t bytes) {
+  const auto scratch = OpenScratch(ScratchPlace::kDisk);
+  if (!scratch) return tl::unexpected(scratch.error());
+  const std::string what = std::to_string(bytes >> 20) + " MiB of samples";
+  // Reserved now, so that a full disk is an error here and not a signal later.
+  if (const int error = posix_fallocate(scratch->get(), 0, static_cast<off_t>(bytes)); error != 0) {
+    errno = error;
+    return NoSpace(what);
+  }
+  std::shared_ptr<void> mapped = Map(scratch->get(), bytes, PROT_READ | PROT_WRITE, MAP_SHARED);
+  if (!mapped) return NoSpace(what);
   return mapped;
 }
 
+Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject) {
+  struct stat about{};
+  if (fstat(scratch.get(), &about) != 0) return Failed("unreadable", subject, std::strerror(errno));
+  if (about.st_size == 0) return MappedFile{};
+  const auto size = static_cast<std::size_t>(about.st_size);
+  std::shared_ptr<void> mapped = Map(scratch.get(), size, PROT_READ, MAP_SHARED);
+  if (!mapped) return Failed("unreadable", subject, std::strerror(errno));
+  return MappedFile{std::move(mapped), size};
+}
+
 Result<MappedFile> MapFile(const std::string& path) {
-  const FileDescriptor fd(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Scratch fd(open(path.c_str(), O_RDONLY | O_CLOEXEC));
   struct stat about{};
   if (fd.get() < 0 || fstat(fd.get(), &about) != 0) {
     return Failed(errno == ENOENT ? "not_found" : "unreadable", path, std::strerror(errno));

@@ -5,13 +5,29 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "lightcal/core/result.h"
 
 namespace lightcal {
 
-// `bytes` writable bytes (at least 1) in a file that has no name any more, in $TMPDIR or /var/tmp;
-// released with the last copy. Fails: no_scratch_space.
+// An open file that has no name: in memory, or in $TMPDIR or /var/tmp, from where the system drops
+// its pages when memory is short. Closed with the last copy of the owner. Fails: no_scratch_space.
+enum class ScratchPlace { kMemory, kDisk };
+class Scratch {
+ public:
+  explicit Scratch(int descriptor) : descriptor_(descriptor) {}
+  ~Scratch();
+  Scratch(Scratch&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+  Scratch& operator=(Scratch&&) = delete;
+  [[nodiscard]] int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+[[nodiscard]] Result<Scratch> OpenScratch(ScratchPlace place);
+
+// `bytes` writable bytes (at least 1) of such a file on disk. Fails: no_scratch_space.
 [[nodiscard]] Result<std::shared_ptr<void>> MapScratchFile(std::size_t bytes);
 
 // The bytes of a file, for reading. Fails: not_found, unreadable. Refused: bad_picture (empty).
@@ -20,5 +36,9 @@ struct MappedFile {
   std::size_t size = 0;
 };
 [[nodiscard]] Result<MappedFile> MapFile(const std::string& path);
+
+// What was written to a scratch file; `bytes` is null and size 0 where that is nothing.
+// Fails: unreadable, about `subject`.
+[[nodiscard]] Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject);
 
 }  // namespace lightcal

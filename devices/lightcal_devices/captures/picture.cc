@@ -138,16 +138,30 @@ bool JpegIsCut(std::string_view bytes) {
   return end == std::string_view::npos || end < at;
 }
 
-Result<Frame> FrameOf(OiioPicture picture, FrameInfo info) {
-  if (!picture.is_float) {
-    auto codes = std::make_shared<std::vector<std::uint16_t>>(std::move(picture.codes));
-    const View2d<const std::uint16_t> view(codes->data(), info.width, info.height, info.channels);
-    return Frame{std::move(info), view, std::move(codes)};
+// The samples, in their own memory or moved to a scratch file; they are given up here.
+template <class Sample>
+Result<Frame> Kept(std::vector<Sample> samples, FrameInfo info, SampleStore store) {
+  const auto view_of = [&info](const Sample* data) {
+    return View2d<const Sample>(data, info.width, info.height, info.channels);
+  };
+  if (store == SampleStore::kScratchFile) {
+    auto scratch = MapScratchFile(samples.size() * sizeof(Sample));
+    if (!scratch) return Propagate(std::move(scratch));
+    auto* const data = static_cast<Sample*>(scratch->get());
+    std::copy(samples.begin(), samples.end(), data);
+    const View2d<const Sample> view = view_of(data);
+    return Frame{std::move(info), view, std::move(*scratch), true};
   }
-  auto floats = std::make_shared<std::vector<float>>(std::move(picture.floats));
-  const View2d<const float> view(floats->data(), info.width, info.height, info.channels);
+  auto owner = std::make_shared<std::vector<Sample>>(std::move(samples));
+  const View2d<const Sample> view = view_of(owner->data());
+  return Frame{std::move(info), view, std::move(owner)};
+}
+
+Result<Frame> FrameOf(OiioPicture picture, FrameInfo info, SampleStore store) {
+  if (!picture.is_float) return Kept(std::move(picture.codes), std::move(info), store);
+  const View2d<const float> view(picture.floats.data(), info.width, info.height, info.channels);
   if (auto ok = CheckSamples(view, info.file); !ok) return Propagate(std::move(ok));
-  return Frame{std::move(info), view, std::move(floats)};
+  return Kept(std::move(picture.floats), std::move(info), store);
 }
 
 struct Opened {
@@ -185,11 +199,11 @@ Result<FrameInfo> ReadPictureInfo(const std::string& path) {
   return Describe(*picture, path, opened->format, opened->bytes());
 }
 
-Result<Frame> ReadPicture(const std::string& path) {
+Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
   auto opened = Open(path);
   if (!opened) return Propagate(std::move(opened));
   if (opened->format == "exr") {
-    auto frame = ReadExr(path);
+    auto frame = ReadExr(path, store);
     if (!frame) return frame;
     const auto& view = std::get<View2d<const float>>(frame->samples);
     if (auto ok = CheckSamples(view, path); !ok) return Propagate(std::move(ok));
@@ -199,7 +213,7 @@ Result<Frame> ReadPicture(const std::string& path) {
   if (!picture) return Propagate(std::move(picture));
   auto info = Describe(*picture, path, opened->format, opened->bytes());
   if (!info) return Propagate(std::move(info));
-  return FrameOf(std::move(*picture), std::move(*info));
+  return FrameOf(std::move(*picture), std::move(*info), store);
 }
 
 }  // namespace lightcal

@@ -12,6 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/frame.h"
+#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 
@@ -21,9 +22,10 @@ namespace lightcal {
 
 // The whole picture: float for kLinear, uint16 codes (8 bit ones as 0..255) for kEncoded. An EXR of
 // luminance and subsampled chroma comes as RGB. Alpha and other channels that are no colour are
-// left out.
+// left out. Fails besides: no_scratch_space.
 // Refused besides: bad_samples (NaN, infinity or a value beyond 1e30, named with place and count).
-[[nodiscard]] Result<Frame> ReadPicture(const std::string& path);
+[[nodiscard]] Result<Frame> ReadPicture(const std::string& path,
+                                        SampleStore store = SampleStore::kMemory);
 
 // An OpenEXR file of 32 bit floats, scanlines, written by OpenEXR.
 struct ExrPicture {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera RAW and DNG files -> sensor values with their levels and exposure (LibRaw).
+// Camera RAW and DNG files -> sensor values with their levels and exposure (LibRaw, in a process of
+// its own: a file made to harm ends that process and is refused).
 #pragma once
 
 #include <string>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
+#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 
@@ -14,15 +16,12 @@ namespace lightcal {
 
 // The file's tags only: no sample is decoded.
 // Fails: not_found, unreadable. Refused: unknown_format, bad_picture (truncated or corrupt),
-// unsupported_picture (float or layered RAW that LibRaw cannot give as sensor values).
+// unsupported_picture (float or layered RAW that LibRaw cannot give as sensor values). Fails
+// besides: no_process.
 [[nodiscard]] Result<FrameInfo> ReadRawInfo(const std::string& path);
 
-// Where decoded samples live. A scratch file is mapped and already deleted: the system drops its
-// pages when memory is short, so that any number of frames can be open at once.
-enum class SampleStore { kMemory, kScratchFile };
-
 // The sensor values themselves: uint16, the active area, black not subtracted, nothing scaled,
-// demosaiced or clamped; without a copy from LibRaw's buffer (kMemory).
+// demosaiced or clamped.
 // Fails and refuses as ReadRawInfo; Fails: no_scratch_space.
 [[nodiscard]] Result<Frame> ReadRaw(const std::string& path,
                                     SampleStore store = SampleStore::kMemory);

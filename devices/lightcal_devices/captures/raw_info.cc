@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/captures/raw_info.h"
 
-#include <libraw/libraw.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <string_view>
 
@@ -23,7 +22,7 @@ constexpr double kUnknownDistance = 0.0, kInfiniteDistance = 4294967295.0;
 // LibRaw's colour number (0 to 3, the second green being its own) of a place of the picture.
 int LibRawColor(const libraw_iparams_t& camera, int x, int y) {
   if (camera.filters == kNoFilters) return 0;
-  if (camera.filters == kXTrans) return camera.xtrans[y % 6][x % 6];
+  if (camera.filters == kXTrans) return camera.xtrans[y % 6][x % 6] & 3;
   return camera.filters >> (((y << 1 & 14) | (x & 1)) << 1) & 3;
 }
 
@@ -184,16 +183,17 @@ void FillFromLibRaw(const libraw_imgother_t& other, WrittenExposure& written) {
 }
 
 std::string CameraName(const libraw_iparams_t& camera) {
-  const std::string_view make(camera.make), model(camera.model);
+  const std::string_view make(camera.make, strnlen(camera.make, sizeof(camera.make)));
+  const std::string_view model(camera.model, strnlen(camera.model, sizeof(camera.model)));
   if (make.empty() || model.starts_with(make)) return std::string(model);
   return std::string(make) + " " + std::string(model);
 }
 
-}  // namespace
-
-SensorLevels SensorLevelsOf(const LibRaw& raw, const Periodic2d<std::uint8_t>& cfa) {
-  const libraw_colordata_t& color = raw.imgdata.color;
-  const libraw_iparams_t& camera = raw.imgdata.idata;
+// Black, white and maximum as they stood at the end: LibRaw knows some only after it decoded the
+// samples.
+SensorLevels SensorLevelsOf(const RawAnswer& answer, const Periodic2d<std::uint8_t>& cfa) {
+  const libraw_colordata_t& color = answer.color;
+  const libraw_iparams_t& camera = answer.camera;
   // cblack[4], [5]: rows and columns of a further pattern from [6] on.
   const auto bounded = [](unsigned n) {
     constexpr unsigned kMost = LIBRAW_CBLACK_SIZE - 6;
@@ -226,8 +226,11 @@ SensorLevels SensorLevelsOf(const LibRaw& raw, const Periodic2d<std::uint8_t>& c
   return levels;
 }
 
-Result<FrameInfo> FrameInfoOf(const LibRaw& raw, const RawTags& tags, const std::string& path) {
-  const libraw_iparams_t& camera = raw.imgdata.idata;
+}  // namespace
+
+Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) {
+  const libraw_iparams_t& camera = answer.camera;
+  const RawTags& tags = answer.tags;
   if (camera.filters == kCatchlight || camera.is_foveon != 0) {
     return Refused("unsupported_picture", path,
                    "its sensor has neither a Bayer nor an X-Trans colour filter array; convert it "
@@ -237,32 +240,34 @@ Result<FrameInfo> FrameInfoOf(const LibRaw& raw, const RawTags& tags, const std:
   info.file = path;
   info.format = camera.dng_version != 0 ? "dng" : "raw";
   info.camera = CameraName(camera);
-  info.width = raw.imgdata.sizes.width;
-  info.height = raw.imgdata.sizes.height;
+  info.width = answer.sizes.width;
+  info.height = answer.sizes.height;
   info.meaning = camera.filters != kNoFilters ? SampleMeaning::kMosaic : SampleMeaning::kSensor;
   if (info.meaning == SampleMeaning::kMosaic) info.cfa = ColorFilterArray(camera);
   if (info.meaning == SampleMeaning::kSensor) info.channels = camera.colors == 1 ? 1 : 3;
-  info.levels = SensorLevelsOf(raw, info.cfa);
+  info.levels = SensorLevelsOf(answer, info.cfa);
 
   WrittenExposure written = tags.exposure;
-  FillFromLibRaw(raw.imgdata.other, written);
+  FillFromLibRaw(answer.other, written);
   info.exposure = ExposureFromTags(written, path, info.warnings);
-  if (raw.imgdata.other.focal_len > 0.0F) {
-    info.focal_length = Metres(raw.imgdata.other.focal_len * 1e-3);
+  if (answer.other.focal_len > 0.0F) {
+    info.focal_length = Metres(answer.other.focal_len * 1e-3);
   }
   const double distance = tags.subject_distance_m.value_or(kUnknownDistance);
   if (distance > kUnknownDistance && distance < kInfiniteDistance) {
     info.subject_distance = Metres(distance);
   }
-  info.time = IsoTimeFromExif(tags.time);
+  info.time = IsoTimeFromExif(
+      std::string(tags.time.begin(), std::find(tags.time.begin(), tags.time.end(), '\0')));
 
-  for (std::size_t i = 0; i + 1 < tags.noise_profile.size(); i += 2) {
+  const auto numbers = static_cast<std::size_t>(std::clamp(tags.noise_numbers, 0, 8));
+  for (std::size_t i = 0; i + 1 < numbers; i += 2) {
     info.noise.push_back({tags.noise_profile[i], tags.noise_profile[i + 1]});
   }
-  TakeDngColors(raw.imgdata.color, info);
-  if (!info.matrices) TakeBuiltInColors(raw.imgdata.color, info);
-  TakeNeutral(raw.imgdata.color, info);
-  const double baseline = raw.imgdata.color.dng_levels.baseline_exposure;
+  TakeDngColors(answer.color, info);
+  if (!info.matrices) TakeBuiltInColors(answer.color, info);
+  TakeNeutral(answer.color, info);
+  const double baseline = answer.color.dng_levels.baseline_exposure;
   if (std::abs(baseline) <= kMostBaselineStops) info.baseline_exposure_ev = baseline;
   info.lens_shading_in_opcodes = tags.has_gain_map;
   return info;

@@ -10,11 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 
 namespace lightcal {
 namespace {
 
-constexpr std::size_t kMostNumbers = 8;  // four planes of noise profile
+constexpr std::size_t kMostNumbers = std::tuple_size_v<decltype(RawTags::noise_profile)>;
 constexpr std::size_t kMostStrips = 1 << 20;
 constexpr std::size_t kMostOpcodeBytes = 65536;  // a gain map's header stands at the front
 
@@ -119,9 +120,11 @@ struct TagData {
     const std::vector<double> numbers = Numbers();
     return numbers.empty() ? std::nullopt : std::optional(numbers.front());
   }
-  [[nodiscard]] std::string Text() const {
-    const std::vector<unsigned char> bytes = Bytes(32);
-    return {bytes.begin(), std::find(bytes.begin(), bytes.end(), 0)};
+  [[nodiscard]] std::array<char, 32> Text() const {
+    std::array<char, 32> text{};
+    const std::vector<unsigned char> bytes = Bytes(text.size() - 1);
+    std::copy(bytes.begin(), std::find(bytes.begin(), bytes.end(), 0), text.begin());
+    return text;
   }
 };
 
@@ -149,7 +152,13 @@ void Append(std::vector<double>& all, const std::vector<double>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-void Take(RawTags& tags, int tag, const TagData& data) {
+void TakeNoise(const std::vector<double>& numbers, RawTags& tags) {
+  tags.noise_numbers = static_cast<int>(numbers.size());
+  std::copy(numbers.begin(), numbers.end(), tags.noise_profile.begin());
+}
+
+void Take(RawTagWalk& walk, int tag, const TagData& data) {
+  RawTags& tags = walk.tags;
   switch (tag) {
     case kExposureTime:
       return KeepFirst(tags.exposure.exposure_time_s, data.First());
@@ -171,16 +180,16 @@ void Take(RawTags& tags, int tag, const TagData& data) {
       tags.time = data.Text();
       return;
     case kDateTime:
-      if (tags.time.empty()) tags.time = data.Text();
+      if (tags.time[0] == '\0') tags.time = data.Text();
       return;
     case kStripOffsets:
     case kTileOffsets:
-      return Append(tags.data_offsets, data.Numbers(kMostStrips));
+      return Append(walk.data_offsets, data.Numbers(kMostStrips));
     case kStripByteCounts:
     case kTileByteCounts:
-      return Append(tags.data_sizes, data.Numbers(kMostStrips));
+      return Append(walk.data_sizes, data.Numbers(kMostStrips));
     case kNoiseProfile:
-      if (tags.noise_profile.empty()) tags.noise_profile = data.Numbers();
+      if (tags.noise_numbers == 0) TakeNoise(data.Numbers(), tags);
       return;
     case kOpcodeList2:
     case kOpcodeList3:
@@ -198,20 +207,20 @@ void OnTag(void* context, int tag, int type, int count, unsigned order, void* st
   constexpr unsigned kLittleEndian = 0x4949;
   const TagData data{type, count, order == kLittleEndian,
                      *static_cast<LibRaw_abstract_datastream*>(stream)};
-  auto& tags = *static_cast<RawTags*>(context);
-  ++tags.count;
-  Take(tags, tag & 0xFFFF, data);
+  auto& walk = *static_cast<RawTagWalk*>(context);
+  ++walk.count;
+  Take(walk, tag & 0xFFFF, data);
 }
 
 }  // namespace
 
-double RawTags::EndOfData() const {
+double RawTagWalk::EndOfData() const {
   double end = 0.0;
   const std::size_t pairs = std::min(data_offsets.size(), data_sizes.size());
   for (std::size_t i = 0; i < pairs; ++i) end = std::max(end, data_offsets[i] + data_sizes[i]);
   return end;
 }
 
-void CollectTags(LibRaw& raw, RawTags& tags) { raw.set_exifparser_handler(OnTag, &tags); }
+void CollectTags(LibRaw& raw, RawTagWalk& walk) { raw.set_exifparser_handler(OnTag, &walk); }
 
 }  // namespace lightcal

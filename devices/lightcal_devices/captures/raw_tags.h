@@ -2,8 +2,8 @@
 // The tags of a camera RAW that LibRaw does not keep, collected while it walks the file.
 #pragma once
 
+#include <array>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "lightcal/records/frame.h"
@@ -12,13 +12,20 @@ class LibRaw;
 
 namespace lightcal {
 
+// Plain data: it crosses from one process to another.
 struct RawTags {
   WrittenExposure exposure;
   std::optional<double> subject_distance_m;
-  std::string time;                   // as EXIF writes it
-  std::vector<double> noise_profile;  // scale and offset of each plane
-  bool has_gain_map = false;          // lens shading that a reader is asked to apply
-  int count = 0;                      // tags seen: none means that the file is no TIFF at all
+  std::array<char, 32> time{};            // as EXIF writes it
+  std::array<double, 8> noise_profile{};  // scale and offset of each plane
+  int noise_numbers = 0;                  // of these
+  bool has_gain_map = false;              // lens shading that a reader is asked to apply
+};
+
+// What the walk through a file collects.
+struct RawTagWalk {
+  RawTags tags;
+  int count = 0;  // tags seen: none means that the file is no TIFF at all
   // Where the picture's data should lie, strip by strip or tile by tile, of every directory.
   std::vector<double> data_offsets, data_sizes;
 
@@ -26,7 +33,7 @@ struct RawTags {
   [[nodiscard]] double EndOfData() const;
 };
 
-// Fills `tags` while `raw` opens a file; `tags` must outlive that.
-void CollectTags(LibRaw& raw, RawTags& tags);
+// Fills `walk` while `raw` opens a file; `walk` must outlive that.
+void CollectTags(LibRaw& raw, RawTagWalk& walk);
 
 }  // namespace lightcal

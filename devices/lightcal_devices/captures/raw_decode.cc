@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/captures/raw_decode.h"
+
+#include <libraw/libraw.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/raw_answer.h"
+
+namespace lightcal {
+namespace {
+
+constexpr unsigned kMostDecodedMegabytes = 2048;
+// No RAW packs more pixels into a byte; one that says so is damaged, and would cost minutes.
+constexpr double kMostPixelsPerByte = 32.0;
+
+// A LibRaw over a mapped file. It never moves: LibRaw keeps pointers into it.
+struct OpenRaw {
+  MappedFile file;
+  RawTagWalk walk;
+  LibRaw raw;
+  bool data_error = false;  // LibRaw goes on after damaged data; we do not
+};
+
+tl::unexpected<Error> CutShort(const std::string& path) {
+  return Refused("bad_picture", path,
+                 "the file is damaged or cut short; copy it from the card again");
+}
+
+Result<void> Checked(int error, const OpenRaw& open, const std::string& path) {
+  if (error == LIBRAW_SUCCESS && !open.data_error) return {};
+  switch (error) {
+    case LIBRAW_FILE_UNSUPPORTED:
+      return Refused("unknown_format", path, "no camera RAW that LibRaw knows");
+    case LIBRAW_TOO_BIG:
+    case LIBRAW_UNSUFFICIENT_MEMORY:
+      return Refused("too_large", path, "its samples would need more than 2 GiB");
+    case LIBRAW_REQUEST_FOR_NONEXISTENT_IMAGE:
+    case LIBRAW_OUT_OF_ORDER_CALL:
+    case LIBRAW_NOT_IMPLEMENTED:
+      return Refused("unsupported_picture", path,
+                     std::string("LibRaw cannot decode this kind of RAW (") +
+                         libraw_strerror(error) + "); convert it to a DNG without compression");
+    default:
+      return Refused(
+          "bad_picture", path,
+          std::string("the file is damaged or cut short") +
+              (error != LIBRAW_SUCCESS ? std::string(" (LibRaw: ") + libraw_strerror(error) + ")"
+                                       : std::string()) +
+              "; copy it from the card again");
+  }
+}
+
+Result<void> Open(const std::string& path, OpenRaw& open) {
+  auto mapped = MapFile(path);
+  if (!mapped) return Propagate(std::move(mapped));
+  open.file = std::move(*mapped);
+  LibRaw& raw = open.raw;
+  raw.set_dataerror_handler([](void* flag, const char*, int) { *static_cast<bool*>(flag) = true; },
+                            &open.data_error);
+  raw.set_memerror_handler([](void*, const char*, const char*) {}, nullptr);
+  CollectTags(raw, open.walk);
+  raw.imgdata.params.raw_processing_options &=
+      ~static_cast<unsigned>(LIBRAW_PROCESSING_CONVERTFLOAT_TO_INT);
+  raw.imgdata.params.max_raw_memory_mb = kMostDecodedMegabytes;
+  // LibRaw's own pick of a white level from the brightest pixel differs from frame to frame.
+  raw.imgdata.params.adjust_maximum_thr = 0.0F;
+  const int error =
+      raw.open_buffer(const_cast<void*>(open.file.bytes.get()), open.file.size);  // only read
+  if (error != LIBRAW_SUCCESS && open.walk.count == 0) {
+    return Refused("unknown_format", path, "no camera RAW that LibRaw knows");
+  }
+  if (auto ok = Checked(error, open, path); !ok) return ok;
+  const double pixels = 1.0 * raw.imgdata.sizes.raw_width * raw.imgdata.sizes.raw_height;
+  if (pixels > kMostPixelsPerByte * static_cast<double>(open.file.size)) return CutShort(path);
+  // LibRaw fills what is missing at the end of a compressed DNG with grey and says nothing.
+  if (raw.imgdata.idata.dng_version != 0 &&
+      open.walk.EndOfData() > static_cast<double>(open.file.size)) {
+    return CutShort(path);
+  }
+  return {};
+}
+
+Result<void> Write(int descriptor, std::size_t at, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = pwrite(descriptor, bytes, size, static_cast<off_t>(at));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      return Failed("no_scratch_space", "samples",
+                    std::string("cannot be kept (") + std::strerror(errno) +
+                        "); set TMPDIR to a directory with room");
+    }
+    bytes += written;
+    at += static_cast<std::size_t>(written);
+    size -= static_cast<std::size_t>(written);
+  }
+  return {};
+}
+
+// Whole rows of one sample a pixel, as LibRaw holds them.
+template <class Sample>
+Result<void> WriteRows(const Sample* samples, const libraw_image_sizes_t& sizes, int descriptor,
+                       RawAnswer& answer) {
+  answer.samples = sizeof(Sample) == 2 ? RawAnswer::Samples::kUint16 : RawAnswer::Samples::kFloat;
+  answer.row_bytes = sizes.raw_pitch;
+  answer.left_bytes = static_cast<std::int64_t>(sizes.left_margin * sizeof(Sample));
+  const auto* bytes = reinterpret_cast<const char*>(samples);
+  return Write(descriptor, kSamplesAt, bytes + sizes.top_margin * std::size_t{sizes.raw_pitch},
+               sizes.height * std::size_t{sizes.raw_pitch});
+}
+
+// Pixels of four colours LibRaw holds, as the channels lightcal has.
+template <class Pixel>
+Result<void> WriteColors(const Pixel* pixels, const libraw_image_sizes_t& sizes, int channels,
+                         int descriptor, RawAnswer& answer) {
+  answer.samples = RawAnswer::Samples::kUint16;
+  answer.channels = channels;
+  std::vector<std::uint16_t> copy;
+  copy.reserve(std::size_t{sizes.width} * sizes.height * static_cast<std::size_t>(channels));
+  for (std::size_t y = 0; y < sizes.height; ++y) {
+    const Pixel* row = pixels + (y + sizes.top_margin) * sizes.raw_width + sizes.left_margin;
+    for (std::size_t x = 0; x < sizes.width; ++x) {
+      copy.insert(copy.end(), row[x], row[x] + channels);
+    }
+  }
+  answer.row_bytes =
+      static_cast<std::int64_t>(2 * std::size_t{sizes.width} * static_cast<std::size_t>(channels));
+  return Write(descriptor, kSamplesAt, copy.data(), 2 * copy.size());
+}
+
+Result<void> WriteSamples(OpenRaw& open, const std::string& path, int descriptor,
+                          RawAnswer& answer) {
+  if (auto ok = Checked(open.raw.unpack(), open, path); !ok) return ok;
+  const libraw_rawdata_t& data = open.raw.imgdata.rawdata;
+  const libraw_image_sizes_t& sizes = open.raw.imgdata.sizes;
+  const int channels = open.raw.imgdata.idata.colors == 1 ? 1 : 3;
+  if (data.raw_image != nullptr) return WriteRows(data.raw_image, sizes, descriptor, answer);
+  if (data.float_image != nullptr && (open.raw.imgdata.idata.filters != 0 || channels == 1)) {
+    return WriteRows(data.float_image, sizes, descriptor, answer);
+  }
+  if (data.color3_image != nullptr) {
+    return WriteColors(data.color3_image, sizes, channels, descriptor, answer);
+  }
+  if (data.color4_image != nullptr) {
+    return WriteColors(data.color4_image, sizes, channels, descriptor, answer);
+  }
+  return Refused("unsupported_picture", path,
+                 "LibRaw gives no sensor values for this kind of RAW; convert it to a DNG");
+}
+
+Result<void> Decode(const std::string& path, bool with_samples, int descriptor, RawAnswer& answer) {
+  const auto open = std::make_unique<OpenRaw>();
+  if (auto ok = Open(path, *open); !ok) return ok;
+  if (with_samples) {
+    if (auto ok = WriteSamples(*open, path, descriptor, answer); !ok) return ok;
+  }
+  const libraw_data_t& data = open->raw.imgdata;
+  answer.sizes = data.sizes;
+  answer.camera = data.idata;
+  answer.color = data.color;
+  answer.other = data.other;
+  answer.tags = open->walk.tags;
+  return {};
+}
+
+template <std::size_t N>
+void Copy(const std::string& text, std::array<char, N>& to) {
+  std::copy_n(text.begin(), std::min(text.size(), N - 1), to.begin());
+}
+
+void Describe(const Error& error, RawAnswer& answer) {
+  answer.is_error = true;
+  answer.error_kind = error.kind;
+  Copy(error.code, answer.code);
+  Copy(error.message, answer.message);
+}
+
+}  // namespace
+
+void DecodeRaw(const std::string& path, bool with_samples, int descriptor) noexcept {
+  const auto answer = std::make_unique<RawAnswer>();
+  // LibRaw throws from a few of its readers.
+  try {
+    const auto done = Decode(path, with_samples, descriptor, *answer);
+    if (!done) Describe(done.error(), *answer);
+  } catch (const std::exception& error) {
+    Describe({ErrorKind::kRefused, "bad_picture", path,
+              std::string("LibRaw cannot read it: ") + error.what()},
+             *answer);
+  } catch (...) {
+    Describe({ErrorKind::kRefused, "bad_picture", path, "LibRaw cannot read it"}, *answer);
+  }
+  static_cast<void>(Write(descriptor, 0, answer.get(), sizeof(RawAnswer)));
+}
+
+}  // namespace lightcal

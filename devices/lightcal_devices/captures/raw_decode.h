@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of reading a RAW that foreign code does. It runs in a process of its own: LibRaw 0.20.2
+// reads outside its memory on damaged files (see lib/DECISIONS.md).
+#pragma once
+
+#include <string>
+
+namespace lightcal {
+
+// Opens the RAW with LibRaw and writes a RawAnswer, and where asked its samples, to the file
+// descriptor. Never throws; what goes wrong is in the answer, as raw.h says.
+void DecodeRaw(const std::string& path, bool with_samples, int descriptor) noexcept;
+
+}  // namespace lightcal

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// An OpenEXR file out of any bytes: read with finite samples, or refused.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "lightcal_devices/captures/picture.h"
+#include "require.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using lightcal::fuzz::Require;
+  static const int file = memfd_create("fuzz", 0);
+  // The magic number stands, so that no other reader is asked.
+  static constexpr char kMagic[] = "\x76\x2f\x31\x01";
+  Require(ftruncate(file, 0) == 0);
+  Require(pwrite(file, kMagic, 4, 0) == 4);
+  Require(pwrite(file, data, size, 4) == static_cast<ssize_t>(size));
+  const auto frame = lightcal::ReadPicture("/proc/self/fd/" + std::to_string(file));
+  if (!frame) {
+    lightcal::fuzz::RequireGoodError(frame.error());
+    return 0;
+  }
+  const auto& view = std::get<lightcal::View2d<const float>>(frame->samples);
+  for (int y = 0; y < view.height(); ++y) {
+    for (const float sample : view.row(y)) Require(std::isfinite(sample));
+  }
+  return 0;
+}
