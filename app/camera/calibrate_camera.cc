@@ -74,6 +74,12 @@ class Calibrator {
 
  private:
   static tl::unexpected<Error> At(const CameraFramesDescription& what, Error error) {
+    if (error.code == "no_exposure_metadata") {
+      error.message =
+          "the frames do not say their exposure; give exposure_s = [..], f_number and iso in the "
+          "[[camera_frames]] (" +
+          error.message + ")";
+    }
     error.subject = what.where + " (" + error.subject + ")";
     return tl::unexpected(std::move(error));
   }
