@@ -42,6 +42,10 @@ Result<std::vector<OutputFile>> PresetFiles(const LightFile& lights, const std::
   for (const PresetTarget& target : *chosen) {
     auto preset = target.exporter(lights, stem, options);
     if (!preset) return Propagate(std::move(preset));
+    // A format nobody asked for says nothing of the lights it cannot hold.
+    if (targets.empty()) {
+      std::erase_if(preset->warnings, [](const Warning& w) { return w.code == "no_distribution"; });
+    }
     AddOnce(preset->warnings, warnings);
     for (PresetFile& file : preset->files) {
       files.push_back({std::move(file.name), std::move(file.contents)});

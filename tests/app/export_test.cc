@@ -37,7 +37,7 @@ TEST(ExportCommand, WritesEveryTargetNamedAfterTheJson) {
   const CliResult result = RunLightcal({"export", input, "-o", out, "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json document = json::parse(result.out);
-  EXPECT_EQ(document["files"].size(), 2U);
+  EXPECT_EQ(document["files"].size(), 6U) << "gltf, json, and .ies and .ldt of two lights";
   const json gltf = json::parse(ReadFile(out + "/lamp.gltf"));
   EXPECT_EQ(gltf["nodes"].size(), 5U) << "two lights, two cards, a camera";
   EXPECT_EQ(json::parse(ReadFile(out + "/lamp.preset.json"))["schema"], "lightcal.preset/1");

@@ -13,4 +13,11 @@ namespace lightcal {
 [[nodiscard]] Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
                                         const PresetOptions& options);
 
+// <stem>-<light>.ies, LM-63-2002, and .ldt, EULUMDAT (photometric.cc). A light at infinity has none
+// (no_distribution).
+[[nodiscard]] Result<Preset> ExportIes(const LightFile& lights, const std::string& stem,
+                                       const PresetOptions& options);
+[[nodiscard]] Result<Preset> ExportLdt(const LightFile& lights, const std::string& stem,
+                                       const PresetOptions& options);
+
 }  // namespace lightcal

@@ -116,7 +116,7 @@ std::string HeaderText(std::string_view bytes) {
   }
   std::ranges::replace_if(
       out, [](char c) { return static_cast<unsigned char>(c) < 0x20U || c == 0x7F; }, ' ');
-  return out;
+  return std::string(TrimBlanks(out));
 }
 
 std::string AsciiFromUtf8(std::string_view utf8) { return Narrowed(utf8, 0x7E); }

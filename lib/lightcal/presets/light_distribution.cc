@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/light_distribution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "lightcal/photometry/spot_cone.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kJumpDeg = 0.01;  // how steeply a table that ends in light goes dark
+
+std::vector<double> EvenAngles(double to, int steps) {
+  std::vector<double> out;
+  for (int i = 0; i <= steps; ++i) out.push_back(to * i / steps);
+  return out;
+}
+
+// Relative intensity at c and gamma, in degrees.
+using Profile = std::function<double(double, double)>;
+
+Result<IntensityTable> Sampled(std::vector<double> c_deg, std::vector<double> gamma_deg,
+                               double intensity_cd, const Profile& profile) {
+  IntensityGrid grid{GoniometerType::kC, std::move(c_deg), std::move(gamma_deg), {}};
+  for (const double c : grid.horizontal_deg) {
+    for (const double gamma : grid.vertical_deg) {
+      grid.candela.push_back(intensity_cd * std::max(0.0, profile(c, gamma)));
+    }
+  }
+  return IntensityTable::Make(std::move(grid), "light");
+}
+
+double Cosine(double degrees) {
+  // Exact where tables end.
+  return degrees == 90.0 ? 0.0 : std::cos(RadiansFromDegrees(degrees).value());
+}
+
+Result<IntensityTable> SpotTable(double intensity_cd, double inner_deg, double outer_deg) {
+  const SpotCone cone{RadiansFromDegrees(std::min(inner_deg, outer_deg)),
+                      RadiansFromDegrees(outer_deg)};
+  constexpr double kStepDeg = 0.5;
+  std::vector<double> gamma = {0.0};
+  if (inner_deg > 0.0 && inner_deg < outer_deg) gamma.push_back(inner_deg);
+  const double first = gamma.back();
+  const int steps = std::max(1, static_cast<int>(std::ceil((outer_deg - first) / kStepDeg)));
+  for (int i = 1; i <= steps; ++i) gamma.push_back(first + (outer_deg - first) * i / steps);
+  // A hard edge still needs room to fall in.
+  const bool hard = inner_deg >= outer_deg;
+  if (hard && outer_deg + kJumpDeg < 180.0) gamma.push_back(outer_deg + kJumpDeg);
+  if (gamma.back() < 180.0) gamma.push_back(180.0);
+  return Sampled({0.0}, std::move(gamma), intensity_cd, [&](double, double g) {
+    const SpotFalloff law = hard ? SpotFalloff::kHard : SpotFalloff::kSquaredLinear;
+    // Nodes on the rim itself count as inside.
+    if (hard && g <= outer_deg) return 1.0;
+    return SpotAttenuation(RadiansFromDegrees(g), cone, law);
+  });
+}
+
+}  // namespace
+
+Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp) {
+  const auto given = [](Result<IntensityTable>&& table) -> Result<std::optional<IntensityTable>> {
+    if (!table) return Propagate(std::move(table));
+    return std::optional<IntensityTable>(*std::move(table));
+  };
+  if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return std::nullopt;
+  const double cd = lamp.intensity_cd->value;
+  switch (lamp.kind) {
+    case LightKind::kSpot:
+    case LightKind::kPhotometric:
+      if (lamp.outer_deg && *lamp.outer_deg > 0.0) {
+        return given(SpotTable(cd, lamp.inner_deg.value_or(0.0), *lamp.outer_deg));
+      }
+      [[fallthrough]];
+    case LightKind::kPoint:
+    case LightKind::kSphere:
+      return given(Sampled({0.0}, EvenAngles(180.0, 36), cd, [](double, double) { return 1.0; }));
+    case LightKind::kDisk:
+    case LightKind::kRect:
+      return given(Sampled({0.0}, EvenAngles(180.0, 180), cd,
+                           [](double, double g) { return g < 90.0 ? Cosine(g) : 0.0; }));
+    case LightKind::kTube:
+      return given(Sampled(EvenAngles(90.0, 18), EvenAngles(180.0, 90), cd, [](double c, double g) {
+        const double along = Cosine(90.0 - g) * Cosine(90.0 - c);
+        return std::sqrt(std::max(0.0, 1.0 - along * along));
+      }));
+    case LightKind::kDirectional:
+    case LightKind::kDome:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fitted lamp's intensity by direction, as engines read it from a photometric file.
+#pragma once
+
+#include <optional>
+
+#include "lightcal/core/result.h"
+#include "lightcal/light/intensity_table.h"
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal {
+
+// Type C over the whole sphere, 0 to 180 degrees, with one value at nadir and one at zenith for all
+// planes; nothing beyond where a measured table ends. By kind:
+//   point, sphere  intensity everywhere
+//   spot         the squared-linear profile of spot_cone.h (Frostbite, glTF), nodes at both cones;
+//                without a cone as a point
+//   disk, rect   I cos(gamma)
+//   tube         I sqrt(1 - sin^2(gamma) sin^2(C)): its length lies along C90
+// Absent: lights at infinity, lights without an intensity.   Fails: as IntensityTable::Make.
+[[nodiscard]] Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp);
+
+}  // namespace lightcal

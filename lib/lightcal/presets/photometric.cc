@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// <stem>-<light>.ies and .ldt: each lamp's distribution in absolute candela, for engines and
+// lighting calculation. Neither format holds an uncertainty or a colour; <stem>.preset.json does.
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/light_distribution.h"
+#include "lightcal/records/photometric_codec.h"
+
+namespace lightcal {
+namespace {
+
+// A name as part of a file name that no shell or file system minds.
+std::string FileNamePart(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.' || static_cast<unsigned char>(c) >= 0x80U;
+    out += plain ? c : '_';
+  }
+  return out;
+}
+
+std::string PeakText(const FittedLight& lamp) {
+  if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return {};
+  const Uncertain& u = *lamp.intensity_cd;
+  return "intensity " + RoundedText(u.value, 4) + " cd +- " +
+         RoundedText(100.0 * u.u95 / u.value, 2) + " % (95 %)";
+}
+
+PhotometricFile FileOf(const FittedLight& lamp, IntensityTable table,
+                       const Provenance& provenance) {
+  PhotometricHeader header;
+  header.manufacturer = "lightcal";
+  header.luminaire = lamp.name;
+  header.report = PeakText(lamp);
+  header.laboratory = provenance.generator;
+  header.date = provenance.time.substr(0, 10);
+  header.lamps.resize(1);
+  header.lamps.front().type = std::string(LightKindName(lamp.kind));
+  return {std::move(header), std::move(table)};
+}
+
+// What each format makes of a file.
+using Writer = Result<std::string> (*)(const PhotometricFile& file);
+
+Result<Preset> Export(const LightFile& lights, const std::string& stem, std::string_view extension,
+                      Writer write) {
+  Preset preset;
+  std::set<std::string> taken;
+  for (const FittedLight& lamp : lights.lights) {
+    auto table = DistributionOf(lamp);
+    if (!table) return Propagate(std::move(table));
+    if (!*table) {
+      preset.warnings.push_back({"no_distribution", lamp.name,
+                                 "a " + std::string(LightKindName(lamp.kind)) +
+                                     " light has no intensity by direction: no ." +
+                                     std::string(extension) + " is written for it"});
+      continue;
+    }
+    auto text = write(FileOf(lamp, *std::move(*table), lights.provenance));
+    if (!text) return Propagate(std::move(text));
+    std::string name = stem + "-" + FileNamePart(lamp.name);
+    while (!taken.insert(name).second) name += "_";
+    preset.files.push_back({name + "." + std::string(extension), std::move(*text)});
+  }
+  return preset;
+}
+
+}  // namespace
+
+Result<Preset> ExportIes(const LightFile& lights, const std::string& stem,
+                         const PresetOptions& /*options*/) {
+  return Export(lights, stem, "ies",
+                [](const PhotometricFile& file) { return Result<std::string>(IesText(file)); });
+}
+
+Result<Preset> ExportLdt(const LightFile& lights, const std::string& stem,
+                         const PresetOptions& /*options*/) {
+  return Export(lights, stem, "ldt", &EulumdatText);
+}
+
+}  // namespace lightcal
