@@ -148,6 +148,11 @@ Result<SampleCorrections> CorrectionsOf(const CameraUse& use, std::span<const Fr
   }
   auto flat = FlatFor(profile.flats, *info.exposure.f_number, info.focal_length);
   if (!flat) return Propagate(std::move(flat));
+  if (!LetsLightThrough(*flat, profile.width, profile.height)) {
+    return Refused("bad_camera", "flats",
+                   "a flat field of the profile lets no light through to a part of the picture; "
+                   "make the profile again with lightcal camera");
+  }
   corrections.SetFlat(*flat);
   return corrections;
 }

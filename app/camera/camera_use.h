@@ -46,7 +46,8 @@ void CorrectBlack(const CameraUse& use, std::span<const FrameInfo> infos,
 
 // Flat field, hot pixels and the error of black, for frames `infos` in the plan's order; (x, y) is
 // where the merged picture begins in the camera's.
-// Refused as FlatFor; no_exposure_metadata (flat fields, and no f-number).
+// Refused as FlatFor; bad_camera (a flat field that cannot be), no_exposure_metadata (flat fields,
+// and no f-number).
 [[nodiscard]] Result<SampleCorrections> CorrectionsOf(const CameraUse& use,
                                                       std::span<const FrameInfo> infos,
                                                       const MergePlan& plan, int x, int y);

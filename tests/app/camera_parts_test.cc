@@ -120,6 +120,14 @@ TEST_F(CameraParts, BetweenAperturesFlatFieldsAreUnsureAndOutsideThemRefused) {
   const double sigma = merged["camera"]["flat"]["sigma_relative"];
   EXPECT_GT(sigma, 0.02);
   EXPECT_LT(std::abs(off), 2.0 * sigma);
+  const std::string text = ReadFile(ProfilePath());
+  const std::string green = "\"green\": [";
+  std::string broken = text;
+  for (std::size_t at = broken.find(green); at != std::string::npos;
+       at = broken.find(green, at + 1)) {
+    broken.replace(at, broken.find(']', at) + 1 - at, green + "-5, 0, 0]");
+  }
+  ExpectMergeRefused({"--camera", folder_.Write("broken.json", broken)}, "bad_camera");
   Shoot("open", Steady(4, 2.0, 11, 1.0 / 8192), Even(300.0));
   ExpectMergeRefused({"--camera", ProfilePath()}, "flat_missing");
 }

@@ -148,6 +148,19 @@ double LightThrough(const CameraFlat& flat, std::size_t channel, FlatPlace place
   return 1.0 + r2 * (a + r2 * (b + r2 * c));
 }
 
+bool LetsLightThrough(const CameraFlat& flat, int width, int height) {
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kColumns; ++i) {
+      const FlatPlace place =
+          FlatPlaceOf(1.0 * width * i / kColumns, 1.0 * height * j / kRows, width, height);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!(LightThrough(flat, c, place) > kLeastLight)) return false;
+      }
+    }
+  }
+  return true;
+}
+
 Result<CameraFlat> FitFlatField(View2d<const float> raw, double f_number,
                                 std::optional<Metres> focal_length) {
   if (raw.width() < 2 * kColumns || raw.height() < 2 * kRows || raw.channels() != 3) {
@@ -179,12 +192,8 @@ Result<CameraFlat> FitFlatField(View2d<const float> raw, double f_number,
                        RoundedText(100.0 * flat.sigma_relative, 2) +
                        " %: the surface is not evenly lit, or does not fill the picture");
   }
-  for (const Block& block : blocks) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (!(LightThrough(flat, c, block.place) > kLeastLight)) {
-        return Refused("flat_uneven", "flat", "no round loss of light explains this picture");
-      }
-    }
+  if (!LetsLightThrough(flat, raw.width(), raw.height())) {
+    return Refused("flat_uneven", "flat", "no round loss of light explains this picture");
   }
   return flat;
 }

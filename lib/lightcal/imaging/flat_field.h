@@ -21,6 +21,9 @@ struct FlatPlace {
 // v = 1 + a r^2 + b r^4 + c r^6 of a channel, r from the flat's centre.
 [[nodiscard]] double LightThrough(const CameraFlat& flat, std::size_t channel, FlatPlace place);
 
+// Whether v is above 2 % everywhere in a picture of this size, so that it may be divided by.
+[[nodiscard]] bool LetsLightThrough(const CameraFlat& flat, int width, int height);
+
 // Least squares over 48 x 32 block means of raw red, green and blue (channels of `raw`, whatever
 // unit); the centre from green, with a prior of 0.05 for a picture that does not show one. A radial
 // law does not take a panel's unevenness for the lens's, as a grid would; sigma is what it leaves.
