@@ -209,7 +209,7 @@ LinearIntensity IntensityAboveAmbient(const Prepared& prepared) {
   for (const ReadingRow& row : prepared.estimation.rows) {
     if (row.form == ReadingRow::Form::kCensored) continue;
     const double sigma = row.form == ReadingRow::Form::kLog ? row.sigma * row.measured : row.sigma;
-    const double a = row.direct_gain / (row.distance * row.distance) / sigma;
+    const double a = row.direct_gain > 0.0 ? LuxPerCandela(row, 0.0) / sigma : 0.0;
     const double b = prepared.ambient_told ? row.ambient_gain / sigma : 0.0;
     aa += a * a;
     ab += a * b;

@@ -11,7 +11,9 @@
 #include "lightcal/fit/fit_color.h"
 #include "lightcal/fit/input_checks.h"
 #include "lightcal/fit/observations.h"
+#include "lightcal/fit/off_axis.h"
 #include "lightcal/fit/plan_forward.h"
+#include "lightcal/fit/spot_beam.h"
 #include "lightcal/photometry/source_photometry.h"
 
 namespace lightcal {
@@ -136,6 +138,19 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
                          "every reading of this light was rejected; the first because " +
                              observations->warnings.front().message);
   }
+  std::optional<fit::SpotBeam> beam;
+  if (fit::NeedsBeam(*observations, light)) {
+    Result<fit::SpotBeam> found = fit::FitSpotBeam(*observations, light);
+    if (!found) return Propagate(std::move(found));
+    beam = *found;
+    fit::FillBeam(*beam, light, out);
+  }
+  const int beyond = fit::PlaceOnSource(beam ? fit::WithBeam(light, *beam) : light,
+                                        beam.has_value(), *observations);
+  if (observations->rows.empty()) {
+    return Refused("no_valid_readings", light.name,
+                   "the lamp shines on none of the readings by its position_m, aim and size");
+  }
   if (auto units = fit::CheckUnits(*observations, light.name); !units) {
     return Propagate(std::move(units));
   }
@@ -151,11 +166,16 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Result<fit::LightEstimate> estimate = fit::EstimateLight(*observations, plan->model, light.name);
   if (!estimate) return Propagate(std::move(estimate));
   Append(warnings, std::move(estimate->warnings));
+  if (beam) {
+    estimate->covariance[0] += beam->ln_intensity_extra_variance;
+    estimate->diagnostics.used += beyond;
+    estimate->diagnostics.learned.emplace_back("cone");
+  }
   FillParameters(*estimate, distance_law, out);
   out.fit = estimate->diagnostics;
   out.residuals = estimate->residuals;
   out.effects = fit::ReportEffects(*plan, *observations, *estimate);
-  AddDerivedQuantities(light, out);
+  AddDerivedQuantities(beam ? fit::WithBeam(light, *beam) : light, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
   return out;
 }

@@ -94,6 +94,7 @@ class Collector {
     observation.over_range = reading.over_range;
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
+    if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
     const double sigma = reading.under_range
                              ? kUnderRangeSigma
                              : std::max(kLeastSigma, SigmaRelative(session_, reading));

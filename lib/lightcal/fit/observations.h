@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/off_axis_pose.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
@@ -26,6 +27,9 @@ struct Observation {
   bool over_range = false;
   bool measured_from_center = false;  // both positions known
   std::optional<Vec3> position_m;
+  std::optional<Vec3> normal;  // unit, where the reading gives one
+  std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
+  double emission = 1.0;                // E/I there over cos(tilt)/d^2
 };
 
 struct Observations {

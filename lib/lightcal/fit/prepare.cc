@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 #include "lightcal/light/effects/detector_size.h"
 
@@ -34,6 +36,25 @@ AxialShape Scaled(AxialShape shape, double length_m) {
   return shape;
 }
 
+OffAxisPose Scaled(OffAxisPose pose, double length_m) {
+  std::visit(
+      [length_m](auto& source) {
+        using Source = std::decay_t<decltype(source)>;
+        if constexpr (std::is_same_v<Source, SphereSource> || std::is_same_v<Source, DiskSource>) {
+          source.radius /= length_m;
+        } else if constexpr (std::is_same_v<Source, RectSource>) {
+          source.half_width /= length_m;
+          source.half_height /= length_m;
+        } else if constexpr (std::is_same_v<Source, TubeSource>) {
+          source.half_length /= length_m;
+          source.radius /= length_m;
+        }
+      },
+      pose.source);
+  pose.at.position = pose.at.position * (1.0 / length_m);
+  return pose;
+}
+
 ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardModel& model,
                  const Scales& scales) {
   ReadingRow row;
@@ -49,7 +70,11 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.shape = Scaled(model.shape, scales.length_m);
   const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
   row.distance = (observation.distance_m + surface) / scales.length_m;
-  if (model.tilt) row.direct_gain = std::cos(observation.tilt_rad);
+  if (observation.off_axis) row.off_axis = Scaled(*observation.off_axis, scales.length_m);
+  // A pose off the axis holds its normal; without one the tilt is all that is known.
+  if (model.tilt && !(observation.off_axis && observation.normal)) {
+    row.direct_gain = std::cos(observation.tilt_rad);
+  }
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
   }

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "lightcal/fit/off_axis_pose.h"
 #include "lightcal/light/axial_shape.h"
 
 namespace lightcal::fit {
@@ -22,6 +24,7 @@ struct ReadingRow {
   };
   Form form = Form::kLog;
   AxialShape shape;
+  std::optional<OffAxisPose> off_axis;  // instead of shape and distance
   double distance = 1.0;
   double direct_gain = 1.0;   // cosine of the tilt; 0 for a reading without the lamp
   double bounce = 0.0;        // illuminance from the room's walls per candela, known
@@ -30,15 +33,25 @@ struct ReadingRow {
   double sigma = 1.0;
 };
 
-// E = exp(ln I) [ cos(tilt) g(r)/r^2 + bounce ] + ambient,  r = d + d0, g the axial shape factor.
-// T is double or an automatic-differentiation scalar.
+// Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off
+// the axis of a source with size and aim its exact form.
+template <class T>
+[[nodiscard]] T LuxPerCandela(const ReadingRow& row, const T& distance_offset) {
+  if (row.off_axis) {
+    return row.direct_gain * LuxPerCandela(*row.off_axis, distance_offset) + row.bounce;
+  }
+  const T r = row.distance + distance_offset;
+  return row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
+}
+
+// E = exp(ln I) (illuminance per candela) + ambient. T is double or an automatic-differentiation
+// scalar.
 template <class T>
 [[nodiscard]] T RowIlluminance(const ReadingRow& row, const T& ln_intensity,
                                const T& distance_offset, const T& ambient) {
   using std::exp;
-  const T r = row.distance + distance_offset;
-  const T per_candela = row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
-  return exp(ln_intensity) * per_candela + row.ambient_gain * ambient;
+  const T direct = row.direct_gain > 0.0 ? LuxPerCandela(row, distance_offset) : T(row.bounce);
+  return exp(ln_intensity) * direct + row.ambient_gain * ambient;
 }
 
 }  // namespace lightcal::fit

@@ -63,8 +63,7 @@ bool TwoAgainstTwo(const Estimation& estimation) {
   std::vector<std::pair<double, double>> values;  // ln(E d^2), sigma
   for (const ReadingRow& row : estimation.rows) {
     if (row.form != ReadingRow::Form::kLog || !(row.direct_gain > 0.0)) continue;
-    values.emplace_back(std::log(row.measured * row.distance * row.distance / row.direct_gain),
-                        row.sigma);
+    values.emplace_back(std::log(row.measured / LuxPerCandela(row, 0.0)), row.sigma);
   }
   if (values.size() != 4) return false;
   std::sort(values.begin(), values.end());

@@ -2,6 +2,7 @@
 #include "lightcal/fit/solve.h"
 
 #include <ceres/ceres.h>
+#include <ceres/tiny_solver.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -143,8 +144,8 @@ Theta GaussNewtonStep(const Estimation& estimation, const Theta& theta) {
 
 // A few steps more, as long as they are small and the cost does not grow beyond rounding.
 Theta Polish(const Estimation& estimation, Theta theta) {
-  constexpr int kSteps = 4;
-  constexpr double kLargestStep = 1e-3;
+  constexpr int kSteps = 8;
+  constexpr double kLargestStep = 0.05;
   const double cost = HalfChiSquared(estimation, theta);
   for (int i = 0; i < kSteps; ++i) {
     const Theta next = GaussNewtonStep(estimation, theta);
@@ -162,9 +163,107 @@ Theta Polish(const Estimation& estimation, Theta theta) {
   return theta;
 }
 
+// The rows and priors as TinySolver takes them, column-major; what is not free has no derivative.
+class TinyRows {
+ public:
+  using Scalar = double;
+  enum : int { NUM_PARAMETERS = kParameters, NUM_RESIDUALS = Eigen::Dynamic };
+
+  TinyRows(const Estimation& estimation, bool hold_ambient) : estimation_(estimation) {
+    for (int k = 0; k < kParameters; ++k) {
+      free_[k] = estimation.rules[k].free && !(k == kAmbient && hold_ambient);
+    }
+  }
+  [[nodiscard]] int NumResiduals() const {
+    return static_cast<int>(estimation_.rows.size()) + kParameters;
+  }
+  bool operator()(const double* parameters, double* residuals, double* jacobian) const {
+    const Theta theta = {parameters[0], parameters[1], parameters[2]};
+    const int n = NumResiduals();
+    const int rows = n - kParameters;
+    for (int i = 0; i < rows; ++i) {
+      const ReadingRow& row = estimation_.rows[static_cast<std::size_t>(i)];
+      if (jacobian == nullptr) {
+        residuals[i] = RowResidual(row, theta);
+      } else {
+        const RowDerivative at = DifferentiateRow(row, theta);
+        residuals[i] = at.residual;
+        for (int k = 0; k < kParameters; ++k) {
+          jacobian[i + k * n] = free_[k] ? at.gradient[k] : 0.0;
+        }
+      }
+      if (!std::isfinite(residuals[i])) return false;
+    }
+    for (int k = 0; k < kParameters; ++k) {
+      const ParameterRule& rule = estimation_.rules[k];
+      const double weight = free_[k] && rule.prior_sd > 0.0 ? 1.0 / rule.prior_sd : 0.0;
+      residuals[rows + k] = weight * (theta[k] - rule.prior_mean);
+      for (int j = 0; jacobian != nullptr && j < kParameters; ++j) {
+        jacobian[rows + k + j * n] = j == k ? weight : 0.0;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const Estimation& estimation_;
+  std::array<bool, kParameters> free_{};
+};
+
+std::optional<Theta> SolveTiny(const Estimation& estimation, const Theta& start,
+                               bool hold_ambient) {
+  const TinyRows rows(estimation, hold_ambient);
+  ceres::TinySolver<TinyRows> solver;
+  solver.options.max_num_iterations = 40;
+  solver.options.initial_trust_region_radius = 1e8;
+  solver.options.gradient_tolerance = 1e-9;
+  solver.options.function_tolerance = 1e-10;
+  solver.options.parameter_tolerance = 1e-7;  // the polish takes the last digits
+  Eigen::Vector3d x(start[0], start[1], start[2]);
+  const auto& summary = solver.Solve(rows, &x);
+  const bool converged = summary.status != ceres::TinySolver<TinyRows>::HIT_MAX_ITERATIONS;
+  if (!converged || !x.allFinite() || !std::isfinite(summary.final_cost)) return std::nullopt;
+  if (estimation.rules[kDistanceOffset].free && x[1] <= estimation.least_distance_offset) {
+    return std::nullopt;
+  }
+  return Theta{x[0], x[1], x[2]};
+}
+
+// Slope of 1/2 chi-squared along E0.
+double SlopeAlongAmbient(const Estimation& estimation, const Theta& theta) {
+  double slope = 0.0;
+  for (const ReadingRow& row : estimation.rows) {
+    const RowDerivative at = DifferentiateRow(row, theta);
+    slope += at.residual * at.gradient[kAmbient];
+  }
+  const ParameterRule& rule = estimation.rules[kAmbient];
+  if (rule.prior_sd > 0.0) {
+    slope += (theta[kAmbient] - rule.prior_mean) / (rule.prior_sd * rule.prior_sd);
+  }
+  return slope;
+}
+
 }  // namespace
 
+std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
+  std::optional<Theta> theta = SolveTiny(estimation, start, false);
+  if (theta && estimation.rules[kAmbient].free && (*theta)[kAmbient] < 0.0) {
+    theta = SolveTiny(estimation, {(*theta)[0], (*theta)[1], 0.0}, true);
+    if (theta && SlopeAlongAmbient(estimation, *theta) < 0.0) return std::nullopt;
+  }
+  if (!theta) return std::nullopt;
+  return Polish(estimation, *theta);
+}
+
 Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss, double scale) {
+  if (loss == Loss::kSquared) {
+    if (const std::optional<Theta> theta = SolveQuickly(estimation, start)) return *theta;
+  }
+  return SolveInFull(estimation, start, loss, scale);
+}
+
+Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss loss,
+                          double scale) {
   Theta theta = start;
   const std::unique_ptr<ceres::LossFunction> loss_function = LossOf(loss, scale);
   ceres::Problem::Options problem_options;

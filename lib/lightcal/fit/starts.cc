@@ -16,19 +16,13 @@ bool CarriesIntensity(const ReadingRow& row, double ambient) {
          row.measured > row.ambient_gain * ambient;
 }
 
-// Illuminance per candela at offset d0.
-double PerCandela(const ReadingRow& row, double d0) {
-  const double r = row.distance + d0;
-  return row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
-}
-
 double MeanLnIntensity(const Estimation& estimation, double d0, double ambient) {
   double sum = 0.0;
   double weights = 0.0;
   for (const ReadingRow& row : estimation.rows) {
     if (!CarriesIntensity(row, ambient)) continue;
     const double weight = 1.0 / (row.sigma * row.sigma);
-    sum += weight * std::log((row.measured - row.ambient_gain * ambient) / PerCandela(row, d0));
+    sum += weight * std::log((row.measured - row.ambient_gain * ambient) / LuxPerCandela(row, d0));
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : 0.0;
@@ -68,7 +62,7 @@ LinearFit FitIntensityAndAmbient(const Estimation& estimation, double d0) {
     if (row.form == ReadingRow::Form::kCensored) continue;
     const double sigma = row.form == ReadingRow::Form::kLog ? row.sigma * row.measured : row.sigma;
     const double w = 1.0 / sigma;
-    const double a = w * (row.direct_gain > 0.0 ? PerCandela(row, d0) : 0.0);
+    const double a = w * (row.direct_gain > 0.0 ? LuxPerCandela(row, d0) : 0.0);
     const double b = w * row.ambient_gain;
     const double m = w * row.measured - (rule.free ? 0.0 : b * rule.prior_mean);
     aa += a * a;
@@ -147,7 +141,7 @@ Theta ClosedFormStart(const Estimation& estimation, double ambient) {
   for (const ReadingRow& row : estimation.rows) {
     if (!CarriesIntensity(row, ambient)) continue;
     const double direct = row.measured - row.ambient_gain * ambient;
-    const double gain = PerCandela(row, 0.0) * row.distance * row.distance;
+    const double gain = LuxPerCandela(row, 0.0) * row.distance * row.distance;
     const double y = std::sqrt(gain / direct);
     const double w = 2.0 / (y * row.sigma);
     kk += w * w * row.distance * row.distance;
@@ -200,7 +194,7 @@ std::optional<double> MedianLnIntensity(const Estimation& estimation, double d0,
   for (const ReadingRow& row : estimation.rows) {
     if (!CarriesIntensity(row, ambient)) continue;
     const double direct = row.measured - row.ambient_gain * ambient;
-    values.push_back({std::log(direct / PerCandela(row, d0)), 1.0 / row.sigma});
+    values.push_back({std::log(direct / LuxPerCandela(row, d0)), 1.0 / row.sigma});
   }
   if (values.empty()) return std::nullopt;
   return WeightedMedian(values);

@@ -15,7 +15,7 @@ namespace lightcal {
 template <class T>
 [[nodiscard]] T HalfVersine(const T& angle) {
   using std::sin;
-  const T half_sine = sin(angle / 2);
+  const T half_sine = sin(angle * T(0.5));
   return half_sine * half_sine;
 }
 // Of the angle between +z and v: rho^2/(2 r (r + z)), rho across z.
@@ -24,7 +24,7 @@ template <class T>
   using std::sqrt;
   const T across2 = v[0] * v[0] + v[1] * v[1];
   const T r = sqrt(across2 + v[2] * v[2]);
-  return v[2] > 0 ? T(across2 / (2 * r * (r + v[2]))) : T((r - v[2]) / (2 * r));
+  return v[2] > T(0) ? T(across2 / (T(2) * r * (r + v[2]))) : T((r - v[2]) / (T(2) * r));
 }
 
 // Relative intensity f, 0..1, with t = clamp((s_o - s)/(s_o - s_i), 0, 1):
@@ -36,7 +36,7 @@ template <class T>
   if (falloff == SpotFalloff::kHard || !(s > s_inner)) return T(1);
   const T t = (s_outer - s) / (s_outer - s_inner);
   if (falloff == SpotFalloff::kLinear) return t;
-  return falloff == SpotFalloff::kSquaredLinear ? T(t * t) : T(t * t * (3 - 2 * t));
+  return falloff == SpotFalloff::kSquaredLinear ? T(t * t) : T(t * t * (T(3) - T(2) * t));
 }
 
 // Godot's spot: f = 1 - max(s/s_o, 1e-4)^a inside the cone of half angle o, a its angle
@@ -45,8 +45,8 @@ template <class T>
 [[nodiscard]] T GodotSpotProfile(const T& s, const T& s_outer, double angle_attenuation) {
   using std::pow;
   const T rim = s / s_outer;
-  if (!(rim < 1)) return T(0);
-  return 1 - pow(rim > 1e-4 ? rim : T(1e-4), angle_attenuation);
+  if (!(rim < T(1))) return T(0);
+  return T(1) - pow(rim > T(1e-4) ? rim : T(1e-4), angle_attenuation);
 }
 
 }  // namespace lightcal

@@ -104,6 +104,8 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Group("cone", [&](auto& cone) {
     cone.Number("inner_deg", light.inner_deg, kHalfAngleRule);
     cone.Number("outer_deg", light.outer_deg, kHalfAngleRule);
+    cone.Number("inner_u95_deg", light.inner_u95_deg, kNotNegative);
+    cone.Number("outer_u95_deg", light.outer_u95_deg, kNotNegative);
   });
   archive.Number("diameter_m", light.diameter_m, kNotNegative);
   archive.Number("width_m", light.width_m, kNotNegative);
@@ -112,6 +114,7 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Number("radius_m", light.radius_m, kNotNegative);
   archive.Array("position_m", light.position_m);
   archive.Array("aim", light.aim);
+  archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
 }
 
 constexpr auto kVisitLight = [](auto& archive, auto& light) {

@@ -28,6 +28,7 @@ struct LightDescription {
   LightKind kind = LightKind::kPoint;
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;               // unit length after loading
+  std::optional<Vec3> axis;              // of a tube's length or a rect's width, unit length
   std::optional<Metres> diameter;        // sphere, disk
   std::optional<Metres> width, height;   // rect
   std::optional<Metres> length, radius;  // tube

@@ -116,6 +116,8 @@ class SessionReader {
     reader.Array("position_m", light.position_m);
     reader.Array("aim", light.aim);
     light.aim = UnitVector(reader, "aim", light.aim);
+    reader.Array("axis", light.axis);
+    light.axis = UnitVector(reader, "axis", light.axis);
     reader.Number("diameter_m", light.diameter, kPositive);
     std::optional<std::array<double, 2>> size;
     reader.Array("size_m", size, kPositive);

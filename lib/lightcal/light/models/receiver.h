@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lightcal/core/vec3.h"
+#include "lightcal/light/lamp_axes.h"
 
 namespace lightcal {
 
@@ -41,18 +42,13 @@ struct SourceFrame {
   [[nodiscard]] Vec3Of<T> Of(const Vec3Of<T>& v) const {
     return {Dot(v, x), Dot(v, y), Dot(v, z)};
   }
-  // x along `along` made square to the unit direction `z`; where that leaves nothing, horizontal
-  // (across Z), and for a vertical z along the session's X.
+  // x along `along` made square to the unit direction `z`; where that leaves nothing, horizontal as
+  // AxesOfAim has it.
   [[nodiscard]] static SourceFrame Facing(const Vec3& z, const Vec3& along = {}) {
-    const Vec3 candidates[] = {along, Cross(Vec3{0.0, 0.0, 1.0}, z), {1.0, 0.0, 0.0}};
-    for (const Vec3& candidate : candidates) {
-      const Vec3 square = candidate - z * Dot(candidate, z);
-      const double length = Length(square);
-      if (!(length > 1e-9 * Length(candidate)) || !(length > 1e-12)) continue;
-      const Vec3 x = square * (1.0 / length);
-      return {x, Cross(z, x), z};
-    }
-    return {};
+    const Vec3 square = along - z * Dot(along, z);
+    const double length = Length(square);
+    const Vec3 x = length > 1e-9 ? square * (1.0 / length) : AxesOfAim(z).c0;
+    return {x, Cross(z, x), z};
   }
 };
 

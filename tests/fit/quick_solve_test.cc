@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The quick solver finds what the full one finds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "lightcal/fit/solve.h"
+#include "lightcal/fit/starts.h"
+
+namespace lightcal::fit {
+namespace {
+
+// Six readings in the solver's units, 1.4 % noise, offset and ambient light under their priors.
+Estimation SixReadings(std::mt19937_64& random, double ambient) {
+  std::normal_distribution<double> noise(0.0, 0.014);
+  Estimation estimation;
+  const double d0 = 2.0 * noise(random);
+  for (int i = 0; i < 6; ++i) {
+    ReadingRow row;
+    row.distance = 0.35 * std::pow(8.0, i / 5.0);
+    const double r = row.distance + d0;
+    row.measured = (1.0 / (r * r) + ambient) * std::exp(noise(random));
+    row.sigma = 0.014;
+    estimation.rows.push_back(row);
+  }
+  estimation.rules[kLnIntensity].free = true;
+  estimation.rules[kDistanceOffset] = {true, 0.0, 0.05};
+  estimation.rules[kAmbient] = {true, 0.0, 0.2};
+  estimation.least_distance_offset = -0.3;
+  return estimation;
+}
+
+TEST(SolveQuickly, AgreesWithTheFullSolverToABillionth) {
+  std::mt19937_64 random(8);
+  int quick = 0;
+  for (int i = 0; i < 500; ++i) {
+    const Estimation estimation = SixReadings(random, i % 2 == 0 ? 0.05 : 0.0);
+    const Theta start = ScanStart(estimation);
+    const auto full = SolveInFull(estimation, start);
+    const auto fast = SolveQuickly(estimation, start);
+    ASSERT_TRUE(full.has_value());
+    if (!fast) continue;
+    ++quick;
+    for (int k = 0; k < kParameters; ++k) EXPECT_NEAR((*fast)[k], (*full)[k], 1e-9) << i;
+  }
+  EXPECT_GE(quick, 490);
+}
+
+TEST(SolveQuickly, AThousandStartsEndAtOneOptimum) {
+  std::mt19937_64 random(9);
+  const Estimation estimation = SixReadings(random, 0.05);
+  const auto best = SolveInFull(estimation, ScanStart(estimation));
+  ASSERT_TRUE(best.has_value());
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 1000; ++i) {
+    const Theta start = {6.0 * uniform(random) - 3.0, 1.3 * uniform(random) - 0.29,
+                         0.3 * uniform(random)};
+    const auto found = Solve(estimation, start);
+    ASSERT_TRUE(found.has_value());
+    for (int k = 0; k < kParameters; ++k) EXPECT_NEAR((*found)[k], (*best)[k], 1e-8) << i;
+  }
+}
+
+}  // namespace
+}  // namespace lightcal::fit
