@@ -127,9 +127,11 @@ class Calibrator {
     return use;
   }
 
-  Result<MergedBracket> MergeRaw(const Bracket& bracket) {
+  // `flat`: what is compared lies in different places of the picture, or is a place's own light.
+  Result<MergedBracket> MergeRaw(const Bracket& bracket, bool flat = true) {
     BracketMergeRequest request;
     request.camera = Use();
+    request.camera->flat = flat;
     request.raw = true;
     request.want_sigma = true;
     const bool noisy = bracket.frames.size() == 1 && bracket.frames.front().noise.empty() &&
@@ -218,10 +220,7 @@ class Calibrator {
                            "[[camera_frames]] for each");
       }
     }
-    // Flats already known must not correct the next one.
-    auto flats = std::exchange(profile_.flats, {});
-    const auto merged = MergeRaw(open.bracket);
-    profile_.flats = std::move(flats);
+    const auto merged = MergeRaw(open.bracket, false);
     if (!merged) return tl::unexpected(merged.error());
     if (merged->clipped_fraction > 0.0) {
       return Refused("flat_saturated", first.file,
@@ -255,9 +254,12 @@ class Calibrator {
   }
 
   Result<void> Nd(OpenFrames& open) {
-    const auto with = MergeRaw(open.bracket);
+    if (std::ranges::count(profile_.nd_filters, open.what->name, &CameraNdFilter::name) > 0) {
+      return Refused("duplicate_name", open.what->name, "two filters bear this name; rename one");
+    }
+    const auto with = MergeRaw(open.bracket, false);
     if (!with) return tl::unexpected(with.error());
-    const auto without = MergeRaw(open.without);
+    const auto without = MergeRaw(open.without, false);
     if (!without) return tl::unexpected(without.error());
     const Region region = RegionOf(*open.what, *with);
     const auto dark = MeasureRawPatch(*with, region, open.what->frames);

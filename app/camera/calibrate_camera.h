@@ -11,7 +11,7 @@ namespace lightcal::app {
 // Dark frames first, then noise, flat fields, colours, filters and the scale, each with what stands
 // before it. Files read are added to session.input_files; provenance is left empty.
 // Refused: no_camera_frames (nothing to calibrate from), camera_needs_raw, other_camera (frames of
-// two cameras), mixed_dark, mixed_aperture, flat_saturated, noise_unseen,
+// two cameras), mixed_dark, mixed_aperture, flat_saturated, noise_unseen, duplicate_name,
 // two_colour_sources; and as MeasureDark, FitFlatField, ColorFromChart, AddOwnColor, ReadScale,
 // CombineScaleReadings, MergeBracket.
 [[nodiscard]] Result<CameraProfile> CalibrateCamera(Session& session, Warnings& warnings);

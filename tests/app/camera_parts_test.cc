@@ -227,6 +227,9 @@ TEST_F(CameraParts, AFilterIsMeasuredByColourAndTakenOut) {
   EXPECT_NEAR(by_iso / kSensitivity / 800.0, 1.0, 0.02);
   ExpectMergeRefused({"--camera", ProfilePath(), "--nd", "nd9"}, "unknown_nd");
   ExpectRefused(Frames("nd", "with_*.dng", "name = \"nd3\"\n"), "bad_session");
+  const std::string twice =
+      Frames("nd", "with_*.dng", "name = \"nd3\"\nwithout = \"without_*.dng\"\n");
+  ExpectRefused(twice + twice, "duplicate_name");
 }
 
 TEST_F(CameraParts, SensitivitiesComeAlongAndNarrowWhatALampsClassLeavesOpen) {
