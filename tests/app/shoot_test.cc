@@ -317,7 +317,8 @@ json ListedCamera(const std::string& driver) {
   const CliResult result =
       RunLightcal({"devices", "--json"}, "", {}, {"umockdev-run", "-d", description, "--"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  for (const json& device : json::parse(result.out)["devices"]) {
+  const json document = json::parse(result.out);
+  for (const json& device : document["devices"]) {
     if (device["transport"] == "ptp") return device;
   }
   return {};
