@@ -17,4 +17,8 @@ namespace lightcal::app {
 // degrees of C, every degree of gamma, or finer where the file is. Type C comes back as it is.
 [[nodiscard]] Result<PhotometricFile> AsTypeC(PhotometricFile file);
 
+// The table as type C with nadir along the lamp's aim, which for type A is its own (0, 0). Type C
+// comes back as it is, B and A are sampled as by AsTypeC.
+[[nodiscard]] Result<IntensityTable> AboutItsAim(IntensityTable table);
+
 }  // namespace lightcal::app

@@ -11,6 +11,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
+#include "session_distributions.h"
 #include "session_files.h"
 
 namespace lightcal::app {
@@ -38,6 +39,13 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& con
   if (!reading.illuminance && absolute) reading.illuminance = Lux(xyz->Y);
   NoteInputFile(path, session);
   return {};
+}
+
+Result<void> AddDistributions(Session& session, Console& console) {
+  Warnings warnings;
+  auto added = ResolveDistributions(session, warnings);
+  console.Warn(warnings);
+  return added;
 }
 
 // Warnings come even where a capture is refused: they may say why.
@@ -80,6 +88,9 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
     if (auto resolved = ResolveSpectrum(calibrated.session, row, console); !resolved) {
       return Propagate(std::move(resolved));
     }
+  }
+  if (auto tables = AddDistributions(calibrated.session, console); !tables) {
+    return Propagate(std::move(tables));
   }
   if (auto added = AddCaptures(calibrated.session, console); !added) {
     return Propagate(std::move(added));

@@ -11,6 +11,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "session_distributions.h"
 
 namespace lightcal::app {
 namespace {
@@ -99,22 +100,61 @@ Result<ImportSettings> SettingsOf(const Options& options) {
   return settings;
 }
 
+nlohmann::ordered_json ToJson(const std::vector<PlannedDistribution>& distributions) {
+  auto all = nlohmann::ordered_json::array();
+  for (const PlannedDistribution& one : distributions) {
+    all.push_back({{"light", one.light},
+                   {"flux_lm", one.flux_lm},
+                   {"peak_cd", one.peak_cd},
+                   {"written", !one.files.empty()}});
+  }
+  return all;
+}
+
+// Photometric files describe a light and hold no reading; they go beside the journal.
+Result<std::vector<PlannedDistribution>> PlanDistributions(const Session& session,
+                                                           const Options& options,
+                                                           Console& console) {
+  std::vector<PlannedDistribution> plans;
+  for (const std::string& path : options.files) {
+    if (!IsPhotometricName(path)) continue;
+    auto plan = PlanDistribution(session, path, options.settings.light);
+    if (!plan) return Propagate(std::move(plan));
+    console.Warn(plan->warnings);
+    plans.push_back(std::move(*plan));
+  }
+  return plans;
+}
+
 Result<void> RunImport(const Options& options, Console& console) {
   const auto settings = SettingsOf(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto loaded = LoadSession(options.session);
   if (!loaded) return tl::unexpected(loaded.error());
   console.Warn(loaded->warnings);
-  const auto plan = PlanImport(loaded->session, options.files, *settings);
+  const auto distributions = PlanDistributions(loaded->session, options, console);
+  if (!distributions) return tl::unexpected(distributions.error());
+  std::vector<std::string> with_readings = options.files;
+  std::erase_if(with_readings, IsPhotometricName);
+  const auto plan = PlanImport(loaded->session, with_readings, *settings);
   if (!plan) return tl::unexpected(plan.error());
   console.Warn(plan->warnings);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const std::string journal = JournalPath(options.session);
+  for (const PlannedDistribution& one : *distributions) {
+    if (auto written = WriteOutputs(one.files, settings->again); !written) return written;
+    console.Note(one.light + ": " + RoundedText(one.flux_lm, 4) + " lm, peak " +
+                 RoundedText(one.peak_cd, 4) + " cd" +
+                 (one.files.empty() ? ", in the session already" : ""));
+  }
   if (auto written = WriteOutputs(plan->captures, false); !written) return written;
   if (auto appended = AppendAll(*plan, journal); !appended) return appended;
   const std::size_t count = CountReadings(*plan);
   if (count > 0) console.Print(ReadingsTable(*plan));
-  console.PrintJson(ToJson(*plan, journal));
+  auto document = ToJson(*plan, journal);
+  if (!distributions->empty()) document["distributions"] = ToJson(*distributions);
+  console.PrintJson(document);
+  if (with_readings.empty()) return {};
   console.Note(count == 0 ? "nothing new; " + journal + " is unchanged"
                           : std::to_string(count) + (count == 1 ? " reading" : " readings") +
                                 " appended to " + journal);
@@ -129,7 +169,7 @@ Run BuildImport(CLI::App& parser) {
   parser
       .add_option("files", options->files,
                   "Sekonic, UPRtek, JETI, TM-27, Argyll, ActLumus exports or CSV with units in "
-                  "the column names; a .zip of one")
+                  "the column names; a .zip of one; .ies and .ldt as the light's distribution")
       ->required();
   parser.add_option("-s,--session", options->session, "Session directory or .toml file")
       ->required();

@@ -26,6 +26,9 @@ Uncertain FromInterval(double low, double high) {
 // Phi/I of the kind's own distribution, independent of its size.
 double SolidAngleOfKind(const LightDescription& light) {
   constexpr double kPi = std::numbers::pi;
+  if (light.distribution) {
+    return light.distribution->Flux().value() / light.distribution->peak().intensity.value();
+  }
   if (light.kind == LightKind::kSpot && light.outer) {
     return SolidAngleOfSpot({light.inner.value_or(Radians(0.0)), *light.outer},
                             SpotFalloff::kSquaredLinear)
@@ -55,7 +58,8 @@ Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
   }
   const bool shape_unknown =
       light.kind == LightKind::kPoint || (light.kind == LightKind::kSpot && !light.outer);
-  const double spread = std::log1p(shape_unknown ? kPointSpread : kKindSpread);
+  const double kind_spread = shape_unknown ? kPointSpread : kKindSpread;
+  const double spread = light.distribution ? 0.0 : std::log1p(kind_spread);
   const double middle = flux / SolidAngleOfKind(light);
   return FromInterval(middle * std::exp(-spread), middle * std::exp(spread));
 }

@@ -61,26 +61,35 @@ SourceGeometry GeometryOf(const LightDescription& light) {
   return geometry;
 }
 
-// Flux and luminance of the same source scale with its intensity, so they share its relative
-// interval.
+// What scales with the intensity shares its relative interval.
+Uncertain ScaledTo(const Uncertain& intensity, double value) {
+  const double ratio = value / intensity.value;
+  Uncertain u{value, intensity.u95 * ratio, std::nullopt, std::nullopt};
+  if (intensity.low) u.low = *intensity.low * ratio;
+  if (intensity.high) u.high = *intensity.high * ratio;
+  return u;
+}
+
+// The file's shape, as bright as the readings say.
+void AddTable(const IntensityTable& table, FittedLight& out) {
+  const Uncertain& intensity = *out.intensity_cd;
+  const double factor = intensity.value / table.peak().intensity.value();
+  out.flux_lm = ScaledTo(intensity, factor * table.Flux().value());
+}
+
 void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {
-  if (light.kind == LightKind::kPhotometric || !out.intensity_cd) return;
+  if (!out.intensity_cd) return;
+  if (light.distribution) return AddTable(*light.distribution, out);
+  if (light.kind == LightKind::kPhotometric) return;
   const SourceGeometry geometry = GeometryOf(light);
   const Uncertain& intensity = *out.intensity_cd;
   const auto photometry = ConvertSource(geometry, SourceQuantity::kIntensity, intensity.value);
   if (!photometry) return;  // a size this kind needs is not given
-  const auto scaled = [&](double value) {
-    const double ratio = value / intensity.value;
-    Uncertain u{value, intensity.u95 * ratio, std::nullopt, std::nullopt};
-    if (intensity.low) u.low = *intensity.low * ratio;
-    if (intensity.high) u.high = *intensity.high * ratio;
-    return u;
-  };
-  if (photometry->flux) out.flux_lm = scaled(photometry->flux->value());
+  if (photometry->flux) out.flux_lm = ScaledTo(intensity, photometry->flux->value());
   const bool has_surface = light.kind == LightKind::kSphere || light.kind == LightKind::kDisk ||
                            light.kind == LightKind::kRect || light.kind == LightKind::kTube;
   if (has_surface && photometry->luminance) {
-    out.luminance_nits = scaled(photometry->luminance->value());
+    out.luminance_nits = ScaledTo(intensity, photometry->luminance->value());
   }
 }
 

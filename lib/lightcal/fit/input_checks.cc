@@ -52,7 +52,7 @@ std::vector<Strength> Strengths(const Observations& observations) {
     if (!row.lit || row.over_range || !(direct > 2.0 * row.sigma_lx)) continue;
     out.push_back(
         {std::log(direct * row.distance_m * row.distance_m /
-                            (std::cos(row.tilt_rad) * row.emission)),
+                            (std::cos(row.tilt_rad) * row.emission * row.table_part)),
                    row.index});
   }
   std::sort(out.begin(), out.end(),
@@ -121,7 +121,7 @@ Result<void> CheckFalloff(const Observations& observations, const std::string& l
       if (!row.lit || row.over_range || !(row.measured_lx > 2.0 * row.sigma_lx)) continue;
       const double sigma = row.sigma_lx / row.measured_lx;
       visit(1.0 / (sigma * sigma), std::log(row.distance_m),
-            std::log(row.measured_lx / (std::cos(row.tilt_rad) * row.emission)));
+            std::log(row.measured_lx / (std::cos(row.tilt_rad) * row.emission * row.table_part)));
     }
   };
   for_each_lit([&](double weight, double ln_d, double ln_e) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/lamp_axes.h"
 
 namespace lightcal::fit {
 namespace {
@@ -94,6 +95,7 @@ class Collector {
     observation.over_range = reading.over_range;
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
+    observation.table_part = TablePart(reading);
     if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
     const double sigma = reading.under_range
                              ? kUnderRangeSigma
@@ -102,6 +104,19 @@ class Collector {
                          reading.shadow_card, !lit && !observation.placed});
     out_.rows.push_back(observation);
     return {};
+  }
+
+  // Readings without positions stand on the lamp's aim; a lamp without an aim shines down.
+  [[nodiscard]] double TablePart(const Reading& reading) const {
+    if (!light_.distribution) return 1.0;
+    const IntensityTable& table = *light_.distribution;
+    Vec3 towards{0.0, 0.0, -1.0};
+    if (reading.position_m && light_.position_m) {
+      const LampAxes axes = AxesOfAim(light_.aim.value_or(Vec3{0.0, 0.0, -1.0}));
+      const Vec3 way = *reading.position_m - *light_.position_m;
+      towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
+    }
+    return table.Towards(towards) / table.peak().intensity;
   }
 
   Result<Geometry> GeometryOf(const SessionReading& row, int index, bool lit) const {
@@ -135,6 +150,9 @@ class Collector {
     }
     if (!lit) return {};
     if (!(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
+    if (!(TablePart(reading) > 0.0)) {
+      return "the lamp's photometric file has no light in the meter's direction";
+    }
     if (geometry.distance_m < InnerRadius(light_)) {
       return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
     }

@@ -25,6 +25,7 @@ struct Observation {
   double sigma_lx = 0.0;     // 1 sigma of measured_lx
   bool differenced = false;  // shadow card subtracted: no ambient, no bounce
   bool over_range = false;
+  double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
   bool measured_from_center = false;  // both positions known
   std::optional<Vec3> position_m;
   std::optional<Vec3> normal;  // unit, where the reading gives one

@@ -75,6 +75,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   if (model.tilt && !(observation.off_axis && observation.normal)) {
     row.direct_gain = std::cos(observation.tilt_rad);
   }
+  row.direct_gain *= observation.table_part;
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
   }
