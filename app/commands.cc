@@ -37,6 +37,9 @@ constexpr CommandRow kCommands[] = {
     {"camera", "What a camera needs to measure: its scale, noise, black, lens, filters, colours",
      "  lightcal camera my_camera -o camera.json\n"
      "  lightcal merge bracket/*.dng -o lum.exr --camera camera.json", BuildCamera},
+    {"plan", "The board to print for pictures of a lit wall",
+     "  lightcal plan --board board.pdf\n"
+     "  lightcal plan --board board.svg --paper a3 --square 40mm", BuildPlan},
     {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",
      "  lightcal merge bracket/*.dng -o lum.exr --sigma sigma.exr\n"
      "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"

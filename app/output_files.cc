@@ -25,7 +25,7 @@ bool CarriesOurProvenance(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   stream.read(window.data(), static_cast<std::streamsize>(window.size()));
   window.resize(static_cast<std::size_t>(stream.gcount()));
-  if (window.starts_with("{")) {
+  if (window.starts_with("{") || window.starts_with("%PDF")) {
     auto contents = ReadWholeFile(path);
     if (!contents) return false;
     window = std::move(*contents);

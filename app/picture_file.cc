@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_file.h"
 
+#include <cairo-pdf.h>
 #include <cairo.h>
 #include <dlfcn.h>
 #include <librsvg/rsvg.h>
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "clock.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/raster_style.h"
 
@@ -36,6 +38,9 @@ struct Rasterizer {
   decltype(&cairo_set_source_rgb) set_color;
   decltype(&cairo_paint) paint;
   decltype(&cairo_surface_write_to_png_stream) write_png;
+  decltype(&cairo_pdf_surface_create_for_stream) pdf_create;
+  decltype(&cairo_pdf_surface_set_metadata) pdf_say;
+  decltype(&cairo_surface_finish) surface_finish;
   decltype(&g_object_unref) unref;
 };
 
@@ -67,6 +72,9 @@ Result<Rasterizer> OpenRasterizer() {
                         Find(library, "cairo_set_source_rgb", r.set_color) &&
                         Find(library, "cairo_paint", r.paint) &&
                         Find(library, "cairo_surface_write_to_png_stream", r.write_png) &&
+                        Find(library, "cairo_pdf_surface_create_for_stream", r.pdf_create) &&
+                        Find(library, "cairo_pdf_surface_set_metadata", r.pdf_say) &&
+                        Find(library, "cairo_surface_finish", r.surface_finish) &&
                         Find(library, "g_object_unref", r.unref);
   return complete ? Result<Rasterizer>(r) : NoRasterizer();
 }
@@ -74,6 +82,31 @@ Result<Rasterizer> OpenRasterizer() {
 cairo_status_t Append(void* text, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   return CAIRO_STATUS_SUCCESS;
+}
+
+Result<std::string> Printed(const Rasterizer& r, const std::string& svg, double width_mm,
+                            double height_mm) {
+  const auto bad = [] { return Failed("bad_drawing", "PDF", "librsvg cannot print the page"); };
+  constexpr double kPointsPerMillimetre = 72.0 / 25.4;
+  const RsvgRectangle page = {0.0, 0.0, kPointsPerMillimetre * width_mm,
+                              kPointsPerMillimetre * height_mm};
+  const auto* bytes = reinterpret_cast<const guint8*>(svg.data());
+  const std::unique_ptr<RsvgHandle, decltype(r.unref)> handle(
+      r.handle_new(bytes, svg.size(), nullptr), r.unref);
+  if (!handle) return bad();
+  std::string pdf;
+  const std::unique_ptr<cairo_surface_t, decltype(r.surface_destroy)> surface(
+      r.pdf_create(Append, &pdf, page.width, page.height), r.surface_destroy);
+  r.pdf_say(surface.get(), CAIRO_PDF_METADATA_CREATOR, GeneratorName().c_str());
+  r.pdf_say(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
+            SourceDateIso8601().value_or("2000-01-01T00:00:00Z").c_str());
+  {
+    const std::unique_ptr<cairo_t, decltype(r.context_destroy)> context(
+        r.context_create(surface.get()), r.context_destroy);
+    if (r.render(handle.get(), context.get(), &page, nullptr) == FALSE) return bad();
+  }
+  r.surface_finish(surface.get());
+  return pdf;
 }
 
 Result<std::string> Painted(const Rasterizer& r, const std::string& svg) {
@@ -132,6 +165,20 @@ bool IsPng(const std::string& path) { return LowerAscii(path).ends_with(".png");
 Result<void> CheckPictureName(const std::string& option, const std::string& path) {
   if (IsPng(path) || LowerAscii(path).ends_with(".svg")) return {};
   return WrongUsage(option, "\"" + path + "\" must end in .svg or .png");
+}
+
+Result<OutputFile> PrintFile(const std::string& path, const std::string& svg, double width_mm,
+                             double height_mm) {
+  const std::string lower = LowerAscii(path);
+  if (lower.ends_with(".svg")) return OutputFile{path, svg};
+  if (!lower.ends_with(".pdf")) {
+    return WrongUsage("--board", "\"" + path + "\" must end in .pdf or .svg");
+  }
+  const auto rasterizer = OpenRasterizer();
+  if (!rasterizer) return tl::unexpected(rasterizer.error());
+  auto pdf = Printed(*rasterizer, svg, width_mm, height_mm);
+  if (!pdf) return Propagate(std::move(pdf));
+  return OutputFile{path, *std::move(pdf)};
 }
 
 Result<OutputFile> PictureFile(const std::string& path, const std::string& svg) {

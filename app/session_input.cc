@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "captures/capture_readings.h"
+#include "captures/wall_capture.h"
 #include "clock.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
@@ -56,6 +57,42 @@ Result<void> AddCaptures(Session& session, Console& console) {
   return added;
 }
 
+// Lights that walls measured, and all others fitted to their readings, in the session's order.
+Result<LightFile> FitLights(Session& session, const FitSettings& settings, Console& console) {
+  Warnings warnings;
+  auto walls = MeasureWalls(session, warnings);
+  console.Warn(warnings);
+  if (!walls) return Propagate(std::move(walls));
+  const auto by_wall = [&](const std::string& name) {
+    return std::ranges::find(*walls, name, &FittedLight::name);
+  };
+  Session others = session;
+  std::erase_if(others.lights, [&](const LightDescription& light) {
+    return by_wall(light.name) != walls->end();
+  });
+  const auto unused = std::erase_if(others.readings, [&](const SessionReading& row) {
+    return by_wall(row.reading.light) != walls->end();
+  });
+  if (unused > 0) {
+    console.Warn({{"readings_not_used", session.name,
+                   std::to_string(unused) +
+                       " readings of lights that a wall measured are not used; give one as "
+                       "anchor_illuminance_lx with wall.anchor_rect to set the scale"}});
+  }
+  if (others.lights.empty()) return LightFile{*std::move(walls), {}};
+  auto fitted = FitSession(others, settings);
+  if (!fitted) return Propagate(std::move(fitted));
+  console.Warn(fitted->warnings);
+  LightFile all;
+  for (const LightDescription& light : session.lights) {
+    const auto wall = by_wall(light.name);
+    const auto read = std::ranges::find(fitted->lights.lights, light.name, &FittedLight::name);
+    if (wall != walls->end()) all.lights.push_back(*wall);
+    if (read != fitted->lights.lights.end()) all.lights.push_back(*read);
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<Provenance> ProvenanceOf(const Session& session) {
@@ -95,10 +132,9 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
   if (auto added = AddCaptures(calibrated.session, console); !added) {
     return Propagate(std::move(added));
   }
-  auto fitted = FitSession(calibrated.session, settings);
-  if (!fitted) return Propagate(std::move(fitted));
-  console.Warn(fitted->warnings);
-  calibrated.lights = std::move(fitted->lights);
+  auto lights = FitLights(calibrated.session, settings, console);
+  if (!lights) return Propagate(std::move(lights));
+  calibrated.lights = *std::move(lights);
   for (FittedLight& light : calibrated.lights.lights) {
     if (RestsOnCameraScale(calibrated.session, light.name)) {
       light.fit.prior.emplace_back(kCameraScalePrior);

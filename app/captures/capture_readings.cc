@@ -23,8 +23,9 @@ Result<CaptureReadings> ReadCapture(Session& session, const CaptureDescription& 
   switch (capture.use) {
     case CaptureUse::kCard:
       return ReadCard(session, capture, warnings).map(one);
+    case CaptureUse::kWall:  // MeasureWalls
+      return CaptureReadings{};
     case CaptureUse::kSource:
-    case CaptureUse::kWall:
     case CaptureUse::kDome:
       break;
   }

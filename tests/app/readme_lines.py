@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 README = ROOT / "README.md"
 PICTURES = ROOT / "sample_data/pictures"
 CARD = ROOT / "sample_data/sessions/grey_card_dng"
+WALL = ROOT / "sample_data/sessions/lit_wall"
 CSV = "distance_m,illuminance_lx\n1.5,23.5\n"
 
 
@@ -46,6 +47,7 @@ def main():
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
         shutil.copytree(CARD, home / "grey_card", ignore=shutil.ignore_patterns("out"))
+        shutil.copytree(WALL, home / "lit_wall", ignore=shutil.ignore_patterns("out"))
         shutil.copytree(CARD / "captures", home / "my_camera/captures")
         camera = re.search(r"```toml\n([^`]*camera_frames.*?)```", text, re.S).group(1)
         (home / "my_camera/session.toml").write_text(camera, encoding="utf-8")

@@ -37,7 +37,7 @@ DOORS = [
     (r"hidapi|libusb", r"devices/lightcal_devices/transport/.*\.cc$"),
     (r"CLI/", r"^app/"),
     (r"openssl/", r"^app/"),
-    (r"librsvg/|cairo\.h", r"^app/picture_file\.cc$"),
+    (r"librsvg/|cairo(-pdf)?\.h", r"^app/picture_file\.cc$"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)
 

@@ -76,6 +76,23 @@ anchor_illuminance_lx = 900
 meter = "c800"
 lamp_class = "white_led"
 spectrum = "a.spdx"
+[[capture]]
+light = "key"
+frames = "captures/*.exr"
+use = "wall"
+reflectance = 0.8
+anchor_illuminance_lx = 300
+[capture.wall]
+square_m = 0.03
+squares = [9, 6]
+dictionary = "5x5_100"
+board_frame = "board.exr"
+board_views = "views/*.exr"
+position_sigma_m = 0.005
+vignetting = 3.5
+sensor_width_m = 0.0236
+masks = [0, 0, 10, 10, 20, 20, 5, 5]
+anchor_rect = [30, 30, 8, 8]
 [[reading]]
 light = "key"
 meter = "c800"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/units.h"
+#include "lightcal/records/wall_capture.h"
 
 namespace lightcal {
 
@@ -52,8 +53,9 @@ struct CaptureDescription {
   std::optional<Lux> anchor_illuminance;         // a lux meter's reading at the card
   std::string meter;                             // the [[meter]] that read it
   LampClass lamp_class = LampClass::kUnknown;
-  std::string spectrum_file;  // of the lamp, relative to the session; "" = unknown
-  std::string where;          // "session.toml [[capture]] 1"
+  std::string spectrum_file;            // of the lamp, relative to the session; "" = unknown
+  std::optional<WallDescription> wall;  // [capture.wall]
+  std::string where;                    // "session.toml [[capture]] 1"
 };
 
 }  // namespace lightcal

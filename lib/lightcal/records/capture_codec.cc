@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/records/wall_capture_codec.h"
+
 namespace lightcal::records {
 
 void ReadRect(FieldReader& reader, std::optional<std::array<int, 4>>& out) {
@@ -27,13 +29,15 @@ void RequireForUse(FieldReader& reader, CaptureUse use) {
     case CaptureUse::kCard:
       reader.Require({"reflectance", "distance_m"});
       return;
-    case CaptureUse::kSource:
     case CaptureUse::kWall:
+      reader.Require({"reflectance", "wall"});
+      return;
+    case CaptureUse::kSource:
     case CaptureUse::kDome:
       reader.Fail("capture_unsupported", "use",
                   "use = " + Quoted(kCaptureUseWords[static_cast<std::size_t>(use)]) +
-                      ": this version reads use = \"card\" only, a matt card of known "
-                      "reflectance");
+                      ": this version reads use = \"card\", a matt card of known "
+                      "reflectance, and use = \"wall\", a lit wall with a printed board");
       return;
   }
 }
@@ -46,6 +50,16 @@ void CheckCompanions(FieldReader& reader, const CaptureDescription& capture) {
   }
   if (!capture.nd.empty() && capture.camera.empty()) {
     reader.Fail("nd", "nd names a filter of the camera's profile, and needs camera = that profile");
+  }
+  const bool is_wall = capture.use == CaptureUse::kWall;
+  if (capture.wall && !is_wall) {
+    reader.Fail("wall", "wall describes pictures of a lit wall, and needs use = \"wall\"");
+  }
+  if (is_wall && capture.wall &&
+      capture.wall->anchor_rect.has_value() != capture.anchor_illuminance.has_value()) {
+    reader.Fail("wall",
+                "anchor_illuminance_lx and wall.anchor_rect, where on the wall it was read, "
+                "need each other");
   }
   if (!capture.meter.empty() && !capture.anchor_illuminance) {
     reader.Fail("meter", "meter names what read anchor_illuminance_lx, which is missing");
@@ -72,6 +86,7 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Text("meter", capture.meter);
   reader.Word("lamp_class", capture.lamp_class, kLampClassWords);
   reader.Text("spectrum", capture.spectrum_file);
+  reader.Object("wall", capture.wall, ReadWall);
   reader.Require({"light", "frames", "use"});
   if (!reader.Failed()) RequireForUse(reader, capture.use);
   reader.Finish();

@@ -11,6 +11,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/light/intensity_table.h"
 #include "lightcal/photometry/light_kind.h"
 
 namespace lightcal {
@@ -56,6 +57,20 @@ struct ResidualRow {
   bool used = true;
 };
 
+// Intensity by direction as it was measured, and why it is no surer.
+struct MeasuredDistribution {
+  // In the lamp's own frame, which stands in the room as AxesOfAim says. Ends where the measurement
+  // does; nothing is known of directions beyond.
+  IntensityTable table;
+  double interpolated_share = 0.0;  // of the flux, in directions within that were not seen
+  // Relative standard deviations by cause.
+  struct Part {
+    std::string name;
+    double peak = 0.0, flux = 0.0;
+  };
+  std::vector<Part> budget{};
+};
+
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
 // the model); flux integrates the model. d0 is positive when the effective source lies behind the
 // point the distance was measured from.
@@ -73,6 +88,7 @@ struct FittedLight {
   std::optional<double> diameter_m, width_m, height_m, length_m, radius_m;
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;
+  std::optional<MeasuredDistribution> distribution;  // photometric
   FittedColor color;
   FitDiagnostics fit;
   std::vector<EffectReport> effects;

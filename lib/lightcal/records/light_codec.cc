@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/records/distribution_codec.h"
 #include "lightcal/records/field_reader.h"
 #include "lightcal/records/field_writer.h"
 #include "lightcal/records/json_codec.h"
@@ -122,6 +123,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Word("kind", light.kind, kLightKindNames);
   VisitMeasures(archive, light);
   VisitGeometry(archive, light);
+  VisitDistribution(archive, light.distribution);
   archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
   archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
   archive.List("effects", light.effects, kVisitEffect);

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lit wall's way through the built program: the board printed, the pictures read, files written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "run_cli.h"
+#include "run_cli_json.h"
+#include "synthetic_wall.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+bool Holds(const json& interval, double value) {
+  return double(interval["low95"]) <= value && value <= double(interval["high95"]);
+}
+
+TEST(LitWall, TheShippedPicturesBecomeADistributionWithItsUncertainty) {
+  const TempDir out;
+  const json document = LightcalJson("run", {SampleData("sessions/lit_wall"), "-o", out.path()});
+  const json& light = document["lights"].at(0);
+  EXPECT_EQ(light["kind"], "photometric");
+  const json& gammas = light["distribution"]["vertical_deg"];
+  EXPECT_GT(double(gammas.back()), 20.0);
+  const ConeTruth truth = TruthWithin(SpotInAGlow, {0, 1, 0}, double(gammas.back()));
+  EXPECT_NEAR(double(light["intensity_cd"]["value"]) / truth.peak_cd, 1.0, 0.03);
+  EXPECT_NEAR(double(light["flux_lm"]["value"]) / truth.flux_lm, 1.0, 0.01);
+  EXPECT_TRUE(Holds(light["intensity_cd"], truth.peak_cd));
+  EXPECT_TRUE(Holds(light["flux_lm"], truth.flux_lm));
+  const bool named = std::ranges::any_of(
+      document["warnings"], [](const json& warning) { return warning["code"] == "not_measured"; });
+  EXPECT_TRUE(named) << "nobody saw directions beyond the cone";
+  for (const char* name : {"light.json", "report.html", "lit_wall.preset.json"}) {
+    EXPECT_TRUE(fs::exists(fs::path(out.path()) / name)) << name;
+  }
+  EXPECT_EQ(document["provenance"]["inputs"].size(), 5U) << "session, wall, three views";
+}
+
+class WallSession : public testing::Test {
+ protected:
+  // What the session says, with one line replaced, is refused as.
+  std::string RefusalOf(const std::string& line, const std::string& by) {
+    const std::string session = SampleData("sessions/lit_wall");
+    std::string toml = ReadFile(session + "/session.toml");
+    const auto at = toml.find(line);
+    EXPECT_NE(at, std::string::npos) << line;
+    toml.replace(at, line.size(), by);
+    for (const std::string& folder : {std::string("captures/"), std::string("views/")}) {
+      const auto begin = toml.find("\"" + folder);
+      if (begin != std::string::npos) toml.insert(begin + 1, session + "/");
+    }
+    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", toml), "-o",
+                                          folder_.path() + "/light.json", "--json"});
+    EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
+    EXPECT_FALSE(fs::exists(folder_.path() + "/light.json"));
+    const json answer = json::parse(result.out, nullptr, false);
+    return answer.contains("error") ? std::string(answer["error"]["code"]) : result.out;
+  }
+
+  TempDir folder_;
+};
+
+TEST_F(WallSession, WhatCannotBeMeasuredIsRefusedByName) {
+  EXPECT_EQ(RefusalOf("position_m = [0.5, -1.0, 0.35]\n", ""), "position_unknown");
+  EXPECT_EQ(RefusalOf("[0.5, -1.0, 0.35]", "[0.5, 1.0, 0.35]"), "not_in_front");
+  EXPECT_EQ(RefusalOf("\"photometric\"", "\"spot\""), "wall_needs_photometric");
+  EXPECT_EQ(RefusalOf("square_m = 0.03 ", "dictionary = \"6x6_250\"\nsquare_m = 0.03 "),
+            "board_not_found");
+  EXPECT_EQ(RefusalOf("aim = [0, 1, 0]", "aim = [1, 0, 0]"), "axis_not_covered");
+}
+
+// Length of the first run of dark pixels in the picture's rows, over rows where there is one.
+int FirstDarkRun(const std::string& pgm) {
+  std::size_t at = 0;
+  int numbers[3] = {};
+  at = pgm.find_first_of(" \n", 0);
+  for (int& number : numbers) {
+    at = pgm.find_first_of("0123456789", at);
+    number = std::atoi(pgm.c_str() + at);
+    at = pgm.find_first_of(" \n", at);
+  }
+  const std::string pixels = pgm.substr(at + 1);
+  const auto width = static_cast<std::size_t>(numbers[0]);
+  const std::size_t row = 250 * width;  // 25 mm from above: the board's first row of squares
+  const auto dark = [&](std::size_t x) {
+    return static_cast<unsigned char>(pixels[row + x]) < 128;
+  };
+  std::size_t x = 0;
+  while (x < width && !dark(x)) ++x;
+  const std::size_t begin = x;
+  while (x < width && dark(x)) ++x;
+  return static_cast<int>(x - begin);
+}
+
+TEST(Plan, TheBoardIsPrintedInTrueSize) {
+  const TempDir folder;
+  const std::string pdf = folder.path() + "/board.pdf";
+  const json answer = LightcalJson("plan", {"--board", pdf});
+  EXPECT_EQ(double(answer["board"]["square_m"]), 0.03);
+  const CliResult page =
+      RunProgram({"pdftoppm", "-r", "254", "-gray", "-singlefile", pdf, folder.path() + "/page"});
+  ASSERT_EQ(page.exit_code, 0) << page.err;
+  // 254 pixels an inch are 10 a millimetre.
+  EXPECT_NEAR(FirstDarkRun(ReadFile(folder.path() + "/page.pgm")), 300, 1);
+  const CliResult info = RunProgram({"pdfinfo", pdf});
+  EXPECT_THAT(info.out, HasSubstr("841.89 x 595.276 pts (A4)"));
+  EXPECT_EQ(RunLightcal({"plan", "--board", pdf}).exit_code, 0) << "ours is replaced";
+}
+
+TEST(Plan, WhatIsPrintedIsWhatThePicturesOfTheSampleShow) {
+  const TempDir folder;
+  const std::string svg = folder.path() + "/board.svg";
+  ASSERT_EQ(RunLightcal({"plan", "--board", svg}).exit_code, 0);
+  const auto rectangles = RectanglesOfSvg(ReadFile(svg));
+  EXPECT_GT(rectangles.size(), 54U);
+  double right = 0.0, top = 0.0;
+  for (const PrintedRectangle& r : rectangles) {
+    right = std::max(right, r.x + r.width);
+    top = std::max(top, r.z + r.height);
+  }
+  EXPECT_NEAR(right, 0.27, 1e-9);
+  EXPECT_NEAR(top, 0.18, 1e-9);
+}
+
+TEST(Plan, WhatDoesNotFitIsWrongUsage) {
+  const TempDir folder;
+  const std::string board = folder.path() + "/board.svg";
+  EXPECT_EQ(RunLightcal({"plan", "--board", board, "--square", "50mm"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"plan", "--board", board, "--paper", "b5"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"plan", "--board", board, "--squares", "9"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"plan", "--board", folder.path() + "/board.txt"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"plan", "--board", board, "--squares", "12x9"}).exit_code, 3);
+}
+
+}  // namespace
+}  // namespace lightcal::test
