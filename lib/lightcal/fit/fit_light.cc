@@ -73,8 +73,9 @@ Uncertain ScaledTo(const Uncertain& intensity, double value) {
 // The file's shape, as bright as the readings say.
 void AddTable(const IntensityTable& table, FittedLight& out) {
   const Uncertain& intensity = *out.intensity_cd;
-  const double factor = intensity.value / table.peak().intensity.value();
-  out.flux_lm = ScaledTo(intensity, factor * table.Flux().value());
+  IntensityTable scaled = table.Scaled(intensity.value / table.peak().intensity.value());
+  out.flux_lm = ScaledTo(intensity, scaled.Flux().value());
+  out.distribution = MeasuredDistribution{std::move(scaled)};
 }
 
 void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {

@@ -60,6 +60,56 @@ Result<IntensityTable> SpotTable(double intensity_cd, double inner_deg, double o
   });
 }
 
+// ---- measured tables ----
+
+// Nothing where the table ends, down to nadir and up to zenith.
+void CoverSphere(IntensityGrid& grid) {
+  const auto add = [&](double at, bool in_front) {
+    const std::size_t nv = grid.vertical_deg.size();
+    grid.vertical_deg.insert(in_front ? grid.vertical_deg.begin() : grid.vertical_deg.end(), at);
+    std::vector<double> candela;
+    for (std::size_t p = 0; p < grid.horizontal_deg.size(); ++p) {
+      const auto row = grid.candela.begin() + static_cast<std::ptrdiff_t>(p * nv);
+      if (in_front) candela.push_back(0.0);
+      candela.insert(candela.end(), row, row + static_cast<std::ptrdiff_t>(nv));
+      if (!in_front) candela.push_back(0.0);
+    }
+    grid.candela = std::move(candela);
+  };
+  if (const double first = grid.vertical_deg.front(); first > 0.0) {
+    if (first > kJumpDeg) add(first - kJumpDeg, true);
+    add(0.0, true);
+  }
+  if (const double last = grid.vertical_deg.back(); last < 180.0) {
+    if (last < 180.0 - kJumpDeg) add(last + kJumpDeg, false);
+    add(180.0, false);
+  }
+}
+
+// Readers pick the value at a pole from different planes.
+void UnifyPoles(IntensityGrid& grid) {
+  const std::size_t nv = grid.vertical_deg.size();
+  const std::size_t nh = grid.horizontal_deg.size();
+  for (const std::size_t v : {std::size_t{0}, nv - 1}) {
+    double sum = 0.0;
+    for (std::size_t p = 0; p < nh; ++p) sum += grid.candela[p * nv + v];
+    for (std::size_t p = 0; p < nh; ++p) grid.candela[p * nv + v] = sum / static_cast<double>(nh);
+  }
+}
+
+Result<IntensityTable> MeasuredTable(const IntensityTable& table) {
+  IntensityGrid grid = table.grid();
+  if (grid.type != GoniometerType::kC) {
+    const auto as_c = SampledAsTypeC(table, EvenAngles(360.0, 144), EvenAngles(180.0, 180),
+                                     TableInterpolation::kLinear);
+    if (!as_c) return as_c;
+    grid = as_c->grid();
+  }
+  CoverSphere(grid);
+  UnifyPoles(grid);
+  return IntensityTable::Make(std::move(grid), "light");
+}
+
 }  // namespace
 
 Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp) {
@@ -67,6 +117,7 @@ Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp) {
     if (!table) return Propagate(std::move(table));
     return std::optional<IntensityTable>(*std::move(table));
   };
+  if (lamp.distribution) return given(MeasuredTable(lamp.distribution->table));
   if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return std::nullopt;
   const double cd = lamp.intensity_cd->value;
   switch (lamp.kind) {

@@ -130,6 +130,18 @@ Result<Uncertain> PhotometricValue(const FittedLight& lamp, PunctualType type) {
   return value;
 }
 
+// A measured table may peak off its aim, along which points and spots shine; where it is dark there,
+// its mean over the sphere stands for it.
+Uncertain AlongAim(const FittedLight& lamp, const Uncertain& peak) {
+  if (!lamp.distribution) return peak;
+  const IntensityTable& table = lamp.distribution->table;
+  const double highest = table.peak().intensity.value();
+  const double along = table.At(Radians(0.0), Radians(0.0)).value() / highest;
+  const double mean = table.Flux().value() / (4.0 * std::numbers::pi * highest);
+  const double part = along > 0.0 ? along : mean;
+  return {peak.value * part, peak.u95 * part, std::nullopt, std::nullopt};
+}
+
 void SetIntensity(PunctualLight& light, const Uncertain& value) {
   light.photometric = value.value;
   light.intensity = value.value / light.color.luminance;
@@ -159,7 +171,7 @@ Result<PunctualLight> PunctualLightFrom(const FittedLight& lamp, Warnings& warni
   const auto value = PhotometricValue(lamp, light.type);
   if (!value) return tl::unexpected(value.error());
   light.color = ColorOfLight(lamp, warnings);
-  SetIntensity(light, *value);
+  SetIntensity(light, AlongAim(lamp, *value));
   Place(lamp, light);
   return light;
 }

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp with a photometric file in a session: the file gives the shape, lux readings the scale.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "run_cli.h"
+#include "run_cli_json.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr double kRad = 0.017453292519943295;
+
+// A lobe of cos^4 in every plane, 10 % narrower across: by rows of 5 degrees, C0 and C90.
+double Candela(double c_deg, double gamma_deg) {
+  if (gamma_deg >= 90.0) return 0.0;
+  const double power = c_deg == 0.0 ? 4.0 : 5.0;
+  return 800.0 * std::pow(std::cos(gamma_deg * kRad), power);
+}
+std::string LobeIes() {
+  std::ostringstream ies;
+  ies << "IESNA:LM-63-2002\r\n[TEST] 1\r\n[MANUFAC] Ours\r\n[LUMINAIRE] lobe\r\nTILT=NONE\r\n"
+      << "1 -1 1 19 2 1 2 0 0 0\r\n1 1 60\r\n";
+  for (int i = 0; i < 19; ++i) ies << 5 * i << (i < 18 ? " " : "\r\n0 90\r\n");
+  for (const double c : {0.0, 90.0}) {
+    for (int i = 0; i < 19; ++i) ies << Candela(c, 5.0 * i) << (i < 18 ? " " : "\r\n");
+  }
+  return ies.str();
+}
+
+std::string Toml(const std::string& rest, const std::string& kind = "photometric") {
+  return "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"" + kind +
+         "\"\nposition_m = [0, 0, 3]\naim = [0, 0, -1]\n[[meter]]\nname = \"m\"\n"
+         "sigma_relative = 0.02\n" +
+         rest;
+}
+std::string Reading(double distance, double lux) {
+  std::ostringstream row;
+  row << "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " << distance
+      << "\nilluminance_lx = " << lux << "\n";
+  return row.str();
+}
+// A meter that faces the lamp, `gamma` off its aim towards C0 (+x) or C90 (+y).
+std::string OffAxis(double c_deg, double gamma_deg, double distance, double lux) {
+  const double s = distance * std::sin(gamma_deg * kRad);
+  const double x = s * std::cos(c_deg * kRad);
+  const double y = s * std::sin(c_deg * kRad);
+  const double down = distance * std::cos(gamma_deg * kRad);
+  std::ostringstream row;
+  row.precision(12);
+  row << "[[reading]]\nlight = \"key\"\nmeter = \"m\"\nposition_m = [" << x << ", " << y << ", "
+      << 3.0 - down << "]\nnormal = [" << -x << ", " << -y << ", " << down
+      << "]\nilluminance_lx = " << lux << "\n";
+  return row.str();
+}
+
+json RunSession(const TempDir& folder) {
+  return LightcalJson("run", {folder.path(), "-o", folder.path() + "/out"});
+}
+
+TEST(PhotometricSession, AnIesFileAndTwoLuxReadingsAreACalibratedLamp) {
+  const TempDir folder;
+  const std::string source = folder.Write("download/lobe.ies", LobeIes());
+  const TempDir session;
+  // The lamp at hand is 30 % brighter than its file.
+  session.Write("session.toml", Toml(Reading(1.0, 1.3 * 800.0) + Reading(2.0, 1.3 * 200.0)));
+  const json imported = LightcalJson("import", {source, "-s", session.path(), "--light", "key"});
+  EXPECT_EQ(imported["distributions"][0]["written"], true);
+  EXPECT_NEAR(imported["distributions"][0]["peak_cd"].get<double>(), 800.0, 1e-9);
+  EXPECT_EQ(LightcalJson("import", {source, "-s", session.path()})["distributions"][0]["written"],
+            false);
+
+  const json document = RunSession(session);
+  const json& lamp = document["lights"][0];
+  EXPECT_NEAR(lamp["intensity_cd"]["value"].get<double>(), 1040.0,
+              lamp["intensity_cd"]["u95"].get<double>());
+  const double file_flux = LightcalJson("photometric", {source})["flux_lm"].get<double>();
+  const double scale = lamp["intensity_cd"]["value"].get<double>() / 800.0;
+  EXPECT_NEAR(lamp["flux_lm"]["value"].get<double>() / (scale * file_flux), 1.0, 1e-9);
+  bool named = false;
+  for (const json& input : document["provenance"]["inputs"]) {
+    named = named || input["path"] == "captures/key.ies";
+  }
+  EXPECT_TRUE(named);
+
+  // The exported files carry the same lamp: scaled, whole sphere, type C.
+  const std::string stem = fs::path(session.path()).filename().string();
+  for (const char* extension : {".ies", ".ldt"}) {
+    const json out =
+        LightcalJson("photometric", {session.path() + "/out/" + stem + "-key" + extension});
+    EXPECT_NEAR(out["peak_cd"].get<double>() / (800.0 * scale), 1.0, 1e-6);
+    EXPECT_NEAR(out["flux_lm"].get<double>() / (scale * file_flux), 1.0, 1e-4);
+    EXPECT_EQ(out["symmetry"], "quadrant");
+  }
+}
+
+TEST(PhotometricSession, ReadingsOffTheAxisSeeTheFilesShape) {
+  const TempDir session;
+  session.Write("lamp.ies", LobeIes());
+  std::string text = Toml("");
+  text.insert(text.find("aim"), "distribution = \"lamp.ies\"\n");
+  const double k = 0.8;
+  text += OffAxis(0, 0, 1.0, k * Candela(0, 0)) + OffAxis(0, 30, 1.5, k * Candela(0, 30) / 2.25) +
+          OffAxis(90, 50, 1.2, k * Candela(90, 50) / 1.44) +
+          OffAxis(0, 60, 1.0, k * Candela(0, 60));
+  session.Write("session.toml", text);
+  const json lamp = RunSession(session)["lights"][0];
+  EXPECT_NEAR(lamp["intensity_cd"]["value"].get<double>() / (800.0 * k), 1.0, 0.005);
+  EXPECT_LT(lamp["fit"]["rms_relative"].get<double>(), 0.01);
+  EXPECT_EQ(lamp["fit"]["used"], 4);
+  // As a plain point these four readings contradict each other by a factor of six.
+}
+
+TEST(PhotometricSession, WithoutReadingsTheFilesOwnCandelaAreThePrior) {
+  const TempDir session;
+  session.Write("captures/key.ies", LobeIes());
+  session.Write("session.toml", Toml(""));
+  const json lamp = RunSession(session)["lights"][0];
+  EXPECT_NEAR(lamp["intensity_cd"]["value"].get<double>(), 800.0, 1.0);
+  EXPECT_NEAR(lamp["intensity_cd"]["u95"].get<double>() / 800.0, 0.1, 0.01);
+  EXPECT_EQ(lamp["fit"]["readings"], 0);
+}
+
+TEST(PhotometricSession, AMeterInTheDarkIsRejectedByName) {
+  const TempDir session;
+  session.Write("captures/key.ies", LobeIes());
+  session.Write("session.toml", Toml(Reading(1.0, 800.0) + OffAxis(0, 120, 1.0, 3.0)));
+  const json document = RunSession(session);
+  EXPECT_EQ(document["lights"][0]["fit"]["rejected"], json::array({1}));
+}
+
+TEST(PhotometricSession, WhatContradictsIsRefused) {
+  const auto code = [](const CliResult& result) {
+    EXPECT_EQ(result.exit_code, 3) << result.out;
+    return json::parse(result.out)["error"]["code"].get<std::string>();
+  };
+  const TempDir session;
+  const std::string file = session.Write("a.ies", LobeIes());
+  session.Write("session.toml", Toml("", "point"));
+  EXPECT_EQ(code(RunLightcal({"import", file, "-s", session.path(), "--json"})), "kind_mismatch");
+  session.Write("session.toml", Toml(Reading(1.0, 800.0)));
+  EXPECT_EQ(code(RunLightcal({"import", file, "-s", session.path(), "--light", "kay", "--json"})),
+            "unknown_light");
+  session.Write("captures/key.ies", LobeIes());
+  session.Write("captures/key.ldt", ReadFile(SampleData("photometric/sample5.ldt")));
+  EXPECT_EQ(code(RunLightcal({"fit", session.path(), "--json"})), "several_distributions");
+  std::string spot = Toml(Reading(1.0, 800.0), "spot");
+  spot.insert(spot.find("aim"), "distribution = \"a.ies\"\n");
+  session.Write("session.toml", spot);
+  EXPECT_EQ(code(RunLightcal({"fit", session.path(), "--json"})), "bad_session");
+}
+
+}  // namespace
+}  // namespace lightcal::test
