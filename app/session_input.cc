@@ -67,9 +67,8 @@ Result<LightFile> FitLights(Session& session, const FitSettings& settings, Conso
     return std::ranges::find(*walls, name, &FittedLight::name);
   };
   Session others = session;
-  std::erase_if(others.lights, [&](const LightDescription& light) {
-    return by_wall(light.name) != walls->end();
-  });
+  std::erase_if(others.lights,
+                [&](const LightDescription& light) { return by_wall(light.name) != walls->end(); });
   const auto unused = std::erase_if(others.readings, [&](const SessionReading& row) {
     return by_wall(row.reading.light) != walls->end();
   });
