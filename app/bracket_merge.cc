@@ -49,6 +49,7 @@ Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
   std::vector<Frame> frames;
   for (auto& frame : loaded) {
     if (!*frame) return Propagate(std::move(*frame));
+    LetGo(**frame, 0, (*frame)->info.height);
     frames.push_back(std::move(**frame));
   }
   return frames;
@@ -72,17 +73,17 @@ Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool a
     if (!anchored && !exposure.iso) {
       return NoExposure(info.file, "ISO speed", "give it with --iso, or a spot reading (--anchor)");
     }
-    if (!anchored && !exposure.f_number) {
+    if (!anchored && !exposure.light_f_number()) {
       return NoExposure(info.file, "f-number",
                         "give it with --f-number, or a spot reading (--anchor)");
     }
     const FrameExposure& first = infos.front().exposure;
     if (exposure.iso.has_value() != first.iso.has_value() ||
-        exposure.f_number.has_value() != first.f_number.has_value()) {
+        exposure.light_f_number().has_value() != first.light_f_number().has_value()) {
       return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
                         "give --iso and --f-number");
     }
-    const double n = exposure.f_number.value_or(1.0);
+    const double n = exposure.light_f_number().value_or(1.0);
     labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
   }
   return labels;
@@ -94,9 +95,42 @@ struct Work {
   ResponseCurves response;
   std::vector<SignalFrame> signals;
   PlannedMerge planned;
+  std::optional<FrameAlignment> alignment;
   PictureColor color;
   SampleCorrections corrections;
 };
+
+// The plan of frames that are in a plan's order already, cut to what all of them show.
+Result<void> Align(MergeRequest merge, Work& work) {
+  MergePlan plan = work.planned.plan;
+  // Frames that moved scatter, which is no noise to excuse their differences by.
+  if (work.planned.noise_source == NoiseSource::kEstimated) {
+    plan.noise.assign(plan.noise.size(), kMiddlingNoise);
+  }
+  const auto merger = BracketMerger::Make(work.signals, plan);
+  if (!merger) return tl::unexpected(merger.error());
+  const auto alignment = MeasureAlignment(*merger);
+  if (!alignment) return tl::unexpected(alignment.error());
+  work.alignment = *alignment;
+  if (!alignment->any()) return {};
+  TakeBack(*alignment, work.signals);
+  const std::vector<std::size_t> before = work.planned.order;
+  const MergeRequest given = merge;
+  merge.label_exposure.clear();
+  merge.noise_in_file.clear();
+  for (const std::size_t i : before) {
+    merge.label_exposure.push_back(given.label_exposure[i]);
+    merge.noise_in_file.push_back(given.noise_in_file[i]);
+  }
+  auto planned = PlanMerge(work.signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  for (std::size_t i = 0; i < planned->order.size(); ++i) {
+    work.alignment->moved[i] = alignment->moved[planned->order[i]];
+    planned->order[i] = before[planned->order[i]];
+  }
+  work.planned = std::move(*planned);
+  return {};
+}
 
 // An ideal lens's loss of light, for a sensor of this width.
 Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
@@ -113,9 +147,10 @@ Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
 Result<void> SetCorrections(const BracketMergeRequest& request, Work& work) {
   std::vector<FrameInfo> infos;
   for (const std::size_t i : work.planned.order) infos.push_back(work.frames[i].info);
-  work.corrections = SampleCorrections(infos.front().width, infos.front().height, 0, 0);
+  const int x = work.alignment ? work.alignment->x : 0, y = work.alignment ? work.alignment->y : 0;
+  work.corrections = SampleCorrections(infos.front().width, infos.front().height, x, y);
   if (request.camera) {
-    auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, 0, 0);
+    auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, x, y);
     if (!corrections) return Propagate(std::move(corrections));
     work.corrections = std::move(*corrections);
   }
@@ -174,6 +209,10 @@ Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const 
   auto planned = PlanMerge(work->signals, merge);
   if (!planned) return Propagate(std::move(planned));
   work->planned = std::move(*planned);
+  if (request.align) {
+    if (auto aligned = Align(std::move(merge), *work); !aligned)
+      return Propagate(std::move(aligned));
+  }
   Append(work->planned.warnings, warnings);
   if (auto set = SetCorrections(request, *work); !set) return Propagate(std::move(set));
   return work;
@@ -315,6 +354,7 @@ std::vector<MergedFrame> FramesOf(const Work& work) {
     MergedFrame& frame = frames[planned.order[i]];
     frame.ratio_ev = std::log2(planned.plan.exposure[i] / planned.plan.exposure[0]);
     frame.used = planned.usable_share[i] > kUsedFrom;
+    if (work.alignment) frame.moved = work.alignment->moved[i];
   }
   return frames;
 }
@@ -342,7 +382,12 @@ Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
   const double prior = PriorScale(work).value();
   if (request.anchor) {
     const double ratio_sd = *std::max_element(work.planned.sd_ln.begin(), work.planned.sd_ln.end());
-    return AnchorScale(merger, RowsOf(work, request, prior), prior, *request.anchor, ratio_sd);
+    SpotReading spot = *request.anchor;
+    if (work.alignment) {
+      spot.x -= work.alignment->x;
+      spot.y -= work.alignment->y;
+    }
+    return AnchorScale(merger, RowsOf(work, request, prior), prior, spot, ratio_sd);
   }
   const bool encoded = work.frames[0].info.meaning == SampleMeaning::kEncoded;
   const FrameInfo& info = work.frames[work.planned.order.front()].info;
@@ -357,6 +402,35 @@ Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
     scale.sd_relative = std::hypot(scale.sd_relative, request.lamp->sigma);
   }
   return scale;
+}
+
+// Pixels by which frames may still lie apart: aligned ones keep to whole periods of the pattern.
+double Unaligned(const Work& work) {
+  if (!work.alignment || !work.alignment->any()) return kLeastShiftPixels;
+  const SignalFrame& frame = work.signals.front();
+  return kLeastShiftPixels + 0.5 * std::hypot(frame.column_period, frame.row_period);
+}
+
+// The whole picture; frames that lie in scratch files are in memory by a band at a time.
+Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows& rows,
+                                 const Work& work, View2d<float> picture, View2d<float> sigma) {
+  constexpr int kBandRows = 20 * kLanes;  // whole periods of any pattern
+  const bool in_files = std::all_of(work.frames.begin(), work.frames.end(),
+                                    [](const Frame& frame) { return frame.in_file; });
+  const int height = picture.height(), width = picture.width();
+  const int band = in_files && !work.alignment ? kBandRows : height;
+  std::size_t clipped = 0;
+  for (const Frame& frame : work.frames) LetGo(frame, 0, frame.info.height);
+  for (int first = 0; first < height; first += band) {
+    const int count = std::min(band, height - first);
+    const auto done = MergePicture(merger, rows, first, count, picture.Crop(0, first, width, count),
+                                   sigma.empty() ? sigma : sigma.Crop(0, first, width, count));
+    if (!done) return done;
+    clipped += *done;
+    if (band == height) continue;
+    for (const Frame& frame : work.frames) LetGo(frame, first, count);
+  }
+  return clipped;
 }
 
 void WarnOfClipping(MergedBracket& merged) {
@@ -377,13 +451,14 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   if (!work) return tl::unexpected(work.error());
   const auto merger = BracketMerger::Make((*work)->signals, (*work)->planned.plan);
   if (!merger) return tl::unexpected(merger.error());
-  Append(CompareFrames(*merger), merged.warnings);
+  Append(CompareFrames(*merger, Unaligned(**work)), merged.warnings);
   const auto scale = ScaleOf(*merger, **work, request);
   if (!scale) return tl::unexpected(scale.error());
 
   merged.frames = FramesOf(**work);
   merged.width = merger->frames()[0].width;
   merged.height = merger->frames()[0].height;
+  if (const auto& a = (*work)->alignment) merged.crop = Region{a->x, a->y, a->width, a->height};
   merged.channels = request.space || request.raw ? 3 : 1;
   merged.nits_per_unit = scale->nits_per_unit;
   merged.scale_source = ScaleSourceOf(request);
@@ -400,8 +475,8 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   const View2d<float> sigma = request.want_sigma
                                   ? View2d<float>(merged.sigma.data(), merged.width, merged.height)
                                   : View2d<float>();
-  const auto clipped = MergePicture(
-      *merger, RowsOf(**work, request, merged.nits_per_unit), 0, merged.height,
+  const auto clipped = MergeInBands(
+      *merger, RowsOf(**work, request, merged.nits_per_unit), **work,
       View2d<float>(merged.picture.data(), merged.width, merged.height, merged.channels), sigma);
   if (!clipped) return tl::unexpected(clipped.error());
   merged.clipped_fraction = static_cast<double>(*clipped) /

@@ -9,6 +9,8 @@
 #include "camera/camera_use.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
+#include "lightcal/imaging/align_frames.h"
+#include "lightcal/imaging/patches.h"
 #include "lightcal/imaging/plan_merge.h"
 #include "lightcal_devices/captures/bracket.h"
 
@@ -41,17 +43,20 @@ struct BracketMergeRequest {
   // Raw red, green and blue per unit of exposure t S/N^2 instead, sigma of green; what a profile is
   // made of. own_noise: from the frames alone, whatever their files say.
   bool raw = false, own_noise = false;
+  bool align = false;  // take back what the camera moved, where there is evidence
 };
 
 struct MergedFrame {
   FrameInfo info;
   std::optional<double> ratio_ev;  // measured exposure relative to the shortest frame
   bool used = false;
+  std::optional<FrameAlignment::Moved> moved{};  // against the shortest frame, where asked for
 };
 
 struct MergedBracket {
   std::vector<MergedFrame> frames;
   int width = 0, height = 0, channels = 1;
+  std::optional<Region> crop;  // of the shortest frame, where frames were aligned
   std::vector<float> picture;  // cd/m^2: Y, or RGB whose (1,1,1) is 1 cd/m^2
   std::vector<float> sigma;    // of the luminance, 1 standard deviation, cd/m^2
   double nits_per_unit = 0.0;  // luminance of full scale in the shortest frame
@@ -68,7 +73,7 @@ struct MergedBracket {
 // Refused: no_exposure_metadata (a frame without exposure time; ISO or f-number unknown and no
 // anchor), bad_anchor (outside the picture, clipped or black there), no_colour (a space asked of a
 // picture without), and as CheckCameraUse, CorrectionsOf, LoadFrame, RecoverResponse, PlanMerge,
-// MergePicture.
+// MeasureAlignment, MergePicture. An anchor's place is in the pixels of the shortest frame.
 [[nodiscard]] Result<MergedBracket> MergeBracket(const Bracket& bracket,
                                                  const BracketMergeRequest& request);
 

@@ -15,6 +15,8 @@
 
 #include "bracket_merge.h"
 #include "commands.h"
+#include "lightcal/colorimetry/camera_neutral.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
@@ -207,6 +209,13 @@ std::pair<double, double> AzimuthAndElevation(const Vec3& direction) {
   return {DegreesFromRadians(azimuth), DegreesFromRadians(elevation)};
 }
 
+// What the camera took for white. It moves nothing here.
+std::optional<Xy> AsShotWhite(const FrameInfo& info) {
+  if (!info.matrices || !info.as_shot_neutral) return std::nullopt;
+  const auto white = XyFromCameraNeutral(*info.matrices, *info.as_shot_neutral);
+  return white ? std::optional(*white) : std::nullopt;
+}
+
 nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
                               const Answer& answer) {
   const LuminanceStatistics& s = answer.statistics;
@@ -231,6 +240,13 @@ nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
     const auto [azimuth, elevation] = AzimuthAndElevation(*answer.peak_direction);
     peak["azimuth_deg"] = azimuth;
     peak["elevation_deg"] = elevation;
+  }
+  if (const auto white = AsShotWhite(inspected.info)) {
+    auto& as_shot = document["as_shot"];
+    as_shot["xy"] = {white->x, white->y};
+    if (const CctResult cct = CctFromXy(*white); cct.valid()) {
+      as_shot["cct_K"] = cct.temperature.value();
+    }
   }
   auto& scale = document["scale"];
   scale["source"] = inspected.luminance.scale;

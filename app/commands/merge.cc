@@ -13,6 +13,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/captures/picture.h"
 #include "output_files.h"
+#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {
@@ -21,12 +22,13 @@ struct Options {
   std::vector<std::string> frames;
   std::string output, sigma;
   std::vector<std::string> exposures;
-  std::string f_number, iso;
+  std::string f_number, t_stop, iso;
   std::string anchor, anchor_sigma = "5%";
   std::vector<double> noise;
   std::string space, white;
   std::string camera, nd, lamp_class, cos4;
   bool no_flat = false;
+  std::string align = "off", mains, pwm;
   bool uncompressed = false, force = false;
 };
 
@@ -87,13 +89,21 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
     if (!f_number) return tl::unexpected(f_number.error());
     overrides.f_number = *f_number;
   }
+  if (!options.t_stop.empty()) {
+    if (overrides.f_number) return WrongUsage("--t-stop", "stands instead of --f-number");
+    const bool letter = options.t_stop.starts_with('T') || options.t_stop.starts_with('t');
+    const auto t_stop = ParseNumber(std::string_view(options.t_stop).substr(letter ? 1 : 0));
+    if (!t_stop) return WrongUsage("--t-stop", "\"" + options.t_stop + "\" is not T2.9 or 2.9");
+    overrides.t_stop = *t_stop;
+  }
   if (!options.iso.empty()) {
     const auto iso = ParseNumber(options.iso);
     if (!iso) return WrongUsage("--iso", "\"" + options.iso + "\" is not an ISO speed");
     overrides.iso = *iso;
   }
-  if (overrides.f_number.value_or(1.0) <= 0.0 || overrides.iso.value_or(1.0) <= 0.0) {
-    return Refused("not_positive", "--f-number, --iso", "are above zero");
+  if (overrides.f_number.value_or(1.0) <= 0.0 || overrides.t_stop.value_or(1.0) <= 0.0 ||
+      overrides.iso.value_or(1.0) <= 0.0) {
+    return Refused("not_positive", "--f-number, --t-stop, --iso", "are above zero");
   }
   return overrides;
 }
@@ -135,6 +145,10 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
 Result<BracketMergeRequest> RequestOf(const Options& options) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
+  if (options.align != "auto" && options.align != "off") {
+    return WrongUsage("--align", "\"" + options.align + "\" is neither auto nor off");
+  }
+  request.align = options.align == "auto";
   if (!options.anchor.empty()) {
     const auto anchor = ParseAnchor(options.anchor, options.anchor_sigma);
     if (!anchor) return tl::unexpected(anchor.error());
@@ -233,9 +247,18 @@ nlohmann::ordered_json ToJson(const MergedBracket& merged) {
     const FrameExposure& exposure = frame.info.exposure;
     if (exposure.time) row["exposure_s"] = exposure.time->value();
     if (exposure.f_number) row["f_number"] = *exposure.f_number;
+    if (exposure.t_stop) row["t_stop"] = *exposure.t_stop;
     if (exposure.iso) row["iso"] = *exposure.iso;
+    if (const auto& angle = exposure.written.shutter_angle_deg) row["shutter_angle_deg"] = *angle;
+    if (const auto& rate = exposure.written.frames_per_second) row["frames_per_second"] = *rate;
+    if (frame.info.image_counter) row["image_counter"] = *frame.info.image_counter;
     if (frame.ratio_ev) row["ratio_ev"] = *frame.ratio_ev;
     row["used"] = frame.used;
+    if (frame.moved) {
+      row["shift_px"] = {frame.moved->x, frame.moved->y};
+      row["shift_sd_px"] = frame.moved->sd;
+      row["taken_back_px"] = {frame.moved->taken_back_x, frame.moved->taken_back_y};
+    }
     frames.push_back(std::move(row));
   }
   document["scale"] = {{"nits_per_unit", merged.nits_per_unit},
@@ -246,6 +269,9 @@ nlohmann::ordered_json ToJson(const MergedBracket& merged) {
                        {"scale", merged.plan.noise.front().scale},
                        {"offset", merged.plan.noise.front().offset},
                        {"fixed_pattern", merged.plan.fixed_pattern}};
+  if (const auto& crop = merged.crop) {
+    document["crop"] = {crop->x, crop->y, crop->width, crop->height};
+  }
   const SampleCorrections& corrections = merged.corrections;
   if (!corrections.empty()) {
     auto& camera =
@@ -274,7 +300,9 @@ std::string Table(const MergedBracket& merged) {
     const FrameExposure& exposure = frame.info.exposure;
     rows.push_back(
         {frame.info.file, exposure.time ? RoundedText(exposure.time->value(), 4) + " s" : "",
-         exposure.f_number ? "f/" + RoundedText(*exposure.f_number, 3) : "",
+         exposure.t_stop     ? "T" + RoundedText(*exposure.t_stop, 3)
+         : exposure.f_number ? "f/" + RoundedText(*exposure.f_number, 3)
+                             : "",
          exposure.iso ? RoundedText(*exposure.iso, 4) : "",
          frame.ratio_ev ? RoundedText(*frame.ratio_ev, 4) : "", frame.used ? "yes" : "no"});
   }
@@ -291,11 +319,14 @@ Result<void> RunMerge(const Options& options, Console& console) {
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
+  const auto lamps = ParseLamps(options.mains, options.pwm);
+  if (!lamps) return tl::unexpected(lamps.error());
   const auto bracket = OpenBracket(options.frames, *overrides);
   if (!bracket) return tl::unexpected(bracket.error());
   const auto merged = MergeBracket(*bracket, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);
+  console.Warn(CheckShutters(bracket->frames, *lamps));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<OutputWriter> outputs = {PictureWriter(options, *request, *merged)};
   if (request->want_sigma) outputs.push_back(SigmaWriter(options, *merged));
@@ -327,6 +358,7 @@ Run BuildMerge(CLI::App& parser) {
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("--f-number", o.f_number, "Aperture of all frames [from the files]");
+  parser.add_option("--t-stop", o.t_stop, "T-stop of all frames instead [from the files]");
   parser.add_option("--iso", o.iso, "ISO speed of all frames [from the files]");
   parser.add_option("--anchor", o.anchor,
                     "A luminance meter's reading of pixels: x,y,w,h=NITS [ISO speed, a prior]");
@@ -350,6 +382,14 @@ Run BuildMerge(CLI::App& parser) {
                     "RGB in rec709, acescg, rec2020 or p3 instead of luminance alone");
   parser.add_option("--white", o.white,
                     "What becomes white: 3200K, D65 or x,y (luminance stays) [no adaptation]");
+  parser
+      .add_option("--align", o.align,
+                  "auto: take back what the camera moved, by whole pixels and only on evidence; "
+                  "crops to what all frames show")
+      ->capture_default_str();
+  parser.add_option("--mains", o.mains,
+                    "50, 60 or none: which lamps' flicker shutters are checked for [either]");
+  parser.add_option("--pwm", o.pwm, "HZ[,DUTY] of a dimmed lamp, to check shutters for");
   parser.add_flag("--uncompressed", o.uncompressed, "Faster, larger files");
   parser.add_flag("--force", o.force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunMerge(*options, console); };

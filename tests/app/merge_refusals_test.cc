@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "merge_brackets.h"
+#include "plain_exr.h"
 
 namespace lightcal {
 namespace {
@@ -98,55 +98,74 @@ TEST(MergeCommand, FramesOfDifferentSizeAreRefusedAndMixedIsoIsNamed) {
   EXPECT_TRUE(Warns(MergeJson(files, folder.path() + "/lum.exr"), "mixed_iso"));
 }
 
-TEST(MergeCommand, APictureWithANanIsRefused) {
+TEST(MergeCommand, AMovedFocusOrZoomOrApertureIsNamed) {
   const test::TempDir folder;
-  // OpenEXR written by hand: uncompressed scanlines of one float channel, one NaN among them.
+  const SyntheticCamera camera = Camera(96, 64);
+  const auto series = Series(3);
+  const auto scene = Wedge(camera).Scene();
+  const Words files = ShootAll(folder, camera, series, scene);
+  const auto warns = [&](const std::string& code, const test::SyntheticDngOptions& options,
+                         double f_number) {
+    test::SyntheticExposure other = series[2];
+    other.label_f_number = f_number;
+    const std::string file = Shoot(folder, "other", camera, other, scene, options);
+    return Warns(MergeJson({files[0], files[1], file}, folder.path() + "/lum.exr", {"--force"}),
+                 code);
+  };
+  test::SyntheticDngOptions options;
+  options.focal_length_mm = 50.0;
+  EXPECT_TRUE(warns("mixed_focus", options, 8.0));
+  options.focal_length_mm = 35.0;
+  EXPECT_TRUE(warns("mixed_aperture", options, 9.0));
+  options.subject_distance_m = 2.0;
+  Words focused;
+  for (std::size_t i = 0; i < 3; ++i) {
+    options.subject_distance_m = i == 2 ? 3.0 : 2.0;
+    focused.push_back(
+        Shoot(folder, "focus" + std::to_string(i), camera, series[i], scene, options));
+  }
+  EXPECT_TRUE(Warns(MergeJson(focused, folder.path() + "/lum.exr", {"--force"}), "mixed_focus"));
+}
+
+TEST(MergeCommand, ATruncatedFileIsRefused) {
+  const test::TempDir folder;
+  const SyntheticCamera camera = Camera(96, 64);
+  test::SyntheticDngOptions packed;
+  packed.lossless_jpeg = true;
+  const auto cut = [&](const std::string& path) {
+    std::string bytes = test::ReadFile(path);
+    bytes.resize(bytes.size() * 3 / 5);
+    return folder.Write("cut" + std::filesystem::path(path).extension().string(), bytes);
+  };
+  for (const auto& options : {test::SyntheticDngOptions{}, packed}) {
+    const Words files = ShootAll(folder, camera, Series(2), Wedge(camera).Scene(), options);
+    ExpectRefused({files[0], cut(files[1])}, folder.path() + "/lum.exr", "bad_picture");
+  }
+  for (const char* name :
+       {"pictures/exr/Rec709.exr", "pictures/own/ramp_8bit.jpg", "pictures/latlong/lobby.hdr"}) {
+    const std::string whole = test::SampleData(name);
+    ExpectRefused({whole, cut(whole)}, folder.path() + "/lum.exr", "bad_picture",
+                  {"--exposures", "1/60,1/30", "--f-number", "8", "--iso", "100"});
+  }
+}
+
+TEST(MergeCommand, APictureOfSamplesNoLightHasIsRefused) {
+  const test::TempDir folder;
   const auto exr = [](float odd) {
-    std::string bytes;
-    const auto put = [&](const auto& value) {
-      bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
-    };
-    const auto attribute = [&](const std::string& name, const std::string& type,
-                               const std::string& value) {
-      bytes += name + '\0' + type + '\0';
-      put(static_cast<std::int32_t>(value.size()));
-      bytes += value;
-    };
-    const auto raw = [](auto... values) {
-      std::string text;
-      (text.append(reinterpret_cast<const char*>(&values), sizeof(values)), ...);
-      return text;
-    };
-    put(std::int32_t{20000630});
-    put(std::int32_t{2});
-    attribute("channels", "chlist",
-              std::string("Y\0", 2) +
-                  raw(std::int32_t{2}, std::int32_t{0}, std::int32_t{1}, std::int32_t{1}) +
-                  std::string(1, '\0'));
-    attribute("compression", "compression", std::string(1, '\0'));
-    const std::string window =
-        raw(std::int32_t{0}, std::int32_t{0}, std::int32_t{15}, std::int32_t{15});
-    attribute("dataWindow", "box2i", window);
-    attribute("displayWindow", "box2i", window);
-    attribute("lineOrder", "lineOrder", std::string(1, '\0'));
-    attribute("pixelAspectRatio", "float", raw(1.0F));
-    attribute("screenWindowCenter", "v2f", raw(0.0F, 0.0F));
-    attribute("screenWindowWidth", "float", raw(1.0F));
-    bytes += '\0';
-    const std::size_t table = bytes.size();
-    for (int y = 0; y < 16; ++y) put(static_cast<std::uint64_t>(table + 16 * 8 + y * (8 + 64)));
-    for (int y = 0; y < 16; ++y) {
-      put(std::int32_t{y});
-      put(std::int32_t{64});
-      for (int x = 0; x < 16; ++x) put(x == 3 && y == 3 ? odd : 0.01F * static_cast<float>(x + y));
+    std::vector<float> samples;
+    for (int i = 0; i < 256; ++i) {
+      samples.push_back(0.01F * static_cast<float>(i % 16 + i / 16));
     }
-    return bytes;
+    samples[51] = odd;
+    return test::EncodeExr(16, 16, samples);
   };
   const Words good = {folder.Write("a.exr", exr(0.5F)), folder.Write("b.exr", exr(0.6F))};
   const Words exposures = {"--exposures", "1/60,1/30", "--f-number", "8", "--iso", "100"};
-  const Words bad = {good[0],
-                     folder.Write("nan.exr", exr(std::numeric_limits<float>::quiet_NaN()))};
-  ExpectRefused(bad, folder.path() + "/lum.exr", "bad_samples", exposures);
+  for (const float odd : {std::numeric_limits<float>::quiet_NaN(),
+                          -std::numeric_limits<float>::infinity(), 1.1e30F}) {
+    ExpectRefused({good[0], folder.Write("odd.exr", exr(odd))}, folder.path() + "/lum.exr",
+                  "bad_samples", exposures);
+  }
 }
 
 TEST(MergeCommand, ACameraThatMovedIsNamed) {

@@ -6,11 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "lightcal/colorimetry/cct.h"
 #include "lightcal_devices/captures/picture.h"
 #include "merge_brackets.h"
 
@@ -105,27 +103,21 @@ TEST(MergeCommand, SigmaIsTheScatterOfEqualPixels) {
   }
 }
 
-TEST(MergeCommand, ANeutralUnderItsOwnWhiteIsWhiteInEverySpace) {
+TEST(MergeCommand, AnXTransMosaicMergesAsABayerOneDoes) {
   const test::TempDir folder;
-  SyntheticCamera camera = Camera(64, 64);
-  camera.prnu_relative = camera.row_noise_e = camera.knee_relative = 0.0;
-  camera.full_well_e = 1e9;   // no noise to speak of: what is asked is a matrix
-  camera.read_noise_e = 1e5;  // 1.5 DN, so that rounding leaves no bias
-  const Xy warm = XyFromCct(Kelvin(3200));
-  const StepWedge wedge{{400.0, 40.0}, 2, 64, 64, warm.x, warm.y};
-  test::SyntheticDngOptions options;
-  options.white_x = warm.x;
-  options.white_y = warm.y;
-  const Words files = ShootAll(folder, camera, Series(3), wedge.Scene(), options);
-  for (const std::string space : {"rec709", "acescg", "rec2020", "p3"}) {
-    const std::string output = folder.path() + "/" + space + ".exr";
-    static_cast<void>(MergeJson(
-        files, output, {"--space", space, "--white", "3200K", "--anchor", "4,4,24,56=400"}));
-    const Picture rgb = ReadExr(output);
-    ASSERT_EQ(rgb.channels, 3);
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_NEAR(rgb.Mean(4, 4, 24, 56, c) / 400.0, 1.0, 2e-4) << space << " channel " << c;
-    }
+  SyntheticCamera camera = Camera();
+  camera.x_trans = true;
+  const StepWedge wedge = Wedge(camera, 10.0, 1e4);
+  const std::string output = folder.path() + "/lum.exr", sigma = folder.path() + "/sigma.exr";
+  const json answer =
+      MergeJson(ShootAll(folder, camera, Series(), wedge.Scene()), output,
+                {"--sigma", sigma, "--anchor", "230,10,60,80=" + std::to_string(wedge.nits[3])});
+  EXPECT_FALSE(Warns(answer, "moved_content")) << answer.dump();
+  const Picture picture = ReadExr(output), sd = ReadExr(sigma);
+  for (int patch = 0; patch < 8; ++patch) {
+    const double nits = wedge.nits[static_cast<std::size_t>(patch)];
+    EXPECT_NEAR(PatchMean(picture, wedge, patch) / nits, 1.0, 0.003) << nits;
+    EXPECT_LT(PatchMean(sd, wedge, patch) / nits, 0.2) << nits;
   }
 }
 
@@ -138,45 +130,6 @@ TEST(MergeCommand, FramesMayComeInAnyOrder) {
   std::rotate(files.begin(), files.begin() + 2, files.end());
   static_cast<void>(MergeJson(files, second));
   EXPECT_EQ(ReadExr(first).samples, ReadExr(second).samples);
-}
-
-// EXR frames carry neither exposure nor levels: both are given, the clip shows itself.
-TEST(MergeCommand, LinearExrFramesMergeUnderTheExposuresGiven) {
-  const test::TempDir folder;
-  constexpr int kWidth = 96, kHeight = 64;
-  std::mt19937_64 random(3);
-  std::normal_distribution<float> noise(0.0F, 1.0F);
-  Words files;
-  for (const float exposure : {1.0F, 3.9F, 16.3F}) {  // labels 1, 4, 16
-    std::vector<float> samples;
-    for (int i = 0; i < kWidth * kHeight; ++i) {
-      for (const float tint : {0.9F, 1.0F, 0.8F}) {
-        const float scene = 0.01F * std::pow(80.0F, static_cast<float>(i % kWidth) / kWidth);
-        const float signal = scene * tint * exposure;
-        const float seen = signal + std::sqrt(signal / 2e4F + 1e-8F) * noise(random);
-        samples.push_back(std::min(seen, 1.0F));
-      }
-    }
-    files.push_back(folder.path() + "/" + std::to_string(files.size()) + ".exr");
-    ExrPicture exr;
-    exr.samples = View2d<const float>(samples.data(), kWidth, kHeight, 3);
-    exr.channel_names = {"R", "G", "B"};
-    exr.chromaticities = PrimariesOf(RgbSpace::kSrgb);
-    ASSERT_TRUE(WriteExr(files.back(), exr).has_value());
-  }
-  const std::string output = folder.path() + "/lum.exr";
-  const Words exposures = {"--exposures", "1/60,1/15,1/4", "--f-number", "8", "--iso", "100"};
-  const json answer = MergeJson(files, output, exposures);
-  EXPECT_NEAR(answer["frames"][1]["ratio_ev"], std::log2(3.9), 0.003);
-  EXPECT_NEAR(answer["frames"][2]["ratio_ev"], std::log2(16.3), 0.003);
-  EXPECT_EQ(answer["clipped_fraction"], 0.0);
-  const Picture lum = ReadExr(output);
-  const double first = lum.Mean(2, 0, 1, kHeight);
-  for (const int x : {20, 50, 80, 93}) {
-    EXPECT_NEAR(lum.Mean(x, 0, 1, kHeight) / first, std::pow(80.0, (x - 2) / 96.0),
-                0.006 * std::pow(80.0, (x - 2) / 96.0))
-        << x;
-  }
 }
 
 // Ranks of two lists agree: Spearman's coefficient.

@@ -2,6 +2,7 @@
 #include "lightcal/imaging/frame_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -25,18 +26,32 @@ int BlockSize(const SignalFrame& frame) {
   return (size + period - 1) / period * period;
 }
 
-// The picture of a frame moved by (dx, dy) blocks, linear in between.
+// Catmull and Rom's weights of four neighbours at the share w between the middle two.
+std::array<float, 4> CubicWeights(float w) {
+  const float w2 = w * w, w3 = w2 * w;
+  return {0.5F * (-w3 + 2.0F * w2 - w), 0.5F * (3.0F * w3 - 5.0F * w2 + 2.0F),
+          0.5F * (-3.0F * w3 + 4.0F * w2 + w), 0.5F * (w3 - w2)};
+}
+
+// The picture of a frame moved by (dx, dy) blocks; cubic in between, as straight lines would cut
+// the corners of textures by more than frames may differ.
 std::vector<float> Shifted(const Blocks& a, double dx, double dy) {
   std::vector<float> out(a.mean.size(), std::numeric_limits<float>::quiet_NaN());
   const int fx = static_cast<int>(std::floor(dx)), fy = static_cast<int>(std::floor(dy));
-  const auto wx = static_cast<float>(dx - fx), wy = static_cast<float>(dy - fy);
+  const auto across = CubicWeights(static_cast<float>(dx - fx));
+  const auto down = CubicWeights(static_cast<float>(dy - fy));
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
       const int sx = x + fx, sy = y + fy;
-      if (sx < 0 || sy < 0 || sx + 1 >= a.width || sy + 1 >= a.height) continue;
-      const float top = a.mean[a.At(sx, sy)] * (1.0F - wx) + a.mean[a.At(sx + 1, sy)] * wx;
-      const float low = a.mean[a.At(sx, sy + 1)] * (1.0F - wx) + a.mean[a.At(sx + 1, sy + 1)] * wx;
-      out[a.At(x, y)] = top * (1.0F - wy) + low * wy;
+      if (sx < 1 || sy < 1 || sx + 2 >= a.width || sy + 2 >= a.height) continue;
+      float sum = 0.0F;
+      for (int j = 0; j < 4; ++j) {
+        const float* row = &a.mean[a.At(sx - 1, sy - 1 + j)];
+        float line = 0.0F;
+        for (int i = 0; i < 4; ++i) line += across[static_cast<std::size_t>(i)] * row[i];
+        sum += down[static_cast<std::size_t>(j)] * line;
+      }
+      out[a.At(x, y)] = sum;
     }
   }
   return out;
@@ -133,6 +148,22 @@ double Refine(const Blocks& a, const Blocks& b, Shift& shift) {
   return sd;
 }
 
+// b brought to the level that `expected` shows: exposures measured on pictures that moved are
+// rough.
+Blocks AtLevelOf(std::span<const float> expected, const Blocks& b) {
+  std::vector<float> ratios;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (b.Usable(i) && expected[i] > 0.0F) ratios.push_back(b.mean[i] / expected[i]);
+  }
+  Blocks level = b;
+  if (ratios.empty()) return level;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  for (float& mean : level.mean) mean /= *middle;
+  for (float& variance : level.variance) variance /= *middle * *middle;
+  return level;
+}
+
 }  // namespace
 
 Blocks BlocksOf(const BracketMerger& merger, std::size_t k) {
@@ -207,16 +238,20 @@ double FoundShift::length() const { return std::hypot(dx, dy); }
 
 std::optional<FoundShift> FindShift(const Blocks& a, const Blocks& b, const Differences& still,
                                     double least_pixels) {
+  const Blocks level = AtLevelOf(a.mean, b);
   std::vector<Shift> starts = {Shift{}};
   if (a.width >= 8 * kSmaller && a.height >= 8 * kSmaller) {
-    const Shift coarse = SearchShift(Smaller(a), Smaller(b));
+    const Shift coarse = SearchShift(Smaller(a), Smaller(level));
     starts.push_back({coarse.dx * kSmaller, coarse.dy * kSmaller});
   }
-  starts.push_back(SearchShift(a, b));
+  starts.push_back(SearchShift(a, level));
   for (Shift shift : starts) {
-    const double sd = Refine(a, b, shift);
+    Blocks seen = AtLevelOf(Shifted(a, shift.dx, shift.dy), b);
+    static_cast<void>(Refine(a, seen, shift));
+    seen = AtLevelOf(Shifted(a, shift.dx, shift.dy), b);
+    const double sd = Refine(a, seen, shift);
     FoundShift found{shift.dx * a.size, shift.dy * a.size, sd * a.size,
-                     Compare(a, b, Shifted(a, shift.dx, shift.dy))};
+                     Compare(a, seen, Shifted(a, shift.dx, shift.dy))};
     const bool explains = found.left.share() <= (1.0 - kExplained) * still.share() &&
                           2 * found.left.comparable >= still.comparable;
     if (explains && found.length() >= least_pixels) return found;

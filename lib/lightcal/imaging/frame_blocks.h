@@ -57,8 +57,9 @@ struct FoundShift {
   Differences left;           // of the blocks when a is moved so
   [[nodiscard]] double length() const;
 };
-// The shift that explains more than half of what disagrees between two pictures, when it is at
-// least `least_pixels` and leaves half of the blocks comparable; sought within 32 blocks.
+// The shift, at a level of its own, that explains more than half of what disagrees between two
+// pictures, when it is at least `least_pixels` and leaves half of the blocks comparable; sought
+// within 32 blocks.
 [[nodiscard]] std::optional<FoundShift> FindShift(const Blocks& a, const Blocks& b,
                                                   const Differences& still, double least_pixels);
 
