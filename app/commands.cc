@@ -45,6 +45,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"
      "  lightcal merge a.png b.png c.png -o lum.exr --exposures 1/50,1/13,0.4 --f-number 8 --iso 800\n"
      "  lightcal merge bracket/*.dng -o rgb.exr --space acescg --white 3200K", BuildMerge},
+    {"dome", "A panorama in cd/m2 by one lux reading; its sun and lamps taken out as lights",
+     "  lightcal dome lobby.hdr --lux 420 --extract 3 -o lobby_dome\n"
+     "  lightcal dome sky.exr --lux 98klx --extract 1 --plate-exposure f/8,1/60,100 -o sky_dome\n"
+     "  lightcal dome sky.hdr --lux 98klx --lux-shaded 15klx --extract 1 -o sky_dome", BuildDome},
     {"inspect", "Luminance statistics of a picture or panorama; the illuminance it gives",
      "  lightcal inspect lobby.hdr --projection latlong\n"
      "  lightcal inspect lum.exr --rect 280,180,40,40 --json\n"

@@ -17,6 +17,7 @@ Run BuildShoot(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
 Run BuildCamera(CLI::App& parser);
 Run BuildMerge(CLI::App& parser);
+Run BuildDome(CLI::App& parser);
 Run BuildInspect(CLI::App& parser);
 Run BuildRun(CLI::App& parser);
 Run BuildFit(CLI::App& parser);

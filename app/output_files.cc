@@ -91,13 +91,17 @@ Result<void> CheckTargets(const std::vector<OutputWriter>& files, bool force) {
 
 }  // namespace
 
+OutputWriter WriterOf(OutputFile file) {
+  std::string path = file.path;
+  return {std::move(path), [file = std::move(file)](const std::string& temporary) {
+            return WriteWhole(temporary, file.contents);
+          }};
+}
+
 Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
   std::vector<OutputWriter> writers;
-  for (const OutputFile& file : files) {
-    writers.push_back({file.path, [&file](const std::string& temporary) {
-                         return WriteWhole(temporary, file.contents);
-                       }});
-  }
+  writers.reserve(files.size());
+  for (const OutputFile& file : files) writers.push_back(WriterOf(file));
   return WriteOutputsWith(writers, force);
 }
 

@@ -28,6 +28,7 @@ struct OutputWriter {
   std::string path;
   std::function<Result<void>(const std::string& temporary)> write;
 };
+[[nodiscard]] OutputWriter WriterOf(OutputFile file);
 // As WriteOutputs.
 [[nodiscard]] Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force);
 

@@ -3,13 +3,11 @@
 // taken.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,13 +15,13 @@
 #include "commands.h"
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/cct.h"
-#include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/imaging/panorama.h"
 #include "lightcal/imaging/patches.h"
 #include "lightcal/imaging/picture_luminance.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "picture_words.h"
 
 namespace lightcal::app {
 namespace {
@@ -51,14 +49,6 @@ struct Answer {
   std::optional<RegionIlluminance> illuminance;
   std::optional<Vec3> peak_direction;
 };
-
-Result<LuminanceConvention> ConventionByName(const std::string& word) {
-  if (word == "photometric") return LuminanceConvention::kPhotometric;
-  if (word == "radiometric") return LuminanceConvention::kRadiometric;
-  if (word == "radiance") return LuminanceConvention::kRadiance;
-  return WrongUsage("--luminance-convention",
-                    "\"" + word + "\" is none of photometric, radiometric, radiance");
-}
 
 Result<double> Above0(const char* option, Result<double> number) {
   if (number && !(*number > 0.0)) return Refused("not_positive", option, "must be above zero");
@@ -120,7 +110,7 @@ void TakeOwnScale(Inspected& inspected) {
 }
 
 Result<Inspected> Inspect(const Options& options, Console& console) {
-  const auto convention = ConventionByName(options.convention);
+  const auto convention = ParseConvention("--luminance-convention", options.convention);
   if (!convention) return tl::unexpected(convention.error());
   auto info = ReadFrameInfo(options.image);
   if (!info) return Propagate(std::move(info));
@@ -163,16 +153,9 @@ Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
     if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
     return std::nullopt;
   }
-  const auto projection =
-      ProjectionByName(options.projection.empty() ? "latlong" : options.projection);
-  if (!projection) {
-    constexpr std::array<std::string_view, 4> kKnown = {"rect", "latlong", "equidistant",
-                                                        "equisolid"};
-    const std::string near = NearestWord(options.projection, kKnown);
-    return WrongUsage("--projection", "\"" + options.projection +
-                                          "\" is none of rect, latlong, equidistant, equisolid" +
-                                          (near.empty() ? "" : "; did you mean " + near + "?"));
-  }
+  const auto projection = ParseProjection(
+      "--projection", options.projection.empty() ? "latlong" : options.projection);
+  if (!projection) return tl::unexpected(projection.error());
   view.projection = *projection;
   if (view.projection != Projection::kLatLong) {
     if (options.fov.empty()) {
@@ -317,10 +300,7 @@ Run BuildInspect(CLI::App& parser) {
   parser.add_option("--fov", options->fov,
                     "full angle, across the width (rect) or the image circle (fisheyes)");
   parser
-      .add_option("--luminance-convention", options->convention,
-                  "photometric: Y of the file's primaries (Rec. 709) in cd/m², times its "
-                  "whiteLuminance; radiometric: Y in W/(sr m²), times 683 lm/W; radiance: "
-                  "179 lm/W (.265 R + .670 G + .065 B)")
+      .add_option("--luminance-convention", options->convention, kConventionHelp)
       ->capture_default_str();
   parser.add_option("--exposure,--exposures", options->exposure,
                     "of a RAW that does not say it: 1/60");

@@ -13,6 +13,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/captures/picture.h"
 #include "output_files.h"
+#include "picture_words.h"
 #include "shutter_check.h"
 
 namespace lightcal::app {
@@ -31,18 +32,6 @@ struct Options {
   std::string align = "off", mains, pwm;
   bool uncompressed = false, force = false;
 };
-
-Result<double> ParseShare(const std::string& option, const std::string& text) {
-  std::string_view digits = TrimBlanks(text);
-  const bool percent = digits.ends_with('%');
-  if (percent) digits.remove_suffix(1);
-  const auto number = ParseNumber(TrimBlanks(digits));
-  const double share = number ? *number / (percent ? 100.0 : 1.0) : -1.0;
-  if (!(share > 0.0 && share < 1.0)) {
-    return WrongUsage(option, "\"" + text + "\" is not a share such as 2% or 0.02");
-  }
-  return share;
-}
 
 // "x,y,w,h=NITS"
 Result<SpotReading> ParseAnchor(const std::string& text, const std::string& sigma) {

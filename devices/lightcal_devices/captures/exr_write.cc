@@ -32,6 +32,7 @@ Imf::Header HeaderOf(const ExrPicture& picture) {
   if (picture.white_luminance) {
     Imf::addWhiteLuminance(header, static_cast<float>(picture.white_luminance->value()));
   }
+  if (picture.environment_latlong) Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
   for (const auto& [name, text] : picture.attributes) {
     header.insert("lightcal:" + name, Imf::StringAttribute(text));
   }

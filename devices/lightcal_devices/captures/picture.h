@@ -33,6 +33,7 @@ struct ExrPicture {
   std::vector<std::string> channel_names;  // one a channel of samples: {"Y"}, {"R", "G", "B"}
   std::optional<RgbPrimaries> chromaticities;
   std::optional<Nits> white_luminance;  // 1 nit where the samples are luminance in nits
+  bool environment_latlong = false;     // written as envmap = latlong
   // Provenance, written as text attributes "lightcal:<name>".
   std::vector<std::pair<std::string, std::string>> attributes;
   bool compressed = true;  // ZIP; a 24 MP picture is written ten times faster without

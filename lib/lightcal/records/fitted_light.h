@@ -86,6 +86,7 @@ struct FittedLight {
   std::optional<double> inner_deg, outer_deg;  // half angles
   std::optional<double> inner_u95_deg, outer_u95_deg, aim_u95_deg;  // where the readings told them
   std::optional<double> diameter_m, width_m, height_m, length_m, radius_m;
+  std::optional<double> angular_diameter_deg;  // directional: full angle of the disc it shines from
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;
   std::optional<MeasuredDistribution> distribution;  // photometric

@@ -113,6 +113,7 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Number("height_m", light.height_m, kNotNegative);
   archive.Number("length_m", light.length_m, kNotNegative);
   archive.Number("radius_m", light.radius_m, kNotNegative);
+  archive.Number("angular_diameter_deg", light.angular_diameter_deg, kNotNegative);
   archive.Array("position_m", light.position_m);
   archive.Array("aim", light.aim);
   archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `lightcal dome` that say what the pictures are and what the meter read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dome/dome_work.h"
+#include "lightcal/core/result.h"
+#include "lightcal/photometry/exposure.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lightcal::app {
+
+struct DomeWords {
+  std::vector<std::string> files;
+  std::string lux, lux_sigma = "5%", lux_direction = "up", lux_shaded;
+  std::string convention, clip, north;
+};
+
+void AddDomeWords(CLI::App& parser, DomeWords& words);
+[[nodiscard]] Result<DomeRequest> DomeRequestOf(const DomeWords& words);
+
+// "f/8,1/60,100": f-number, time, ISO speed.
+[[nodiscard]] Result<CameraSettings> ParsePlateExposure(const std::string& option,
+                                                        const std::string& text);
+
+}  // namespace lightcal::app

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dome/dome_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/core/units_text.h"
+
+namespace lightcal::app {
+namespace {
+
+// So many pixels of one light that share the picture's largest value: clipped, or drawn.
+constexpr int kPlateau = 4;
+constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
+constexpr double kUnknownScaleU95 = 0.05;
+constexpr double kConflict = 0.25;
+
+tl::unexpected<Error> AboutFile(const char* code, const DomeInput& input, const char* message) {
+  return Refused(code, input.files.front(), message);
+}
+
+Result<void> CheckContents(const DomeInput& input, Warnings& warnings) {
+  const auto& nits = input.dome.nits;
+  const auto [least, most] = std::minmax_element(nits.begin(), nits.end());
+  if (!(*most > 0.0F)) {
+    return AboutFile("all_black", input, "no pixel is above 0; expose longer, or merge a bracket");
+  }
+  if (*least != *most) return {};
+  if (std::abs(*most - kFormatLimit) < 1.0) {
+    return AboutFile("all_saturated", input,
+                     "every pixel is at the format's limit; expose shorter, or merge a bracket");
+  }
+  warnings.push_back({"all_saturated", input.files.front(),
+                      "every pixel has the same value: the picture is saturated all over, or was "
+                      "drawn"});
+  return {};
+}
+
+bool AtLimit(const DomeLight& light, float brightest) {
+  return light.body.plateau >= kPlateau && light.body.peak_nits >= double{brightest};
+}
+
+std::vector<std::uint8_t> PixelsAt(float level, const std::vector<float>& nits) {
+  std::vector<std::uint8_t> at;
+  at.reserve(nits.size());
+  for (const float v : nits) at.push_back(v >= level ? 1 : 0);
+  return at;
+}
+
+std::vector<DomeLight> FindLights(const DomeInput& input) {
+  const Dome& dome = input.dome;
+  return MeasureDomeLights(
+      dome, FindBrightBodies(dome.luminance(), dome.grid(), {.clipped = input.clipped}),
+      input.clipped);
+}
+
+// A light that ends in a plateau at the picture's largest value is either clipped or drawn. In
+// cd/m^2 the reading tells: it exceeds what the picture holds.
+void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
+                   MeasuredDome& measured) {
+  DomeInput& input = measured.input;
+  if (request.input.clip) return;
+  const float brightest = *std::max_element(input.dome.nits.begin(), input.dome.nits.end());
+  const auto suspect = std::ranges::find_if(
+      measured.lights, [&](const DomeLight& light) { return AtLimit(light, brightest); });
+  if (suspect == measured.lights.end()) return;
+  if (reading && !reading->shaded && input.absolute) {
+    const double seen =
+        IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
+    const double u95 = input.scale_u95_relative.value_or(kUnknownScaleU95);
+    if (reading->illuminance.value() > seen * (1.0 + u95)) {
+      input.clipped = PixelsAt(brightest, input.dome.nits);
+      measured.lights = FindLights(input);
+      return;
+    }
+  }
+  const AzimuthElevation at = AnglesOf(TurnedNorth(suspect->direction, measured.north));
+  measured.warnings.push_back(
+      {"maybe_clipped", input.files.front(),
+       std::to_string(suspect->body.plateau) + " pixels of the light at azimuth " +
+           RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3) +
+           " share the picture's largest value; if they are clipped, say from where (--clip) and "
+           "read again with the light shaded (--lux-shaded)"});
+}
+
+Result<void> Scale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+  DomeInput& input = measured.input;
+  measured.scale_source = input.scale;
+  measured.scale_u95_relative = input.scale_u95_relative;
+  if (!reading) return {};
+  auto scale = ScaleDome(*reading, input.absolute, input.dome, measured.lights);
+  if (!scale) return Propagate(std::move(scale));
+  measured.scale = *scale;
+  const bool scaled = scale->sd_relative > 0.0;
+  if (scaled) {
+    measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
+    measured.scale_u95_relative = kZ95 * scale->sd_relative;
+    std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
+  }
+  const double off = std::abs(std::log(scale->factor));
+  if (scaled && input.absolute &&
+      off > std::max(kConflict, input.scale_u95_relative.value_or(0.0))) {
+    measured.warnings.push_back(
+        {"scale_conflict", input.files.front(),
+         "the reading makes the picture " + RoundedText(scale->factor, 3) +
+             " times as bright as the file says it is; the reading is believed"});
+  }
+  if (scale->inferred > 1) {
+    measured.warnings.push_back(
+        {"clipped_lights_share", input.files.front(),
+         std::to_string(scale->inferred) +
+             " lights are clipped; one reading cannot tell them apart, so they share one "
+             "luminance"});
+  }
+  return {};
+}
+
+void WarnOfClipping(MeasuredDome& measured) {
+  const bool lost = std::ranges::any_of(measured.lights, [](const DomeLight& light) {
+    return light.body.clipped && !light.inferred;
+  });
+  if (!lost) return;
+  measured.warnings.push_back(
+      {"clipped", measured.input.files.front(),
+       "a light is clipped: its lux are a lower bound; read it with a lux meter (--lux, and "
+       "--lux-shaded where the picture is not in cd/m2)"});
+}
+
+// What was inferred may outshine what was not.
+void OrderLights(MeasuredDome& measured) {
+  std::ranges::stable_sort(measured.lights, [](const DomeLight& a, const DomeLight& b) {
+    return a.illuminance.value() > b.illuminance.value();
+  });
+  const double scale = measured.scale_u95_relative.value_or(0.0) / kZ95;
+  for (const DomeLight& light : measured.lights) {
+    measured.sd_relative.push_back(
+        std::hypot(light.inferred ? measured.scale.inferred_sd_relative : scale,
+                   light.background_sd_relative));
+  }
+}
+
+}  // namespace
+
+Vec3 TurnedNorth(const Vec3& d, Radians north) {
+  const double c = std::cos(north.value()), s = std::sin(north.value());
+  return {c * d[0] - s * d[1], s * d[0] + c * d[1], d[2]};
+}
+
+void TurnNorth(Radians north, Dome& dome) {
+  const double columns = north.value() / (2.0 * std::numbers::pi) * dome.width;
+  const double whole = std::floor(columns + 1e-9);
+  const auto part = static_cast<float>(std::max(0.0, columns - whole));
+  const auto shift = static_cast<int>(std::fmod(whole, dome.width)) + dome.width;
+  const auto turn = [&](std::vector<float>& values, int channels) {
+    std::vector<float> row(static_cast<std::size_t>(dome.width) * channels);
+    for (int y = 0; y < dome.height; ++y) {
+      float* const at = &values[static_cast<std::size_t>(y) * row.size()];
+      std::copy_n(at, row.size(), row.begin());
+      for (int x = 0; x < dome.width; ++x) {
+        const int left = (x + shift) % dome.width, right = (left + 1) % dome.width;
+        for (int c = 0; c < channels; ++c) {
+          const float a = row[static_cast<std::size_t>(left * channels + c)];
+          const float b = row[static_cast<std::size_t>(right * channels + c)];
+          at[x * channels + c] = (1.0F - part) * a + part * b;
+        }
+      }
+    }
+  };
+  turn(dome.samples, dome.channels);
+  turn(dome.nits, 1);
+}
+
+Result<Vec3> ParseDirection(const std::string& option, const std::string& text) {
+  if (text == "up") return Vec3{0.0, 0.0, 1.0};
+  if (text == "down") return Vec3{0.0, 0.0, -1.0};
+  const std::size_t comma = text.find(',');
+  const auto wrong = [&] {
+    return WrongUsage(option, "\"" + text +
+                                  "\" is neither up, down nor AZIMUTH,ELEVATION in degrees (right "
+                                  "of the picture's centre, above the horizon)");
+  };
+  if (comma == std::string::npos) return wrong();
+  const auto azimuth = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
+  const auto elevation = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
+  if (!azimuth || !elevation || std::abs(*elevation) > 90.0) return wrong();
+  const double a = RadiansFromDegrees(*azimuth).value(), e = RadiansFromDegrees(*elevation).value();
+  return Vec3{std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
+}
+
+AzimuthElevation AnglesOf(const Vec3& d) {
+  return {DegreesFromRadians(Radians(std::atan2(d[0], d[1]))),
+          DegreesFromRadians(Radians(std::atan2(d[2], std::hypot(d[0], d[1]))))};
+}
+
+Result<MeasuredDome> MeasureDome(const DomeRequest& request) {
+  auto input = ReadDomeInput(request.input);
+  if (!input) return Propagate(std::move(input));
+  MeasuredDome measured;
+  measured.input = std::move(*input);
+  measured.north = request.north;
+  if (auto ok = CheckContents(measured.input, measured.warnings); !ok) {
+    return Propagate(std::move(ok));
+  }
+  std::optional<DomeReading> reading = request.reading;
+  if (reading) reading->normal = TurnedNorth(reading->normal, -request.north);
+  measured.lights = FindLights(measured.input);
+  JudgePlateaus(request, reading, measured);
+  if (auto ok = Scale(reading, measured); !ok) return Propagate(std::move(ok));
+  OrderLights(measured);
+  WarnOfClipping(measured);
+  Warnings& warnings = measured.warnings;
+  warnings.insert(warnings.begin(), measured.input.warnings.begin(), measured.input.warnings.end());
+  return measured;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What people type about pictures. `option` stands in messages.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/imaging/panorama.h"
+#include "lightcal/imaging/picture_luminance.h"
+
+namespace lightcal::app {
+
+// "photometric" "radiometric" "radiance"
+[[nodiscard]] Result<LuminanceConvention> ParseConvention(const std::string& option,
+                                                          const std::string& word);
+// What --luminance-convention's help says.
+inline constexpr const char* kConventionHelp =
+    "photometric: Y of the file's primaries (Rec. 709) in cd/m², times its whiteLuminance; "
+    "radiometric: Y in W/(sr m²), times 683 lm/W; radiance: 179 lm/W (.265 R + .670 G + .065 B)";
+
+// "rect" "latlong" "equidistant" "equisolid"
+[[nodiscard]] Result<Projection> ParseProjection(const std::string& option,
+                                                 const std::string& word);
+
+// "2%" or "0.02": above 0 and below 1.
+[[nodiscard]] Result<double> ParseShare(const std::string& option, const std::string& text);
+
+}  // namespace lightcal::app
