@@ -34,8 +34,8 @@ Session TwinSession(int readings) {
   return session;
 }
 
-// The Ceres path alone: rows to optimum, three parameters and two priors.
-void BM_SolveSixReadings(benchmark::State& state) {
+// Three parameters and two priors, in the solver's units.
+fit::Estimation SixReadings() {
   fit::Estimation estimation;
   std::mt19937_64 random(11);
   std::normal_distribution<double> noise(0.0, 0.014);
@@ -51,10 +51,24 @@ void BM_SolveSixReadings(benchmark::State& state) {
   estimation.rules[fit::kDistanceOffset] = {true, 0.0, 0.05};
   estimation.rules[fit::kAmbient] = {true, 0.0, 0.2};
   estimation.least_distance_offset = -0.3;
-  const fit::Theta start = fit::ScanStart(estimation);
-  for (auto _ : state) benchmark::DoNotOptimize(fit::Solve(estimation, start));
+  return estimation;
 }
-BENCHMARK(BM_SolveSixReadings);
+
+// The Ceres path alone: rows to optimum.
+void BM_SolveInFullSixReadings(benchmark::State& state) {
+  const fit::Estimation estimation = SixReadings();
+  const fit::Theta start = fit::ScanStart(estimation);
+  for (auto _ : state) benchmark::DoNotOptimize(fit::SolveInFull(estimation, start));
+}
+BENCHMARK(BM_SolveInFullSixReadings);
+
+// The path every squared-loss fit tries first.
+void BM_SolveQuicklySixReadings(benchmark::State& state) {
+  const fit::Estimation estimation = SixReadings();
+  const fit::Theta start = fit::ScanStart(estimation);
+  for (auto _ : state) benchmark::DoNotOptimize(fit::SolveQuickly(estimation, start));
+}
+BENCHMARK(BM_SolveQuicklySixReadings);
 
 // Gate, checks, start, solve, covariance, diagnostics: the whole answer.
 void BM_FitSession(benchmark::State& state) {

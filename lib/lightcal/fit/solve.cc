@@ -158,7 +158,7 @@ Theta Polish(const Estimation& estimation, Theta theta) {
     }
     if (!(HalfChiSquared(estimation, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
     theta = next;
-    if (step < 1e-15) break;
+    if (step < 1e-13) break;
   }
   return theta;
 }
