@@ -64,6 +64,7 @@ TEST(LightJson, GeometryComesBackBitForBit) {
   EXPECT_EQ(back.height_m, light.height_m);
   EXPECT_EQ(back.length_m, light.length_m);
   EXPECT_EQ(back.radius_m, light.radius_m);
+  EXPECT_EQ(back.angular_diameter_deg, light.angular_diameter_deg);
   EXPECT_EQ(back.position_m, light.position_m);
   EXPECT_EQ(back.aim, light.aim);
   EXPECT_EQ(back.covariance_lnI_d0_E0, light.covariance_lnI_d0_E0);

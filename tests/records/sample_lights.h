@@ -27,6 +27,7 @@ inline LightFile FullLightFile() {
   light.height_m = 0.2;
   light.length_m = 1.2;
   light.radius_m = 0.013;
+  light.angular_diameter_deg = 0.53;
   light.position_m = Vec3{0.1, -0.2, 1.2};
   light.aim = Vec3{0.0, 0.6, -0.8};
   IntensityGrid grid{GoniometerType::kC, {0.0}, {0.0, 30.0, 60.1}, {1.0 / 7.0, 900.5, 0.0}};
