@@ -43,8 +43,8 @@ AreaTwin TwinOf(LightKind kind) {
 
 class OffAxis : public testing::TestWithParam<LightKind> {};
 
-// Within a spot's full beam as its session sees it; its penumbra is spot_beam_test's. 60 degrees for
-// the others.
+// Within a spot's full beam as its session sees it (its penumbra is spot_beam_test's); 60 degrees
+// for the others.
 double WidestPose(LightKind kind) { return kind == LightKind::kSpot ? 0.25 : 1.05; }
 
 TEST_P(OffAxis, AnyPlaceAndTurnGivesTheSameLamp) {
