@@ -71,6 +71,9 @@ void AddDomeWords(CLI::App& parser, DomeWords& w) {
 }
 
 Result<DomeRequest> DomeRequestOf(const DomeWords& words) {
+  if (words.files.size() != 1) {
+    return WrongUsage(words.files[1], "dome reads one panorama at a time");
+  }
   DomeRequest request;
   request.input.files = words.files;
   if (!words.convention.empty()) {

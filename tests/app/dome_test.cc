@@ -296,6 +296,7 @@ TEST_F(DomeCommand, AskedWrongItSaysWhatToWrite) {
   };
   fails({"--lux", "100", "--lux-direction", "north"}, 2, "AZIMUTH,ELEVATION");
   fails({"--lux-shaded", "10"}, 2, "--lux");
+  fails({file}, 2, "one panorama at a time");
   fails({"--lux", "0"}, 3, "above 0");
   fails({"--lux", "100", "--lux-sigma", "2"}, 2, "2%");
   fails({"--extract", "-1"}, 2, "count");
