@@ -344,6 +344,17 @@ TEST(Ies, WhatWeWriteObeysTheStrictestReaders) {
   while (std::getline(lines, line)) EXPECT_LE(line.size(), 132U);
 }
 
+TEST(Ies, LongNamesStayWithinTheLineAndWritingIsAFixedPoint) {
+  PhotometricFile file = Read(Ies{}.Text());
+  for (const std::size_t length : {240U, 243U, 256U, 5000U}) {
+    file.header.luminaire = std::string(length, 'x') + " \xC3\xBC";
+    const std::string text = IesText(file);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 255U);
+    EXPECT_EQ(IesText(Read(text)), text) << length;
+  }
+}
+
 TEST(Ies, LumensAreThoseOfTheTableWhereNoneAreKnown) {
   const std::string text = IesText(Read(Ies{}.Text()));
   EXPECT_NE(text.find("\r\n1 1256.6371 1 2 1 1 2 0 0 0\r\n"), std::string::npos) << text;

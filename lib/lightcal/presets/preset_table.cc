@@ -13,7 +13,7 @@ namespace {
 constexpr std::array kTargets = {
     PresetTarget{"gltf", &ExportGltf, "gltf-validator 2.0.0-dev.3.10: 0 errors, 0 warnings"},
     PresetTarget{"json", &ExportJson, "JSON Schema 2020-12 lightcal.preset/1"},
-    PresetTarget{"ies", &ExportIes, "three.js 0.187 IESLoader: every texel within 1e-5 of the peak"},
+    PresetTarget{"ies", &ExportIes, "three.js 0.187 IESLoader: texels within 1e-5 of the peak"},
     PresetTarget{"ldt", &ExportLdt, "our own reader, and through it the .ies"},
 };
 

@@ -363,7 +363,10 @@ std::string KeywordText(const std::string& text) {
 
 void AppendKeyword(std::string& out, std::string_view key, const std::string& text) {
   if (text.empty()) return;
-  out += "[" + std::string(key) + "] " + KeywordText(text) + "\r\n";
+  constexpr std::size_t kLongestKeywordLine = 254;  // 256 with its line end
+  std::string line = "[" + std::string(key) + "] " + KeywordText(text);
+  line.resize(std::min(line.size(), kLongestKeywordLine));
+  out += std::string(TrimBlanks(line)) + "\r\n";
 }
 
 std::string OpeningText(const LuminousOpening& opening) {

@@ -95,7 +95,7 @@ std::string PlainNumber(double value, int digits) {
 }
 
 std::string HeaderText(std::string_view bytes) {
-  bytes = TrimBlanks(bytes.substr(0, kLongestField));
+  bytes = TrimBlanks(TrimBlanks(bytes).substr(0, kLongestField));
   // A cut may have split a character.
   std::string_view whole = bytes;
   for (int i = 0; i < 3 && !whole.empty() && !IsUtf8(whole); ++i) whole.remove_suffix(1);
