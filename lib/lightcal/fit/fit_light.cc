@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "lightcal/fit/data_sheet.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/fit_color.h"
 #include "lightcal/fit/input_checks.h"
+#include "lightcal/fit/locate.h"
 #include "lightcal/fit/observations.h"
 #include "lightcal/fit/off_axis.h"
 #include "lightcal/fit/plan_forward.h"
@@ -124,6 +126,57 @@ void FillParameters(const fit::LightEstimate& estimate, bool distance_law, Fitte
   out.covariance_lnI_d0_E0 = estimate.covariance;
 }
 
+// The position found is where the light seems to start.
+void NameOffsetFound(std::vector<EffectReport>& effects) {
+  for (EffectReport& effect : effects) {
+    if (effect.name != "distance_offset") continue;
+    effect.state = EffectState::kOff;
+    effect.contribution.reset();
+    effect.reason = "the position found is where the light seems to start: it holds any offset";
+  }
+}
+
+// Off its axis the finite size of a flat lamp changes what a meter sees by about as much as on it.
+void WidenByShape(const fit::Observations& seen, fit::ForwardModel& model) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const fit::Observation& o : seen.rows) {
+    if (o.lit) nearest = std::min(nearest, o.distance_m);
+  }
+  const double off = 1.0 - AxialShapeFactor(model.shape, nearest);
+  if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0});
+}
+
+// A lamp at an unknown place: found once for the gate to see its distances, and again with what the
+// gate then models.
+Result<FittedLight> FitLocated(const Session& session, const LightDescription& light,
+                               const fit::Observations& observations, const FitSettings& settings,
+                               FittedLight out, Warnings& warnings) {
+  Result<fit::LampLocation> first = fit::LocateLamp(observations, light, fit::ForwardModel{});
+  if (!first) return Propagate(std::move(first));
+  LightDescription placed = light;
+  placed.position_m = first->position_m;
+  const fit::Observations seen = fit::PlaceObservations(observations, first->position_m);
+  Result<fit::ForwardPlan> plan = fit::PlanForward(session, placed, seen, settings);
+  if (!plan) return Propagate(std::move(plan));
+  WidenByShape(seen, plan->model);
+  Result<fit::LampLocation> location = fit::LocateLamp(seen, light, plan->model, &*first);
+  if (!location) return Propagate(std::move(location));
+  Append(warnings, std::move(location->estimate.warnings));
+  FillParameters(location->estimate, true, out);
+  out.distance_offset_m.reset();
+  out.position_m = location->position_m;
+  Vec3 u95{};
+  for (std::size_t k = 0; k < 3; ++k) u95[k] = kZ95 * std::sqrt(location->covariance_m2[4 * k]);
+  out.position_u95_m = u95;
+  out.fit = location->estimate.diagnostics;
+  out.residuals = location->estimate.residuals;
+  out.effects = fit::ReportEffects(*plan, seen, location->estimate);
+  NameOffsetFound(out.effects);
+  AddDerivedQuantities(light, out);
+  fit::CheckDataSheet(light, out, warnings);
+  return out;
+}
+
 Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
                            const FitSettings& settings, Warnings& warnings) {
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
@@ -147,6 +200,10 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
                : Refused("no_valid_readings", light.name,
                          "every reading of this light was rejected; the first because " +
                              observations->warnings.front().message);
+  }
+  if (fit::NeedsLocating(*observations, light)) {
+    Append(warnings, std::move(observations->warnings));
+    return FitLocated(session, light, *observations, settings, std::move(out), warnings);
   }
   std::optional<fit::SpotBeam> beam;
   if (fit::NeedsBeam(*observations, light)) {

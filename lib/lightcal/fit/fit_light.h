@@ -26,10 +26,11 @@ struct FittedSession {
 //   E = I g(r)/r^2 cos(tilt) + E0,  r = d + d0,  g the finite source's factor (1 for a point),
 // by weighted least squares of ln E with d0 ~ N(0, (0.15 d_min)^2), E0 = 0 unless lamp-off readings
 // or four distances tell it; shadow-card readings are subtracted from the readings at their
-// distance. A light that was never read answers from its data sheet (everything a prior), or,
-// beside others that were read, is left out with the warning no_readings. Refused: no_readings,
-// no_valid_readings, over_range, units_ambiguous (readings apart by a ratio of units),
-// increasing_with_distance, position_unknown, negative_distance, bad_beam, bad_effects.
+// distance. A light without position_m whose readings give theirs is located (locate.h). A light
+// that was never read answers from its data sheet (everything a prior), or, beside others that were
+// read, is left out with the warning no_readings. Refused: no_readings, no_valid_readings,
+// over_range, units_ambiguous (readings apart by a ratio of units), increasing_with_distance,
+// negative_distance, bad_beam, bad_effects, and as LocateLamp.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval

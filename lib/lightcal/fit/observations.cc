@@ -22,6 +22,8 @@ constexpr double kLeastSigma = 1e-4;
 // A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
 // bounce differs from place to place.
 constexpr double kSigmaElsewhere = 0.3;
+// Readings within this many metres of each other stand in one place.
+constexpr double kSamePlace = 0.005;
 // People point a meter within a degree, 1 sigma, once they mean a tilt.
 constexpr double kTiltSigma = std::numbers::pi / 180.0;
 // A reading under range lies anywhere from 0 to its limit L: mean L/2, sigma L/sqrt(12).
@@ -132,9 +134,7 @@ class Collector {
       return Refused("no_distance", name, "give distance_m, or position_m and normal");
     }
     if (!light_.position_m) {
-      return Refused("position_unknown", light_.name,
-                     "readings give position_m, but the lamp has none: add position_m to its "
-                     "[[light]], or give distance_m in each reading");
+      return Geometry{1.0, reading.normal ? 0.0 : reading.tilt.value(), true};
     }
     if (reading.normal) {
       return FromPositions(*light_.position_m, *reading.position_m, *reading.normal);
@@ -209,6 +209,10 @@ class Collector {
 
   [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
     if (!HasDistanceLaw(light_.kind)) return true;
+    const std::optional<Vec3>& there = out_.rows[j].position_m;
+    if (!light_.position_m && row.position_m && there) {
+      return Length(*row.position_m - *there) < kSamePlace;
+    }
     return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m);
   }
 

@@ -26,7 +26,7 @@ struct Observation {
   bool differenced = false;  // shadow card subtracted: no ambient, no bounce
   bool over_range = false;
   double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
-  bool measured_from_center = false;  // both positions known
+  bool measured_from_center = false;  // by positions, the lamp's known or to be found
   std::optional<Vec3> position_m;
   std::optional<Vec3> normal;  // unit, where the reading gives one
   std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
@@ -45,7 +45,8 @@ struct Observations {
 
 // Sorts the session's readings of `light`. A row that is not finite, has a distance of 0, lies
 // inside the lamp or faces away is rejected with the warning row_rejected. Refused:
-// negative_distance, position_unknown (a position without the lamp's), no_distance.
+// negative_distance, no_distance. Where the lamp has no position, readings that give theirs keep a
+// distance of 1 until locate.h finds it.
 [[nodiscard]] Result<Observations> CollectObservations(const Session& session,
                                                        const LightDescription& light);
 

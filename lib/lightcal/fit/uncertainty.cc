@@ -4,7 +4,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "lightcal/fit/truncated_normal.h"
 
 namespace lightcal::fit {
 namespace {
@@ -60,27 +61,6 @@ Rows WithPriors(const Estimation& estimation, const Rows& jacobian) {
     if (rule.free && rule.prior_sd > 0.0) rows(jacobian.rows() + k, k) = 1.0 / rule.prior_sd;
   }
   return rows;
-}
-
-double StandardNormalDensity(double z) {
-  return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
-}
-double StandardNormalTail(double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
-
-struct TruncatedNormal {
-  double mean = 0.0;
-  double variance = 0.0;
-};
-
-// Moments of a normal (mean, sd) truncated to x >= 0.
-TruncatedNormal TruncateAtZero(double mean, double sd) {
-  const double alpha = -mean / sd;
-  if (alpha > 8.0) {  // far below the bound: an exponential tail of length sd/alpha
-    const double length = sd / alpha;
-    return {length, length * length};
-  }
-  const double lambda = StandardNormalDensity(alpha) / StandardNormalTail(alpha);
-  return {mean + sd * lambda, sd * sd * (1.0 + alpha * lambda - lambda * lambda)};
 }
 
 // Replaces the normal marginal of E0 by the one truncated at 0 and carries the change to the others

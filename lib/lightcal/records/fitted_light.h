@@ -88,6 +88,7 @@ struct FittedLight {
   std::optional<double> diameter_m, width_m, height_m, length_m, radius_m;
   std::optional<double> angular_diameter_deg;  // directional: full angle of the disc it shines from
   std::optional<Vec3> position_m;
+  std::optional<Vec3> position_u95_m;  // of each coordinate; where the readings told the position
   std::optional<Vec3> aim;
   std::optional<MeasuredDistribution> distribution;  // photometric
   FittedColor color;

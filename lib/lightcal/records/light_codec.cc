@@ -115,6 +115,7 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Number("radius_m", light.radius_m, kNotNegative);
   archive.Number("angular_diameter_deg", light.angular_diameter_deg, kNotNegative);
   archive.Array("position_m", light.position_m);
+  archive.Array("position_u95_m", light.position_u95_m, kNotNegative);
   archive.Array("aim", light.aim);
   archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
 }
