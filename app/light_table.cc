@@ -42,6 +42,16 @@ std::string Offset(const FittedLight& light) {
   return text + (Contains(light.fit.learned, "distance_offset") ? " learned" : " prior");
 }
 
+std::string Position(const FittedLight& light) {
+  if (!light.position_m || !light.position_u95_m) return kNone;
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    text += (k == 0 ? "" : ", ") +
+            ValueWithAbsolute((*light.position_m)[k], (*light.position_u95_m)[k], "m");
+  }
+  return text;
+}
+
 std::string Join(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
@@ -62,14 +72,19 @@ std::string Headline(const FittedLight& light) {
 }
 
 std::string LightTable(const LightFile& file) {
+  std::vector<std::string> head = {"light", "kind", "intensity (95 %)", "flux",
+                                   "CCT",   "Duv",  "distance offset"};
+  const bool located = std::ranges::any_of(
+      file.lights, [](const FittedLight& light) { return light.position_u95_m.has_value(); });
+  if (located) head.emplace_back("position (95 %)");
   std::vector<std::vector<std::string>> rows;
   rows.reserve(file.lights.size());
   for (const FittedLight& light : file.lights) {
     rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
                     Flux(light), Cct(light), Duv(light), Offset(light)});
+    if (located) rows.back().push_back(Position(light));
   }
-  return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "Duv", "distance offset"},
-                   rows);
+  return TextTable(head, rows);
 }
 
 std::string FitTable(const LightFile& file) {

@@ -42,6 +42,16 @@ std::string OffsetCard(const FittedLight& light) {
               Join(side, DecidedBy(light.fit, "distance_offset")));
 }
 
+std::string PositionCard(const FittedLight& light) {
+  if (!light.position_m || !light.position_u95_m) return "";
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Uncertain along{(*light.position_m)[k], (*light.position_u95_m)[k], {}, {}};
+    text += std::string(k == 0 ? "" : "<br>") + "xyz"[k] + " " + PlusMinus(along, "m");
+  }
+  return Card("Position found", text, "from the readings' own places");
+}
+
 std::string ColorCards(const FittedColor& color) {
   std::string html;
   if (color.cct_K) {
@@ -74,6 +84,7 @@ std::string Cards(const FittedLight& light) {
   html += PhotometryCard("Illuminance", light.illuminance_lx, "lx", headline);
   html += PhotometryCard("Luminance", light.luminance_nits, "cd/m²", headline);
   html += OffsetCard(light);
+  html += PositionCard(light);
   if (light.ambient_lx && (light.ambient_lx->value != 0.0 || light.ambient_lx->u95 > 0.0)) {
     html +=
         Card("Ambient light", PlusMinus(*light.ambient_lx, "lx"), DecidedBy(light.fit, "ambient"));
