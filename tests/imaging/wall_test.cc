@@ -165,10 +165,12 @@ struct Outcome {
   bool peak_held = false, flux_held = false;  // by the 95 % intervals
 };
 
-// The picture, then everything as a session would: the lamp's position a centimetre off, the lens's
-// falloff half an exponent off.
+// The picture, then everything as a session would: the lamp's position off, the lens's falloff
+// believed to half an exponent.
 Outcome Measure(const SyntheticWall& wall, bool lens_known) {
-  constexpr double kPositionSd = 0.01, kVignetting = 3.6, kVignettingSd = 0.5;
+  // A vector of 1 cm, rms.
+  constexpr double kPositionSd = 0.01 / std::numbers::sqrt3;
+  constexpr double kVignetting = 3.6, kVignettingSd = 0.5;
   std::mt19937_64 random(wall.seed * 7919);
   std::normal_distribution<double> normal;
   const auto picture = PhotographWall(wall);
@@ -244,7 +246,8 @@ Trials Try(const SyntheticIntensity& lamp, bool lens_known, int fewest) {
 
 class WallDistribution : public testing::TestWithParam<SyntheticIntensity> {};
 
-// 1 % noise a pixel, 1 cm of position, at 1 m.
+// 1 % noise a pixel, 1 cm of position, at 1 m. With 1 cm along each axis, 20 trials of each lamp:
+// peak within 3.3 %, flux within 1.2 % (p90), 80 of 80 intervals held.
 TEST_P(WallDistribution, PeakAndFluxAreThoseOfTheLampAndTheirIntervalsHold) {
   const Trials trials = Try(GetParam(), true, 4);
   EXPECT_LT(trials.peak90, 0.05);
