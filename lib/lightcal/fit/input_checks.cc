@@ -50,8 +50,7 @@ std::vector<Strength> Strengths(const Observations& observations) {
   for (const Observation& row : observations.rows) {
     const double direct = row.measured_lx - (row.differenced ? 0.0 : ambient);
     if (!row.lit || row.over_range || !(direct > 2.0 * row.sigma_lx)) continue;
-    out.push_back(
-        {std::log(direct * row.distance_m * row.distance_m /
+    out.push_back({std::log(direct * row.distance_m * row.distance_m /
                             (std::cos(row.tilt_rad) * row.emission * row.table_part)),
                    row.index});
   }
