@@ -33,7 +33,7 @@ std::optional<double> MedianUsedDistance(const FittedLight& lamp) {
 Vec3 Unit(const Vec3& v) { return v * (1.0 / Length(v)); }
 
 Vec3 HorizontalAcross(const Vec3& aim) {
-  const Vec3 across = Cross(aim, {0.0, 0.0, 1.0});
+  const Vec3 across = Cross(aim, Vec3{0.0, 0.0, 1.0});
   return Length(across) > 1e-9 ? Unit(across) : Vec3{1.0, 0.0, 0.0};
 }
 
