@@ -188,8 +188,10 @@ Outcome Measure(const SyntheticWall& wall, bool lens_known) {
   const auto blocks =
       BlocksOfWall(ViewOf(wall, picture), {}, {}, WallCamera(model.camera), CharucoBoard{});
   EXPECT_TRUE(blocks);
-  DistributionData data{
-      .light = "lamp", .aim = {0, 1, 0}, .samples = IntensitiesOf(*blocks, model)};
+  DistributionData data;
+  data.light = "lamp";
+  data.aim = {0, 1, 0};
+  data.samples = IntensitiesOf(*blocks, model);
   const auto shift = [&](const char* name, const auto& change) {
     WallModel moved = model;
     change(moved);

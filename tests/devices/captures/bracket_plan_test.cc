@@ -90,7 +90,8 @@ TEST(BracketPlan, TakesTheNearestChoiceOfEachStep) {
   const auto plan = PlanBracket(kDial, Seconds(std::exp2(-6)), *ParseBracket("4EV/2EV"));
   ASSERT_TRUE(plan);
   EXPECT_EQ(Labels(*plan), (std::vector<std::string>{"1/1000", "1/250", "1/60", "1/15", "1/4"}));
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_DOUBLE_EQ(plan->frames[i].ev, 2.0 * i - 4.0);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_DOUBLE_EQ(plan->frames[i].ev, 2.0 * static_cast<double>(i) - 4.0);
   EXPECT_TRUE(plan->warnings.empty());
 }
 

@@ -74,10 +74,10 @@ TEST_F(BracketFiles, WildcardsAreExpandedAndNumbersCountAsNumbers) {
 }
 
 TEST_F(BracketFiles, TheSessionsExposuresWinAndAreRecorded) {
-  const BracketOverrides overrides{
-      .exposure = {Seconds(8.0), Seconds(4.0), Seconds(2.0), Seconds(1.0)},
-      .f_number = 11.0,
-      .iso = 400.0};
+  BracketOverrides overrides;
+  overrides.exposure = {Seconds(8.0), Seconds(4.0), Seconds(2.0), Seconds(1.0)};
+  overrides.f_number = 11.0;
+  overrides.iso = 400.0;
   const Bracket bracket = Open(Write(), overrides);
   EXPECT_THAT(Times(bracket), ElementsAre(1.0, 2.0, 4.0, 8.0));
   EXPECT_THAT(bracket.frames.front().file, HasSubstr("b_3"));
@@ -89,9 +89,8 @@ TEST_F(BracketFiles, TheSessionsExposuresWinAndAreRecorded) {
   const auto frame = LoadFrame(bracket.frames.front());
   ASSERT_TRUE(frame);
   EXPECT_DOUBLE_EQ(frame->info.exposure.time->value(), 1.0);
-  EXPECT_EQ(
-      OpenBracket(Write(), {.exposure = {Seconds(1.0)}, .f_number = {}, .iso = {}}).error().code,
-      "exposure_count");
+  overrides.exposure = {Seconds(1.0)};
+  EXPECT_EQ(OpenBracket(Write(), overrides).error().code, "exposure_count");
 }
 
 TEST_F(BracketFiles, ADuplicateIsLeftOutAndNamed) {
