@@ -267,7 +267,7 @@ TEST_F(Shoot, AShootThatWasKilledLosesNothingAndGivesTheSettingsBackLater) {
   EXPECT_EQ(camera.Property("5007"), "400");
   EXPECT_GE(FramesIn("key-1"), 2);
   const CliResult run = RunLightcal({"run", Session()});
-  EXPECT_THAT(run.err, HasSubstr("unfinished_capture"));
+  EXPECT_THAT(run.err, HasSubstr("shoot --resume goes on"));
   const CliResult resumed = Run(Arguments(camera, {"--resume"}));
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(FramesIn("key-1"), 5);

@@ -59,6 +59,9 @@ TEST(LightJson, GeometryComesBackBitForBit) {
   const FittedLight back = Back(JsonOf(FullLightFile())).lights.at(0);
   EXPECT_EQ(back.inner_deg, light.inner_deg);
   EXPECT_EQ(back.outer_deg, light.outer_deg);
+  EXPECT_EQ(back.inner_u95_deg, light.inner_u95_deg);
+  EXPECT_EQ(back.outer_u95_deg, light.outer_u95_deg);
+  EXPECT_EQ(back.aim_u95_deg, light.aim_u95_deg);
   EXPECT_EQ(back.diameter_m, light.diameter_m);
   EXPECT_EQ(back.width_m, light.width_m);
   EXPECT_EQ(back.height_m, light.height_m);
@@ -66,6 +69,7 @@ TEST(LightJson, GeometryComesBackBitForBit) {
   EXPECT_EQ(back.radius_m, light.radius_m);
   EXPECT_EQ(back.angular_diameter_deg, light.angular_diameter_deg);
   EXPECT_EQ(back.position_m, light.position_m);
+  EXPECT_EQ(back.position_u95_m, light.position_u95_m);
   EXPECT_EQ(back.aim, light.aim);
   EXPECT_EQ(back.covariance_lnI_d0_E0, light.covariance_lnI_d0_E0);
 }

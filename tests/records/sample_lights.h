@@ -22,6 +22,9 @@ inline LightFile FullLightFile() {
   light.ambient_lx = {0.0, 0.5, 0.0, 0.5};
   light.inner_deg = 20.1;
   light.outer_deg = 35.7;
+  light.inner_u95_deg = 1.1;
+  light.outer_u95_deg = 0.7;
+  light.aim_u95_deg = 0.3;
   light.diameter_m = 0.06;
   light.width_m = 0.3;
   light.height_m = 0.2;
@@ -29,6 +32,7 @@ inline LightFile FullLightFile() {
   light.radius_m = 0.013;
   light.angular_diameter_deg = 0.53;
   light.position_m = Vec3{0.1, -0.2, 1.2};
+  light.position_u95_m = Vec3{0.01, 1.0 / 7.0, 0.03};
   light.aim = Vec3{0.0, 0.6, -0.8};
   IntensityGrid grid{GoniometerType::kC, {0.0}, {0.0, 30.0, 60.1}, {1.0 / 7.0, 900.5, 0.0}};
   light.distribution = MeasuredDistribution{

@@ -52,6 +52,14 @@ electrical_W = 9
 flux_lm = 806
 beam_deg = 36
 field_deg = 60
+[[light]]
+name = "strip"
+kind = "tube"
+axis = [1, 0, 0]
+[[light]]
+name = "wash"
+kind = "photometric"
+distribution = "wash.ies"
 [[meter]]
 name = "c800"
 sigma_relative = 0.03

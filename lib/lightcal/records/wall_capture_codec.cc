@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lightcal::records {
@@ -26,8 +27,8 @@ void ReadSquares(FieldReader& reader, CharucoBoard& board) {
   board.rows = squares[1];
 }
 
-// x, y, width, height of rectangles, one after the other.
-std::vector<std::array<int, 4>> ReadRectangles(FieldReader& reader, const std::string& key) {
+// x, y, width, height of rectangles, one after the other. The reader keeps `key`.
+std::vector<std::array<int, 4>> ReadRectangles(FieldReader& reader, std::string_view key) {
   std::vector<int> numbers;
   reader.Integers(key, numbers);
   std::vector<std::array<int, 4>> out;
@@ -35,7 +36,8 @@ std::vector<std::array<int, 4>> ReadRectangles(FieldReader& reader, const std::s
     out.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
   }
   if (!reader.Failed() && numbers.size() % 4 != 0) {
-    reader.Fail(key, key + " = [x, y, width, height] in pixels, from the upper left corner" +
+    reader.Fail(key, std::string(key) +
+                         " = [x, y, width, height] in pixels, from the upper left corner" +
                          (key == "masks" ? ", again and again" : ""));
   }
   return out;
