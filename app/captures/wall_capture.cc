@@ -199,7 +199,8 @@ FittedLight LightOf(const LightDescription& light, const Wall& wall, FittedDistr
   out.distribution = std::move(measured);
   out.fit.readings = found.samples;
   out.fit.used = found.samples - found.rejected;
-  out.fit.rms_relative = found.rms_relative;
+  out.fit.degrees_of_freedom = found.degrees_of_freedom;
+  if (found.degrees_of_freedom > 0) out.fit.rms_relative = found.rms_relative;
   out.fit.learned = {"distribution"};
   if (wall.picture.scale_source == "iso_prior") out.fit.prior.emplace_back(kCameraScalePrior);
   return out;

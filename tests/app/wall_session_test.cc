@@ -43,6 +43,9 @@ TEST(LitWall, TheShippedPicturesBecomeADistributionWithItsUncertainty) {
   for (const char* name : {"light.json", "report.html", "lit_wall.preset.json"}) {
     EXPECT_TRUE(fs::exists(fs::path(out.path()) / name)) << name;
   }
+  EXPECT_NE(ReadFile(out.path() + "/report.html").find("Intensity by direction"),
+            std::string::npos);
+  EXPECT_LT(double(light["fit"]["rms_relative"]), 0.02);
   EXPECT_EQ(document["provenance"]["inputs"].size(), 5U) << "session, wall, three views";
 }
 

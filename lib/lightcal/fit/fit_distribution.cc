@@ -409,6 +409,8 @@ Result<FittedDistribution> FitDistribution(const DistributionData& data) {
   out.covered_deg = nodes.gamma_deg.back();
   out.samples = static_cast<int>(usable);
   out.rejected = rejected;
+  out.degrees_of_freedom =
+      std::max(0, out.samples - rejected - static_cast<int>(surface.coefficients.size()));
   out.spacing_deg = surface.grid.spacing / kDegree;
   out.rms_relative = RmsOf(surface, chart, out.table.peak().intensity.value());
   out.interpolated_share = InterpolatedShare(surface, chart, nodes);

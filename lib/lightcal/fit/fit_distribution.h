@@ -38,6 +38,7 @@ struct FittedDistribution {
   Uncertain peak_cd{};              // largest node of the table
   Uncertain flux_lm{};              // within the covered cone
   int samples = 0, rejected = 0;    // rejected: six robust sigmas off, as things on a wall are
+  int degrees_of_freedom = 0;       // used samples minus the surface's coefficients
   double rms_relative = 0.0;        // of the used samples about the surface, over max(I, 2 % peak)
   double spacing_deg = 0.0;         // of the knots
   // Relative standard deviations by cause: the names of shifts, "noise", "misfit", "scale".

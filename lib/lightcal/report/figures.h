@@ -18,6 +18,9 @@ namespace lightcal::report {
 // readings beyond the axis are drawn at its edge with their value.
 [[nodiscard]] std::string ResidualFigure(const FittedLight& light, std::string_view id);
 
+// Polar diagram of a measured distribution, as PolarPlot draws it.
+[[nodiscard]] std::string PolarFigure(const FittedLight& light, std::string_view id);
+
 // CIE 1976 u'v' around the light's chromaticity: Planckian locus, isotherms with their CCT, lines
 // of Duv +-0.006, the point and its 95 % ellipse.
 [[nodiscard]] std::string ChromaticityFigure(const FittedLight& light, std::string_view id);

@@ -172,6 +172,7 @@ std::string Figures(const FittedLight& light, const std::string& prefix) {
                   ReadingKeys(light) + model + (light.covariance_lnI_d0_E0 ? band : ""));
   html += FigureBlock(ResidualFigure(light, prefix + "residual"), "Distance from the model",
                       ReadingKeys(light));
+  html += FigureBlock(PolarFigure(light, prefix + "polar"), "Intensity by direction", "");
   html += FigureBlock(
       ChromaticityFigure(light, prefix + "chromaticity"), "Chromaticity, CIE 1976 u′v′",
       Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "light") +

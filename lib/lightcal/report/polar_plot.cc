@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/report/axis.h"
+#include "lightcal/report/figures.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
@@ -124,10 +125,9 @@ void DrawKey(Svg& svg, const IntensityTable& table, bool two_planes) {
                         Fixed(DegreesFromRadians(LobeWidthsAt(table, 0.1).mean), 1) + "°");
 }
 
-}  // namespace
-
-std::string PolarPlot(const IntensityTable& table, std::string_view title) {
-  Svg svg("polar", title, "Polar diagram of luminous intensity in candela, written by lightcal");
+std::string Draw(const IntensityTable& table, std::string_view title, std::string_view id) {
+  Svg svg(std::string(id), title,
+          "Polar diagram of luminous intensity in candela, written by lightcal");
   const Layout layout = LayoutOf(table);
   const bool two_planes = table.symmetry() != TableSymmetry::kAxial;
   DrawGrid(svg, layout);
@@ -136,7 +136,17 @@ std::string PolarPlot(const IntensityTable& table, std::string_view title) {
   svg.Text("", {14.0, 18.0}, "start", title);
   svg.Text("note", {kFigureWidth - 14.0, 18.0}, "end", "cd");
   DrawKey(svg, table, two_planes);
-  std::string text = svg.Finish();
+  return svg.Finish();
+}
+
+}  // namespace
+
+std::string PolarFigure(const FittedLight& light, std::string_view id) {
+  return light.distribution ? Draw(light.distribution->table, light.name, id) : "";
+}
+
+std::string PolarPlot(const IntensityTable& table, std::string_view title) {
+  std::string text = Draw(table, title, "polar");
   const std::string style =
       "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
       "svg { background: var(--page); font-family: system-ui, sans-serif; }\n]]></style>";
