@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "board_module.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/charuco.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -58,7 +58,9 @@ Result<Metres> LargestSquare(const CharucoBoard& board, const Paper& paper) {
 }
 
 Result<std::string> BoardPage(const CharucoBoard& board, const Paper& paper) {
-  const auto layout = LayOutBoard(board);
+  const auto module = BoardModule();
+  if (!module) return tl::unexpected(module.error());
+  const auto layout = (*module)->lay_out(board);
   if (!layout) return tl::unexpected(layout.error());
   const double square = 1000.0 * board.square.value();
   const double width = square * board.columns, height = square * board.rows;

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "board_module.h"
 #include "capture_reading.h"
 #include "capture_readings.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_color.h"
 #include "lightcal/fit/fit_distribution.h"
 #include "lightcal/imaging/board_camera.h"
-#include "lightcal/imaging/charuco.h"
 #include "lightcal/imaging/spectral_mismatch.h"
 #include "lightcal/imaging/wall_samples.h"
 #include "lightcal_devices/captures/bracket.h"
@@ -35,7 +35,9 @@ struct Wall {
 
 Result<std::vector<BoardCorner>> CornersIn(const GreyPicture& picture,
                                            const WallDescription& wall) {
-  return FindBoard(picture.view(), wall.board);
+  const auto board = BoardModule();
+  if (!board) return tl::unexpected(board.error());
+  return (*board)->find(picture.view(), wall.board);
 }
 
 // The board by the camera that took the frames, where it stands.
