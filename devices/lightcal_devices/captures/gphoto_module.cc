@@ -373,10 +373,10 @@ std::unique_ptr<lightcal::TetheredCamera> Open(const FoundCamera& found, Error& 
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) std::unique_ptr<lightcal::TetheredCamera>
-lightcal_gphoto_open(const FoundCamera& camera, Error& error) noexcept {
+extern "C" __attribute__((visibility("default"))) lightcal::TetheredCamera* lightcal_gphoto_open(
+    const FoundCamera& camera, Error& error) noexcept {
   try {
-    return Open(camera, error);
+    return Open(camera, error).release();
   } catch (const std::exception& thrown) {
     error = Failed("internal", camera.id, thrown.what()).value();
   } catch (...) {

@@ -3,16 +3,14 @@
 // together.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "lightcal_devices/captures/tether.h"
 
 namespace lightcal {
 
-// The camera at this port, or null with `error` filled in.
-using GphotoOpen = std::unique_ptr<TetheredCamera> (*)(const FoundCamera& camera,
-                                                       Error& error) noexcept;
+// The camera at this port, to be deleted by the caller, or null with `error` filled in.
+using GphotoOpen = TetheredCamera* (*)(const FoundCamera& camera, Error& error) noexcept;
 inline constexpr const char* kGphotoOpenSymbol = "lightcal_gphoto_open";
 inline constexpr const char* kGphotoModuleName = "lightcal_tether.so";
 

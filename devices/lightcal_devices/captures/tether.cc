@@ -120,7 +120,7 @@ Result<std::unique_ptr<TetheredCamera>> OpenCamera(const FoundCamera& camera) {
   const auto open = TetherModule();
   if (!open) return tl::unexpected(open.error());
   Error error;
-  auto opened = (*open)(camera, error);
+  std::unique_ptr<TetheredCamera> opened((*open)(camera, error));
   if (opened == nullptr) {
     error.subject = camera.id;
     if (!camera.remedy.empty()) error.message += "; " + camera.remedy;
