@@ -2,6 +2,7 @@
 #include "preset_files.h"
 
 #include <algorithm>
+#include <set>
 
 #include "lightcal/presets/preset_table.h"
 
@@ -31,14 +32,20 @@ void AddOnce(const Warnings& from, Warnings& to) {
   }
 }
 
+// Two targets may bring the same photometric file, with the same contents.
+void KeepFirstOfEachName(std::vector<OutputFile>& files) {
+  std::set<std::string> names;
+  std::erase_if(files, [&](const OutputFile& file) { return !names.insert(file.path).second; });
+}
+
 }  // namespace
 
-Result<std::vector<OutputFile>> PresetFiles(const LightFile& lights, const std::string& stem,
-                                            const std::vector<std::string>& targets,
-                                            const PresetOptions& options, Warnings& warnings) {
+Result<PresetOutputs> PresetFiles(const LightFile& lights, const std::string& stem,
+                                  const std::vector<std::string>& targets,
+                                  const PresetOptions& options, Warnings& warnings) {
   const auto chosen = ChosenTargets(targets);
   if (!chosen) return tl::unexpected(chosen.error());
-  std::vector<OutputFile> files;
+  PresetOutputs outputs;
   for (const PresetTarget& target : *chosen) {
     auto preset = target.exporter(lights, stem, options);
     if (!preset) return Propagate(std::move(preset));
@@ -48,10 +55,24 @@ Result<std::vector<OutputFile>> PresetFiles(const LightFile& lights, const std::
     }
     AddOnce(preset->warnings, warnings);
     for (PresetFile& file : preset->files) {
-      files.push_back({std::move(file.name), std::move(file.contents)});
+      outputs.files.push_back({std::move(file.name), std::move(file.contents)});
+    }
+    if (!preset->paste.empty()) {
+      outputs.pastes.push_back(std::string(target.name) + ": " + preset->paste);
     }
   }
-  return files;
+  KeepFirstOfEachName(outputs.files);
+  return outputs;
+}
+
+void PlaceUnder(const std::string& directory, PresetOutputs& outputs) {
+  PlaceUnder(directory, outputs.files);
+  for (std::string& line : outputs.pastes) {
+    for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
+      line.replace(at, kPasteDirectory.size(), directory);
+      at += directory.size();
+    }
+  }
 }
 
 }  // namespace lightcal::app

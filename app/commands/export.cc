@@ -6,7 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "color_words.h"
 #include "commands.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
@@ -21,6 +23,7 @@ struct Options {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
+  std::string space, white, range;
   bool bare = false;
   bool force = false;
 };
@@ -46,28 +49,54 @@ Result<void> CheckStems(const std::vector<std::string>& inputs) {
   return {};
 }
 
-Result<std::vector<OutputFile>> PresetsOfInput(const std::string& input, const Options& options,
-                                               Warnings& warnings) {
+Result<PresetOptions> OptionsOf(const Options& options) {
+  PresetOptions preset;
+  preset.bare = options.bare;
+  if (!options.space.empty()) {
+    const auto space = ParseSpace("--space", options.space);
+    if (!space) return tl::unexpected(space.error());
+    preset.color.space = *space;
+  }
+  if (!options.white.empty()) {
+    const auto white = ParseWhite("--white", options.white);
+    if (!white) return tl::unexpected(white.error());
+    preset.color.white = *white;
+  }
+  if (!options.range.empty()) {
+    const auto range = ParseLength(options.range);
+    if (!range || !(range->value() > 0.0)) {
+      return WrongUsage("--range", "\"" + options.range + "\" is no length above 0, such as 20m");
+    }
+    preset.range = *range;
+  }
+  return preset;
+}
+
+Result<PresetOutputs> PresetsOfInput(const std::string& input, const Options& options,
+                                     const PresetOptions& preset, Warnings& warnings) {
   const auto text = ReadWholeFile(input);
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightFileFromJson(*text, input);
   if (!lights) return tl::unexpected(lights.error());
-  auto files = PresetFiles(*lights, fs::path(input).stem().string(), options.targets,
-                           {.bare = options.bare}, warnings);
-  if (!files) return files;
-  PlaceUnder(options.output, *files);
-  return files;
+  auto outputs =
+      PresetFiles(*lights, fs::path(input).stem().string(), options.targets, preset, warnings);
+  if (outputs) PlaceUnder(options.output, *outputs);
+  return outputs;
 }
 
 Result<void> RunExport(const Options& options, Console& console) {
   if (auto checked = CheckStems(options.inputs); !checked) return checked;
+  const auto preset = OptionsOf(options);
+  if (!preset) return tl::unexpected(preset.error());
   std::vector<OutputFile> all;
+  std::vector<std::string> pastes;
   for (const std::string& input : options.inputs) {
     Warnings warnings;
-    auto files = PresetsOfInput(input, options, warnings);
-    if (!files) return Propagate(std::move(files));
+    auto outputs = PresetsOfInput(input, options, *preset, warnings);
+    if (!outputs) return Propagate(std::move(outputs));
     console.Warn(warnings);
-    for (OutputFile& file : *files) all.push_back(std::move(file));
+    for (OutputFile& file : outputs->files) all.push_back(std::move(file));
+    pastes.insert(pastes.end(), outputs->pastes.begin(), outputs->pastes.end());
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(all, options.force); !written) return written;
@@ -76,6 +105,11 @@ Result<void> RunExport(const Options& options, Console& console) {
     console.Print("wrote " + file.path + "\n");
     document["files"].push_back(file.path);
   }
+  if (!pastes.empty()) {
+    console.Print("\nto open them:\n");
+    document["paste"] = pastes;
+  }
+  for (const std::string& line : pastes) console.Print("  " + line + "\n");
   console.PrintJson(document);
   return {};
 }
@@ -91,6 +125,12 @@ Run BuildExport(CLI::App& parser) {
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Directory of the presets")
       ->capture_default_str();
+  parser.add_option("--space", options->space,
+                    "Linear RGB of the colours: rec709, acescg, rec2020 or p3 [rec709]");
+  parser.add_option("--white", options->white,
+                    "What the pipeline shows as white: 3200K, D65 or x,y [no adaptation]");
+  parser.add_option("--range", options->range,
+                    "Range of the engine's lights; intensities are refitted in it [no limit]");
   parser.add_flag("--bare", options->bare, "The lights only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunExport(*options, console); };

@@ -234,8 +234,8 @@ Result<void> RunQuick(const Options& options, Console& console) {
                                {.bare = options.bare}, warnings);
     if (!presets) return Propagate(std::move(presets));
     console.Warn(warnings);
-    files = std::move(*presets);
-    PlaceUnder(options.output, files);
+    PlaceUnder(options.output, *presets);
+    files = std::move(presets->files);
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;

@@ -37,7 +37,7 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   console.Warn(warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
                                    {"report.html", ReportHtml(lights, title)}};
-  for (OutputFile& file : *presets) files.push_back(std::move(file));
+  for (OutputFile& file : presets->files) files.push_back(std::move(file));
   PlaceUnder(directory, files);
   return files;
 }

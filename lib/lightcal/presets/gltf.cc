@@ -242,7 +242,7 @@ Json Document(const LightFile& file, const std::string& stem,
 Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
                           const PresetOptions& options) {
   Preset preset;
-  const auto punctual = PunctualLightsFrom(lights, preset.warnings);
+  const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
   auto text = json_pieces::TextOf(Document(lights, stem, *punctual, options), stem + ".gltf");
   if (!text) return Propagate(std::move(text));

@@ -118,7 +118,7 @@ Json RigJson(const Rig& rig) {
 Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
                           const PresetOptions& options) {
   Preset preset;
-  const auto punctual = PunctualLightsFrom(lights, preset.warnings);
+  const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
   const Rig rig = BuildRig(lights, *punctual);
   Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};

@@ -24,7 +24,14 @@ bool HasColor(const std::optional<Xy>& xy) {
   return xy && std::isfinite(xy->x) && std::isfinite(xy->y) && xy->y > 0.0;
 }
 
-Rgb LinearAtUnitLuminance(Xy xy) { return LinearRgbFromXyz(XyzFromXyAtUnitY(xy), RgbSpace::kSrgb); }
+Rgb LinearAtUnitLuminance(Xy xy, const ColorTarget& target) {
+  Xyz color = XyzFromXyAtUnitY(xy);
+  if (target.white) {
+    color = AdaptBradford(color, *target.white, PrimariesOf(target.space).white);
+    color = {color.X / color.Y, 1.0, color.Z / color.Y};
+  }
+  return LinearRgbFromXyz(color, target.space);
+}
 
 // Y = 1 leaves at least one component positive, so the division is defined.
 Rgb MaxNormalised(const Rgb& c) {
@@ -32,21 +39,36 @@ Rgb MaxNormalised(const Rgb& c) {
   return {std::max(c.r, 0.0) / largest, std::max(c.g, 0.0) / largest, std::max(c.b, 0.0) / largest};
 }
 
-double LuminanceOfMaxNormalised(Xy xy) {
-  return LuminanceOfRgb(MaxNormalised(LinearAtUnitLuminance(xy)), RgbSpace::kSrgb);
+double LuminanceOfMaxNormalised(Xy xy, const ColorTarget& target) {
+  return LuminanceOfRgb(MaxNormalised(LinearAtUnitLuminance(xy, target)), target.space);
 }
 
-std::optional<double> LuminanceU95(const FittedColor& color) {
+std::optional<double> LuminanceU95(const FittedColor& color, const ColorTarget& target) {
   if (!color.cct_K || !(color.cct_K->u95 > 0.0)) return std::nullopt;
   const double t = color.cct_K->value;
   const double u = std::min(color.cct_K->u95, t / 2.0);
   const double duv = color.duv ? color.duv->value : 0.0;
-  const double warm = LuminanceOfMaxNormalised(XyFromCct(Kelvin(t - u), duv));
-  const double cool = LuminanceOfMaxNormalised(XyFromCct(Kelvin(t + u), duv));
+  const double warm = LuminanceOfMaxNormalised(XyFromCct(Kelvin(t - u), duv), target);
+  const double cool = LuminanceOfMaxNormalised(XyFromCct(Kelvin(t + u), duv), target);
   return std::abs(std::log(cool / warm)) / 2.0;
 }
 
-void WarnOfClipping(const std::string& light, const Rgb& color, Warnings& warnings) {
+std::string SpaceTitle(RgbSpace space) {
+  switch (space) {
+    case RgbSpace::kSrgb:
+      return "Rec. 709";
+    case RgbSpace::kRec2020:
+      return "Rec. 2020";
+    case RgbSpace::kAcescg:
+      return "ACEScg";
+    case RgbSpace::kDisplayP3:
+      return "Display P3";
+  }
+  return {};
+}
+
+void WarnOfClipping(const std::string& light, const Rgb& color, RgbSpace space,
+                    Warnings& warnings) {
   const std::array<std::pair<const char*, double>, 3> components = {
       {{"red", color.r}, {"green", color.g}, {"blue", color.b}}};
   std::string clipped;
@@ -56,14 +78,33 @@ void WarnOfClipping(const std::string& light, const Rgb& color, Warnings& warnin
   }
   if (clipped.empty()) return;
   warnings.push_back({"out_of_gamut", light,
-                      "the colour lies outside Rec. 709 (linear " + clipped +
+                      "the colour lies outside " + SpaceTitle(space) + " (linear " + clipped +
                           " at Y = 1), clipped to 0: slightly too pale, luminance kept"});
 }
 
 }  // namespace
 
-EmittedColor ColorOfLight(const FittedLight& light, Warnings& warnings) {
+std::string_view RgbSpaceWord(RgbSpace space) {
+  switch (space) {
+    case RgbSpace::kSrgb:
+      return "rec709";
+    case RgbSpace::kRec2020:
+      return "rec2020";
+    case RgbSpace::kAcescg:
+      return "acescg";
+    case RgbSpace::kDisplayP3:
+      return "p3";
+  }
+  return {};
+}
+
+double SrgbEncoded(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+EmittedColor ColorOfLight(const FittedLight& light, const ColorTarget& target, Warnings& warnings) {
   EmittedColor color;
+  color.target = target;
   const std::optional<Xy> xy = ChromaticityOf(light.color);
   if (!HasColor(xy)) {
     warnings.push_back({"color_unknown", light.name,
@@ -71,11 +112,11 @@ EmittedColor ColorOfLight(const FittedLight& light, Warnings& warnings) {
     return color;
   }
   color.xy = xy;
-  color.unit_luminance = LinearAtUnitLuminance(*xy);
+  color.unit_luminance = LinearAtUnitLuminance(*xy, target);
   color.max_normalised = MaxNormalised(color.unit_luminance);
-  color.luminance = LuminanceOfRgb(color.max_normalised, RgbSpace::kSrgb);
-  color.luminance_u95 = LuminanceU95(light.color);
-  WarnOfClipping(light.name, color.unit_luminance, warnings);
+  color.luminance = LuminanceOfRgb(color.max_normalised, target.space);
+  color.luminance_u95 = LuminanceU95(light.color, target);
+  WarnOfClipping(light.name, color.unit_luminance, target.space, warnings);
   return color;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/result.h"
@@ -10,7 +11,16 @@
 
 namespace lightcal {
 
-// Linear Rec. 709 of a lamp's chromaticity c.
+// The RGB space a pipeline works in, linear. With a white, the pipeline is neutralised to it: its
+// pictures show that white as R = G = B, so the lamp's colour is adapted from it to the space's own
+// (Bradford), luminance kept.
+struct ColorTarget {
+  RgbSpace space = RgbSpace::kSrgb;
+  std::optional<Xy> white{};
+};
+[[nodiscard]] std::string_view RgbSpaceWord(RgbSpace space);  // "rec709", "acescg", ...
+
+// Linear RGB, in the target's space, of a lamp's chromaticity c.
 //   unit_luminance  c scaled to Y = 1; components may be negative (out of gamut) or above 1
 //   max_normalised  negatives clipped to 0, then divided by the largest component: in [0,1]
 //   luminance       Y(max_normalised), in (0,1]
@@ -21,6 +31,7 @@ namespace lightcal {
 // interval of ln(luminance) that the lamp's CCT uncertainty leaves; absent when there is none.
 struct EmittedColor {
   std::optional<Xy> xy;
+  ColorTarget target{};
   Rgb unit_luminance{1.0, 1.0, 1.0};
   Rgb max_normalised{1.0, 1.0, 1.0};
   double luminance = 1.0;
@@ -29,6 +40,10 @@ struct EmittedColor {
 
 // Chromaticity from color.xy, else from CCT and Duv; with neither, white and the warning
 // color_unknown. Clipped components give the warning out_of_gamut.
-[[nodiscard]] EmittedColor ColorOfLight(const FittedLight& light, Warnings& warnings);
+[[nodiscard]] EmittedColor ColorOfLight(const FittedLight& light, const ColorTarget& target,
+                                        Warnings& warnings);
+
+// IEC 61966-2-1 encoding of a linear component in [0,1], for engines whose colours are typed so.
+[[nodiscard]] double SrgbEncoded(double linear);
 
 }  // namespace lightcal

@@ -8,6 +8,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/light_distribution.h"
+#include "lightcal/presets/photometric_files.h"
 #include "lightcal/records/photometric_codec.h"
 
 namespace lightcal {
@@ -47,40 +48,59 @@ PhotometricFile FileOf(const FittedLight& lamp, IntensityTable table,
 // What each format makes of a file.
 using Writer = Result<std::string> (*)(const PhotometricFile& file);
 
-Result<Preset> Export(const LightFile& lights, const std::string& stem, std::string_view extension,
-                      Writer write) {
-  Preset preset;
+// One a light, in order; absent where it has no intensity by direction.
+using FilesOfLights = Result<std::vector<std::optional<PresetFile>>>;
+
+FilesOfLights Files(const LightFile& lights, const std::string& stem, std::string_view extension,
+                    Writer write) {
+  std::vector<std::optional<PresetFile>> files;
   std::set<std::string> taken;
   for (const FittedLight& lamp : lights.lights) {
     auto table = DistributionOf(lamp);
     if (!table) return Propagate(std::move(table));
-    if (!*table) {
-      preset.warnings.push_back({"no_distribution", lamp.name,
-                                 "a " + std::string(LightKindName(lamp.kind)) +
-                                     " light has no intensity by direction: no ." +
-                                     std::string(extension) + " is written for it"});
-      continue;
-    }
-    auto text = write(FileOf(lamp, *std::move(*table), lights.provenance));
+    files.emplace_back();
+    if (!*table) continue;
+    auto text = write(FileOf(lamp, **std::move(table), lights.provenance));
     if (!text) return Propagate(std::move(text));
     std::string name = stem + "-" + FileNamePart(lamp.name);
     while (!taken.insert(name).second) name += "_";
-    preset.files.push_back({name + "." + std::string(extension), std::move(*text)});
+    files.back() = PresetFile{name + "." + std::string(extension), std::move(*text)};
+  }
+  return files;
+}
+
+Result<Preset> Export(const LightFile& lights, FilesOfLights files, std::string_view extension) {
+  if (!files) return Propagate(std::move(files));
+  Preset preset;
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    if ((*files)[i]) {
+      preset.files.push_back(*std::move((*files)[i]));
+      continue;
+    }
+    const FittedLight& lamp = lights.lights[i];
+    preset.warnings.push_back({"no_distribution", lamp.name,
+                               "a " + std::string(LightKindName(lamp.kind)) +
+                                   " light has no intensity by direction: no ." +
+                                   std::string(extension) + " is written for it"});
   }
   return preset;
 }
 
 }  // namespace
 
+FilesOfLights IesFiles(const LightFile& lights, const std::string& stem) {
+  return Files(lights, stem, "ies",
+               [](const PhotometricFile& file) { return Result<std::string>(IesText(file)); });
+}
+
 Result<Preset> ExportIes(const LightFile& lights, const std::string& stem,
                          const PresetOptions& /*options*/) {
-  return Export(lights, stem, "ies",
-                [](const PhotometricFile& file) { return Result<std::string>(IesText(file)); });
+  return Export(lights, IesFiles(lights, stem), "ies");
 }
 
 Result<Preset> ExportLdt(const LightFile& lights, const std::string& stem,
                          const PresetOptions& /*options*/) {
-  return Export(lights, stem, "ldt", &EulumdatText);
+  return Export(lights, Files(lights, stem, "ldt", &EulumdatText), "ldt");
 }
 
 }  // namespace lightcal

@@ -2,16 +2,23 @@
 // What an exporter gets and what it gives: a pure function from fitted lights to the text of files.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/core/units.h"
+#include "lightcal/presets/light_color.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal {
 
 struct PresetOptions {
-  bool bare = false;  // the lights alone: no cards, no camera
+  bool bare = false;    // the lights alone: no cards, no camera
+  ColorTarget color{};  // the space the engine works in, and what its pipeline calls white
+  // The range the person wants (their engine culls lights by it); absent = so far that it is none.
+  std::optional<Metres> range{};
 };
 
 struct PresetFile {
@@ -22,7 +29,12 @@ struct PresetFile {
 struct Preset {
   std::vector<PresetFile> files;
   Warnings warnings;  // color_unknown, out_of_gamut, substituted, position_unknown, ...
+  // One line to paste that opens the files in their program, with kPasteDirectory where the output
+  // directory belongs; "" = nothing to say.
+  std::string paste{};
 };
+
+inline constexpr std::string_view kPasteDirectory = "%DIR%";
 
 // Same input, same bytes. Refused: no_intensity, no_illuminance (a light without the figure its
 // kind is exported by), no_lights. Fails: not_finite.

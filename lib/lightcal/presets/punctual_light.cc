@@ -130,8 +130,8 @@ Result<Uncertain> PhotometricValue(const FittedLight& lamp, PunctualType type) {
   return value;
 }
 
-// A measured table may peak off its aim, along which points and spots shine; where it is dark there,
-// its mean over the sphere stands for it.
+// A measured table may peak off its aim, along which points and spots shine; where it is dark
+// there, its mean over the sphere stands for it.
 Uncertain AlongAim(const FittedLight& lamp, const Uncertain& peak) {
   if (!lamp.distribution) return peak;
   const IntensityTable& table = lamp.distribution->table;
@@ -163,14 +163,15 @@ void Place(const FittedLight& lamp, PunctualLight& light) {
   }
 }
 
-Result<PunctualLight> PunctualLightFrom(const FittedLight& lamp, Warnings& warnings) {
+Result<PunctualLight> PunctualLightFrom(const FittedLight& lamp, const ColorTarget& color,
+                                        Warnings& warnings) {
   PunctualLight light;
   light.name = lamp.name;
   light.kind = lamp.kind;
   ChooseType(lamp, light, warnings);
   const auto value = PhotometricValue(lamp, light.type);
   if (!value) return tl::unexpected(value.error());
-  light.color = ColorOfLight(lamp, warnings);
+  light.color = ColorOfLight(lamp, color, warnings);
   SetIntensity(light, AlongAim(lamp, *value));
   Place(lamp, light);
   return light;
@@ -194,11 +195,12 @@ void WarnOfStackedLights(const LightFile& file, Warnings& warnings) {
 
 }  // namespace
 
-Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file, Warnings& warnings) {
+Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file, Warnings& warnings,
+                                                      const ColorTarget& color) {
   if (file.lights.empty()) return Refused("no_lights", "", "there is no light to export");
   std::vector<PunctualLight> lights;
   for (const FittedLight& lamp : file.lights) {
-    auto light = PunctualLightFrom(lamp, warnings);
+    auto light = PunctualLightFrom(lamp, color, warnings);
     if (!light) return Propagate(std::move(light));
     lights.push_back(std::move(*light));
   }

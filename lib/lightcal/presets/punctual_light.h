@@ -54,7 +54,8 @@ inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
 // A spot without a measured cone becomes a point (cone_unknown). A missing position is the origin
 // (position_unknown, said once a file with several lights).
 [[nodiscard]] Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file,
-                                                                    Warnings& warnings);
+                                                                    Warnings& warnings,
+                                                                    const ColorTarget& color = {});
 
 // From the point distances were measured from to the effective source: d0, and the radius of a
 // sphere whose readings were counted from its surface (the effect sphere_surface). 0 for lights at

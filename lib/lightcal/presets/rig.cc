@@ -60,13 +60,14 @@ RigCamera CameraFor(const Vec3& middle, const Vec3& normal, const Vec3& across, 
   return camera;
 }
 
+template <class Light>
 RigCard CardAt(const char* name, double reflectance, const Vec3& centre, const Vec3& normal,
-               std::span<const PunctualLight> lights) {
+               std::span<const Light> lights) {
   RigCard card;
   card.name = name;
   card.reflectance = reflectance;
   card.centre_m = centre;
-  for (const PunctualLight& light : lights) {
+  for (const Light& light : lights) {
     card.illuminance = card.illuminance + IlluminanceAt(light, centre, normal);
   }
   card.luminance = LuminanceOfLitSurface(card.illuminance, reflectance);
@@ -80,16 +81,18 @@ RigExposure ExposureFor(Lux white) {
   return {std::log2(shown_as_one / saturating_at_ev0), 1.0 / shown_as_one.value()};
 }
 
-}  // namespace
+const PunctualLight& PunctualOf(const PunctualLight& light) { return light; }
+const PunctualLight& PunctualOf(const PresetLight& light) { return light.punctual; }
 
-Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
+template <class Light>
+Rig RigUnder(const LightFile& file, std::span<const Light> lights) {
   std::size_t chosen = 0;
   std::optional<double> distance;
   for (std::size_t i = 0; i < lights.size() && !distance; ++i) {
     distance = MedianUsedDistance(file.lights[i]);
     if (distance) chosen = i;
   }
-  const PunctualLight& light = lights[chosen];
+  const PunctualLight& light = PunctualOf(lights[chosen]);
   Rig rig;
   rig.light = light.name;
   rig.from_reading = distance.has_value();
@@ -106,6 +109,24 @@ Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
                CardAt("18 % card", kGreyCardReflectance, middle + half, rig.normal, lights)};
   rig.exposure = ExposureFor(rig.cards[0].illuminance);
   return rig;
+}
+
+}  // namespace
+
+Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
+  return RigUnder(file, lights);
+}
+
+Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights) {
+  return RigUnder(file, lights);
+}
+
+std::array<Vec3, 4> CornersOf(const Rig& rig, const RigCard& card) {
+  const Vec3 across = rig.row * (rig.side.value() / 2.0);
+  const Vec3 along = Cross(rig.normal, rig.row) * (rig.side.value() / 2.0);
+  const Vec3& middle = card.centre_m;
+  return {middle - across - along, middle + across - along, middle + across + along,
+          middle - across + along};
 }
 
 }  // namespace lightcal

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/punctual_light.h"
 
 namespace lightcal {
@@ -59,5 +60,10 @@ inline constexpr double kGreyCardReflectance = 0.18;
 // one), else of the first light at 1 m. Their sides are a tenth of that, at most 0.2 m, and within
 // a quarter of the cone. `lights` are those of `file`, in order, at least one.
 [[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights);
+// The same place; illuminance and exposure are those of the forms the engine is given.
+[[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights);
+
+// A card's corners, counter-clockwise seen from the lamp, the first at minus row and lowest.
+[[nodiscard]] std::array<Vec3, 4> CornersOf(const Rig& rig, const RigCard& card);
 
 }  // namespace lightcal

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/preset_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/light/models/source_model.h"
+#include "lightcal/photometry/lambert.h"
+#include "lightcal/presets/light_distribution.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// ---- which form, and how large ----
+
+bool Known(const std::optional<double>& length) { return length && *length > 0.0; }
+
+bool TakeNativeForm(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
+  switch (lamp.kind) {
+    case LightKind::kSphere:
+      if (!forms.sphere || !Known(lamp.diameter_m)) return false;
+      light.form = LightForm::kSphere;
+      light.radius_m = *lamp.diameter_m / 2.0;
+      return true;
+    case LightKind::kDisk:
+      if (!forms.disk || !Known(lamp.diameter_m)) return false;
+      light.form = LightForm::kDisk;
+      light.radius_m = *lamp.diameter_m / 2.0;
+      return true;
+    case LightKind::kRect:
+      if (!forms.rect || !Known(lamp.width_m) || !Known(lamp.height_m)) return false;
+      light.form = LightForm::kRect;
+      light.width_m = *lamp.width_m;
+      light.height_m = *lamp.height_m;
+      return true;
+    case LightKind::kTube:
+      if (!forms.tube || !Known(lamp.length_m) || !Known(lamp.radius_m)) return false;
+      light.form = LightForm::kTube;
+      light.length_m = *lamp.length_m;
+      light.radius_m = *lamp.radius_m;
+      return true;
+    case LightKind::kPhotometric:
+      if (!forms.table || !lamp.distribution) return false;
+      light.form = LightForm::kTable;
+      return true;
+    case LightKind::kDome:
+      if (!forms.dome) return false;
+      light.form = LightForm::kDome;
+      return true;
+    case LightKind::kPoint:
+    case LightKind::kSpot:
+    case LightKind::kDirectional:
+      break;
+  }
+  return false;
+}
+
+void TakePunctualForm(const PunctualLight& punctual, PresetLight& light) {
+  light.substitution = punctual.substitution;
+  switch (punctual.type) {
+    case PunctualType::kPoint:
+      light.form = LightForm::kPoint;
+      break;
+    case PunctualType::kSpot:
+      light.form = LightForm::kSpot;
+      break;
+    case PunctualType::kDirectional:
+      light.form = LightForm::kDirectional;
+      break;
+  }
+}
+
+bool TakeSquareForDisk(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
+  if (lamp.kind != LightKind::kDisk || !forms.rect || !Known(lamp.diameter_m)) return false;
+  light.form = LightForm::kRect;
+  light.width_m = light.height_m = *lamp.diameter_m / 2.0 * std::sqrt(kPi);
+  light.substitution =
+      "a disk exported as a square of its area: intensity, flux and luminance are kept; on its "
+      "axis 0.7 % low at one diameter, 0.3 % at two, nothing far away";
+  return true;
+}
+
+void ChooseForm(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
+  if (TakeNativeForm(lamp, forms, light) || TakeSquareForDisk(lamp, forms, light)) return;
+  TakePunctualForm(light.punctual, light);
+}
+
+// ---- how bright ----
+
+double AreaSeenAlongAxis(const PresetLight& light) {
+  switch (light.form) {
+    case LightForm::kSphere:
+    case LightForm::kDisk:
+      return kPi * light.radius_m * light.radius_m;
+    case LightForm::kRect:
+      return light.width_m * light.height_m;
+    case LightForm::kTube:
+      return 2.0 * light.radius_m * light.length_m;
+    default:
+      return 0.0;
+  }
+}
+
+double LumensPerCandela(const PresetLight& light) {
+  switch (light.form) {
+    case LightForm::kPoint:
+    case LightForm::kSphere:
+      return 4.0 * kPi;
+    case LightForm::kSpot:
+      return SolidAngleOfSpot(light.punctual.cone, SpotFalloff::kSquaredLinear).value();
+    case LightForm::kDisk:
+    case LightForm::kRect:
+      return kPi;
+    case LightForm::kTube:
+      return kPi * kPi;
+    default:
+      return 0.0;
+  }
+}
+
+void MeasureInfinite(const FittedLight& lamp, PresetLight& light) {
+  light.lux = light.punctual.photometric;
+  if (light.form == LightForm::kDome) {
+    light.nits = light.lux / kPi;
+    return;
+  }
+  if (lamp.kind != LightKind::kDirectional || !Known(lamp.angular_diameter_deg)) return;
+  light.angular_diameter_deg = lamp.angular_diameter_deg;
+  const double sine = std::sin(RadiansFromDegrees(*lamp.angular_diameter_deg / 2.0).value());
+  light.nits = light.lux / (kPi * sine * sine);
+}
+
+Result<void> Measure(const FittedLight& lamp, PresetLight& light) {
+  const PunctualLight& punctual = light.punctual;
+  if (punctual.photometric_u95) {
+    light.relative_u95 = *punctual.photometric_u95 / punctual.photometric;
+  }
+  if (light.form == LightForm::kDirectional || light.form == LightForm::kDome) {
+    MeasureInfinite(lamp, light);
+    return {};
+  }
+  if (light.form == LightForm::kTable) {
+    auto table = DistributionOf(lamp);
+    if (!table) return Propagate(std::move(table));
+    light.table = *std::move(table);
+    light.candela = light.table->peak().intensity.value();
+    light.lumens = light.table->Flux().value();
+    return {};
+  }
+  light.candela = punctual.photometric;
+  light.lumens = light.candela * LumensPerCandela(light);
+  if (const double area = AreaSeenAlongAxis(light); area > 0.0) light.nits = light.candela / area;
+  return {};
+}
+
+// ---- what it casts ----
+
+std::optional<SourceModel> AreaModel(const PresetLight& light) {
+  switch (light.form) {
+    case LightForm::kSphere:
+      return SphereSource{light.radius_m};
+    case LightForm::kDisk:
+      return DiskSource{light.radius_m};
+    case LightForm::kRect:
+      return RectSource{light.width_m / 2.0, light.height_m / 2.0};
+    case LightForm::kTube:
+      return TubeSource{light.length_m / 2.0, light.radius_m};
+    default:
+      return std::nullopt;
+  }
+}
+
+double TableLux(const PresetLight& light, const Vec3& to_point, const Vec3& normal) {
+  const double d2 = Dot(to_point, to_point);
+  if (!(d2 > 0.0)) return 0.0;
+  const double d = std::sqrt(d2);
+  const double gamma = std::acos(std::clamp(Dot(to_point, light.axes.aim) / d, -1.0, 1.0));
+  const double c = std::atan2(Dot(to_point, light.axes.c90), Dot(to_point, light.axes.c0));
+  const double candela =
+      light.table->At(Radians(c < 0.0 ? c + 2.0 * kPi : c), Radians(gamma)).value();
+  return candela * std::max(0.0, -Dot(to_point, normal)) / (d2 * d);
+}
+
+}  // namespace
+
+std::string_view LightFormName(LightForm form) {
+  switch (form) {
+    case LightForm::kPoint:
+      return "point";
+    case LightForm::kSpot:
+      return "spot";
+    case LightForm::kDirectional:
+      return "directional";
+    case LightForm::kSphere:
+      return "sphere";
+    case LightForm::kDisk:
+      return "disk";
+    case LightForm::kRect:
+      return "rect";
+    case LightForm::kTube:
+      return "tube";
+    case LightForm::kTable:
+      return "photometric";
+    case LightForm::kDome:
+      return "dome";
+  }
+  return {};
+}
+
+Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const EngineForms& forms,
+                                                  const PresetOptions& options,
+                                                  Warnings& warnings) {
+  Warnings of_punctual;
+  auto punctual = PunctualLightsFrom(file, of_punctual, options.color);
+  if (!punctual) return Propagate(std::move(punctual));
+  for (Warning& warning : of_punctual) {
+    if (warning.code != "substituted") warnings.push_back(std::move(warning));
+  }
+  std::vector<PresetLight> lights;
+  for (std::size_t i = 0; i < punctual->size(); ++i) {
+    PresetLight light;
+    light.punctual = std::move((*punctual)[i]);
+    light.axes = AxesOfAim(light.punctual.aim);
+    ChooseForm(file.lights[i], forms, light);
+    if (auto measured = Measure(file.lights[i], light); !measured) {
+      return Propagate(std::move(measured));
+    }
+    if (!light.substitution.empty()) {
+      warnings.push_back({"substituted", light.name(), light.substitution});
+    }
+    lights.push_back(std::move(light));
+  }
+  return lights;
+}
+
+Lux IlluminanceAt(const PresetLight& light, const Vec3& point, const Vec3& normal) {
+  if (light.form == LightForm::kDome) return Lux(light.lux);
+  const Vec3 to_point = point - light.position_m();
+  if (light.form == LightForm::kTable) return Lux(TableLux(light, to_point, normal));
+  const auto model = AreaModel(light);
+  if (!model) return IlluminanceAt(light.punctual, point, normal);
+  const SourceFrame frame = SourceFrame::Facing(light.aim());
+  return Lux(light.candela *
+             LuxPerCandela(*model, Receiver<double>{frame.Of(to_point), frame.Of(normal)}));
+}
+
+}  // namespace lightcal
