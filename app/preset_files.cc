@@ -2,7 +2,9 @@
 #include "preset_files.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <string_view>
 
 #include "lightcal/presets/preset_table.h"
 
@@ -32,6 +34,19 @@ void AddOnce(const Warnings& from, Warnings& to) {
   }
 }
 
+// A format nobody asked for says nothing of the lights it cannot hold, and what another has said of
+// a substituted lamp is not said again by each: it stands in every file and under `derived`.
+void DropUnasked(const Warnings& said, Warnings& warnings) {
+  constexpr std::array<std::string_view, 5> kOfOneFormat = {
+      "no_distribution", "cone_profile", "cone_clipped", "ies_not_portable", "ies_by_script_only"};
+  std::erase_if(warnings, [&](const Warning& w) {
+    if (std::ranges::find(kOfOneFormat, w.code) != kOfOneFormat.end()) return true;
+    return w.code == "substituted" && std::ranges::any_of(said, [&](const Warning& earlier) {
+             return earlier.code == w.code && earlier.subject == w.subject;
+           });
+  });
+}
+
 // Two targets may bring the same photometric file, with the same contents.
 void KeepFirstOfEachName(std::vector<OutputFile>& files) {
   std::set<std::string> names;
@@ -49,10 +64,7 @@ Result<PresetOutputs> PresetFiles(const LightFile& lights, const std::string& st
   for (const PresetTarget& target : *chosen) {
     auto preset = target.exporter(lights, stem, options);
     if (!preset) return Propagate(std::move(preset));
-    // A format nobody asked for says nothing of the lights it cannot hold.
-    if (targets.empty()) {
-      std::erase_if(preset->warnings, [](const Warning& w) { return w.code == "no_distribution"; });
-    }
+    if (targets.empty()) DropUnasked(warnings, preset->warnings);
     AddOnce(preset->warnings, warnings);
     for (PresetFile& file : preset->files) {
       outputs.files.push_back({std::move(file.name), std::move(file.contents)});

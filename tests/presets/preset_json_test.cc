@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "lightcal/presets/exporters.h"
@@ -81,6 +82,43 @@ TEST(PresetJson, DerivedHoldsEveryNumberTheGltfFileHas) {
   for (int card = 0; card < 2; ++card) {
     EXPECT_EQ(document["rig"]["cards"][card]["illuminance_lx"],
               gltf["nodes"][file.lights.size() + card]["extras"]["lightcal"]["illuminance_lx"]);
+  }
+}
+
+TEST(PresetJson, EveryEngineIsAuditedAndTheSpaceIsSaid) {
+  PresetOptions options;
+  options.color = {.space = RgbSpace::kAcescg, .white = Xy{0.4, 0.39}};
+  options.range = Metres(30.0);
+  const auto preset = ExportJson(FileOf(ManyKinds()), "stem", options);
+  ASSERT_TRUE(preset.has_value());
+  const CliResult result = ValidateAgainstSchema(preset->files.front().contents);
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  const json document = json::parse(preset->files.front().contents);
+  for (const json& light : document["lights"]) {
+    for (const char* engine : {"gltf", "godot", "usd", "unreal", "unity", "mitsuba", "pbrt"}) {
+      EXPECT_TRUE(light["derived"].contains(engine)) << engine;
+    }
+    EXPECT_EQ(light["color"]["pipeline_linear"]["space"], "acescg");
+    if (!light["color"]["known"]) continue;
+    EXPECT_NE(light["color"]["pipeline_linear"]["max_normalised"],
+              light["color"]["rec709_linear"]["max_normalised"]);
+  }
+  EXPECT_EQ(document["lights"][0]["derived"]["godot"]["omni_range"], 30.0);
+}
+
+// A disc of .53 degrees and 98 klx is 1.458e9 nits (engines.md): at the exposure of its own white
+// card, pi/98000 a nit, that is 46 739, below the largest half float of 65 504; of .44 degrees not.
+TEST(PresetJson, ASunDiscBeyondHalfFloatsIsWarned) {
+  FittedLight sun = Sun();
+  for (const auto& [degrees, safe] : {std::pair{0.53, true}, {0.44, false}}) {
+    sun.angular_diameter_deg = degrees;
+    const auto preset = ExportJson(FileOf({sun}), "stem", {});
+    ASSERT_TRUE(preset.has_value());
+    const json light = json::parse(preset->files.front().contents)["lights"][0];
+    EXPECT_EQ(light["pre_exposed"]["fits_fp16"], safe);
+    const bool warned = std::ranges::any_of(
+        preset->warnings, [](const Warning& w) { return w.code == "exceeds_fp16"; });
+    EXPECT_EQ(warned, !safe);
   }
 }
 

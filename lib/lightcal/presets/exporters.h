@@ -20,4 +20,22 @@ namespace lightcal {
 [[nodiscard]] Result<Preset> ExportLdt(const LightFile& lights, const std::string& stem,
                                        const PresetOptions& options);
 
+// <stem>.tscn, Godot 4 with physical light units (godot.cc).
+[[nodiscard]] Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
+                                         const PresetOptions& options);
+// <stem>.usda, UsdLux in metres (usd.cc), and the .ies files it names.
+[[nodiscard]] Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
+                                       const PresetOptions& options);
+// <stem>.unreal.py and <stem>.t3d (unreal.cc), and the .ies files the script imports.
+[[nodiscard]] Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
+                                          const PresetOptions& options);
+// <stem>.unity.json and LightcalImporter.cs (unity.cc).
+[[nodiscard]] Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
+                                         const PresetOptions& options);
+// <stem>.mitsuba.xml (mitsuba.cc) and <stem>.pbrt (pbrt.cc).
+[[nodiscard]] Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
+                                           const PresetOptions& options);
+[[nodiscard]] Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
+                                        const PresetOptions& options);
+
 }  // namespace lightcal

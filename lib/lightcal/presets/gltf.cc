@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 with KHR_lights_punctual. Intensities are cd and lx divided by the luminance of the
-// max-normalised colour (the extension's colour is a multiplier in [0,1]); every light has a range,
-// because Filament takes 10 m where none is given.
-// Sources: Khronos glTF 2.0; KHR_lights_punctual; KHR_materials_specular (the cards are matt).
+// glTF 2.0 with KHR_lights_punctual, and EXT_lights_ies in a second scene. Intensities are cd and
+// lx divided by the luminance of the max-normalised colour (the extension's colour is a multiplier
+// in [0,1]); every light has a range, because Filament takes 10 m where none is given. Sources:
+// Khronos glTF 2.0; KHR_lights_punctual; EXT_lights_ies; KHR_materials_specular (the cards are
+// matt).
 #include <bit>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/rig.h"
 
 namespace lightcal {
@@ -67,6 +70,23 @@ Json LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLig
           {"rotation", Array<Json>(gltf.rotation)},
           {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}},
           {"extras", {{"lightcal", LightExtras(lamp, light)}}}};
+}
+
+// A file's name as a relative URI.
+std::string UriOf(const std::string& name) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  std::string uri;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
+    if (plain) {
+      uri += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    uri += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
+  }
+  return uri;
 }
 
 // ---- rig ----
@@ -207,6 +227,43 @@ Json SceneExtras(const LightFile& file, const Rig& rig) {
   return json;
 }
 
+// ---- photometric files ----
+
+// A second scene, "NAME (IES)", in which lamps with a table are EXT_lights_ies nodes instead of the
+// spots and points of the first: a loader that knows both extensions must not light them twice. The
+// file's candela are absolute, so the multiplier is 1/Y of the colour. C0 is the node's +X.
+void AddPhotometricScene(Json& root, const LightFile& file,
+                         const std::vector<PunctualLight>& lights,
+                         const std::vector<std::optional<PresetFile>>& ies) {
+  Json profiles = Json::array();
+  Json nodes = root["scenes"][0]["nodes"];
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (!file.lights[i].distribution || !ies[i]) continue;
+    const PunctualLight& light = lights[i];
+    const LampAxes axes = AxesOfAim(light.aim);
+    const Rgb& c = light.color.max_normalised;
+    nodes[i] = root["nodes"].size();
+    root["nodes"].push_back(
+        {{"name", light.name + " (IES)"},
+         {"translation", Array<Json>(GltfFromZUp(light.position_m))},
+         {"rotation", Array<Json>(RotationFromAxes(GltfFromZUp(axes.c0), GltfFromZUp(axes.c90),
+                                                   GltfFromZUp(axes.aim * -1.0)))},
+         {"extensions",
+          {{"EXT_lights_ies",
+            {{"light", profiles.size()},
+             {"multiplier", 1.0 / light.color.luminance},
+             {"color", Array<Json>(std::array<double, 3>{c.r, c.g, c.b})}}}}}});
+    profiles.push_back({{"name", light.name}, {"uri", UriOf(ies[i]->name)}});
+  }
+  if (profiles.empty()) return;
+  root["extensionsUsed"].push_back("EXT_lights_ies");
+  root["extensions"]["EXT_lights_ies"] = {{"lights", std::move(profiles)}};
+  Json scene = root["scenes"][0];
+  scene["name"] = std::string(scene["name"]) + " (IES)";
+  scene["nodes"] = std::move(nodes);
+  root["scenes"].push_back(std::move(scene));
+}
+
 Json Document(const LightFile& file, const std::string& stem,
               const std::vector<PunctualLight>& lights, const PresetOptions& options) {
   const Rig rig = BuildRig(file, lights);
@@ -244,9 +301,16 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   Preset preset;
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
-  auto text = json_pieces::TextOf(Document(lights, stem, *punctual, options), stem + ".gltf");
+  auto ies = IesFiles(lights, stem);
+  if (!ies) return Propagate(std::move(ies));
+  Json document = Document(lights, stem, *punctual, options);
+  AddPhotometricScene(document, lights, *punctual, *ies);
+  auto text = json_pieces::TextOf(document, stem + ".gltf");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".gltf", std::move(*text)});
+  for (std::size_t i = 0; i < ies->size(); ++i) {
+    if (lights.lights[i].distribution && (*ies)[i]) preset.files.push_back(*(*ies)[i]);
+  }
   return preset;
 }
 

@@ -7,6 +7,8 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/preset_light.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/presets/rig.h"
 
 namespace lightcal {
@@ -28,14 +30,31 @@ Json Photometry(const FittedLight& lamp) {
   return json;
 }
 
-Json Color(const FittedColor& measured, const EmittedColor& color) {
+Json RgbOf(const EmittedColor& color) {
+  return {{"unit_luminance", RgbJson(color.unit_luminance)},
+          {"max_normalised", RgbJson(color.max_normalised)},
+          {"luminance_of_max_normalised", color.luminance}};
+}
+
+// What the engines of this export get, where that is not plain Rec. 709.
+Json PipelineColor(const EmittedColor& color) {
+  Json json = {{"space", RgbSpaceWord(color.target.space)}};
+  if (color.target.white) json["white_xy"] = {color.target.white->x, color.target.white->y};
+  json.update(RgbOf(color));
+  return json;
+}
+
+Json Color(const FittedLight& lamp, const EmittedColor& color) {
+  const FittedColor& measured = lamp.color;
   Json json = {{"known", color.xy.has_value()}};
   if (color.xy) json["xy"] = {color.xy->x, color.xy->y};
   Put<Json>(json, "cct_K", measured.cct_K);
   Put<Json>(json, "duv", measured.duv);
-  json["rec709_linear"] = {{"unit_luminance", RgbJson(color.unit_luminance)},
-                           {"max_normalised", RgbJson(color.max_normalised)},
-                           {"luminance_of_max_normalised", color.luminance}};
+  Warnings said_already;
+  json["rec709_linear"] = RgbOf(ColorOfLight(lamp, {}, said_already));
+  if (color.target.white || color.target.space != RgbSpace::kSrgb) {
+    json["pipeline_linear"] = PipelineColor(color);
+  }
   return json;
 }
 
@@ -50,6 +69,7 @@ Json Geometry(const FittedLight& lamp) {
   Put<Json>(json, "height_m", lamp.height_m);
   Put<Json>(json, "length_m", lamp.length_m);
   Put<Json>(json, "radius_m", lamp.radius_m);
+  Put<Json>(json, "angular_diameter_deg", lamp.angular_diameter_deg);
   return json;
 }
 
@@ -78,15 +98,85 @@ Json DerivedGltf(const GltfLight& light) {
   return json;
 }
 
-Json LightJson(const FittedLight& lamp, const PunctualLight& light) {
+// ---- what other targets are given ----
+
+struct Derivation {
+  std::string_view target;
+  std::vector<DerivedLight> lights;
+};
+
+// A target that refuses these lights derives nothing; whoever exports to it is told why.
+std::vector<Derivation> Derivations(const LightFile& file, const std::string& stem,
+                                    const PresetOptions& options) {
+  std::vector<Derivation> all;
+  for (const PresetTarget& target : PresetTargets()) {
+    if (target.exporter == &ExportJson) continue;
+    auto preset = target.exporter(file, stem, options);
+    if (!preset || preset->derived.size() != file.lights.size()) continue;
+    all.push_back({target.name, std::move(preset->derived)});
+  }
+  return all;
+}
+
+Json DerivedJson(const DerivedLight& light) {
+  Json json = {{"type", light.type}};
+  for (const DerivedField& field : light.fields) {
+    if (field.values.size() == 1) {
+      json[field.name] = field.values.front();
+    } else {
+      json[field.name] = field.values;
+    }
+  }
+  if (!light.substitution.empty()) json["substituted"] = light.substitution;
+  return json;
+}
+
+// Values times the exposure, for pipelines that hold light in half floats.
+Json PreExposed(const PresetLight& light, double exposure) {
+  constexpr double kLargestHalf = 65504.0;
+  Json json = Json::object();
+  bool safe = true;
+  const std::pair<const char*, double> values[] = {{"intensity_cd", light.candela},
+                                                   {"illuminance_lx", light.lux},
+                                                   {"luminance_nits", light.nits}};
+  for (const auto& [name, value] : values) {
+    if (!(value > 0.0)) continue;
+    json[name] = value * exposure;
+    safe = safe && value * exposure <= kLargestHalf;
+  }
+  json["fits_fp16"] = safe;
+  return json;
+}
+
+void WarnOfHalfFloats(const PresetLight& light, double exposure, Warnings& warnings) {
+  constexpr double kLargestHalf = 65504.0;
+  if (light.nits * exposure <= kLargestHalf) return;
+  warnings.push_back({"exceeds_fp16", light.name(),
+                      "its surface is brighter than half floats hold even at this exposure; hide "
+                      "the disc, or let it clip at 65504"});
+}
+
+Json LightJson(const FittedLight& lamp, const PunctualLight& light, const PresetLight& form,
+               std::size_t index, const std::vector<Derivation>& derivations, double exposure) {
   Json json = {{"name", lamp.name},
                {"kind", LightKindName(lamp.kind)},
                {"photometry", Photometry(lamp)},
-               {"color", Color(lamp.color, light.color)},
+               {"color", Color(lamp, light.color)},
                {"geometry", Geometry(lamp)},
                {"fit", Fit(lamp.fit)},
-               {"derived", {{"gltf", DerivedGltf(GltfLightFrom(light))}}}};
+               {"pre_exposed", PreExposed(form, exposure)}};
+  if (form.table) {
+    json["distribution"] = {{"peak_cd", form.candela}, {"flux_lm", form.lumens}};
+    const auto& grid = form.table->grid();
+    json["distribution"]["planes"] = grid.horizontal_deg.size();
+    json["distribution"]["angles"] = grid.vertical_deg.size();
+  }
+  json["derived"]["gltf"] = DerivedGltf(GltfLightFrom(light));
   if (!light.substitution.empty()) json["derived"]["gltf"]["substituted"] = light.substitution;
+  for (const Derivation& derivation : derivations) {
+    if (derivation.target == "gltf") continue;
+    json["derived"][std::string(derivation.target)] = DerivedJson(derivation.lights[index]);
+  }
   return json;
 }
 
@@ -120,11 +210,19 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   Preset preset;
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
+  constexpr EngineForms kEveryForm = {
+      .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
+  Warnings said_already;
+  const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
+  if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *punctual);
+  const auto derivations = Derivations(lights, stem, options);
   Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};
   root["lights"] = Json::array();
   for (std::size_t i = 0; i < punctual->size(); ++i) {
-    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i]));
+    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i], (*forms)[i], i,
+                                       derivations, rig.exposure.scale));
+    WarnOfHalfFloats((*forms)[i], rig.exposure.scale, preset.warnings);
   }
   root["exposure"] = {{"ev100", rig.exposure.ev100}, {"exposure", rig.exposure.scale}};
   if (!options.bare) root["rig"] = RigJson(rig);

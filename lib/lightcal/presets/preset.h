@@ -9,6 +9,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
+#include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/light_color.h"
 #include "lightcal/records/fitted_light.h"
 
@@ -29,6 +30,7 @@ struct PresetFile {
 struct Preset {
   std::vector<PresetFile> files;
   Warnings warnings;  // color_unknown, out_of_gamut, substituted, position_unknown, ...
+  std::vector<DerivedLight> derived{};  // one a light, for audit
   // One line to paste that opens the files in their program, with kPasteDirectory where the output
   // directory belongs; "" = nothing to say.
   std::string paste{};

@@ -12,6 +12,12 @@ namespace {
 
 constexpr std::array kTargets = {
     PresetTarget{"gltf", &ExportGltf, "gltf-validator 2.0.0-dev.3.10: 0 errors, 0 warnings"},
+    PresetTarget{"godot", &ExportGodot, "schema-checked, not executed in Godot"},
+    PresetTarget{"mitsuba", &ExportMitsuba, "schema-checked, not executed in Mitsuba"},
+    PresetTarget{"pbrt", &ExportPbrt, "schema-checked, not executed in pbrt"},
+    PresetTarget{"unity", &ExportUnity, "compiled against stand-ins, not executed in Unity"},
+    PresetTarget{"unreal", &ExportUnreal, "run against a strict stand-in, not executed in Unreal"},
+    PresetTarget{"usd", &ExportUsd, "tinyusdz 0.9.0-rc10 loads it; not executed in a renderer"},
     PresetTarget{"json", &ExportJson, "JSON Schema 2020-12 lightcal.preset/1"},
     PresetTarget{"ies", &ExportIes, "three.js 0.187 IESLoader: texels within 1e-5 of the peak"},
     PresetTarget{"ldt", &ExportLdt, "our own reader, and through it the .ies"},

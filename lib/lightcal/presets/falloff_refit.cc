@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/falloff_refit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/photometry/falloff_windows.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPermittedLoss = 0.005;
+constexpr double kPermittedResidual = 0.005;
+
+Metres NearestGoodRange(EngineFalloff engine, double farthest_m) {
+  const WindowPower power =
+      engine == EngineFalloff::kGltf ? WindowPower::kPlain : WindowPower::kSquared;
+  return RangeForLoss(Metres(farthest_m), kPermittedLoss, power);
+}
+
+bool AtInfinity(const PresetLight& light) {
+  return light.form == LightForm::kDirectional || light.form == LightForm::kDome;
+}
+
+void WarnOfResidual(const PresetLight& light, const FalloffRefit& refit, Metres needed,
+                    Warnings& warnings) {
+  if (refit.residual <= std::max(kPermittedResidual, light.relative_u95.value_or(0.0))) return;
+  warnings.push_back({"falloff_residual", light.name(),
+                      "with a range of " + RoundedText(refit.range.value(), 3) +
+                          " m the engine's falloff misses readings by up to " +
+                          RoundedText(100.0 * refit.residual, 2) + " %; --range " +
+                          RoundedText(needed.value(), 3) + "m or more would not"});
+}
+
+}  // namespace
+
+double FalloffOf(EngineFalloff engine, Metres d, Metres r) {
+  switch (engine) {
+    case EngineFalloff::kFilament:
+      return FilamentFalloff(d, r);
+    case EngineFalloff::kUnityHdrp:
+      return UnityHdrpFalloff(d, r);
+    case EngineFalloff::kThree:
+      return ThreeJsFalloff(d, r);
+    case EngineFalloff::kGltf:
+      return GltfFalloff(d, r);
+    case EngineFalloff::kUnreal:
+      return UnrealFalloff(d, r);
+    case EngineFalloff::kGodot:
+      return GodotFalloff(d, r);
+  }
+  return 0.0;
+}
+
+FalloffRefit RefitFalloff(const RefitRequest& request, std::span<const double> distances_m) {
+  constexpr double kOneMetre[] = {1.0};
+  if (distances_m.empty()) distances_m = kOneMetre;
+  const double farthest = std::ranges::max(distances_m);
+  FalloffRefit refit;
+  refit.range = request.fixed
+                    ? *request.fixed
+                    : Metres(std::max(request.far_range.value(),
+                                      NearestGoodRange(request.engine, farthest).value()));
+  double least = 1e300;
+  double most = 0.0;
+  for (const double d : distances_m) {
+    const double g = FalloffOf(request.engine, Metres(d), refit.range) * d * d;
+    least = std::min(least, g);
+    most = std::max(most, g);
+  }
+  if (!(least > 0.0)) {
+    refit.residual = 1.0;
+    if (most > 0.0) refit.intensity_factor = 1.0 / most;
+    return refit;
+  }
+  refit.intensity_factor = 1.0 / std::sqrt(least * most);
+  refit.residual = std::sqrt(most / least) - 1.0;
+  return refit;
+}
+
+std::vector<double> ReadingDistances_m(const FittedLight& lamp) {
+  const double offset = EffectiveOffset_m(lamp);
+  std::vector<double> distances;
+  for (const ResidualRow& row : lamp.residuals) {
+    if (!row.used || !row.distance_m) continue;
+    if (const double d = *row.distance_m + offset; d > 0.0) distances.push_back(d);
+  }
+  if (distances.empty()) distances.push_back(1.0);
+  return distances;
+}
+
+std::vector<FalloffRefit> RefitLights(const LightFile& file, std::span<const PresetLight> lights,
+                                      const RefitRequest& request, Warnings& warnings) {
+  std::vector<FalloffRefit> refits;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (AtInfinity(lights[i])) {
+      refits.emplace_back();
+      continue;
+    }
+    const std::vector<double> distances = ReadingDistances_m(file.lights[i]);
+    refits.push_back(RefitFalloff(request, distances));
+    WarnOfResidual(lights[i], refits.back(),
+                   NearestGoodRange(request.engine, std::ranges::max(distances)), warnings);
+  }
+  return refits;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: Apache-2.0
+// <stem>.tscn for Godot 4 with physical light units. Attenuation is written as 2 (the engine's
+// default of 1 falls off with 1/d); lumens are 4 pi cd of an omni and pi cd of a spot, whatever its
+// cone; the engine multiplies colours by that of light_temperature, 6500 K of which is not white.
+// Sources: Godot 4.6 class reference; light_3d.cpp (_color_from_temperature); scene_forward_lights.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/falloff_refit.h"
+#include "lightcal/presets/frames.h"
+#include "lightcal/presets/text_pieces.h"
+
+namespace lightcal {
+namespace {
+
+using text_pieces::Identifier;
+using text_pieces::Numbers;
+using text_pieces::Quoted;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kTemperature = 6500.0;  // the engine's default, written out
+constexpr Metres kFarRange{4096.0};      // rendered without loss in 4.6.3
+constexpr EngineForms kForms = {.sphere = true, .dome = true};
+
+// ---- colour ----
+
+// What light_temperature multiplies the light's colour by: Krystek's locus, largest component 1.
+Rgb ColorOfTemperature(double t) {
+  const double u = (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) /
+                   (1.0 + 8.42420235e-4 * t + 7.08145163e-7 * t * t);
+  const double v = (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) /
+                   (1.0 - 2.89741816e-5 * t + 1.61456053e-7 * t * t);
+  const Rgb c = LinearSrgbFromXyz(XyzFromXyAtUnitY(XyFromUv1960({u, v})));
+  const double largest = std::max({c.r, c.g, c.b});
+  const auto part = [&](double x) { return std::clamp(x / largest, 0.0, 1.0); };
+  return {part(c.r), part(c.g), part(c.b)};
+}
+
+// The light_color, linear, which the engine turns into the lamp's; luminance of the product.
+struct GodotColor {
+  Rgb written;
+  double luminance = 1.0;
+};
+
+GodotColor ColorFor(const EmittedColor& color) {
+  const Rgb& m = color.max_normalised;
+  const Rgb tint = ColorOfTemperature(kTemperature);
+  const Rgb ratio = {m.r / tint.r, m.g / tint.g, m.b / tint.b};
+  const double largest = std::max({ratio.r, ratio.g, ratio.b});
+  GodotColor out;
+  out.written = {ratio.r / largest, ratio.g / largest, ratio.b / largest};
+  out.luminance = color.luminance / largest;
+  return out;
+}
+
+// ---- spot profile ----
+
+// The engine's 1 - u^p, u = (1 - cos)/(1 - cos outer), p = 1/spot_angle_attenuation, that strays
+// least from the squared-linear profile.
+struct SpotFit {
+  double power = 1.0;
+  double worst = 1.0;  // of the axial intensity
+};
+
+SpotFit FitSpot(const SpotCone& cone) {
+  const double outer = 1.0 - std::cos(cone.outer.value());
+  const double inner = (1.0 - std::cos(cone.inner.value())) / outer;
+  constexpr int kAngles = 200;
+  SpotFit best;
+  for (double power = 0.25; power < 20.0; power *= 1.01) {
+    double worst = 0.0;
+    for (int i = 0; i <= kAngles; ++i) {
+      const double u = static_cast<double>(i) / kAngles;
+      const double t = std::clamp((1.0 - u) / (1.0 - inner), 0.0, 1.0);
+      worst = std::max(worst, std::abs(1.0 - std::pow(u, power) - t * t));
+    }
+    if (worst < best.worst) best = {power, worst};
+  }
+  return best;
+}
+
+// ---- lights ----
+
+double RangeOf(const FalloffRefit& refit) { return refit.range.value(); }
+
+DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, Warnings& warnings) {
+  DerivedLight out;
+  out.substitution = light.substitution;
+  const GodotColor color = ColorFor(light.color());
+  const double per_luminance = refit.intensity_factor / color.luminance;
+  const Rgb& c = color.written;
+  const std::vector<double> encoded = {SrgbEncoded(c.r), SrgbEncoded(c.g), SrgbEncoded(c.b), 1.0};
+  if (light.form == LightForm::kDome) {
+    // Backgrounds know no temperature: the colour as it is.
+    const Rgb& m = light.color().max_normalised;
+    out.type = "Environment";
+    out.Put("background_color", {SrgbEncoded(m.r), SrgbEncoded(m.g), SrgbEncoded(m.b), 1.0});
+    out.Put("background_intensity", light.nits / light.color().luminance);
+    return out;
+  }
+  out.Put("light_color", encoded);
+  out.Put("light_temperature", kTemperature);
+  if (light.form == LightForm::kDirectional) {
+    out.type = "DirectionalLight3D";
+    out.Put("light_intensity_lux", light.lux * per_luminance);
+    out.Put("light_angular_distance", light.angular_diameter_deg.value_or(0.0));
+    return out;
+  }
+  if (light.form == LightForm::kSpot) {
+    const SpotFit fit = FitSpot(light.punctual.cone);
+    out.type = "SpotLight3D";
+    out.Put("light_intensity_lumens", kPi * light.candela * per_luminance);
+    out.Put("spot_range", RangeOf(refit));
+    out.Put("spot_attenuation", 2.0);
+    out.Put("spot_angle", DegreesFromRadians(light.punctual.cone.outer));
+    out.Put("spot_angle_attenuation", 1.0 / fit.power);
+    warnings.push_back({"cone_profile", light.name(),
+                        "Godot's spot has no flat top: right on the axis, within " +
+                            RoundedText(100.0 * fit.worst, 2) +
+                            " % of the axial intensity off it"});
+    return out;
+  }
+  out.type = "OmniLight3D";
+  out.Put("light_intensity_lumens", 4.0 * kPi * light.candela * per_luminance);
+  out.Put("light_size", light.radius_m);
+  out.Put("omni_range", RangeOf(refit));
+  out.Put("omni_attenuation", 2.0);
+  return out;
+}
+
+// ---- text ----
+
+// Transform3D takes its basis by rows.
+std::string Transform(const ObjectFrame& f) {
+  std::vector<double> n;
+  for (int row = 0; row < 3; ++row) {
+    for (const Vec3* column : {&f.x, &f.y, &f.z}) n.push_back((*column)[row]);
+  }
+  n.insert(n.end(), f.origin.begin(), f.origin.end());
+  return "transform = Transform3D(" + Numbers(n) + ")\n";
+}
+
+std::string FieldText(const DerivedField& field) {
+  if (field.values.size() == 1) return field.name + " = " + ShortestText(field.values[0]) + "\n";
+  return field.name + " = Color(" + Numbers(field.values) + ")\n";
+}
+
+std::string NodeHead(const std::string& name, const std::string& type) {
+  return "\n[node name=" + Quoted(name) + " type=\"" + type + "\" parent=\".\"]\n";
+}
+
+std::string LightNode(const std::string& name, const PresetLight& light,
+                      const DerivedLight& derived) {
+  std::string text =
+      NodeHead(name, derived.type) + Transform(FrameOfLight(EngineAxes::kYUp, light));
+  for (const DerivedField& field : derived.fields) text += FieldText(field);
+  text += "shadow_enabled = true\n";
+  text += "metadata/lightcal = {\n\"kind\": \"" + std::string(LightKindName(light.punctual.kind)) +
+          "\",\n\"candela\": " + ShortestText(light.candela) +
+          ",\n\"lux\": " + ShortestText(light.lux) + "\n}\n";
+  return text;
+}
+
+// f/16 and ISO 100 upwards with k = t S/(100 1.2 N^2) and t at most a second.
+struct PhysicalExposure {
+  double f_number = 16.0, shutter_s = 1.0, iso = 100.0;
+};
+
+PhysicalExposure ExposureOf(double scale) {
+  PhysicalExposure out;
+  out.shutter_s = 1.2 * out.f_number * out.f_number * scale;
+  while (out.shutter_s > 1.0) {
+    out.iso *= 2.0;
+    out.shutter_s /= 2.0;
+  }
+  return out;
+}
+
+std::string CameraAttributes(const Rig& rig) {
+  constexpr double kSensorHeight_mm = 24.0;
+  const PhysicalExposure e = ExposureOf(rig.exposure.scale);
+  const double focal_mm = kSensorHeight_mm / 2.0 / std::tan(rig.camera.vertical_fov.value() / 2.0);
+  const double focus_m = Length(rig.camera.position_m - rig.camera.target_m);
+  return "\n[sub_resource type=\"CameraAttributesPhysical\" id=\"locked_exposure\"]\n"
+         "frustum_focus_distance = " +
+         ShortestText(focus_m) + "\nfrustum_focal_length = " + ShortestText(focal_mm) +
+         "\nfrustum_near = 0.01\nexposure_aperture = " + ShortestText(e.f_number) +
+         "\nexposure_shutter_speed = " + ShortestText(1.0 / e.shutter_s) +
+         "\nexposure_sensitivity = " + ShortestText(e.iso) + "\nauto_exposure_enabled = false\n";
+}
+
+std::string Materials(const Rig& rig) {
+  std::string text;
+  for (std::size_t i = 0; i < rig.cards.size(); ++i) {
+    const double v = SrgbEncoded(rig.cards[i].reflectance);
+    text += "\n[sub_resource type=\"StandardMaterial3D\" id=\"card_" + std::to_string(i) +
+            "\"]\ndiffuse_mode = 1\nspecular_mode = 2\nmetallic_specular = 0.0\nroughness = 1.0\n"
+            "albedo_color = Color(" +
+            Numbers(std::vector<double>{v, v, v, 1.0}) + ")\n";
+  }
+  return text + "\n[sub_resource type=\"QuadMesh\" id=\"card\"]\nsize = Vector2(" +
+         Numbers(std::vector<double>{rig.side.value(), rig.side.value()}) + ")\n";
+}
+
+std::string EnvironmentText(const DerivedLight* dome) {
+  std::string text =
+      "\n[sub_resource type=\"Environment\" id=\"surroundings\"]\nbackground_mode = 1\n";
+  if (!dome) {
+    return text +
+           "background_color = Color(0, 0, 0, 1)\nambient_light_source = 1\n"
+           "reflected_light_source = 1\ntonemap_mode = 0\n";
+  }
+  for (const DerivedField& field : dome->fields) text += FieldText(field);
+  return text + "ambient_light_source = 0\nreflected_light_source = 1\ntonemap_mode = 0\n";
+}
+
+std::string RigNodes(const Rig& rig) {
+  std::string text;
+  for (std::size_t i = 0; i < rig.cards.size(); ++i) {
+    text += NodeHead(rig.cards[i].name, "MeshInstance3D") +
+            Transform(FrameOfCard(EngineAxes::kYUp, rig, rig.cards[i])) +
+            "mesh = SubResource(\"card\")\nsurface_material_override/0 = SubResource(\"card_" +
+            std::to_string(i) + "\")\n";
+  }
+  return text + NodeHead("rig camera", "Camera3D") +
+         Transform(FrameOfCamera(EngineAxes::kYUp, rig.camera)) +
+         "attributes = SubResource(\"locked_exposure\")\ncurrent = true\n";
+}
+
+std::string Scene(const LightFile& file, const std::string& stem,
+                  const std::vector<PresetLight>& lights, const std::vector<DerivedLight>& derived,
+                  const PresetOptions& options) {
+  const Rig rig = BuildRig(file, lights);
+  const DerivedLight* dome = nullptr;
+  std::string nodes;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].form == LightForm::kDome) {
+      dome = &derived[i];
+      continue;
+    }
+    std::string name = lights[i].name();
+    // Node names hold none of . : @ / " %
+    for (char& c : name)
+      c = std::string_view(".:@/\"%").find(c) == std::string_view::npos ? c : '_';
+    while (!taken.insert(name).second) name += "_";
+    nodes += LightNode(name, lights[i], derived[i]);
+  }
+  std::string text = "[gd_scene format=3]\n\n; " + text_pieces::GeneratorOf(file) +
+                     ", not executed in Godot by this run: schema-checked.\n"
+                     "; In project.godot, or lumens and lux are ignored:\n"
+                     ";   [rendering]\n;   lights_and_shadows/use_physical_light_units=true\n";
+  const bool world = !options.bare || dome;
+  if (world) text += EnvironmentText(dome);
+  if (!options.bare) text += CameraAttributes(rig) + Materials(rig);
+  text += "\n[node name=" + Quoted(stem) + " type=\"Node3D\"]\n" +
+          "metadata/ev100 = " + ShortestText(rig.exposure.ev100) +
+          "\nmetadata/exposure = " + ShortestText(rig.exposure.scale) + "\n" + nodes;
+  if (world) {
+    text += NodeHead("surroundings", "WorldEnvironment") +
+            "environment = SubResource(\"surroundings\")\n";
+  }
+  if (!options.bare) text += RigNodes(rig);
+  return text;
+}
+
+}  // namespace
+
+Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
+                           const PresetOptions& asked) {
+  Preset preset;
+  const PresetOptions options = text_pieces::InRec709(asked, "godot", preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  if (!forms) return tl::unexpected(forms.error());
+  const auto refits =
+      RefitLights(lights, *forms,
+                  {.engine = EngineFalloff::kGodot, .far_range = kFarRange, .fixed = options.range},
+                  preset.warnings);
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    preset.derived.push_back(Derive((*forms)[i], refits[i], preset.warnings));
+    auto finite = text_pieces::CheckFinite(preset.derived.back(), (*forms)[i].name());
+    if (!finite) return Propagate(std::move(finite));
+  }
+  preset.files.push_back({stem + ".tscn", Scene(lights, stem, *forms, preset.derived, options)});
+  preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
+                 ".tscn into a project with physical light units and open it";
+  return preset;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// <stem>.unity.json and LightcalImporter.cs, an editor script that reads it, for Unity 2022 and 6.
+// Left-handed, Y up, metres, lights along +Z; cone angles are full angles. HDRP gets physical
+// units; URP and the built-in pipeline, whose Lambert surfaces lack the 1/pi, get cd and lx times
+// exposure/pi.   Sources: Unity Graphics LightUnitUtils.cs, HDAdditionalLightData, URP
+// Lighting.hlsl.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/falloff_refit.h"
+#include "lightcal/presets/frames.h"
+#include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/unity_importer.h"
+
+namespace lightcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using json_pieces::Array;
+
+constexpr Metres kFarRange{10000.0};
+constexpr double kWidestSpot_deg = 179.0;  // full angle
+
+Json V(const Vec3& v) { return Array<Json>(v); }
+
+void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
+  const double outer = 2.0 * DegreesFromRadians(light.punctual.cone.outer);
+  out.Put("spot_angle_deg", std::min(outer, kWidestSpot_deg));
+  out.Put("inner_spot_angle_deg",
+          std::min(2.0 * DegreesFromRadians(light.punctual.cone.inner), kWidestSpot_deg));
+  if (outer > kWidestSpot_deg) {
+    warnings.push_back({"cone_clipped", light.name(),
+                        "Unity's spots end at 179 degrees full angle: exported with that"});
+  }
+}
+
+// `scale` is 1 for HDRP's physical units, exposure/pi for pipelines without.
+DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double scale,
+                    Warnings& warnings) {
+  DerivedLight out;
+  out.substitution = light.substitution;
+  const double per_luminance = scale / light.color().luminance;
+  if (light.form == LightForm::kDirectional) {
+    out.type = "Directional";
+    out.Put("intensity", light.lux * per_luminance);
+    out.Put("angular_diameter_deg", light.angular_diameter_deg.value_or(0.0));
+    return out;
+  }
+  if (light.form == LightForm::kRect) {
+    out.type = "Rectangle";
+    out.Put("intensity", light.nits * refit.intensity_factor * per_luminance);
+    out.Put("area_width_m", light.width_m);
+    out.Put("area_height_m", light.height_m);
+  } else {
+    out.type = light.form == LightForm::kSpot ? "Spot" : "Point";
+    out.Put("intensity", light.candela * refit.intensity_factor * per_luminance);
+    out.Put("radius_m", light.radius_m);
+    if (light.form == LightForm::kSpot) PutCone(light, out, warnings);
+  }
+  out.Put("range_m", refit.range.value());
+  return out;
+}
+
+Json DerivedJson(const DerivedLight& derived) {
+  Json json = {{"type", derived.type}};
+  for (const DerivedField& field : derived.fields) json[field.name] = field.values[0];
+  if (!derived.substitution.empty()) json["substituted"] = derived.substitution;
+  return json;
+}
+
+Json PlaceJson(const std::string& name, const Vec3& at_m, const Vec3& forward, const Vec3& up) {
+  return {{"name", name},
+          {"position", V(PositionIn(EngineAxes::kUnity, at_m))},
+          {"forward", V(DirectionIn(EngineAxes::kUnity, forward))},
+          {"up", V(DirectionIn(EngineAxes::kUnity, up))}};
+}
+
+Json LightJson(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
+  Json json = PlaceJson(light.name(), light.position_m(), light.aim(), light.axes.c90);
+  const Rgb& c = light.color().max_normalised;
+  json["color_linear"] = {c.r, c.g, c.b};
+  json["color_luminance"] = light.color().luminance;
+  json["hdrp"] = DerivedJson(hdrp);
+  json["urp"] = DerivedJson(urp);
+  return json;
+}
+
+void AddRig(Json& root, const Rig& rig) {
+  root["side_m"] = rig.side.value();
+  root["cards"] = Json::array();
+  for (const RigCard& card : rig.cards) {
+    // Unity's quad is seen from its back: it faces -forward.
+    Json json = PlaceJson(card.name, card.centre_m, rig.normal * -1.0, Cross(rig.normal, rig.row));
+    json["reflectance"] = card.reflectance;
+    json["illuminance_lx"] = card.illuminance.value();
+    root["cards"].push_back(std::move(json));
+  }
+  const Vec3 view = rig.camera.target_m - rig.camera.position_m;
+  root["camera"] =
+      PlaceJson("rig camera", rig.camera.position_m, view * (1.0 / Length(view)), rig.camera.up);
+  root["camera"]["vertical_fov_deg"] = DegreesFromRadians(rig.camera.vertical_fov);
+}
+
+}  // namespace
+
+Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
+                           const PresetOptions& asked) {
+  Preset preset;
+  const PresetOptions options = text_pieces::InRec709(asked, "unity", preset.warnings);
+  const auto forms =
+      PresetLightsFrom(lights, {.sphere = true, .rect = true}, options, preset.warnings);
+  if (!forms) return tl::unexpected(forms.error());
+  Warnings of_urp;  // what HDRP's do not say is said by each light's "substituted"
+  const auto plain = PresetLightsFrom(lights, {.sphere = true}, options, of_urp);
+  if (!plain) return tl::unexpected(plain.error());
+  const RefitRequest request = {
+      .engine = EngineFalloff::kUnityHdrp, .far_range = kFarRange, .fixed = options.range};
+  const auto refits = RefitLights(lights, *forms, request, preset.warnings);
+  const Rig rig = BuildRig(lights, *forms);
+  const double unitless = rig.exposure.scale / std::numbers::pi;
+  Json root = {{"schema", "lightcal.unity/1"},
+               {"generator", text_pieces::GeneratorOf(lights)},
+               {"name", stem},
+               {"note", "not executed in Unity: schema-checked"},
+               {"exposure", {{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
+               {"lights", Json::array()}};
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    preset.derived.push_back(Derive((*forms)[i], refits[i], 1.0, preset.warnings));
+    const DerivedLight urp = Derive((*plain)[i], refits[i], unitless, of_urp);
+    root["lights"].push_back(LightJson((*forms)[i], preset.derived.back(), urp));
+    preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
+  }
+  if (!options.bare) AddRig(root, rig);
+  auto text = json_pieces::TextOf(root, stem + ".unity.json");
+  if (!text) return Propagate(std::move(text));
+  preset.files = {{stem + ".unity.json", *std::move(text)},
+                  {"LightcalImporter.cs", std::string(kUnityImporter)}};
+  preset.paste = "copy both files from " + std::string(kPasteDirectory) +
+                 " into Assets/Editor, then Tools > lightcal > Import preset";
+  return preset;
+}
+
+}  // namespace lightcal

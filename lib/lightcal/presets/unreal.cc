@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// <stem>.unreal.py, an editor script, and <stem>.t3d to paste into a level, for Unreal Engine 5:
+// left-handed, Z up, centimetres, lights along +X. Candelas and lux, never lumens or nits, whose
+// meaning depends on the light. Neither ran in the engine: the script runs against a strict
+// stand-in of the documented names, the T3D is parsed. Sources: Unreal 5.6 Python API and
+// LightComponent.h.
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/frames.h"
+#include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/photometric_files.h"
+#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/unreal_light.h"
+#include "lightcal/presets/unreal_script.h"
+
+namespace lightcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using json_pieces::Array;
+
+struct Pose {
+  Vec3 location_cm{};
+  UnrealRotator rotation;
+};
+
+Pose PoseOf(const Vec3& forward, const Vec3& right, const Vec3& up, const Vec3& at_m) {
+  const auto in = [](const Vec3& v) { return DirectionIn(EngineAxes::kUnreal, v); };
+  return {PositionIn(EngineAxes::kUnreal, at_m),
+          UnrealRotatorFromAxes(in(forward), in(right), in(up))};
+}
+
+Pose PoseOf(const PresetLight& light) {
+  // A profile's C0 lies along the light's -Y.
+  const double turn = light.form == LightForm::kTable ? -1.0 : 1.0;
+  return PoseOf(light.aim(), light.axes.c0 * turn, light.axes.c90 * turn, light.position_m());
+}
+
+Json PoseJson(const std::string& name, const Pose& pose) {
+  return {{"name", name},
+          {"location_cm", Array<Json>(pose.location_cm)},
+          {"pitch_yaw_roll_deg",
+           Array<Json>(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
+                                             pose.rotation.roll_deg})}};
+}
+
+// ---- the script ----
+
+Json LightJson(const PresetLight& light, const UnrealLight& unreal,
+               const std::optional<PresetFile>& ies) {
+  Json json = PoseJson(light.name(), PoseOf(light));
+  json["class"] = unreal.derived.type;
+  json["use_temperature"] = unreal.use_temperature;
+  Json properties = Json::object();
+  for (const DerivedField& field : unreal.derived.fields) {
+    if (field.name != "light_color") properties[field.name] = field.values[0];
+  }
+  json["properties"] = std::move(properties);
+  json["light_color"] = unreal.color_srgb8;
+  if (light.form == LightForm::kTable && ies) json["ies"] = ies->name;
+  return json;
+}
+
+Json RigJson(const Rig& rig) {
+  Json json = {{"exposure_bias", std::log2(rig.exposure.scale)},
+               {"ev100", std::log2(1.0 / rig.exposure.scale)},
+               {"cards", Json::array()}};
+  for (const RigCard& card : rig.cards) {
+    // The plane's normal is its up axis.
+    Json one =
+        PoseJson(card.name, PoseOf(Cross(rig.normal, rig.row), rig.row, rig.normal, card.centre_m));
+    one["reflectance"] = card.reflectance;
+    one["scale"] = rig.side.value();  // of a plane 100 cm wide
+    json["cards"].push_back(std::move(one));
+  }
+  const ObjectFrame f = FrameOfCamera(EngineAxes::kZUp, rig.camera);
+  Json camera = PoseJson("rig camera", PoseOf(f.z * -1.0, f.x, f.y, rig.camera.position_m));
+  const double half = std::tan(rig.camera.vertical_fov.value() / 2.0) * rig.camera.aspect_ratio;
+  camera["field_of_view"] = DegreesFromRadians(Radians(2.0 * std::atan(half)));
+  camera["aspect_ratio"] = rig.camera.aspect_ratio;
+  json["camera"] = std::move(camera);
+  return json;
+}
+
+// JSON inside a raw triple-quoted Python string.
+Result<std::string> ScriptText(const Json& data, const std::string& name) {
+  if (!json_pieces::AllFinite(data)) {
+    return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
+  }
+  std::string text(kUnrealScript);
+  std::string literal = data.dump(1, ' ', true, Json::error_handler_t::replace);
+  for (std::size_t at = 0; (at = literal.find('\'', at)) != std::string::npos; at += 6) {
+    literal.replace(at, 1, "\\u0027");
+  }
+  const std::string_view mark = "@DATA@";
+  return text.replace(text.find(mark), mark.size(), literal);
+}
+
+// ---- T3D ----
+
+// "attenuation_radius" -> "AttenuationRadius"
+std::string PropertyName(const std::string& name) {
+  std::string out;
+  bool start = true;
+  for (const char c : name) {
+    if (c != '_') out += start && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    start = c == '_';
+  }
+  return out;
+}
+
+std::string ActorText(const std::string& id, const PresetLight& light, const UnrealLight& unreal) {
+  const std::string& type = unreal.derived.type;
+  const Pose pose = PoseOf(light);
+  const auto triple = [](const char* a, double x, const char* b, double y, const char* c,
+                         double z) {
+    return std::string("(") + a + "=" + ShortestText(x) + "," + b + "=" + ShortestText(y) + "," +
+           c + "=" + ShortestText(z) + ")";
+  };
+  std::string text = "    Begin Actor Class=/Script/Engine." + type + " Name=" + id +
+                     " Archetype=/Script/Engine." + type + "'/Script/Engine.Default__" + type +
+                     "'\n      Begin Object Name=\"LightComponent0\"\n";
+  for (const DerivedField& field : unreal.derived.fields) {
+    if (field.name == "light_color") continue;
+    text += "        " + PropertyName(field.name) + "=" + ShortestText(field.values[0]) + "\n";
+  }
+  if (type != "DirectionalLight") text += "        IntensityUnits=Candelas\n";
+  if (type == "PointLight" || type == "SpotLight") {
+    text += "        bUseInverseSquaredFalloff=True\n";
+  }
+  text += std::string("        bUseTemperature=") + (unreal.use_temperature ? "True" : "False") +
+          "\n        LightColor=(B=" + std::to_string(unreal.color_srgb8[2]) +
+          ",G=" + std::to_string(unreal.color_srgb8[1]) +
+          ",R=" + std::to_string(unreal.color_srgb8[0]) +
+          ",A=255)\n        Mobility=Movable\n        RelativeLocation=" +
+          triple("X", pose.location_cm[0], "Y", pose.location_cm[1], "Z", pose.location_cm[2]) +
+          "\n        RelativeRotation=" +
+          triple("Pitch", pose.rotation.pitch_deg, "Yaw", pose.rotation.yaw_deg, "Roll",
+                 pose.rotation.roll_deg) +
+          "\n      End Object\n      ActorLabel=" + text_pieces::Quoted(light.name()) +
+          "\n    End Actor\n";
+  return text;
+}
+
+std::string T3dText(const std::vector<PresetLight>& lights,
+                    const std::vector<UnrealLight>& unreal) {
+  std::string text = "Begin Map\n  Begin Level\n";
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    text += ActorText("lightcal_" + text_pieces::Identifier(lights[i].name(), taken), lights[i],
+                      unreal[i]);
+  }
+  return text + "  End Level\nEnd Map\n";
+}
+
+}  // namespace
+
+Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
+                            const PresetOptions& asked) {
+  Preset preset;
+  const PresetOptions options = text_pieces::InRec709(asked, "unreal", preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kUnrealForms, options, preset.warnings);
+  if (!forms) return tl::unexpected(forms.error());
+  auto ies = IesFiles(lights, stem);
+  if (!ies) return Propagate(std::move(ies));
+  const auto refits = RefitLights(
+      lights, *forms,
+      {.engine = EngineFalloff::kUnreal, .far_range = kUnrealFarRange, .fixed = options.range},
+      preset.warnings);
+  std::vector<UnrealLight> unreal;
+  Json data = {{"generator", text_pieces::GeneratorOf(lights)}, {"name", stem}};
+  data["lights"] = Json::array();
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
+    preset.derived.push_back(unreal.back().derived);
+    data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i]));
+    if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
+    preset.files.push_back(*(*ies)[i]);
+    preset.warnings.push_back({"ies_by_script_only", (*forms)[i].name(),
+                               "a .t3d imports no photometric file: run the script, or assign the "
+                               ".ies by hand"});
+  }
+  if (!options.bare) data["rig"] = RigJson(BuildRig(lights, *forms));
+  auto script = ScriptText(data, stem + ".unreal.py");
+  if (!script) return Propagate(std::move(script));
+  preset.files.insert(preset.files.begin(), {PresetFile{stem + ".unreal.py", *std::move(script)},
+                                             PresetFile{stem + ".t3d", T3dText(*forms, unreal)}});
+  preset.paste = "py \"" + std::string(kPasteDirectory) + "/" + stem +
+                 ".unreal.py\"   (Output Log, Cmd; or copy the .t3d and paste it into the level)";
+  return preset;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/unreal_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lightcal/colorimetry/cct.h"
+#include "lightcal/presets/engine_axes.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kCentimetres = 100.0;
+constexpr double kWidestOuter_deg = 88.9;  // the engine clamps here
+
+double SrgbDecoded(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
+// The CCT of a source the engine's own black body renders, to within a Duv of .001.
+std::optional<double> PlanckianTemperature(const PresetLight& light) {
+  constexpr double kNearDuv = 0.001;
+  const EmittedColor& color = light.color();
+  if (!color.xy || color.target.white || color.target.space != RgbSpace::kSrgb) return std::nullopt;
+  const CctResult found = CctFromXy(*color.xy);
+  if (!found.valid() || std::abs(found.duv) > kNearDuv) return std::nullopt;
+  const double t = found.temperature.value();
+  return t >= 1000.0 && t <= 15000.0 ? std::optional(t) : std::nullopt;
+}
+
+// Sets LightColor; the luminance of the colour those bytes hold.
+double BakeColor(const EmittedColor& color, UnrealLight& out) {
+  const Rgb& m = color.max_normalised;
+  const std::array<double, 3> linear = {m.r, m.g, m.b};
+  std::array<double, 3> held{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.color_srgb8[i] = static_cast<int>(std::lround(255.0 * SrgbEncoded(linear[i])));
+    held[i] = SrgbDecoded(out.color_srgb8[i] / 255.0);
+  }
+  return LuminanceOfRgb({held[0], held[1], held[2]}, color.target.space);
+}
+
+void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
+  const double outer = DegreesFromRadians(light.punctual.cone.outer);
+  const double inner = DegreesFromRadians(light.punctual.cone.inner);
+  out.Put("inner_cone_angle", std::min(inner, kWidestOuter_deg));
+  out.Put("outer_cone_angle", std::min(outer, kWidestOuter_deg));
+  if (outer > kWidestOuter_deg) {
+    warnings.push_back(
+        {"cone_clipped", light.name(), "Unreal's cones end at 88.9 degrees: exported with that"});
+  }
+}
+
+}  // namespace
+
+UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
+                            Warnings& warnings) {
+  UnrealLight out;
+  DerivedLight& derived = out.derived;
+  derived.substitution = light.substitution;
+  double luminance = 1.0;
+  if (const auto kelvin = PlanckianTemperature(light)) {
+    out.use_temperature = true;
+    derived.Put("temperature", *kelvin);
+  } else {
+    luminance = BakeColor(light.color(), out);
+    derived.Put("light_color",
+                {static_cast<double>(out.color_srgb8[0]), static_cast<double>(out.color_srgb8[1]),
+                 static_cast<double>(out.color_srgb8[2])});
+  }
+  if (light.form == LightForm::kDirectional) {
+    derived.type = "DirectionalLight";
+    derived.Put("intensity", light.lux / luminance);
+    derived.Put("light_source_angle", light.angular_diameter_deg.value_or(0.0));
+    return out;
+  }
+  derived.Put("intensity", light.candela * refit.intensity_factor / luminance);
+  derived.Put("attenuation_radius", refit.range.value() * kCentimetres);
+  if (light.form == LightForm::kRect) {
+    derived.type = "RectLight";
+    derived.Put("source_width", light.width_m * kCentimetres);
+    derived.Put("source_height", light.height_m * kCentimetres);
+    derived.Put("barn_door_length", 0.0);
+    return out;
+  }
+  derived.type = light.form == LightForm::kSpot ? "SpotLight" : "PointLight";
+  derived.Put("source_radius", light.radius_m * kCentimetres);
+  if (light.form == LightForm::kSpot) PutCone(light, derived, warnings);
+  return out;
+}
+
+}  // namespace lightcal

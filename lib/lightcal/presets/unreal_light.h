@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The numbers a light has in Unreal Engine 5: what unreal.cc writes to both of its files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/presets/derived_light.h"
+#include "lightcal/presets/falloff_refit.h"
+#include "lightcal/presets/preset_light.h"
+
+namespace lightcal {
+
+inline constexpr EngineForms kUnrealForms = {.sphere = true, .rect = true, .table = true};
+
+// Engine lights without a range get this; the editor's slider ends here.
+inline constexpr Metres kUnrealFarRange{163.84};
+
+struct UnrealLight {
+  DerivedLight derived;          // type "PointLight", "SpotLight", "RectLight", "DirectionalLight"
+  bool use_temperature = false;  // else the colour is baked into 8 bits, whose luminance is known
+  int color_srgb8[3] = {255, 255, 255};
+};
+
+// Intensity is cd, lx of a directional light; lengths cm. A source on the Planckian locus (|Duv|
+// below .001, 1000 to 15000 K) in Rec. 709 takes the engine's temperature, whose colour has
+// luminance 1; any other takes LightColor, an 8-bit sRGB colour, and intensity/Y of what those 8
+// bits hold.   Source: Unreal 5.6 LightComponent, MakeFromColorTemperature.
+[[nodiscard]] UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
+                                          Warnings& warnings);
+
+}  // namespace lightcal

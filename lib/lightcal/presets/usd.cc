@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// <stem>.usda: UsdLux in metres, Z up. Luminance is nits at intensity 1 and exposure 0; colours are
+// max-normalised (Unreal's importer clips above 1) and intensities divided by their luminance.
+// normalize is 0 for area lights, whose area renderers measure differently, and 1 for distant
+// lights, whose intensity then is lux.
+// Sources: OpenUSD pxr/usd/usdLux/schema.usda and overview.dox.
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/exporters.h"
+#include "lightcal/presets/frames.h"
+#include "lightcal/presets/photometric_files.h"
+#include "lightcal/presets/text_pieces.h"
+
+namespace lightcal {
+namespace {
+
+using text_pieces::Identifier;
+using text_pieces::Numbers;
+using text_pieces::Quoted;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kPointRadius_m = 0.005;  // no light may have no size
+constexpr EngineForms kForms = {
+    .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
+
+// ---- numbers ----
+
+void PutSphere(const PresetLight& light, double radius_m, double candela, DerivedLight& out) {
+  out.type = "SphereLight";
+  out.Put("radius", radius_m);
+  out.Put("intensity", candela / (kPi * radius_m * radius_m) / light.color().luminance);
+}
+
+void PutCone(const SpotCone& cone, DerivedLight& out) {
+  out.Put("shaping:cone:angle", DegreesFromRadians(cone.outer));
+  out.Put("shaping:cone:softness", 1.0 - cone.inner.value() / cone.outer.value());
+}
+
+DerivedLight Derive(const PresetLight& light) {
+  DerivedLight out;
+  out.substitution = light.substitution;
+  const Rgb& c = light.color().max_normalised;
+  out.Put("color", {c.r, c.g, c.b});
+  const double luminance = light.color().luminance;
+  switch (light.form) {
+    case LightForm::kPoint:
+    case LightForm::kSpot:
+      PutSphere(light, kPointRadius_m, light.candela, out);
+      if (light.form == LightForm::kSpot) PutCone(light.punctual.cone, out);
+      break;
+    case LightForm::kTable:  // the file's candela multiply the luminance: 1 cd by itself
+      PutSphere(light, kPointRadius_m, 1.0, out);
+      break;
+    case LightForm::kSphere:
+      PutSphere(light, light.radius_m, light.candela, out);
+      break;
+    case LightForm::kDisk:
+      out.type = "DiskLight";
+      out.Put("radius", light.radius_m);
+      out.Put("intensity", light.nits / luminance);
+      break;
+    case LightForm::kRect:
+      out.type = "RectLight";
+      out.Put("width", light.width_m);
+      out.Put("height", light.height_m);
+      out.Put("intensity", light.nits / luminance);
+      break;
+    case LightForm::kTube:
+      out.type = "CylinderLight";
+      out.Put("length", light.length_m);
+      out.Put("radius", light.radius_m);
+      out.Put("intensity", light.nits / luminance);
+      break;
+    case LightForm::kDirectional:
+      out.type = "DistantLight";
+      out.Put("angle", light.angular_diameter_deg.value_or(0.0));
+      out.Put("intensity", light.lux / luminance);
+      break;
+    case LightForm::kDome:
+      out.type = "DomeLight";
+      out.Put("intensity", light.nits / luminance);
+      break;
+  }
+  return out;
+}
+
+// ---- text ----
+
+// Row vectors: each row is where an axis goes.
+std::string Matrix(const ObjectFrame& f) {
+  const auto row = [](const Vec3& v, const char* w) { return "(" + Numbers(v) + ", " + w + ")"; };
+  return "    matrix4d xformOp:transform = ( " + row(f.x, "0") + ", " + row(f.y, "0") + ", " +
+         row(f.z, "0") + ", " + row(f.origin, "1") +
+         " )\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
+}
+
+std::string FieldText(const DerivedField& field) {
+  const bool color = field.name == "color";
+  return std::string("    ") + (color ? "color3f" : "float") + " inputs:" + field.name + " = " +
+         (color ? "(" + Numbers(field.values) + ")" : ShortestText(field.values[0])) + "\n";
+}
+
+std::string LightPrim(const std::string& name, const PresetLight& light,
+                      const DerivedLight& derived, const std::optional<PresetFile>& ies) {
+  const bool table = light.form == LightForm::kTable && ies;
+  const bool shaped = table || light.form == LightForm::kSpot;
+  std::string text = "\n  def " + derived.type + " \"" + name + "\" (\n";
+  if (shaped) text += "    prepend apiSchemas = [\"ShapingAPI\"]\n";
+  text += "    displayName = " + Quoted(light.name()) +
+          "\n    customData = {\n      double candela = " + ShortestText(light.candela) +
+          "\n      double lux = " + ShortestText(light.lux) +
+          "\n      double nits = " + ShortestText(light.nits) + "\n    }\n  )\n  {\n";
+  for (const DerivedField& field : derived.fields) text += FieldText(field);
+  text += "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
+  if (light.form != LightForm::kDome) {
+    text += std::string("    bool inputs:normalize = ") +
+            (light.form == LightForm::kDirectional ? "1\n" : "0\n");
+  }
+  if (light.form == LightForm::kPoint || light.form == LightForm::kSpot || table) {
+    text += "    bool treatAsPoint = 1\n";
+  }
+  if (table) {
+    text += "    asset inputs:shaping:ies:file = @./" + ies->name +
+            "@\n    bool inputs:shaping:ies:normalize = 0\n";
+  }
+  return text + Matrix(FrameOfLight(EngineAxes::kZUp, light)) + "  }\n";
+}
+
+std::string CardPrims(const Rig& rig) {
+  std::string text;
+  for (std::size_t i = 0; i < rig.cards.size(); ++i) {
+    const std::string id = std::to_string(i);
+    const double rho = rig.cards[i].reflectance;
+    const std::string half = ShortestText(rig.side.value() / 2.0);
+    text += "\n  def Material \"card_material_" + id +
+            "\"\n  {\n    token outputs:surface.connect = </lightcal/card_material_" + id +
+            "/matt.outputs:surface>\n    def Shader \"matt\"\n    {\n"
+            "      uniform token info:id = \"UsdPreviewSurface\"\n"
+            "      color3f inputs:diffuseColor = (" +
+            Numbers(std::vector<double>{rho, rho, rho}) +
+            ")\n      float inputs:roughness = 1\n      int inputs:useSpecularWorkflow = 1\n"
+            "      color3f inputs:specularColor = (0, 0, 0)\n      token outputs:surface\n"
+            "    }\n  }\n";
+    text += "\n  def Mesh \"card_" + id +
+            "\" (\n    prepend apiSchemas = [\"MaterialBindingAPI\"]\n    displayName = " +
+            Quoted(rig.cards[i].name) +
+            "\n  )\n  {\n    int[] faceVertexCounts = [4]\n"
+            "    int[] faceVertexIndices = [0, 1, 2, 3]\n    point3f[] points = [(-" +
+            half + ", -" + half + ", 0), (" + half + ", -" + half + ", 0), (" + half + ", " + half +
+            ", 0), (-" + half + ", " + half +
+            ", 0)]\n    uniform token subdivisionScheme = \"none\"\n"
+            "    rel material:binding = </lightcal/card_material_" +
+            id + ">\n" + Matrix(FrameOfCard(EngineAxes::kZUp, rig, rig.cards[i])) + "  }\n";
+  }
+  return text;
+}
+
+std::string CameraPrim(const Rig& rig) {
+  constexpr double kAperture = 24.0;  // vertical, tenths of a unit as the focal length
+  const double focal = kAperture / 2.0 / std::tan(rig.camera.vertical_fov.value() / 2.0);
+  return "\n  def Camera \"rig_camera\"\n  {\n    float2 clippingRange = (0.01, 100000)\n"
+         "    float focalLength = " +
+         ShortestText(focal) +
+         "\n    float horizontalAperture = " + ShortestText(kAperture * rig.camera.aspect_ratio) +
+         "\n    float verticalAperture = " + ShortestText(kAperture) +
+         "\n    float fStop = 0\n    float exposure = " +
+         ShortestText(std::log2(rig.exposure.scale)) + "\n" +
+         Matrix(FrameOfCamera(EngineAxes::kZUp, rig.camera)) + "  }\n";
+}
+
+std::string Head(const LightFile& file, const Rig& rig, const PresetOptions& options) {
+  return "#usda 1.0\n(\n  defaultPrim = \"lightcal\"\n  doc = \"" + text_pieces::GeneratorOf(file) +
+         ": checked by tinyusdz, not executed in Karma, Arnold or Omniverse\"\n"
+         "  metersPerUnit = 1\n  upAxis = \"Z\"\n  customLayerData = {\n    double ev100 = " +
+         ShortestText(rig.exposure.ev100) +
+         "\n    double exposure = " + ShortestText(rig.exposure.scale) +
+         "\n    string colorSpace = " + Quoted(RgbSpaceWord(options.color.space)) +
+         "\n  }\n)\n\ndef Xform \"lightcal\"\n{\n";
+}
+
+}  // namespace
+
+Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
+                         const PresetOptions& options) {
+  Preset preset;
+  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  if (!forms) return tl::unexpected(forms.error());
+  auto ies = IesFiles(lights, stem);
+  if (!ies) return Propagate(std::move(ies));
+  const Rig rig = BuildRig(lights, *forms);
+  std::string text = Head(lights, rig, options);
+  std::set<std::string> taken = {"card_0", "card_1", "card_material_0", "card_material_1",
+                                 "rig_camera"};
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    const PresetLight& light = (*forms)[i];
+    preset.derived.push_back(Derive(light));
+    auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
+    if (!finite) return Propagate(std::move(finite));
+    text += LightPrim(Identifier(light.name(), taken), light, preset.derived.back(), (*ies)[i]);
+    if (light.form == LightForm::kTable) {
+      preset.warnings.push_back({"ies_not_portable", light.name(),
+                                 "renderers scale shaping:ies:file differently; the candela are "
+                                 "absolute where it multiplies the luminance"});
+      if ((*ies)[i]) preset.files.push_back(*(*ies)[i]);
+    }
+  }
+  if (!options.bare) text += CardPrims(rig) + CameraPrim(rig);
+  preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", text + "}\n"});
+  preset.paste = "usdview " + std::string(kPasteDirectory) + "/" + stem + ".usda";
+  return preset;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,294 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The static gates: lightcal exports the golden lamps, readers that share nothing with its writers
+read them back, and each fault that people make is put into the files to see its gate fail.
+  gates.py LIGHTCAL [unittest arguments]"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import golden_lights
+import read_godot
+import read_mitsuba
+import read_pbrt
+import read_unity
+import read_unreal
+import read_usd
+from seen import GateError, check_rig, compare, read_ies
+
+LIGHTCAL = None
+ALL = list(golden_lights.LAMPS)
+
+
+class Export:
+    """lightcal export into a folder of its own; files by name."""
+
+    def __init__(self, target, names, *arguments, distances=()):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = self.folder.name
+        lamps = os.path.join(self.path, "set.json")
+        with open(lamps, "w") as out:
+            out.write(golden_lights.light_json(names, distances))
+        result = subprocess.run(
+            [LIGHTCAL, "export", lamps, "--to", target, "-o", self.path, "--json", *arguments],
+            capture_output=True, text=True)
+        if result.returncode != 0:
+            raise GateError(result.stderr + result.stdout)
+        self.answer = json.loads(result.stdout)
+        self.warnings = self.answer.get("warnings", [])
+
+    def text(self, name):
+        with open(os.path.join(self.path, name), newline="") as f:
+            return f.read()
+
+
+def godot(export, change=lambda t: t):
+    return read_godot.read(change(export.text("set.tscn")))
+
+
+def usd(export, change=lambda t: t):
+    return read_usd.read(change(export.text("set.usda")), export.path)
+
+
+def mitsuba(export, change=lambda t: t):
+    return read_mitsuba.read(change(export.text("set.mitsuba.xml")))
+
+
+def pbrt(export, change=lambda t: t):
+    return read_pbrt.read(change(export.text("set.pbrt")))
+
+
+def unity(export, change=lambda t: t):
+    return read_unity.read(change(export.text("set.unity.json")))
+
+
+def unreal(export, change=lambda t: t):
+    return read_unreal.read_script(change(export.text("set.unreal.py")),
+                                   os.path.join(export.path, "set.unreal.py"))
+
+
+READERS = {"godot": godot, "usd": usd, "mitsuba": mitsuba, "pbrt": pbrt, "unity": unity,
+           "unreal": unreal}
+# Godot's default tint is known to three digits; Unreal's square centimetre is 1e-4 at 1 m.
+TOLERANCE = {"godot": 6e-4, "usd": 1e-4, "mitsuba": 1e-4, "pbrt": 1e-4, "unity": 1e-4,
+             "unreal": 2e-4}
+
+
+def times(pattern, factor):
+    """Multiplies the number that group 2 of the pattern matches first."""
+    def change(text):
+        changed, count = re.subn(
+            pattern, lambda m: m.group(1) + repr(float(m.group(2)) * factor), text, count=1,
+            flags=re.S)
+        assert count == 1, pattern
+        return changed
+    return change
+
+
+class EveryKind(unittest.TestCase):
+    """All nine kinds, bare: photometry, colour, place, aim, cones, sizes."""
+
+    def check(self, target):
+        export = Export(target, ALL, "--bare")
+        lights, rig = READERS[target](export)
+        self.assertIsNone(rig)
+        compare(lights, ALL, TOLERANCE[target])
+        return export
+
+    def test_godot(self):
+        export = self.check("godot")
+        said = {w["subject"] for w in export.warnings if w["code"] == "substituted"}
+        self.assertEqual(said, {"panel", "downlight", "tube", "luminaire"})
+        self.assertIn("cone_profile", {w["code"] for w in export.warnings})
+
+    def test_usd(self):
+        export = self.check("usd")
+        self.assertNotIn("substituted", {w["code"] for w in export.warnings})
+
+    def test_mitsuba(self):
+        said = {w["subject"] for w in self.check("mitsuba").warnings if w["code"] == "substituted"}
+        self.assertEqual(said, {"luminaire"})
+
+    def test_pbrt(self):
+        self.check("pbrt")
+
+    def test_unity(self):
+        export = self.check("unity")
+        lights, _ = read_unity.read(export.text("set.unity.json"), "urp")
+        compare(lights, ALL, TOLERANCE["unity"])
+
+    def test_unreal(self):
+        export = self.check("unreal")
+        self.assertIn("not executed", export.text("set.unreal.py").lower())
+        # UE4 normalised profiles otherwise: the multiplier is divided out.
+        lights, _ = read_unreal.read_script(export.text("set.unreal.py"),
+                                            os.path.join(export.path, "set.unreal.py"), 0.25)
+        compare(lights, ALL, TOLERANCE["unreal"])
+        compare(read_unreal.read_t3d(export.text("set.t3d")), ALL, TOLERANCE["unreal"])
+
+    def test_each_has_a_paste_line_that_names_its_folder(self):
+        for target in READERS:
+            export = Export(target, ["key"])
+            self.assertEqual(len(export.answer["paste"]), 1)
+            self.assertTrue(export.answer["paste"][0].startswith(target + ": "))
+            self.assertIn(export.path, export.answer["paste"][0])
+
+
+class PhotometricGltf(unittest.TestCase):
+    """EXT_lights_ies stands in a second scene, absolute: multiplier * Y(colour) = 1."""
+
+    def test_it(self):
+        export = Export("gltf", ["key", "luminaire"], "--bare")
+        root = json.loads(export.text("set.gltf"))
+        first, second = root["scenes"]
+        self.assertEqual(root["scene"], 0)
+        in_first = [root["nodes"][i] for i in first["nodes"]]
+        self.assertTrue(all("KHR_lights_punctual" in n["extensions"] for n in in_first))
+        lamp = root["nodes"][second["nodes"][1]]
+        ies = lamp["extensions"]["EXT_lights_ies"]
+        y = sum(w * c for w, c in zip((0.2126, 0.7152, 0.0722), ies["color"]))
+        self.assertAlmostEqual(ies["multiplier"] * y, 1.0, delta=1e-4)
+        uri = root["extensions"]["EXT_lights_ies"]["lights"][ies["light"]]["uri"]
+        self.assertAlmostEqual(read_ies(export.text(uri)), 2000.0, delta=0.01)
+        # It aims straight down, C0 along +X: -90 degrees about X in glTF's axes.
+        for got, expected in zip(lamp["rotation"], (-0.5 ** 0.5, 0, 0, 0.5 ** 0.5)):
+            self.assertAlmostEqual(got, expected, delta=1e-9)
+        self.assertEqual(lamp["translation"], [-2.0, 2.8, -1.0])
+
+
+class ExposedRig(unittest.TestCase):
+    """The 18 % card shows as .18 +- 2 % from the file's own camera, cards and exposure."""
+
+    def test_each(self):
+        for target in READERS:
+            with self.subTest(target):
+                export = Export(target, ["key"], distances=(0.5, 1.0, 2.0))
+                lights, rig = READERS[target](export)
+                # Unreal's square centimetre is given back over .5 to 2 m.
+                compare(lights, ["key"], max(TOLERANCE[target], 3e-4))
+                check_rig(lights, rig)
+
+
+class Audit(unittest.TestCase):
+    """preset.json's `derived` holds the very numbers of the files."""
+
+    def test_numbers(self):
+        derived = json.loads(Export("json", ALL).text("set.preset.json"))["lights"]
+        by_name = {light["name"]: light["derived"] for light in derived}
+        scene = dict((head["name"], values) for kind, head, values in
+                     read_godot.sections(Export("godot", ALL).text("set.tscn")) if kind == "node")
+        for field in ("light_intensity_lumens", "spot_attenuation", "spot_range", "spot_angle"):
+            self.assertEqual(float(scene["green spot"][field]), by_name["green spot"]["godot"][field])
+        for target in READERS:
+            for name in ALL:
+                self.assertIn("type", by_name[name][target], target)
+
+
+class InjectedFaults(unittest.TestCase):
+    """Each gate sees the fault it is for, in the file that lightcal wrote."""
+
+    def fails(self, target, names, change, word):
+        export = Export(target, names, "--bare")
+        lights, _ = READERS[target](export)
+        compare(lights, names, TOLERANCE[target])
+        with self.assertRaisesRegex(GateError, word):
+            lights, _ = READERS[target](export, change)
+            compare(lights, names, TOLERANCE[target])
+
+    def test_missing_division_by_luminance(self):
+        y = 0.52  # of 2700 K
+        for target, pattern in (
+                ("godot", r"(light_intensity_lumens = )([-+.e\d]+)"),
+                ("usd", r"(inputs:intensity = )([-+.e\d]+)"),
+                ("unity", r'("intensity": )([-+.e\d]+)'),
+                ("pbrt", r'("float scale" \[ )([-+.e\d]+)')):
+            with self.subTest(target):
+                self.fails(target, ["key"], times(pattern, y), "candela")
+        self.fails("mitsuba", ["key"],
+                   lambda t: re.sub(r'(name="intensity" value=")([^"]*)',
+                                    lambda m: m.group(1) + " ".join(
+                                        repr(float(v) * y) for v in m.group(2).split()), t),
+                   "candela")
+        self.fails("unreal", ["green spot"], times(r'("intensity": )([-+.e\d]+)', 0.8), "candela")
+
+    def test_attenuation_of_one(self):
+        self.fails("godot", ["key"],
+                   lambda t: t.replace("omni_attenuation = 2", "omni_attenuation = 1"),
+                   "attenuation")
+        self.fails("godot", ["green spot"],
+                   lambda t: t.replace("spot_attenuation = 2", "spot_attenuation = 1"),
+                   "attenuation")
+
+    def test_swapped_area_factor(self):
+        pi = 3.141592653589793
+        for target, pattern in (("usd", r"(inputs:intensity = )([-+.e\d]+)"),
+                                ("unity", r'("intensity": )([-+.e\d]+)'),
+                                ("pbrt", r'("float scale" \[ )([-+.e\d]+)')):
+            for factor in (pi, 4.0 / pi, 0.18):
+                with self.subTest(target):
+                    self.fails(target, ["panel"], times(pattern, factor), "nits")
+        self.fails("unreal", ["panel"], times(r'("intensity": )([-+.e\d]+)', pi), "candela")
+
+    def test_half_and_full_angles(self):
+        for target, pattern in (("godot", r"(spot_angle = )([-+.e\d]+)"),
+                                ("usd", r"(cone:angle = )([-+.e\d]+)"),
+                                ("mitsuba", r'("cutoff_angle" value=")([-+.e\d]+)'),
+                                ("pbrt", r'("float coneangle" \[ )([-+.e\d]+)'),
+                                ("unreal", r'("outer_cone_angle": )([-+.e\d]+)')):
+            with self.subTest(target):
+                self.fails(target, ["green spot"], times(pattern, 2.0), "half angle")
+        self.fails("unity", ["green spot"], times(r'("spot_angle_deg": )([-+.e\d]+)', 0.5),
+                   "half angle")
+
+    def test_the_field_of_lm_63_2019(self):
+        export = Export("ies", ["luminaire"])
+        text = export.text("set-luminaire.ies")
+        self.assertAlmostEqual(read_ies(text), 2000.0, delta=0.01)
+        lines = text.split("\r\n")
+        at = [i for i, line in enumerate(lines) if line.startswith("TILT=")][0] + 2
+        lines[at] = lines[at].replace("1 1 ", "1 1.10000 ", 1)
+        with self.assertRaisesRegex(GateError, "reserved factor"):
+            read_ies("\r\n".join(lines))
+        with self.assertRaisesRegex(GateError, "CRLF"):
+            read_ies(text.replace("\r\n", "\n"))
+
+    def test_a_name_the_engine_does_not_have(self):
+        export = Export("unreal", ["key"])
+        for wrong in ("intensity_unit", "attenuation"):
+            script = export.text("set.unreal.py").replace(
+                '"intensity_units"', '"%s"' % wrong)
+            with self.assertRaises(AttributeError):
+                read_unreal.read_script(script, os.path.join(export.path, "set.unreal.py"))
+
+    def test_a_mirrored_scene(self):
+        self.fails("unreal", ["green spot"],
+                   lambda t: re.sub(r'("location_cm": \[\s*[-.\d]+,\s*)([-.\d]+)',
+                                    lambda m: m.group(1) + repr(-float(m.group(2))), t, count=1),
+                   "position")
+
+
+class Pipelines(unittest.TestCase):
+    def test_a_pipeline_neutralised_to_the_lamp_gets_white(self):
+        lights, _ = usd(Export("usd", ["key"], "--bare", "--white", "0.45986,0.41060"))
+        self.assertLess(max(abs(c - 1) for c in lights["key"].rgb), 1e-6)
+        self.assertAlmostEqual(lights["key"].candela, 1000.0, delta=0.01)
+
+    def test_a_space_an_engine_lacks_is_said(self):
+        for target in ("godot", "mitsuba", "unity", "unreal"):
+            export = Export(target, ["key"], "--bare", "--space", "acescg")
+            self.assertIn("space_unsupported", {w["code"] for w in export.warnings})
+            compare(READERS[target](export)[0], ["key"], TOLERANCE[target])
+
+    def test_a_fixed_range_is_refitted_and_its_residual_printed(self):
+        export = Export("godot", ["key"], "--range", "4m", distances=(0.5, 1.0, 3.0))
+        said = [w["message"] for w in export.warnings if w["code"] == "falloff_residual"]
+        self.assertEqual(len(said), 1)
+        self.assertIn("--range 13.4m", said[0])
+
+
+if __name__ == "__main__":
+    LIGHTCAL = sys.argv.pop(1)
+    unittest.main(warnings="ignore")

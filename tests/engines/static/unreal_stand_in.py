@@ -1,0 +1,281 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A strict stand-in of the editor's `unreal` module: only documented names exist, and each property
+takes its documented type. Source: Unreal Engine 5 Python API reference."""
+import os
+import sys
+import types
+
+
+class Enum:
+    def __init__(self, name):
+        self.name = name
+
+
+class Struct:
+    fields = {}
+
+    def __init__(self, **values):
+        self.values = dict(self.fields)
+        for name, value in values.items():
+            if name not in self.fields:
+                raise TypeError("%s has no %s" % (type(self).__name__, name))
+            self.values[name] = value
+
+
+class Vector(Struct):
+    fields = dict(x=0.0, y=0.0, z=0.0)
+
+    def __init__(self, x=0.0, y=0.0, z=0.0):
+        super().__init__(x=x, y=y, z=z)
+
+
+class Rotator(Struct):
+    fields = dict(roll=0.0, pitch=0.0, yaw=0.0)
+
+
+class Color(Struct):
+    fields = dict(b=0, g=0, r=0, a=0)
+
+    def __init__(self, **values):
+        super().__init__(**values)
+        for v in self.values.values():
+            if not isinstance(v, int) or not 0 <= v <= 255:
+                raise TypeError("Color takes bytes")
+
+
+class Object:
+    properties = {}
+
+    def __init__(self):
+        self.held = {}
+
+    @classmethod
+    def all_properties(cls):
+        found = {}
+        for base in reversed(cls.__mro__):
+            found.update(getattr(base, "properties", {}))
+        return found
+
+    def set_editor_property(self, name, value):
+        known = self.all_properties()
+        if name not in known:
+            raise AttributeError("%s has no editor property %s" % (type(self).__name__, name))
+        if not isinstance(value, known[name]) or (known[name] is float and isinstance(value, bool)):
+            raise TypeError("%s.%s takes %s, not %r" % (type(self).__name__, name, known[name], value))
+        self.held[name] = value
+
+    def get_editor_property(self, name):
+        if name not in self.all_properties():
+            raise AttributeError("%s has no editor property %s" % (type(self).__name__, name))
+        if name not in self.held and name == "settings":
+            self.held[name] = PostProcessSettings()
+        return self.held[name]
+
+
+class TextureLightProfile(Object):
+    properties = dict(brightness=float, texture_multiplier=float)
+
+
+class SceneComponent(Object):
+    def set_mobility(self, mobility):
+        assert mobility is ComponentMobility.MOVABLE
+
+
+class LightComponentBase(SceneComponent):
+    properties = dict(intensity=float, light_color=Color, cast_shadows=bool)
+
+
+class LightComponent(LightComponentBase):
+    properties = dict(use_temperature=bool, temperature=float, ies_texture=TextureLightProfile,
+                      use_ies_brightness=bool, ies_brightness_scale=float)
+
+
+class LocalLightComponent(LightComponent):
+    properties = dict(attenuation_radius=float, intensity_units=Enum)
+
+
+class PointLightComponent(LocalLightComponent):
+    properties = dict(use_inverse_squared_falloff=bool, source_radius=float,
+                      soft_source_radius=float, source_length=float)
+
+
+class SpotLightComponent(PointLightComponent):
+    properties = dict(inner_cone_angle=float, outer_cone_angle=float)
+
+
+class RectLightComponent(LocalLightComponent):
+    properties = dict(source_width=float, source_height=float, barn_door_angle=float,
+                      barn_door_length=float)
+
+
+class DirectionalLightComponent(LightComponent):
+    properties = dict(light_source_angle=float)
+
+
+class StaticMesh(Object):
+    pass
+
+
+class StaticMeshComponent(SceneComponent):
+    def set_static_mesh(self, mesh):
+        assert isinstance(mesh, StaticMesh)
+
+    def set_material(self, index, material):
+        assert index == 0
+        self.material = material
+
+
+class CameraComponent(SceneComponent):
+    properties = dict(field_of_view=float, aspect_ratio=float, constrain_aspect_ratio=bool)
+
+
+class PostProcessSettings(Object):
+    properties = dict(auto_exposure_method=Enum, auto_exposure_bias=float,
+                      auto_exposure_apply_physical_camera_exposure=bool, bloom_intensity=float,
+                      vignette_intensity=float, tone_curve_amount=float, expand_gamut=float)
+    properties.update({"override_" + name: bool for name in list(properties)})
+
+
+class Actor(Object):
+    component = SceneComponent
+
+    def __init__(self):
+        super().__init__()
+        self.root = self.component()
+        self.label = self.scale = None
+
+    def set_actor_label(self, label):
+        assert isinstance(label, str)
+        self.label = label
+
+    def set_actor_scale3d(self, scale):
+        self.scale = scale
+
+    def get_component_by_class(self, wanted):
+        return self.root if isinstance(self.root, wanted) else None
+
+
+def actor(name, component, properties=()):
+    return type(name, (Actor,), {"component": component, "properties": dict(properties)})
+
+
+PointLight = actor("PointLight", PointLightComponent)
+SpotLight = actor("SpotLight", SpotLightComponent)
+RectLight = actor("RectLight", RectLightComponent)
+DirectionalLight = actor("DirectionalLight", DirectionalLightComponent)
+StaticMeshActor = actor("StaticMeshActor", StaticMeshComponent)
+CameraActor = actor("CameraActor", CameraComponent)
+PostProcessVolume = actor("PostProcessVolume", SceneComponent,
+                          dict(unbound=bool, settings=PostProcessSettings))
+
+
+class LightUnits:
+    UNITLESS, CANDELAS, LUMENS, EV, NITS = (Enum(n) for n in
+                                            ("UNITLESS", "CANDELAS", "LUMENS", "EV", "NITS"))
+
+
+class ComponentMobility:
+    STATIC, STATIONARY, MOVABLE = Enum("STATIC"), Enum("STATIONARY"), Enum("MOVABLE")
+
+
+class AutoExposureMethod:
+    AEM_HISTOGRAM, AEM_BASIC, AEM_MANUAL = Enum("H"), Enum("B"), Enum("M")
+
+
+class MaterialProperty:
+    MP_BASE_COLOR, MP_ROUGHNESS, MP_SPECULAR = Enum("base"), Enum("rough"), Enum("spec")
+
+
+class Material(Object):
+    pass
+
+
+class MaterialFactoryNew(Object):
+    pass
+
+
+class MaterialExpressionConstant(Object):
+    properties = dict(r=float)
+
+
+class AssetImportTask(Object):
+    properties = dict(filename=str, destination_path=str, automated=bool, replace_existing=bool,
+                      save=bool, imported_object_paths=list)
+
+
+def build(ies_multiplier):
+    """The module, and the list of what was spawned: (actor, location, rotation)."""
+    spawned, assets, warnings = [], {"/Engine/BasicShapes/Plane": StaticMesh()}, []
+    module = types.ModuleType("unreal")
+    for name, value in globals().items():
+        if isinstance(value, type) and name not in ("Enum", "Struct", "Object", "Actor"):
+            setattr(module, name, value)
+
+    class EditorActorSubsystem:
+        def spawn_actor_from_class(self, actor_class, location, rotation):
+            assert isinstance(location, Vector) and isinstance(rotation, Rotator)
+            made = actor_class()
+            spawned.append((made, location.values, rotation.values))
+            return made
+
+    class Tools:
+        def import_asset_tasks(self, tasks):
+            for task in tasks:
+                assert os.path.exists(task.held["filename"]), task.held["filename"]
+                path = task.held["destination_path"] + "/profile%d" % len(assets)
+                assets[path] = TextureLightProfile()
+                assets[path].held["texture_multiplier"] = ies_multiplier
+                assets[path].file = task.held["filename"]
+                task.held["imported_object_paths"] = [path]
+
+        def create_asset(self, name, folder, asset_class, factory):
+            assert isinstance(factory, MaterialFactoryNew)
+            assets[folder + "/" + name] = made = asset_class()
+            made.inputs = {}
+            return made
+
+    class AssetToolsHelpers:
+        @staticmethod
+        def get_asset_tools():
+            return Tools()
+
+    class EditorAssetLibrary:
+        @staticmethod
+        def does_asset_exist(path):
+            return path in assets
+
+    class MaterialEditingLibrary:
+        @staticmethod
+        def create_material_expression(material, expression_class):
+            made = expression_class()
+            made.material = material
+            return made
+
+        @staticmethod
+        def connect_material_property(expression, output, which):
+            expression.material.inputs[which.name] = expression
+            return True
+
+        @staticmethod
+        def recompile_material(material):
+            pass
+
+    module.EditorActorSubsystem = EditorActorSubsystem
+    module.AssetToolsHelpers = AssetToolsHelpers
+    module.EditorAssetLibrary = EditorAssetLibrary
+    module.MaterialEditingLibrary = MaterialEditingLibrary
+    module.get_editor_subsystem = lambda wanted: wanted()
+    module.load_asset = lambda path: assets[path]
+    module.log = lambda text: None
+    module.log_warning = warnings.append
+    return module, spawned, warnings
+
+
+def run(script, path, ies_multiplier=1.0):
+    module, spawned, warnings = build(ies_multiplier)
+    sys.modules["unreal"] = module
+    try:
+        exec(compile(script, path, "exec"), {"__file__": path, "__name__": "__main__"})
+    finally:
+        del sys.modules["unreal"]
+    return spawned, warnings
