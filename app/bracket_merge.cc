@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/flat_field.h"
 #include "lightcal/imaging/frame_agreement.h"
 #include "lightcal/imaging/merge_picture.h"
-#include "lightcal/imaging/parallel.h"
 #include "lightcal/imaging/response.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
 #include "lightcal/photometry/exposure.h"

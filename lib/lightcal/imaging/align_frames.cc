@@ -8,9 +8,9 @@
 #include <variant>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/imaging/frame_agreement.h"
 #include "lightcal/imaging/frame_blocks.h"
-#include "lightcal/imaging/parallel.h"
 
 namespace lightcal {
 namespace {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/imaging/noise.h"
-#include "lightcal/imaging/parallel.h"
 
 namespace lightcal {
 namespace {

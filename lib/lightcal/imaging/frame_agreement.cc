@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/imaging/frame_blocks.h"
-#include "lightcal/imaging/parallel.h"
 
 namespace lightcal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numbers>
 
-#include "lightcal/imaging/parallel.h"
+#include "lightcal/core/parallel.h"
 
 namespace lightcal {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "lightcal/imaging/parallel.h"
+#include "lightcal/core/parallel.h"
 
 namespace lightcal {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "lightcal/imaging/parallel.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/imaging/signal_kernels.h"
 
 namespace lightcal {

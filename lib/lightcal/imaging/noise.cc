@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "lightcal/imaging/parallel.h"
+#include "lightcal/core/parallel.h"
 
 namespace lightcal {
 namespace {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Independent pieces of work on every processor. Who uses it links Threads::Threads.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +11,14 @@
 
 namespace lightcal {
 
-// Calls work(i) for every i in [0, count), on as many threads as the machine has processors; an
-// exception of any call is thrown again here.
+// Calls work(i) for every i in [0, count), on `most_threads` threads, 0 = as many as the machine
+// has processors; an exception of any call is thrown again here.
 template <class Work>
-void ParallelFor(int count, const Work& work) {
-  const int threads =
-      std::min(count, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+void ParallelFor(int count, const Work& work, int most_threads = 0) {
+  if (most_threads <= 0) {
+    most_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+  const int threads = std::min(count, most_threads);
   std::atomic<int> next{0};
   std::exception_ptr failure;
   std::mutex guard;
