@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/placed_lamp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <type_traits>
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+template <class Source>
+constexpr bool kHasLadder =
+    std::is_same_v<Source, DiskSource> || std::is_same_v<Source, RectSource> ||
+    std::is_same_v<Source, TubeSource>;
+template <class Source>
+constexpr bool kMovesAgainstAim =
+    std::is_same_v<Source, DiskSource> || std::is_same_v<Source, RectSource> ||
+    std::is_same_v<Source, SpotSource>;
+
+// In the source's frame, with the source moved by d0.
+template <class Source>
+Receiver<double> ReceiverOf(const LampPose& pose, const SurfacePoint& at) {
+  Receiver<double> out{pose.frame.Of(at.position_m - pose.position_m), pose.frame.Of(at.normal)};
+  Vec3& p = out.position;
+  if (pose.offset_m == 0.0) return out;
+  if constexpr (kMovesAgainstAim<Source>) {
+    p[2] += pose.offset_m;
+  } else if constexpr (std::is_same_v<Source, TubeSource>) {
+    const double away = std::hypot(p[1], p[2]);
+    const double stretch = away > 0.0 ? std::max(0.0, 1.0 + pose.offset_m / away) : 1.0;
+    p[1] *= stretch;
+    p[2] *= stretch;
+  } else {
+    const double d = std::sqrt(Dot(p, p));
+    if (d > 0.0) p = p * std::max(0.0, 1.0 + pose.offset_m / d);
+  }
+  return out;
+}
+
+double AsPoint(const DiskSource&, const Receiver<double>& at) {
+  return models::FlatPointLuxPerCandela(at);
+}
+double AsPoint(const RectSource&, const Receiver<double>& at) {
+  return models::FlatPointLuxPerCandela(at);
+}
+double AsPoint(const TubeSource&, const Receiver<double>& at) {
+  return models::TubePointLuxPerCandela(at);
+}
+
+double TablePart(const TableSource& source, const Vec3& in_frame) {
+  const IntensityTable& table = *source.table;
+  return table.Towards({in_frame[0], in_frame[1], -in_frame[2]}) / table.peak().intensity;
+}
+
+template <class Source>
+double DirectLux(const Source& source, const LampPose& pose, const SurfacePoint& at,
+                 const SourceDetail& detail) {
+  if constexpr (std::is_same_v<Source, SunSource>) {
+    const Vec3 toward = pose.frame.z * -1.0;
+    return detail.point_only ? DirectionalFactor(at.normal, toward)
+                             : SunFactor(at.normal, toward, source.angular_radius);
+  } else if constexpr (std::is_same_v<Source, EvenSky>) {
+    return 0.5 * (1.0 + at.normal[2]);
+  } else {
+    const Receiver<double> receiver = ReceiverOf<Source>(pose, at);
+    if constexpr (kHasLadder<Source>) {
+      if (detail.point_only) return AsPoint(source, receiver);
+      return detail.tolerance > 0.0 ? LuxPerCandela(source, receiver, detail.tolerance)
+                                    : LuxPerCandela(source, receiver);
+    } else if constexpr (std::is_same_v<Source, SphereSource>) {
+      return detail.point_only ? PointLuxPerCandela(receiver) : LuxPerCandela(source, receiver);
+    } else if constexpr (std::is_same_v<Source, TableSource>) {
+      const double even = PointLuxPerCandela(receiver);
+      return even > 0.0 ? even * TablePart(source, receiver.position) : 0.0;
+    } else {
+      return LuxPerCandela(source, receiver);
+    }
+  }
+}
+
+// The frame with its aim turned about its own x and y by small angles.
+SourceFrame Turned(const SourceFrame& frame, double about_x, double about_y) {
+  const Vec3 z = frame.z + frame.x * about_y - frame.y * about_x;
+  return SourceFrame::Facing(z * (1.0 / Length(z)), frame.x);
+}
+
+}  // namespace
+
+double LuxPerUnit(const LampSource& source, const LampPose& pose, const SurfacePoint& at,
+                  const SourceDetail& detail) {
+  return std::visit([&](const auto& s) { return DirectLux(s, pose, at, detail); }, source);
+}
+
+double RelativeIntensity(const LampSource& source, const SourceFrame& frame,
+                         const Vec3& direction) {
+  const Vec3 d = frame.Of(direction) * (1.0 / Length(direction));
+  if (const auto* spot = std::get_if<SpotSource>(&source)) {
+    return SpotProfile(HalfVersine(d), HalfVersine(spot->cone.inner.value()),
+                       HalfVersine(spot->cone.outer.value()), spot->falloff);
+  }
+  if (const auto* table = std::get_if<TableSource>(&source)) return TablePart(*table, d);
+  if (std::holds_alternative<TubeSource>(source)) return std::hypot(d[1], d[2]);
+  if (std::holds_alternative<DiskSource>(source) || std::holds_alternative<RectSource>(source)) {
+    return std::max(0.0, d[2]);
+  }
+  return 1.0;
+}
+
+double SolidAngleOf(const LampSource& source) {
+  if (const auto* spot = std::get_if<SpotSource>(&source)) {
+    return SolidAngleOfSpot(spot->cone, spot->falloff).value();
+  }
+  if (const auto* table = std::get_if<TableSource>(&source)) {
+    return table->table->Flux().value() / table->table->peak().intensity.value();
+  }
+  if (std::holds_alternative<TubeSource>(source)) return kPi * kPi;
+  if (std::holds_alternative<DiskSource>(source) || std::holds_alternative<RectSource>(source)) {
+    return kPi;
+  }
+  return 4.0 * kPi;
+}
+
+bool IsEverywhere(const LampSource& source) {
+  return std::holds_alternative<SunSource>(source) || std::holds_alternative<EvenSky>(source);
+}
+
+double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDetail& detail) {
+  const LampDoubt& doubt = lamp.doubt;
+  const auto lux = [&](const LampSource& source, const LampPose& pose) {
+    return lamp.strength * LuxPerUnit(source, pose, at, detail);
+  };
+  double variance = 0.0;
+  // Half of what a step of one standard deviation both ways changes.
+  const auto add = [&](double sd, const auto& moved) {
+    if (!(sd > 0.0)) return;
+    const double half = 0.5 * (moved(sd) - moved(-sd));
+    variance += half * half;
+  };
+  const double here = lux(lamp.source, lamp.pose);
+  variance += here * here * doubt.variance_ln;
+  const bool everywhere = IsEverywhere(lamp.source);
+  if (doubt.variance_offset > 0.0 && !everywhere) {
+    const double sd = std::sqrt(doubt.variance_offset);
+    const auto moved = [&](double by) {
+      LampPose pose = lamp.pose;
+      pose.offset_m += by;
+      return lux(lamp.source, pose);
+    };
+    const double half = 0.5 * (moved(sd) - moved(-sd));
+    variance += half * half + 2.0 * here * (half / sd) * doubt.covariance;
+  }
+  for (int axis = 0; axis < 3 && !everywhere; ++axis) {
+    add(doubt.position_m[axis], [&](double by) {
+      LampPose pose = lamp.pose;
+      pose.position_m[axis] += by;
+      return lux(lamp.source, pose);
+    });
+  }
+  for (const bool about_x : {true, false}) {
+    add(doubt.aim_rad, [&](double by) {
+      LampPose pose = lamp.pose;
+      pose.frame = Turned(pose.frame, about_x ? by : 0.0, about_x ? 0.0 : by);
+      return lux(lamp.source, pose);
+    });
+  }
+  if (const auto* spot = std::get_if<SpotSource>(&lamp.source)) {
+    const auto cone = [&](double inner, double outer) {
+      SpotSource moved = *spot;
+      moved.cone.outer = Radians(std::max(1e-6, spot->cone.outer.value() + outer));
+      moved.cone.inner =
+          Radians(std::clamp(spot->cone.inner.value() + inner, 0.0, moved.cone.outer.value()));
+      return lux(LampSource(moved), lamp.pose);
+    };
+    add(doubt.inner_rad, [&](double by) { return cone(by, 0.0); });
+    add(doubt.outer_rad, [&](double by) { return cone(0.0, by); });
+  }
+  return std::sqrt(std::max(0.0, variance));
+}
+
+}  // namespace lightcal

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp of any kind where it stands, and the light it casts straight onto a surface.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "lightcal/core/vec3.h"
+#include "lightcal/light/intensity_table.h"
+#include "lightcal/light/models/source_model.h"
+
+namespace lightcal {
+
+// Light from one direction, -frame.z: a sun of that angular radius, 0 = none [rad].
+struct SunSource {
+  double angular_radius = 0.0;
+};
+// A sky of one luminance over dark ground: E = E_up (1 + n_z)/2.
+struct EvenSky {};
+// The shape of a measured distribution; its frame is that of AxesOfAim (frame.x, frame.y,
+// -frame.z).
+struct TableSource {
+  std::shared_ptr<const IntensityTable> table;
+};
+using LampSource = std::variant<PointSource, SphereSource, DiskSource, RectSource, TubeSource,
+                                SpotSource, TableSource, SunSource, EvenSky>;
+
+// frame.z is the aim. offset_m is d0, how far behind position_m the effective source lies: against
+// the aim for flat lamps and spots, away from the axis for a tube, away from the surface for
+// others.
+struct LampPose {
+  Vec3 position_m{};
+  SourceFrame frame;
+  double offset_m = 0.0;
+};
+
+// Standard deviations; what is not known to be unsure is 0.
+struct LampDoubt {
+  double variance_ln = 0.0;      // of ln strength
+  double variance_offset = 0.0;  // of d0 [m^2]
+  double covariance = 0.0;       // of both [m]
+  Vec3 position_m{};             // of each coordinate
+  double aim_rad = 0.0;          // of each of its two directions
+  double inner_rad = 0.0, outer_rad = 0.0;
+};
+
+struct PlacedLamp {
+  std::string name;
+  LampSource source;
+  double strength = 0.0;  // cd on the axis (table: at its peak); lx: sun facing it, sky upward
+  LampPose pose;
+  LampDoubt doubt;
+};
+
+// How closely a source's size is followed.
+struct SourceDetail {
+  bool point_only = false;  // sizes are ignored
+  double tolerance = 0.0;   // relative, of the ladder; 0 = exact
+};
+
+struct SurfacePoint {
+  Vec3 position_m{};
+  Vec3 normal{0.0, 0.0, 1.0};  // unit
+};
+
+// Illuminance over strength, straight from the lamp: nothing stands between, no walls.
+//   [lx/cd], sun and sky [1]
+[[nodiscard]] double LuxPerUnit(const LampSource& source, const LampPose& pose,
+                                const SurfacePoint& at, const SourceDetail& detail = {});
+[[nodiscard]] inline double LuxOf(const PlacedLamp& lamp, const SurfacePoint& at,
+                                  const SourceDetail& detail = {}) {
+  return lamp.strength * LuxPerUnit(lamp.source, lamp.pose, at, detail);
+}
+
+// Relative intensity along a direction, any length above 0, far away; and its integral over all
+// directions [sr].
+[[nodiscard]] double RelativeIntensity(const LampSource& source, const SourceFrame& frame,
+                                       const Vec3& direction);
+[[nodiscard]] double SolidAngleOf(const LampSource& source);
+
+// Sun and sky: the same everywhere, no distance law, no walls.
+[[nodiscard]] bool IsEverywhere(const LampSource& source);
+
+// Standard deviation of LuxOf from the lamp's own doubt: each parameter moved by its standard
+// deviation both ways, strength and d0 together by their covariance.                    [lx]
+[[nodiscard]] double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at,
+                                const SourceDetail& detail = {});
+
+}  // namespace lightcal

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/predicted_lamp.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/light/effects/finite_source.h"
+#include "lightcal/light/effects/narrow_beam.h"
+#include "lightcal/light/lamp_over_plane.h"
+
+namespace lightcal {
+namespace {
+
+// Standard deviation of a rectangular distribution of that half width.
+double Rectangular(double half_width) { return half_width / std::sqrt(3.0); }
+
+}  // namespace
+
+SourceDetail DetailOf(EffectChoice finite_source, double tolerance) {
+  if (finite_source == EffectChoice::kNever) return {true, 0.0};
+  return {false, finite_source == EffectChoice::kAlways ? 0.0 : tolerance};
+}
+
+PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings)
+    : lamp_(Settled(lamp)), haze_per_m_(settings.haze_per_m), room_(settings.room) {
+  const LampDoubt& doubt = lamp.doubt;
+  shape_unsure_ = Length(doubt.position_m) > 0.0 || doubt.aim_rad > 0.0 || doubt.inner_rad > 0.0 ||
+                  doubt.outer_rad > 0.0;
+  const bool walls = room_ && room_->reflectance > 0.0 &&
+                     settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);
+  if (walls) coarse_.emplace(*room_, lamp_, WallLight::kCoarse);
+}
+
+const WallLight& PredictedLamp::Walls() const {
+  std::call_once(fine_->once, [this] { fine_->walls.emplace(*room_, lamp_, WallLight::kFine); });
+  return *fine_->walls;
+}
+
+double PredictedLamp::BounceOverDirect(std::span<const SurfacePoint> points) const {
+  constexpr double kNoDirectLight = 1e9;
+  double worst = 0.0;
+  for (const SurfacePoint& at : points) {
+    const double direct = LuxOf(lamp_, at, {false, 0.1});
+    const double bound = coarse_->BoundAt(at);
+    if (bound > 0.0) worst = std::max(worst, direct > 0.0 ? bound / direct : kNoDirectLight);
+  }
+  return worst;
+}
+
+// Relative standard deviation of what no parameter holds: clear air, the size of a lamp that states
+// none.
+double PredictedLamp::Unmodelled(const SurfacePoint& at) const {
+  if (IsEverywhere(lamp_.source)) return 0.0;
+  const double d = Length(at.position_m - lamp_.pose.position_m);
+  if (!(d > 0.0)) return 0.0;
+  const double ratio = effects::kRadiusDefault / d;
+  double size = 0.0;
+  if (const auto* spot = std::get_if<SpotSource>(&lamp_.source)) {
+    const double half = 0.5 * (spot->cone.inner.value() + spot->cone.outer.value());
+    const bool narrow = half < RadiansFromDegrees(80.0).value();
+    size = ratio * ratio * (narrow ? 0.25 * (effects::BeamExponent(half) + 3.0) : 1.0);
+  } else if (std::holds_alternative<PointSource>(lamp_.source) ||
+             std::holds_alternative<TableSource>(lamp_.source)) {
+    size = ratio * ratio;
+  }
+  return std::hypot(Rectangular(haze_per_m_ * d), Rectangular(std::min(1.0, size)));
+}
+
+double PredictedLamp::DirectU95(const SurfacePoint& at, double direct_lx,
+                                const SourceDetail& detail, double left_off) const {
+  const double rest = std::hypot(Rectangular(left_off), Unmodelled(at));
+  return kZ95 * std::hypot(DoubtOfLux(lamp_, at, detail), direct_lx * rest);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// One lamp ready to be asked: settled, with the walls that it lights. Used by illuminance_map.cc
+// and tile_work.cc alone.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "lightcal/core/uncertain.h"
+#include "lightcal/light/illuminance_map.h"
+#include "lightcal/light/room_bounce.h"
+#include "lightcal/light/wall_light.h"
+
+namespace lightcal {
+
+class PredictedLamp {
+ public:
+  PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings);
+
+  [[nodiscard]] const PlacedLamp& lamp() const { return lamp_; }
+  // Whether more than its strength and offset is unsure: u95/E then is no smooth field.
+  [[nodiscard]] bool shape_unsure() const { return shape_unsure_; }
+  // Whether a room is known that could throw its light back.
+  [[nodiscard]] bool has_walls() const { return coarse_.has_value(); }
+
+  // The fine walls, built when first asked for.
+  [[nodiscard]] const WallLight& Walls() const;
+  // Largest bound of the walls' light over direct light at the points, relative.
+  [[nodiscard]] double BounceOverDirect(std::span<const SurfacePoint> points) const;
+  // 95 % half width of direct light, `left_off` a relative bound of what was left off.     [lx]
+  [[nodiscard]] double DirectU95(const SurfacePoint& at, double direct_lx,
+                                 const SourceDetail& detail, double left_off) const;
+
+ private:
+  [[nodiscard]] double Unmodelled(const SurfacePoint& at) const;
+
+  PlacedLamp lamp_;
+  double haze_per_m_;
+  bool shape_unsure_ = false;
+  std::optional<RoomBox> room_;
+  std::optional<WallLight> coarse_;
+  struct Fine {
+    std::once_flag once;
+    std::optional<WallLight> walls;
+  };
+  std::unique_ptr<Fine> fine_ = std::make_unique<Fine>();
+};
+
+// Gate constants, shared by points and maps.
+inline constexpr double kOffShare = 0.5;       // of the tolerance, for what is left off
+inline constexpr double kBetweenShare = 0.25;  // for interpolating the walls' light
+inline constexpr double kBounceU95 = kZ95 * kBounceSigma;
+
+[[nodiscard]] SourceDetail DetailOf(EffectChoice finite_source, double tolerance);
+
+}  // namespace lightcal

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/wall_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lightcal {
+namespace {
+
+constexpr double kInside = 0.05;  // metres between a lamp and the wall it was moved from
+constexpr double kTouching = 1e-4;
+constexpr double kFineTolerance = 3e-3, kCoarseTolerance = 5e-2;
+
+double Low(const RoomBox& room, int axis) { return axis == 2 ? 0.0 : -0.5 * room.size_m[axis]; }
+
+Vec3 Clamped(Vec3 p, const RoomBox& room, double margin) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double gap = std::min(margin, 0.25 * room.size_m[axis]);
+    const double low = Low(room, axis);
+    p[axis] = std::clamp(p[axis], low + gap, low + room.size_m[axis] - gap);
+  }
+  return p;
+}
+
+// Edges of patches along one side, graded about `foot` with the lamp's height over the wall.
+std::vector<double> Grade(double low, double high, double foot, double height, int side) {
+  std::vector<double> edges;
+  const double from = std::asinh((low - foot) / height);
+  const double to = std::asinh((high - foot) / height);
+  for (int i = 0; i <= side; ++i) {
+    edges.push_back(foot + height * std::sinh(from + (to - from) * i / side));
+  }
+  return edges;
+}
+
+}  // namespace
+
+WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, int side)
+    : room_(room), tolerance_(side >= kFine ? kFineTolerance : kCoarseTolerance) {
+  PlacedLamp inside = lamp;
+  inside.pose.position_m = Clamped(lamp.pose.position_m, room, kInside);
+  patches_.reserve(static_cast<std::size_t>(6 * side * side));
+  for (int axis = 0; axis < 3; ++axis) {
+    AddWall(inside, axis, false, side);
+    AddWall(inside, axis, true, side);
+  }
+  const Vec3& size = room.size_m;
+  const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  const double rho = room.reflectance;
+  tail_ = rho * rho * lamp.strength * SolidAngleOf(lamp.source) / (area * (1.0 - rho));
+}
+
+void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) {
+  const double at = Low(room_, axis) + (upper ? room_.size_m[axis] : 0.0);
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const Vec3& from = lamp.pose.position_m;
+  const double height = std::abs(from[axis] - at);
+  const auto edges = [&](int along) {
+    const double low = Low(room_, along);
+    return Grade(low, low + room_.size_m[along], from[along], height, side);
+  };
+  const std::vector<double> us = edges(u);
+  const std::vector<double> vs = edges(v);
+  SurfacePoint wall;
+  wall.normal = {};
+  wall.normal[axis] = upper ? -1.0 : 1.0;
+  wall.position_m[axis] = at;
+  Vec3 along{};
+  along[u] = 1.0;
+  const SourceFrame frame = SourceFrame::Facing(wall.normal, along);
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const double half_u = 0.5 * (us[i + 1] - us[i]);
+      const double half_v = 0.5 * (vs[j + 1] - vs[j]);
+      Patch patch{{half_u, half_v}, {{}, frame, 0.0}, 0.0};
+      patch.pose.position_m[axis] = at;
+      patch.pose.position_m[u] = 0.5 * (us[i + 1] + us[i]);
+      patch.pose.position_m[v] = 0.5 * (vs[j + 1] + vs[j]);
+      double lux = 0.0;
+      for (const double s : GaussLegendre<2>::kNode) {
+        for (const double t : GaussLegendre<2>::kNode) {
+          wall.position_m[u] = patch.pose.position_m[u] + s * half_u;
+          wall.position_m[v] = patch.pose.position_m[v] + t * half_v;
+          lux += 0.25 * LuxOf(lamp, wall, {false, tolerance_});
+        }
+      }
+      patch.candela = room_.reflectance * lux * 4.0 * half_u * half_v / std::numbers::pi;
+      if (patch.candela > 0.0) patches_.push_back(patch);
+    }
+  }
+}
+
+SurfacePoint WallLight::Inside(const SurfacePoint& at) const {
+  return {Clamped(at.position_m, room_, kTouching), at.normal};
+}
+
+double WallLight::First(const SurfacePoint& at) const {
+  double sum = 0.0;
+  for (const Patch& patch : patches_) {
+    const Receiver<double> receiver{patch.pose.frame.Of(at.position_m - patch.pose.position_m),
+                                    patch.pose.frame.Of(at.normal)};
+    sum += patch.candela * LuxPerCandela(patch.source, receiver, tolerance_);
+  }
+  return sum;
+}
+
+double WallLight::At(const SurfacePoint& at) const { return First(Inside(at)) + 1.15 * tail_; }
+
+double WallLight::BoundAt(const SurfacePoint& at) const {
+  return 1.2 * First(Inside(at)) + 2.0 * tail_;
+}
+
+}  // namespace lightcal
