@@ -50,8 +50,8 @@ std::string Px(double value) { return ShortestText(std::round(value * 100.0) / 1
 
 const PlotArea& Svg::Area() { return kArea; }
 
-Svg::Svg(std::string id, std::string_view title, std::string_view description)
-    : id_(std::move(id)) {
+Svg::Svg(std::string id, std::string_view title, std::string_view description, PagePoint size)
+    : id_(std::move(id)), size_(size) {
   body_ = "<title" + Attribute("id", id_ + "-title") + ">" + Escaped(title) + "</title>\n<desc" +
           Attribute("id", id_ + "-desc") + ">" + Escaped(description) + "</desc>\n";
   body_ += "<clipPath" + Attribute("id", id_ + "-clip") + "><rect" +
@@ -90,6 +90,8 @@ void Svg::Text(std::string_view css, PagePoint at, std::string_view anchor, std:
            "</text>\n";
 }
 
+void Svg::Element(std::string_view markup) { body_ += std::string(markup) + "\n"; }
+
 void Svg::Axes(const Axis& x, const Axis& y, std::string_view x_title, std::string_view y_title) {
   const auto x_ticks = TicksOf(x, kTickGapX);
   const auto x_labels = TickLabels(x, x_ticks);
@@ -118,7 +120,7 @@ void Svg::EndPlot() { body_ += "</g>\n"; }
 
 std::string Svg::Finish() const {
   return "<svg" + Attribute("xmlns", "http://www.w3.org/2000/svg") + Attribute("id", id_) +
-         Attribute("viewBox", "0 0 " + Px(kFigureWidth) + " " + Px(kFigureHeight)) +
+         Attribute("viewBox", "0 0 " + Px(size_.first) + " " + Px(size_.second)) +
          Attribute("role", "img") + Attribute("aria-labelledby", id_ + "-title " + id_ + "-desc") +
          ">\n" + body_ + "</svg>\n";
 }

@@ -28,7 +28,8 @@ struct PlotArea {
 class Svg {
  public:
   // id is unique in the page; title and description are read out by screen readers.
-  Svg(std::string id, std::string_view title, std::string_view description);
+  Svg(std::string id, std::string_view title, std::string_view description,
+      PagePoint size = {kFigureWidth, kFigureHeight});
 
   void Line(std::string_view css, PagePoint from, PagePoint to);
   // Straight pieces through the points; closed joins the last to the first.
@@ -38,6 +39,9 @@ class Svg {
   void Cross(std::string_view css, PagePoint centre, double half, std::string_view tooltip = {});
   // anchor: start, middle, end.
   void Text(std::string_view css, PagePoint at, std::string_view anchor, std::string_view text);
+
+  // Any other element, written out.
+  void Element(std::string_view markup);
 
   // Frame, grid, tick labels and axis titles ("distance (m)").
   void Axes(const Axis& x, const Axis& y, std::string_view x_title, std::string_view y_title);
@@ -51,6 +55,7 @@ class Svg {
 
  private:
   std::string id_;
+  PagePoint size_;
   std::string body_;
 };
 

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/report/illuminance_figure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lightcal/report/contours.h"
+#include "lightcal/report/style.h"
+#include "lightcal/report/svg.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+constexpr double kLongSide = 640.0;  // of the picture
+constexpr double kShortestSide = 120.0;
+constexpr double kLeft = 70.0, kTop = 52.0, kRight = 132.0, kBelow = 62.0, kNoteStep = 18.0;
+constexpr double kBarGap = 26.0, kBarWidth = 18.0;
+constexpr double kTickGap = 46.0;
+constexpr int kMostContourSamples = 256;
+constexpr double kLinearUpTo = 20.0;  // brightest over dimmest
+constexpr double kMostDecades = 3.0;
+
+using Rgb = std::array<double, 3>;
+// Evenly spaced along the scale, sRGB 0..255.
+constexpr std::array<Rgb, 9> kAnchors = {{{9, 11, 28},
+                                          {33, 30, 84},
+                                          {75, 37, 127},
+                                          {126, 45, 137},
+                                          {180, 57, 120},
+                                          {222, 85, 85},
+                                          {245, 134, 58},
+                                          {251, 188, 76},
+                                          {255, 244, 190}}};
+
+std::array<std::uint8_t, 3> ColorAt(double part) {
+  const double at = std::clamp(part, 0.0, 1.0) * (kAnchors.size() - 1);
+  const std::size_t k = std::min(static_cast<std::size_t>(at), kAnchors.size() - 2);
+  const double f = at - static_cast<double>(k);
+  std::array<std::uint8_t, 3> out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    out[c] = static_cast<std::uint8_t>(
+        std::lround(kAnchors[k][c] + f * (kAnchors[k + 1][c] - kAnchors[k][c])));
+  }
+  return out;
+}
+
+double PartOf(const LuxScale& scale, double lux) {
+  if (scale.way == AxisScale::kLinear) return (lux - scale.low) / (scale.high - scale.low);
+  return lux > 0.0 ? std::log(lux / scale.low) / std::log(scale.high / scale.low) : 0.0;
+}
+
+// The next round number, upward or downward.
+double Round(double value, bool up) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  constexpr std::array<double, 9> kSteps = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
+  const double mantissa = value / decade;
+  if (up) {
+    for (const double step : kSteps) {
+      if (mantissa <= step * (1.0 + 1e-9)) return step * decade;
+    }
+    return 10.0 * decade;
+  }
+  for (auto step = kSteps.rbegin(); step != kSteps.rend(); ++step) {
+    if (mantissa >= *step * (1.0 - 1e-9)) return *step * decade;
+  }
+  return decade;
+}
+
+struct Range {
+  double dim, bright;  // the twentieth below which a twentieth lies, the brightest
+};
+Range RangeOf(View2d<const float> lux) {
+  std::vector<float> lit;
+  for (int y = 0; y < lux.height(); ++y) {
+    for (const float v : lux.row(y)) {
+      if (v > 0.0F) lit.push_back(v);
+    }
+  }
+  if (lit.empty()) return {0.0, 1.0};
+  const double bright = *std::max_element(lit.begin(), lit.end());
+  const auto twentieth = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 20);
+  std::nth_element(lit.begin(), twentieth, lit.end());
+  return {*twentieth, bright};
+}
+
+// Where things lie on the page.
+struct Layout {
+  double width, height;  // of the picture
+  Axis x, y;
+  explicit Layout(const IlluminanceFigure& f) {
+    const double across = std::abs(f.right - f.left);
+    const double up = std::abs(f.top - f.bottom);
+    const double scale = kLongSide / std::max(across, up);
+    width = std::max(kShortestSide, across * scale);
+    height = std::max(kShortestSide, up * scale);
+    const auto axis = [](double at_from, double at_to, double from, double to) {
+      return at_from < at_to ? Axis{AxisScale::kLinear, at_from, at_to, from, to}
+                             : Axis{AxisScale::kLinear, at_to, at_from, to, from};
+    };
+    x = axis(f.left, f.right, kLeft, kLeft + width);
+    y = axis(f.bottom, f.top, kTop + height, kTop);
+  }
+  [[nodiscard]] double bar_left() const { return kLeft + width + kBarGap; }
+};
+
+std::string Image(PagePoint at, PagePoint size, std::string_view uri, std::string_view style) {
+  return "<image x=\"" + Px(at.first) + "\" y=\"" + Px(at.second) + "\" width=\"" + Px(size.first) +
+         "\" height=\"" + Px(size.second) +
+         "\" preserveAspectRatio=\"none\" style=\"image-rendering:" + std::string(style) +
+         "\" xlink:href=\"" + std::string(uri) + "\"/>";
+}
+
+std::string Turned(PagePoint at, double degrees, std::string_view css, std::string_view text) {
+  return "<text class=\"" + std::string(css) + "\" text-anchor=\"middle\" transform=\"translate(" +
+         Px(at.first) + " " + Px(at.second) + ") rotate(" + Px(degrees) + ")\">" + Escaped(text) +
+         "</text>";
+}
+
+// Ticks outside a frame.
+void DrawAxes(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) {
+  const double bottom = kTop + layout.height;
+  for (const double tick : TicksOf(layout.x, kTickGap)) {
+    const double at = layout.x.At(tick);
+    svg.Line("frame", {at, bottom}, {at, bottom + 5.0});
+    svg.Text("tick", {at, bottom + 20.0}, "middle", Figure(tick));
+  }
+  for (const double tick : TicksOf(layout.y, kTickGap)) {
+    const double at = layout.y.At(tick);
+    svg.Line("frame", {kLeft - 5.0, at}, {kLeft, at});
+    svg.Text("tick", {kLeft - 10.0, at + 4.5}, "end", Figure(tick));
+  }
+  svg.Text("axis", {kLeft + 0.5 * layout.width, bottom + 42.0}, "middle", figure.x_title);
+  svg.Element(Turned({18.0, kTop + 0.5 * layout.height}, -90.0, "axis", figure.y_title));
+  svg.Path("frame",
+           {{kLeft, kTop},
+            {kLeft + layout.width, kTop},
+            {kLeft + layout.width, bottom},
+            {kLeft, bottom}},
+           true);
+}
+
+Axis BarAxis(const LuxScale& scale, const Layout& layout) {
+  return {scale.way, scale.low, scale.high, kTop + layout.height, kTop};
+}
+
+std::vector<double> Levels(const LuxScale& scale, const Layout& layout) {
+  std::vector<double> levels =
+      TicksOf(BarAxis(scale, layout), std::max(26.0, layout.height / 14.0));
+  std::erase_if(levels, [&](double v) { return !(v > 0.0); });
+  return levels;
+}
+
+void DrawScale(Svg& svg, const LuxScale& scale, const Layout& layout, std::string_view uri) {
+  const double left = layout.bar_left();
+  svg.Element(Image({left, kTop}, {kBarWidth, layout.height}, uri, "auto"));
+  svg.Path("frame",
+           {{left, kTop},
+            {left + kBarWidth, kTop},
+            {left + kBarWidth, kTop + layout.height},
+            {left, kTop + layout.height}},
+           true);
+  const Axis axis = BarAxis(scale, layout);
+  for (const double level : Levels(scale, layout)) {
+    const double at = axis.At(level);
+    svg.Line("frame", {left + kBarWidth, at}, {left + kBarWidth + 5.0, at});
+    svg.Text("tick", {left + kBarWidth + 9.0, at + 4.5}, "start", Figure(level));
+  }
+  svg.Text("axis", {left, kTop - 12.0}, "start",
+           scale.way == AxisScale::kLog ? "lux (log)" : "lux");
+}
+
+// A label lies on its line where the line is straightest and no other label is near.
+class Labels {
+ public:
+  explicit Labels(const Layout& layout) : layout_(layout) {}
+
+  void KeepOff(PagePoint at) { taken_.push_back(at); }
+
+  void Put(Svg& svg, const Contour& line, const std::string& text) {
+    const double half = 3.6 * static_cast<double>(text.size()) + 6.0;
+    const int reach = 4;
+    const int count = static_cast<int>(line.size());
+    double best = -1.0;
+    int best_at = 0;
+    for (int i = reach; i < count - reach; ++i) {
+      const PagePoint& at = line[static_cast<std::size_t>(i)];
+      const bool inside = at.first > kLeft + half && at.first < kLeft + layout_.width - half &&
+                          at.second > kTop + 14.0 && at.second < kTop + layout_.height - 14.0;
+      if (!inside) continue;
+      double nearest = 1e9;
+      for (const PagePoint& other : taken_) {
+        nearest = std::min(nearest, std::hypot(other.first - at.first, other.second - at.second));
+      }
+      if (nearest < 2.0 * half || nearest < 34.0) continue;
+      const double score = std::min(nearest, 160.0) + 0.2 * Level(line, i, reach);
+      if (score > best) {
+        best = score;
+        best_at = i;
+      }
+    }
+    if (best < 0.0) return;
+    const PagePoint at = line[static_cast<std::size_t>(best_at)];
+    taken_.push_back(at);
+    const PagePoint& a = line[static_cast<std::size_t>(best_at - reach)];
+    const PagePoint& b = line[static_cast<std::size_t>(best_at + reach)];
+    double degrees = std::atan2(b.second - a.second, b.first - a.first) * 57.29577951308232;
+    if (degrees > 90.0) degrees -= 180.0;
+    if (degrees < -90.0) degrees += 180.0;
+    const double turn = degrees / 57.29577951308232;
+    const PagePoint base = {at.first - 4.2 * std::sin(turn), at.second + 4.2 * std::cos(turn)};
+    svg.Element(Turned(base, degrees, "isolabel halo", text));
+    svg.Element(Turned(base, degrees, "isolabel", text));
+  }
+
+ private:
+  // 0..100: how level the line runs.
+  static double Level(const Contour& line, int i, int reach) {
+    const PagePoint& a = line[static_cast<std::size_t>(i - reach)];
+    const PagePoint& b = line[static_cast<std::size_t>(i + reach)];
+    const double across = std::abs(b.first - a.first);
+    return 100.0 * across / std::max(1e-9, std::hypot(across, b.second - a.second));
+  }
+  const Layout& layout_;
+  std::vector<PagePoint> taken_;
+};
+
+void DrawIsolux(Svg& svg, const IlluminanceFigure& figure, const LuxScale& scale,
+                const Layout& layout, Labels& labels) {
+  const ReducedField field = Reduce(figure.lux, kMostContourSamples);
+  const double per_x = layout.width * field.block / figure.lux.width();
+  const double per_y = layout.height * field.block / figure.lux.height();
+  const double shortest = 12.0;
+  std::vector<std::pair<Contour, std::string>> to_label;
+  for (const double level : Levels(scale, layout)) {
+    std::size_t labelled = 0;
+    for (Contour& line : ContoursOf(field.view(), level)) {
+      for (PagePoint& p : line) {
+        p = {kLeft + (p.first + 0.5) * per_x, kTop + (p.second + 0.5) * per_y};
+      }
+      svg.Path("isolux halo", line);
+      svg.Path("isolux", line);
+      if (static_cast<double>(line.size()) >= shortest && labelled++ < 2) {
+        to_label.emplace_back(std::move(line), Figure(level));
+      }
+    }
+  }
+  for (const auto& [line, text] : to_label) labels.Put(svg, line, text);
+}
+
+void DrawLamps(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) {
+  for (const LampMark& lamp : figure.lamps) {
+    if (!layout.x.Holds(lamp.x) || !layout.y.Holds(lamp.y)) continue;
+    const PagePoint at = {layout.x.At(lamp.x), layout.y.At(lamp.y)};
+    const double length = std::hypot(lamp.aim_x, lamp.aim_y);
+    const double side_x = layout.x.from_px < layout.x.to_px ? 1.0 : -1.0;
+    if (length > 0.05) {
+      const PagePoint to = {at.first + side_x * 30.0 * lamp.aim_x, at.second - 30.0 * lamp.aim_y};
+      svg.Line("lamp halo", at, to);
+      svg.Line("lamp", at, to);
+    }
+    svg.Circle("lamp halo", at, 6.0);
+    svg.Circle("lamp", at, 6.0, lamp.name);
+    svg.Circle("lampdot", at, 1.8);
+    const bool left = at.first > kLeft + 0.8 * layout.width;
+    const PagePoint label = {at.first + (left ? -12.0 : 12.0), at.second + 4.5};
+    svg.Text("isolabel halo", label, left ? "end" : "start", lamp.name);
+    svg.Text("isolabel", label, left ? "end" : "start", lamp.name);
+  }
+}
+
+// White on a dark halo reads on every colour of the scale.
+constexpr std::string_view kStyle = R"css(
+svg { background: var(--page); font-family: system-ui, sans-serif; max-width: none; }
+svg .title { font-size: 17px; font-weight: 600; }
+svg .isolux { fill: none; stroke: #ffffff; stroke-width: 1.1; stroke-linejoin: round; }
+svg .isolux.halo { stroke: #000000; stroke-width: 2.6; stroke-opacity: .35; }
+svg .isolabel { fill: #ffffff; font-size: 12.5px; font-weight: 600; }
+svg .isolabel.halo { stroke: #000000; stroke-width: 3.4; stroke-opacity: .75; stroke-linejoin: round; }
+svg .lamp { fill: none; stroke: #ffffff; stroke-width: 1.8; }
+svg .lamp.halo { stroke: #000000; stroke-width: 4.4; stroke-opacity: .75; }
+svg .lampdot { fill: #ffffff; }
+)css";
+
+}  // namespace
+
+LuxScale ScaleFor(View2d<const float> lux, AxisScale way) {
+  const Range range = RangeOf(lux);
+  if (way == AxisScale::kLinear) return {way, 0.0, Round(range.bright, true)};
+  const double least = range.bright * std::pow(10.0, -kMostDecades);
+  double low = Round(std::max(range.dim, least), false);
+  const double high = Round(range.bright, true);
+  if (!(low < 0.5 * high)) low = 0.1 * high;
+  return {way, low, high};
+}
+
+LuxScale ScaleFor(View2d<const float> lux) {
+  const Range range = RangeOf(lux);
+  return ScaleFor(lux,
+                  range.bright > kLinearUpTo * range.dim ? AxisScale::kLog : AxisScale::kLinear);
+}
+
+std::vector<std::uint8_t> FalseColors(View2d<const float> lux, const LuxScale& scale) {
+  std::vector<std::uint8_t> out;
+  out.reserve(3 * static_cast<std::size_t>(lux.width()) * lux.height());
+  for (int y = 0; y < lux.height(); ++y) {
+    for (const float v : lux.row(y)) {
+      const auto color = ColorAt(PartOf(scale, double{v}));
+      out.insert(out.end(), color.begin(), color.end());
+    }
+  }
+  return out;
+}
+
+std::vector<std::uint8_t> ScaleColors(int height) {
+  std::vector<std::uint8_t> out;
+  for (int y = 0; y < height; ++y) {
+    const auto color = ColorAt(1.0 - (y + 0.5) / height);
+    out.insert(out.end(), color.begin(), color.end());
+  }
+  return out;
+}
+
+std::string IlluminancePicture(const IlluminanceFigure& figure, const LuxScale& scale,
+                               std::string_view image_uri, std::string_view scale_uri) {
+  const Layout layout(figure);
+  const double notes = kNoteStep * static_cast<double>(figure.notes.size());
+  const PagePoint size = {kLeft + layout.width + kRight, kTop + layout.height + kBelow + notes};
+  Svg svg("illuminance", figure.title, "Illuminance map in lux, written by lightcal", size);
+  svg.Text("title", {kLeft, 28.0}, "start", figure.title);
+  svg.Element(Image({kLeft, kTop}, {layout.width, layout.height}, image_uri, "auto"));
+  svg.Element("<clipPath id=\"map\"><rect x=\"" + Px(kLeft) + "\" y=\"" + Px(kTop) + "\" width=\"" +
+              Px(layout.width) + "\" height=\"" + Px(layout.height) +
+              "\"/></clipPath><g clip-path=\"url(#map)\">");
+  Labels labels(layout);
+  for (const LampMark& lamp : figure.lamps) {
+    labels.KeepOff({layout.x.At(lamp.x), layout.y.At(lamp.y)});
+  }
+  DrawIsolux(svg, figure, scale, layout, labels);
+  DrawLamps(svg, figure, layout);
+  svg.Element("</g>");
+  DrawAxes(svg, figure, layout);
+  DrawScale(svg, scale, layout, scale_uri);
+  double y = kTop + layout.height + kBelow + 4.0;
+  for (const std::string& note : figure.notes) {
+    svg.Text("note", {kLeft, y}, "start", note);
+    y += kNoteStep;
+  }
+  std::string text = svg.Finish();
+  const std::string style = "\n<!-- written by lightcal -->\n<style><![CDATA[" +
+                            std::string(StyleSheet()) + std::string(kStyle) + "]]></style>";
+  text.insert(text.find('>') + 1, style);
+  constexpr std::string_view kNamespace = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
+  return text.insert(text.find(" xmlns="), kNamespace);
+}
+
+}  // namespace lightcal::report
