@@ -59,6 +59,12 @@ constexpr CommandRow kCommands[] = {
      "  lightcal fit my_lamp --tol 0.5% --json", BuildFit},
     {"explain", "Which effects this scene calls for, what each contributes and costs",
      "  lightcal explain sample_data/sessions/amaran_200x_s_bare --tol 1%", BuildExplain},
+    {"simulate", "The illuminance fitted lights will give, at points or over a plane",
+     "  lightcal simulate sample_data/sessions/amaran_200x_s_bare --lights 5600K --position 0,0,2.5 "
+     "--at 0,0,0 1,0,0\n"
+     "  lightcal simulate out/light.json --plane floor --grid 512 -o floor.png -o floor.exr\n"
+     "  lightcal simulate my_lamp --plane z=0.8 --size 6x4m --tol 0.5% -o desk.csv",
+     BuildSimulate},
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --bare -o presets --force", BuildExport},

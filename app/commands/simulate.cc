@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal simulate: the illuminance that fitted lights will give, at points or over a plane.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/records/light_codec.h"
+#include "output_files.h"
+#include "session_input.h"
+#include "simulate/map_files.h"
+#include "simulate/map_plane.h"
+#include "simulate/simulate_answer.h"
+#include "simulate/simulated_lamps.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string input;
+  std::vector<std::string> at, lights, outputs;
+  std::string normal = "up";
+  MapPlaneWords plane{"", "512", "", ""};
+  LampPlaces places;
+  std::string room, tolerance = "1%", effects = "auto", title, scale;
+  double reflectance = 0.5;
+  bool timing = false, force = false;
+};
+
+struct Input {
+  LightFile lights;
+  std::optional<Session> session;
+  std::string title;
+};
+
+Result<Input> ReadInput(const Options& options, double tolerance, Console& console) {
+  if (fs::path(options.input).extension() == ".json") {
+    const auto text = ReadWholeFile(options.input);
+    if (!text) return tl::unexpected(text.error());
+    auto lights = LightFileFromJson(*text, options.input);
+    if (!lights) return Propagate(std::move(lights));
+    return Input{std::move(*lights), std::nullopt, fs::path(options.input).stem().string()};
+  }
+  // The fit has its own gate; --effects is about the prediction.
+  auto calibrated = CalibrateSession(options.input, {tolerance, "auto"}, console);
+  if (!calibrated) return Propagate(std::move(calibrated));
+  const std::string title =
+      calibrated->session.name.empty() ? calibrated->session.stem : calibrated->session.name;
+  return Input{std::move(calibrated->lights), std::move(calibrated->session), title};
+}
+
+// Which effects a prediction has, and what the person said of them.
+struct Effects {
+  EffectChoice finite_source = EffectChoice::kGate, room_bounce = EffectChoice::kGate;
+  bool ambient = false;
+};
+
+Result<Effects> ParseEffects(const std::string& text) {
+  Effects out;
+  if (text == "auto" || text.empty()) return out;
+  if (text == "all" || text == "none") {
+    out.finite_source = out.room_bounce =
+        text == "all" ? EffectChoice::kAlways : EffectChoice::kNever;
+    return out;
+  }
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    std::string_view word = TrimBlanks(rest.substr(0, comma));
+    rest.remove_prefix(std::min(rest.size(), comma + 1));
+    if (word.empty()) continue;
+    const bool off = word.front() == '-';
+    if (off || word.front() == '+') word.remove_prefix(1);
+    const EffectChoice choice = off ? EffectChoice::kNever : EffectChoice::kAlways;
+    if (word == "finite_source") {
+      out.finite_source = choice;
+    } else if (word == "room_bounce") {
+      out.room_bounce = choice;
+    } else if (word == "ambient") {
+      out.ambient = !off;
+    } else {
+      const std::vector<std::string_view> names = {"finite_source", "room_bounce", "ambient"};
+      const std::string nearest = NearestWord(word, names);
+      return WrongUsage("--effects",
+                        "a prediction has no effect \"" + std::string(word) + "\"" +
+                            (nearest.empty() ? "; it has finite_source, room_bounce and ambient"
+                                             : "; did you mean \"" + nearest + "\"?"));
+    }
+  }
+  return out;
+}
+
+Result<std::optional<RoomBox>> RoomOf(const Options& options, const Input& input) {
+  if (!options.room.empty()) {
+    const auto size = ParseLengths("--room", options.room, ',');
+    if (!size) return tl::unexpected(size.error());
+    const bool positive = std::ranges::all_of(*size, [](double v) { return v > 0.0; });
+    if (size->size() != 3 || !positive) {
+      return WrongUsage("--room", "\"" + options.room + "\" must be width,depth,height: 5,4,2.6");
+    }
+    if (!(options.reflectance >= 0.0) || options.reflectance > 0.95) {
+      return WrongUsage("--reflectance", "must lie within 0 and 0.95");
+    }
+    return std::optional<RoomBox>(
+        RoomBox{{(*size)[0], (*size)[1], (*size)[2]}, options.reflectance});
+  }
+  if (!input.session || !input.session->room) return std::optional<RoomBox>();
+  return std::optional<RoomBox>(
+      RoomBox{input.session->room->size_m, input.session->room->reflectance});
+}
+
+Result<void> CheckOptions(const Options& options) {
+  if (options.at.empty() && options.plane.plane.empty()) {
+    return WrongUsage("simulate", "say where: --at x,y,z (metres), or --plane floor");
+  }
+  if (!options.outputs.empty() && options.plane.plane.empty()) {
+    return WrongUsage("-o", "writes a map; say of which plane: --plane floor");
+  }
+  if (!options.scale.empty() && options.scale != "log" && options.scale != "linear") {
+    return WrongUsage("--scale", "must be log or linear");
+  }
+  return CheckMapNames(options.outputs);
+}
+
+// "lamp": turned to the lamp that gives most there.
+Vec3 TowardBrightest(const std::vector<PlacedLamp>& lamps, const Vec3& position) {
+  Vec3 best{0.0, 0.0, 1.0};
+  double most = 0.0;
+  for (const PlacedLamp& lamp : lamps) {
+    if (std::holds_alternative<EvenSky>(lamp.source)) continue;
+    const Vec3 way = std::holds_alternative<SunSource>(lamp.source)
+                         ? lamp.pose.frame.z * -1.0
+                         : lamp.pose.position_m - position;
+    const double length = Length(way);
+    if (!(length > 0.0)) continue;
+    const Vec3 normal = way * (1.0 / length);
+    const double lux = LuxOf(lamp, {position, normal});
+    if (lux > most) {
+      most = lux;
+      best = normal;
+    }
+  }
+  return best;
+}
+
+Result<std::vector<PredictedPoint>> Points(const Options& options,
+                                           const std::vector<PlacedLamp>& lamps) {
+  std::vector<PredictedPoint> out;
+  std::optional<Vec3> normal;
+  if (options.normal == "up") normal = Vec3{0.0, 0.0, 1.0};
+  if (options.normal != "up" && options.normal != "lamp") {
+    const auto stated = ParseUnitVector("--normal", options.normal);
+    if (!stated) return tl::unexpected(stated.error());
+    normal = *stated;
+  }
+  for (const std::string& text : options.at) {
+    const auto position = ParsePoint("--at", text);
+    if (!position) return tl::unexpected(position.error());
+    out.push_back({{*position, normal.value_or(TowardBrightest(lamps, *position))}, {}});
+  }
+  return out;
+}
+
+void Predict(Simulated& simulated) {
+  const auto start = std::chrono::steady_clock::now();
+  const IlluminancePredictor predictor(simulated.lamps, simulated.settings);
+  simulated.accounts.assign(simulated.lamps.size(), {});
+  for (PredictedPoint& point : simulated.points) {
+    std::vector<LampAccount> accounts;
+    point.parts = predictor.At(point.at, &accounts);
+    for (std::size_t k = 0; k < accounts.size(); ++k) simulated.accounts[k] += accounts[k];
+  }
+  if (simulated.plane) {
+    simulated.map = predictor.Over(simulated.plane->grid);
+    for (std::size_t k = 0; k < simulated.lamps.size(); ++k) {
+      simulated.accounts[k] += simulated.map.accounts[k];
+    }
+    const auto ambient = static_cast<float>(simulated.ambient_lx);
+    if (ambient > 0.0F) {
+      for (float& lux : simulated.map.lux) lux += ambient;
+    }
+  }
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+  simulated.elapsed_ms = took.count();
+}
+
+Result<Simulated> Prepare(const Options& options, const Input& input, double tolerance,
+                          Console& console) {
+  const auto effects = ParseEffects(options.effects);
+  if (!effects) return tl::unexpected(effects.error());
+  const auto room = RoomOf(options, input);
+  if (!room) return tl::unexpected(room.error());
+  Simulated out;
+  Warnings warnings;
+  auto lamps = PlaceLamps(input.lights, input.session ? &*input.session : nullptr, options.lights,
+                          options.places, warnings);
+  if (!lamps) return Propagate(std::move(lamps));
+  console.Warn(warnings);
+  out.lamps = *std::move(lamps);
+  out.settings.tolerance = tolerance;
+  out.settings.finite_source = effects->finite_source;
+  out.settings.room_bounce = effects->room_bounce;
+  out.settings.room = *room;
+  for (const FittedLight& light : input.lights.lights) {
+    if (effects->ambient && light.ambient_lx) {
+      out.ambient_lx = std::max(out.ambient_lx, light.ambient_lx->value);
+    }
+  }
+  auto points = Points(options, out.lamps);
+  if (!points) return Propagate(std::move(points));
+  out.points = *std::move(points);
+  if (options.plane.plane.empty()) return out;
+  auto plane = ReadMapPlane(options.plane, out.lamps, *room);
+  if (!plane) return Propagate(std::move(plane));
+  out.plane = *std::move(plane);
+  return out;
+}
+
+Result<void> RunSimulate(const Options& options, Console& console) {
+  if (auto ok = CheckOptions(options); !ok) return ok;
+  const auto tolerance = ParseTolerance(options.tolerance);
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  const auto input = ReadInput(options, *tolerance, console);
+  if (!input) return tl::unexpected(input.error());
+  auto simulated = Prepare(options, *input, *tolerance, console);
+  if (!simulated) return Propagate(std::move(simulated));
+  Predict(*simulated);
+  if (!options.timing) simulated->elapsed_ms.reset();
+  const std::string title = options.title.empty() ? input->title : options.title;
+  auto writers = MapWriters(*simulated, options.outputs, {title, options.scale});
+  if (!writers) return Propagate(std::move(writers));
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (auto written = WriteOutputsWith(*writers, options.force); !written) return written;
+  simulated->files = options.outputs;
+  console.Print(AnswerText(*simulated));
+  console.PrintJson(AnswerJson(*simulated));
+  for (const std::string& file : options.outputs) console.Note("wrote " + file);
+  return {};
+}
+
+}  // namespace
+
+Run BuildSimulate(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  parser.add_option("input", options->input, "light.json, session directory or .toml file")
+      ->required();
+  parser.add_option("--at", options->at, "Points x,y,z in metres, Z up: --at 0,0,0 1,0,0");
+  parser
+      .add_option("--normal", options->normal,
+                  "How a surface at --at is turned: up, lamp (faces the brightest), or x,y,z")
+      ->capture_default_str();
+  parser.add_option("--plane", options->plane.plane, "A map of: floor, z=0.8, x=-2 or y=1.5");
+  parser.add_option("--grid", options->plane.grid, "Points of its longer side, or 512x256")
+      ->capture_default_str();
+  parser.add_option("--size", options->plane.size,
+                    "Of the map, e.g. 6m or 6x4m [the room's, or around the lamps]");
+  parser.add_option("--center", options->plane.center, "Of the map, in its two coordinates: 1,2");
+  parser.add_option("--lights", options->lights, "Only these of the lights, e.g. key,fill")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser
+      .add_option("--position", options->places.position,
+                  "Where a light stands: [NAME=]x,y,z; may be repeated")
+      ->allow_extra_args(false);
+  parser.add_option("--aim", options->places.aim, "Where it shines: [NAME=]x,y,z")
+      ->allow_extra_args(false);
+  parser
+      .add_option("--axis", options->places.axis,
+                  "Of a tube's length or a rect's width: [NAME=]x,y,z")
+      ->allow_extra_args(false);
+  parser.add_option("--room", options->room,
+                    "Walls that throw light back: width,depth,height, origin under its middle "
+                    "[the session's]");
+  parser.add_option("--reflectance", options->reflectance, "Of the walls of --room")
+      ->capture_default_str();
+  parser.add_option("--tol", options->tolerance, "Tolerance of the effect gate")
+      ->capture_default_str();
+  parser
+      .add_option("--effects", options->effects,
+                  "auto, all, none, or +name,-name: finite_source, room_bounce, ambient")
+      ->capture_default_str();
+  parser.add_option("-o,--output", options->outputs, "The map: .png .svg .exr .csv")
+      ->allow_extra_args(false);
+  parser.add_option("--scale", options->scale,
+                    "Of the picture's colours: log or linear [by the map]");
+  parser.add_option("--title", options->title, "Of the picture");
+  parser.add_flag("--timing", options->timing, "Say how long it took");
+  parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
+  return [options](Console& console) { return RunSimulate(*options, console); };
+}
+
+}  // namespace lightcal::app

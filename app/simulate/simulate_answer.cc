@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/simulate_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <utility>
+
+#include "console.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<const char*, kMapForms> kFormWords = {
+    "dark", "point", "cone", "2x2", "3x3", "4x4", "exact", "even", "at_point", "interpolated"};
+// ns a point on one processor, by form (tests/bench/simulate_bench.cc); kExact by kind.
+constexpr std::array<double, kMapForms> kPrice_ns = {0.0,  2.0, 3.0, 6.0, 12.0,
+                                                     20.0, 0.0, 0.5, 0.0, 1.5};
+constexpr double kWalls_ns = 18000.0;  // WallLight::At
+constexpr double kDisk_ns = 17.0, kRect_ns = 80.0, kTube_ns = 440.0, kTable_ns = 60.0,
+                 kSphere_ns = 6.0;
+
+double ExactPrice_ns(const LampSource& source) {
+  if (std::holds_alternative<DiskSource>(source)) return kDisk_ns;
+  if (std::holds_alternative<RectSource>(source)) return kRect_ns;
+  if (std::holds_alternative<TubeSource>(source)) return kTube_ns;
+  return std::holds_alternative<TableSource>(source) ? kTable_ns : kSphere_ns;
+}
+
+std::int64_t Count(const LampAccount& account, MapForm form) {
+  return account.points[static_cast<std::size_t>(form)];
+}
+std::int64_t DirectPoints(const LampAccount& account) {
+  return std::accumulate(account.points.begin(),
+                         account.points.begin() + static_cast<int>(MapForm::kBounce),
+                         std::int64_t{0});
+}
+
+std::string PercentOf(std::int64_t part, std::int64_t whole) {
+  return RoundedText(100.0 * static_cast<double>(part) / static_cast<double>(whole), 3) + " %";
+}
+std::string CostText(double ns) {
+  if (ns >= 1e6) return RoundedText(ns / 1e6, 3) + " ms";
+  return ns >= 1e3 ? RoundedText(ns / 1e3, 3) + " µs" : RoundedText(ns, 3) + " ns";
+}
+
+// One effect of one lamp: what the gate did and why.
+struct Row {
+  std::string light, effect, state, where, reason;
+  double cost_ns = 0.0;
+  std::optional<double> bound;
+  Json points = Json::object();
+  std::int64_t evaluations = 0;
+};
+
+Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
+  Row row{lamp.name, "finite_source", "off", "", "", DirectCost_ns(lamp, account), {}, {}, 0};
+  const std::int64_t all = DirectPoints(account);
+  std::int64_t sized = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(MapForm::kBounce); ++k) {
+    const std::int64_t n = account.points[k];
+    if (n == 0) continue;
+    row.where +=
+        (row.where.empty() ? "" : ", ") + std::string(kFormWords[k]) + " " + PercentOf(n, all);
+    row.points[kFormWords[k]] = n;
+    const auto form = static_cast<MapForm>(k);
+    if (form == MapForm::kGauss2 || form == MapForm::kGauss3 || form == MapForm::kGauss4 ||
+        form == MapForm::kExact) {
+      sized += n;
+    }
+  }
+  const bool has_size = std::holds_alternative<SphereSource>(lamp.source) ||
+                        std::holds_alternative<DiskSource>(lamp.source) ||
+                        std::holds_alternative<RectSource>(lamp.source) ||
+                        std::holds_alternative<TubeSource>(lamp.source);
+  row.evaluations = all - Count(account, MapForm::kDark);
+  if (!has_size) {
+    row.reason = "no size is known of it; one of 6 cm is held in u95";
+    if (IsEverywhere(lamp.source)) row.reason = "has no distance law";
+    if (std::holds_alternative<TableSource>(lamp.source)) {
+      row.reason = "its table, read at every point";
+    }
+  } else if (s.settings.finite_source == EffectChoice::kNever) {
+    row.reason = "switched off by name";
+  } else {
+    row.state = sized > 0 ? "on" : "off";
+    row.reason = sized > 0 ? "the ladder's cheapest level within the tolerance, by region"
+                           : "a point of its kind is within the tolerance everywhere";
+  }
+  return row;
+}
+
+Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
+  Row row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account), {}, {}, 0};
+  const std::int64_t all = DirectPoints(account);
+  const std::int64_t between = Count(account, MapForm::kBounceBetween);
+  const std::int64_t each = Count(account, MapForm::kBounce);
+  row.evaluations = account.bounce_evaluated;
+  if (IsEverywhere(lamp.source)) {
+    row.reason = "part of what this kind of light is";
+  } else if (!s.settings.room) {
+    row.reason = "no [room] or --room given; indoors the walls add 25 % in the median";
+  } else if (s.settings.room_bounce == EffectChoice::kNever) {
+    row.reason = "switched off by name";
+  } else {
+    row.bound = account.bounce_left_off;
+    if (each + between > 0) {
+      row.state = "on";
+      row.where = PercentOf(each + between, all);
+      if (each > 0) row.points["at_point"] = each;
+      if (between > 0) row.points["interpolated"] = between;
+      row.reason = "first bounce of " + std::to_string(account.bounce_evaluated) +
+                   " points and the mean of further ones" +
+                   (between > 0 ? ", interpolated between" : "");
+    } else {
+      row.reason = "at most " + RoundedText(100.0 * account.bounce_left_off, 2) +
+                   " % of its direct light anywhere";
+    }
+  }
+  return row;
+}
+
+std::vector<Row> Rows(const Simulated& s) {
+  std::vector<Row> rows;
+  for (std::size_t k = 0; k < s.lamps.size(); ++k) {
+    rows.push_back(SourceRow(s, s.lamps[k], s.accounts[k]));
+    rows.push_back(BounceRow(s, s.lamps[k], s.accounts[k]));
+  }
+  return rows;
+}
+
+// To the millimetre, without trailing zeros.
+std::string MetresText(double metres) { return ShortestText(std::round(metres * 1000.0) / 1000.0); }
+std::string PlaceText(const Vec3& p) {
+  return MetresText(p[0]) + ", " + MetresText(p[1]) + ", " + MetresText(p[2]);
+}
+
+struct Total {
+  double lux = 0.0, u95 = 0.0;
+};
+Total TotalOf(const PredictedPoint& point, double ambient_lx) {
+  Total total{ambient_lx, 0.0};
+  for (const LampLux& part : point.parts) {
+    total.lux += part.direct_lx + part.bounce_lx;
+    total.u95 += part.u95_lx;
+  }
+  return total;
+}
+
+std::string LuxText(double lux, double u95) {
+  return lux > 0.0 ? ValueWithPercent(lux, u95, "lx") : "0 lx";
+}
+
+std::string PointTable(const Simulated& s) {
+  std::vector<std::vector<std::string>> rows;
+  const bool walls = s.settings.room.has_value();
+  for (const PredictedPoint& point : s.points) {
+    const Total total = TotalOf(point, s.ambient_lx);
+    std::string place = PlaceText(point.at.position_m);
+    for (std::size_t k = 0; k < s.lamps.size(); ++k) {
+      const LampLux& part = point.parts[k];
+      const double lux = part.direct_lx + part.bounce_lx;
+      std::vector<std::string> row = {
+          place, s.lamps[k].name, LuxText(lux, part.u95_lx),
+          total.lux > 0.0 ? RoundedText(100.0 * lux / total.lux, 3) + " %" : "-"};
+      if (walls) row.push_back(RoundedText(part.bounce_lx, 3) + " lx");
+      rows.push_back(std::move(row));
+      place.clear();
+    }
+    if (s.lamps.size() < 2 && !(s.ambient_lx > 0.0)) continue;
+    std::vector<std::string> row = {"", "together", LuxText(total.lux, total.u95), "100 %"};
+    if (walls) row.emplace_back("");
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> header = {"at x, y, z (m)", "light", "illuminance (95 %)", "share"};
+  if (walls) header.emplace_back("from walls");
+  return TextTable(header, rows);
+}
+
+std::string PlaneText(const Simulated& s) {
+  const MapPlane& plane = *s.plane;
+  const MapSummary summary = Summarize(s.map, plane);
+  const auto text = [](double v) { return RoundedText(v, 4); };
+  std::string out = plane.name + ", " + MetresText(std::abs(plane.right - plane.left)) + " x " +
+                    MetresText(plane.top - plane.bottom) + " m, " +
+                    std::to_string(plane.grid.width) + " x " + std::to_string(plane.grid.height) +
+                    " points\n";
+  std::vector<std::vector<std::string>> rows = {
+      {"least", text(summary.least_lx), "lx"},
+      {"mean", text(summary.mean_lx), "lx"},
+      {"most", text(summary.most_lx), "lx"},
+      {"most at x, y, z", PlaceText(summary.brightest_m), "m"}};
+  if (summary.mean_lx > 0.0) {
+    rows.push_back({"least / mean", RoundedText(summary.least_lx / summary.mean_lx, 3), ""});
+    rows.push_back({"± (95 %, median)", RoundedText(100.0 * summary.median_u95_relative, 2), "%"});
+  }
+  return out + TextTable({"illuminance", "value", "unit"}, rows);
+}
+
+Json ToJson(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
+Json ToJson(double lux, double u95) { return {{"value", lux}, {"u95", u95}}; }
+
+Json PointJson(const Simulated& s, const PredictedPoint& point) {
+  const Total total = TotalOf(point, s.ambient_lx);
+  Json json = {{"position_m", ToJson(point.at.position_m)},
+               {"normal", ToJson(point.at.normal)},
+               {"illuminance_lx", ToJson(total.lux, total.u95)}};
+  if (s.ambient_lx > 0.0) json["ambient_lx"] = s.ambient_lx;
+  Json& shares = json["lights"] = Json::array();
+  for (std::size_t k = 0; k < s.lamps.size(); ++k) {
+    const LampLux& part = point.parts[k];
+    shares.push_back({{"name", s.lamps[k].name},
+                      {"illuminance_lx", ToJson(part.direct_lx + part.bounce_lx, part.u95_lx)},
+                      {"direct_lx", part.direct_lx},
+                      {"bounce_lx", part.bounce_lx}});
+  }
+  return json;
+}
+
+Json PlaneJson(const Simulated& s) {
+  const MapPlane& plane = *s.plane;
+  const MapSummary summary = Summarize(s.map, plane);
+  return {{"name", plane.name},
+          {"grid", {plane.grid.width, plane.grid.height}},
+          {"across", plane.across_axis},
+          {"up", plane.up_axis},
+          {"left_m", plane.left},
+          {"right_m", plane.right},
+          {"bottom_m", plane.bottom},
+          {"top_m", plane.top},
+          {"normal", ToJson(plane.grid.normal)},
+          {"illuminance_lx",
+           {{"min", summary.least_lx}, {"mean", summary.mean_lx}, {"max", summary.most_lx}}},
+          {"max_at_m", ToJson(summary.brightest_m)},
+          {"u95_relative_median", summary.median_u95_relative}};
+}
+
+}  // namespace
+
+double DirectCost_ns(const PlacedLamp& lamp, const LampAccount& account) {
+  double cost = static_cast<double>(Count(account, MapForm::kExact)) * ExactPrice_ns(lamp.source);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(MapForm::kBounce); ++k) {
+    cost += static_cast<double>(account.points[k]) * kPrice_ns[k];
+  }
+  return cost;
+}
+
+double BounceCost_ns(const LampAccount& account) {
+  return static_cast<double>(account.bounce_evaluated) * kWalls_ns +
+         static_cast<double>(Count(account, MapForm::kBounceBetween)) *
+             kPrice_ns[static_cast<std::size_t>(MapForm::kBounceBetween)];
+}
+
+MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane) {
+  MapSummary out;
+  double sum = 0.0;
+  std::vector<float> relative;
+  std::size_t most = 0;
+  std::size_t least = 0;
+  for (std::size_t i = 0; i < map.lux.size(); ++i) {
+    sum += double{map.lux[i]};
+    if (map.lux[i] > map.lux[most]) most = i;
+    if (map.lux[i] < map.lux[least]) least = i;
+    if (map.lux[i] > 0.0F) relative.push_back(map.u95[i] / map.lux[i]);
+  }
+  out.least_lx = double{map.lux[least]};
+  out.mean_lx = sum / static_cast<double>(map.lux.size());
+  out.most_lx = double{map.lux[most]};
+  const auto width = static_cast<std::size_t>(map.width);
+  out.brightest_m = PointOf(plane, static_cast<int>(most % width), static_cast<int>(most / width));
+  if (relative.empty()) return out;
+  const auto middle = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
+  std::nth_element(relative.begin(), middle, relative.end());
+  out.median_u95_relative = double{*middle};
+  return out;
+}
+
+std::string AnswerText(const Simulated& s) {
+  std::string out;
+  if (!s.points.empty()) out += PointTable(s) + "\n";
+  if (s.plane) out += PlaneText(s) + "\n";
+  std::vector<std::vector<std::string>> rows;
+  double cost = 0.0;
+  for (const Row& row : Rows(s)) {
+    rows.push_back({row.light, row.effect, row.state, CostText(row.cost_ns),
+                    row.where.empty() ? "-" : row.where, row.reason});
+    cost += row.cost_ns;
+  }
+  out += TextTable({"light", "effect", "state", "cost", "points", "why"}, rows);
+  if (s.elapsed_ms) {
+    out += "measured: " + RoundedText(*s.elapsed_ms, 3) + " ms on all processors (declared " +
+           CostText(cost) + " of one)\n";
+  }
+  return out;
+}
+
+Json AnswerJson(const Simulated& s) {
+  Json document;
+  Json& lights = document["lights"] = Json::array();
+  for (const PlacedLamp& lamp : s.lamps) {
+    Json light = {{"name", lamp.name}};
+    if (!IsEverywhere(lamp.source)) light["position_m"] = ToJson(lamp.pose.position_m);
+    if (!std::holds_alternative<EvenSky>(lamp.source)) light["aim"] = ToJson(lamp.pose.frame.z);
+    lights.push_back(std::move(light));
+  }
+  document["tolerance"] = s.settings.tolerance;
+  if (!s.points.empty()) {
+    Json& points = document["points"] = Json::array();
+    for (const PredictedPoint& point : s.points) points.push_back(PointJson(s, point));
+  }
+  if (s.plane) document["plane"] = PlaneJson(s);
+  Json& effects = document["effects"] = Json::array();
+  for (const Row& row : Rows(s)) {
+    Json effect = {{"light", row.light},     {"name", row.effect},
+                   {"state", row.state},     {"evaluations", row.evaluations},
+                   {"cost_ns", row.cost_ns}, {"reason", row.reason}};
+    if (row.bound) effect["bound_left_off"] = *row.bound;
+    if (!row.points.empty()) effect["points"] = row.points;
+    effects.push_back(std::move(effect));
+  }
+  if (s.elapsed_ms) document["elapsed_ms"] = *s.elapsed_ms;
+  if (!s.files.empty()) document["files"] = s.files;
+  return document;
+}
+
+}  // namespace lightcal::app

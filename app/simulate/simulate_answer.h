@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `simulate` found, as tables and as JSON.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/light/illuminance_map.h"
+#include "simulate/map_plane.h"
+
+namespace lightcal::app {
+
+struct PredictedPoint {
+  SurfacePoint at;
+  std::vector<LampLux> parts;  // one a lamp
+};
+
+struct MapSummary {
+  double least_lx = 0.0, mean_lx = 0.0, most_lx = 0.0;
+  double median_u95_relative = 0.0;  // of the points that get light
+  Vec3 brightest_m{};
+};
+[[nodiscard]] MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane);
+
+// Everything a run of the command found.
+struct Simulated {
+  std::vector<PlacedLamp> lamps;
+  MapSettings settings;
+  double ambient_lx = 0.0;  // added everywhere; 0 = not asked for
+  std::vector<PredictedPoint> points;
+  std::optional<MapPlane> plane;
+  IlluminanceMap map;
+  std::vector<LampAccount> accounts;  // one a lamp, of points and map together
+  std::optional<double> elapsed_ms;   // --timing
+  std::vector<std::string> files;
+};
+
+// Declared price of what was evaluated for one lamp, nanoseconds of one processor.
+[[nodiscard]] double DirectCost_ns(const PlacedLamp& lamp, const LampAccount& account);
+[[nodiscard]] double BounceCost_ns(const LampAccount& account);
+
+[[nodiscard]] std::string AnswerText(const Simulated& simulated);
+[[nodiscard]] nlohmann::ordered_json AnswerJson(const Simulated& simulated);
+
+}  // namespace lightcal::app
