@@ -3,9 +3,9 @@
 // writes and what <stem>.preset.json lists for audit, from the same values.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lightcal {
@@ -18,7 +18,8 @@ struct DerivedField {
 struct DerivedLight {
   std::string type;  // "SpotLight3D", "RectLight", ...
   std::vector<DerivedField> fields;
-  std::string substitution;  // what this light does otherwise than the lamp; "" = nothing
+  std::vector<DerivedField> notes;  // how they came about; in no file but preset.json
+  std::string substitution;         // what this light does otherwise than the lamp; "" = nothing
 
   void Put(std::string name, double value) { fields.push_back({std::move(name), {value}}); }
   void Put(std::string name, std::vector<double> values) {

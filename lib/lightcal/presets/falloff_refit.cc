@@ -22,15 +22,42 @@ Metres NearestGoodRange(EngineFalloff engine, double farthest_m) {
 bool AtInfinity(const PresetLight& light) {
   return light.form == LightForm::kDirectional || light.form == LightForm::kDome;
 }
+bool AtInfinity(const PunctualLight& light) { return light.type == PunctualType::kDirectional; }
 
-void WarnOfResidual(const PresetLight& light, const FalloffRefit& refit, Metres needed,
+double RelativeU95(const PresetLight& light) { return light.relative_u95.value_or(0.0); }
+double RelativeU95(const PunctualLight& light) {
+  return light.photometric_u95.value_or(0.0) / light.photometric;
+}
+
+const std::string& NameOf(const PresetLight& light) { return light.name(); }
+const std::string& NameOf(const PunctualLight& light) { return light.name; }
+
+template <class Light>
+void WarnOfResidual(const Light& light, const FalloffRefit& refit, Metres needed,
                     Warnings& warnings) {
-  if (refit.residual <= std::max(kPermittedResidual, light.relative_u95.value_or(0.0))) return;
-  warnings.push_back({"falloff_residual", light.name(),
+  if (refit.residual <= std::max(kPermittedResidual, RelativeU95(light))) return;
+  warnings.push_back({"falloff_residual", NameOf(light),
                       "with a range of " + RoundedText(refit.range.value(), 3) +
                           " m the engine's falloff misses readings by up to " +
                           RoundedText(100.0 * refit.residual, 2) + " %; --range " +
                           RoundedText(needed.value(), 3) + "m or more would not"});
+}
+
+template <class Light>
+std::vector<FalloffRefit> RefitEach(const LightFile& file, std::span<const Light> lights,
+                                    const RefitRequest& request, Warnings& warnings) {
+  std::vector<FalloffRefit> refits;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (AtInfinity(lights[i])) {
+      refits.emplace_back();
+      continue;
+    }
+    const std::vector<double> distances = ReadingDistances_m(file.lights[i]);
+    refits.push_back(RefitFalloff(request, distances));
+    WarnOfResidual(lights[i], refits.back(),
+                   NearestGoodRange(request.engine, std::ranges::max(distances)), warnings);
+  }
+  return refits;
 }
 
 }  // namespace
@@ -74,7 +101,9 @@ FalloffRefit RefitFalloff(const RefitRequest& request, std::span<const double> d
     if (most > 0.0) refit.intensity_factor = 1.0 / most;
     return refit;
   }
-  refit.intensity_factor = 1.0 / std::sqrt(least * most);
+  constexpr double kBelowAFloat = 1e-8;
+  const double factor = 1.0 / std::sqrt(least * most);
+  if (std::abs(factor - 1.0) > kBelowAFloat) refit.intensity_factor = factor;
   refit.residual = std::sqrt(most / least) - 1.0;
   return refit;
 }
@@ -92,18 +121,18 @@ std::vector<double> ReadingDistances_m(const FittedLight& lamp) {
 
 std::vector<FalloffRefit> RefitLights(const LightFile& file, std::span<const PresetLight> lights,
                                       const RefitRequest& request, Warnings& warnings) {
-  std::vector<FalloffRefit> refits;
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (AtInfinity(lights[i])) {
-      refits.emplace_back();
-      continue;
-    }
-    const std::vector<double> distances = ReadingDistances_m(file.lights[i]);
-    refits.push_back(RefitFalloff(request, distances));
-    WarnOfResidual(lights[i], refits.back(),
-                   NearestGoodRange(request.engine, std::ranges::max(distances)), warnings);
-  }
-  return refits;
+  return RefitEach(file, lights, request, warnings);
+}
+
+std::vector<FalloffRefit> RefitLights(const LightFile& file, std::span<const PunctualLight> lights,
+                                      const RefitRequest& request, Warnings& warnings) {
+  return RefitEach(file, lights, request, warnings);
+}
+
+void NoteRefit(const FalloffRefit& refit, DerivedLight& light) {
+  if (!(refit.range.value() > 0.0)) return;
+  light.notes.push_back({"falloff_intensity_factor", {refit.intensity_factor}});
+  light.notes.push_back({"falloff_residual", {refit.residual}});
 }
 
 }  // namespace lightcal

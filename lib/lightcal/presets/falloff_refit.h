@@ -30,8 +30,9 @@ struct FalloffRefit {
 // farthest distance (4.47 d_max for a squared window, 3.76 d_max for glTF's plain one) unless
 // `fixed`. Intensity second: with g_j = falloff(d_j) d_j^2,
 //   factor = 1/sqrt(min g max g),   residual = sqrt(max g/min g) - 1,
-// the factor of least worst error. A distance beyond a fixed range has g = 0: nothing repairs that,
-// its residual is 1.   No distances: 1 m.   Holds for distances, ranges above 0.
+// the factor of least worst error; one nearer to 1 than a float can tell is 1. A distance beyond a
+// fixed range has g = 0: nothing repairs that, its residual is 1.   No distances: 1 m.   Holds for
+// distances, ranges above 0.
 struct RefitRequest {
   EngineFalloff engine = EngineFalloff::kGltf;
   Metres far_range{10000.0};      // where nobody fixed one
@@ -49,5 +50,12 @@ struct RefitRequest {
                                                     std::span<const PresetLight> lights,
                                                     const RefitRequest& request,
                                                     Warnings& warnings);
+[[nodiscard]] std::vector<FalloffRefit> RefitLights(const LightFile& file,
+                                                    std::span<const PunctualLight> lights,
+                                                    const RefitRequest& request,
+                                                    Warnings& warnings);
+
+// falloff_intensity_factor and falloff_residual, for preset.json.
+void NoteRefit(const FalloffRefit& refit, DerivedLight& light);
 
 }  // namespace lightcal

@@ -265,7 +265,8 @@ void AddPhotometricScene(Json& root, const LightFile& file,
 }
 
 Json Document(const LightFile& file, const std::string& stem,
-              const std::vector<PunctualLight>& lights, const PresetOptions& options) {
+              const std::vector<PunctualLight>& lights, const std::vector<FalloffRefit>& refits,
+              const PresetOptions& options) {
   const Rig rig = BuildRig(file, lights);
   const std::string generator =
       file.provenance.generator.empty() ? "lightcal" : file.provenance.generator;
@@ -275,7 +276,7 @@ Json Document(const LightFile& file, const std::string& stem,
   Json definitions = Json::array();
   Json nodes = Json::array();
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const GltfLight gltf = GltfLightFrom(lights[i]);
+    const GltfLight gltf = GltfLightFrom(lights[i], refits[i]);
     definitions.push_back(LightDefinition(gltf, lights[i].name));
     nodes.push_back(LightNode(gltf, file.lights[i], lights[i], i));
   }
@@ -303,7 +304,8 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   if (!punctual) return tl::unexpected(punctual.error());
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
-  Json document = Document(lights, stem, *punctual, options);
+  const auto refits = RefitInGltf(lights, *punctual, options, preset.warnings);
+  Json document = Document(lights, stem, *punctual, refits, options);
   AddPhotometricScene(document, lights, *punctual, *ies);
   auto text = json_pieces::TextOf(document, stem + ".gltf");
   if (!text) return Propagate(std::move(text));

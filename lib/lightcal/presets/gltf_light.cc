@@ -33,10 +33,18 @@ Quaternion RotationFromAxes(const Vec3& x, const Vec3& y, const Vec3& z) {
   return q;
 }
 
-GltfLight GltfLightFrom(const PunctualLight& light) {
+std::vector<FalloffRefit> RefitInGltf(const LightFile& file, std::span<const PunctualLight> lights,
+                                      const PresetOptions& options, Warnings& warnings) {
+  return RefitLights(
+      file, lights,
+      {.engine = EngineFalloff::kGltf, .far_range = Metres(kGltfRange_m), .fixed = options.range},
+      warnings);
+}
+
+GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit) {
   GltfLight gltf;
-  gltf.intensity = light.intensity;
-  gltf.intensity_u95 = light.intensity_u95;
+  gltf.intensity = light.intensity * refit.intensity_factor;
+  if (light.intensity_u95) gltf.intensity_u95 = *light.intensity_u95 * refit.intensity_factor;
   const Rgb& c = light.color.max_normalised;
   gltf.color = {c.r, c.g, c.b};
   gltf.translation = GltfFromZUp(light.position_m);
@@ -45,7 +53,7 @@ GltfLight GltfLightFrom(const PunctualLight& light) {
     gltf.type = "directional";
     return gltf;
   }
-  gltf.range_m = kGltfRange_m;
+  gltf.range_m = refit.range.value();
   gltf.type = light.type == PunctualType::kSpot ? "spot" : "point";
   if (light.type == PunctualType::kSpot) {
     gltf.inner_cone_rad = light.cone.inner.value();

@@ -5,16 +5,20 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/engine_axes.h"
+#include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/punctual_light.h"
 
 namespace lightcal {
 
 // glTF is right-handed, Y up; ours is right-handed, Z up: (x, y, z) -> (x, z, -y), a rotation by
 // -90 degrees about X. Metres in both.
-[[nodiscard]] constexpr Vec3 GltfFromZUp(const Vec3& v) { return {v[0], v[2], 0.0 - v[1]}; }
+[[nodiscard]] constexpr Vec3 GltfFromZUp(const Vec3& v) { return DirectionIn(EngineAxes::kYUp, v); }
 
 // Unit quaternion x, y, z, w.
 using Quaternion = std::array<double, 4>;
@@ -38,6 +42,12 @@ struct GltfLight {
   Vec3 translation{};
   Quaternion rotation{};
 };
-[[nodiscard]] GltfLight GltfLightFrom(const PunctualLight& light);
+[[nodiscard]] GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit);
+
+// Ranges and intensities in glTF's plain window; kGltfRange_m where nobody fixed a range.
+[[nodiscard]] std::vector<FalloffRefit> RefitInGltf(const LightFile& file,
+                                                    std::span<const PunctualLight> lights,
+                                                    const PresetOptions& options,
+                                                    Warnings& warnings);
 
 }  // namespace lightcal

@@ -282,6 +282,7 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
                   preset.warnings);
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(Derive((*forms)[i], refits[i], preset.warnings));
+    NoteRefit(refits[i], preset.derived.back());
     auto finite = text_pieces::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));
   }

@@ -127,6 +127,7 @@ Json DerivedJson(const DerivedLight& light) {
       json[field.name] = field.values;
     }
   }
+  for (const DerivedField& note : light.notes) json[note.name] = note.values.front();
   if (!light.substitution.empty()) json["substituted"] = light.substitution;
   return json;
 }
@@ -156,8 +157,9 @@ void WarnOfHalfFloats(const PresetLight& light, double exposure, Warnings& warni
                       "the disc, or let it clip at 65504"});
 }
 
-Json LightJson(const FittedLight& lamp, const PunctualLight& light, const PresetLight& form,
-               std::size_t index, const std::vector<Derivation>& derivations, double exposure) {
+Json LightJson(const FittedLight& lamp, const PunctualLight& light, const FalloffRefit& refit,
+               const PresetLight& form, std::size_t index,
+               const std::vector<Derivation>& derivations, double exposure) {
   Json json = {{"name", lamp.name},
                {"kind", LightKindName(lamp.kind)},
                {"photometry", Photometry(lamp)},
@@ -171,7 +173,8 @@ Json LightJson(const FittedLight& lamp, const PunctualLight& light, const Preset
     json["distribution"]["planes"] = grid.horizontal_deg.size();
     json["distribution"]["angles"] = grid.vertical_deg.size();
   }
-  json["derived"]["gltf"] = DerivedGltf(GltfLightFrom(light));
+  json["derived"]["gltf"] = DerivedGltf(GltfLightFrom(light, refit));
+  if (form.candela > 0.0) json["derived"]["gltf"]["falloff_residual"] = refit.residual;
   if (!light.substitution.empty()) json["derived"]["gltf"]["substituted"] = light.substitution;
   for (const Derivation& derivation : derivations) {
     if (derivation.target == "gltf") continue;
@@ -216,11 +219,12 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *punctual);
+  const auto refits = RefitInGltf(lights, *punctual, options, said_already);
   const auto derivations = Derivations(lights, stem, options);
   Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};
   root["lights"] = Json::array();
   for (std::size_t i = 0; i < punctual->size(); ++i) {
-    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i], (*forms)[i], i,
+    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i], refits[i], (*forms)[i], i,
                                        derivations, rig.exposure.scale));
     WarnOfHalfFloats((*forms)[i], rig.exposure.scale, preset.warnings);
   }

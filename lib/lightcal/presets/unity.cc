@@ -129,6 +129,7 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                {"lights", Json::array()}};
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(Derive((*forms)[i], refits[i], 1.0, preset.warnings));
+    NoteRefit(refits[i], preset.derived.back());
     const DerivedLight urp = Derive((*plain)[i], refits[i], unitless, of_urp);
     root["lights"].push_back(LightJson((*forms)[i], preset.derived.back(), urp));
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);

@@ -177,6 +177,7 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
   for (std::size_t i = 0; i < forms->size(); ++i) {
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
     preset.derived.push_back(unreal.back().derived);
+    NoteRefit(refits[i], preset.derived.back());
     data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i]));
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);

@@ -3,6 +3,7 @@
 read them back, and each fault that people make is put into the files to see its gate fail.
   gates.py LIGHTCAL [unittest arguments]"""
 import json
+import math
 import os
 import re
 import subprocess
@@ -287,6 +288,56 @@ class Pipelines(unittest.TestCase):
         said = [w["message"] for w in export.warnings if w["code"] == "falloff_residual"]
         self.assertEqual(len(said), 1)
         self.assertIn("--range 13.4m", said[0])
+
+
+class Refits(unittest.TestCase):
+    """Each engine's own law at every reading, at the range of the bar, from the written file."""
+    DISTANCES = (0.25, 0.5, 1.0, 2.0)
+
+    def residual(self, lux_per_candela, candela):
+        return max(abs(candela * lux_per_candela(d) * d * d / 1000.0 - 1) for d in self.DISTANCES)
+
+    def test_each_engine_within_half_a_percent(self):
+        def window(d, r):
+            return max(0.0, 1 - (d / r) ** 4)
+        near, plain = 4.47 * 2.0, 3.76 * 2.0
+        for target, r, law in (
+                ("godot", near, lambda d: window(d, near) ** 2 / d ** 2),
+                ("unity", near, lambda d: (window(d, near) * min(1 / d, 100.0)) ** 2),
+                ("unreal", near, lambda d: window(d, near) ** 2 / (d * d + 1e-4)),
+                ("gltf", plain, lambda d: window(d, plain) / d ** 2)):
+            export = Export(target, ["key"], "--bare", "--range", "%gm" % r,
+                            distances=self.DISTANCES)
+            self.assertNotIn("falloff_residual", {w["code"] for w in export.warnings})
+            if target == "gltf":
+                light = json.loads(export.text("set.gltf"))["extensions"]["KHR_lights_punctual"][
+                    "lights"][0]
+                self.assertAlmostEqual(light["range"], r, delta=1e-9)
+                candela = light["intensity"] * sum(
+                    w * c for w, c in zip((0.2126, 0.7152, 0.0722), light["color"]))
+            elif target == "unreal":
+                candela = read_unreal.read_t3d(export.text("set.t3d"))["key"].candela
+            elif target == "godot":
+                text = export.text("set.tscn")
+                self.assertIn("omni_range = %g\n" % r, text)
+                candela = read_godot.read(text, nearest_window=0.0)[0]["key"].candela
+            else:
+                candela = unity(export)[0]["key"].candela
+            self.assertLess(self.residual(law, candela), 0.005 + TOLERANCE.get(target, 1e-4), target)
+
+    def test_godots_cone_strays_as_little_as_its_warning_says(self):
+        export = Export("godot", ["green spot"], "--bare")
+        stated = [float(re.search(r"within ([\d.]+) %", w["message"]).group(1))
+                  for w in export.warnings if w["code"] == "cone_profile"][0]
+        power = 1.0 / float(re.search(r"spot_angle_attenuation = ([-+.e\d]+)",
+                                      export.text("set.tscn")).group(1))
+        ci, co = math.cos(math.radians(15.0)), math.cos(math.radians(25.0))
+        worst = 0.0
+        for i in range(2501):
+            c = math.cos(math.radians(i / 100.0))
+            ours = min(1.0, max(0.0, (c - co) / (ci - co))) ** 2
+            worst = max(worst, abs(1 - ((1 - c) / (1 - co)) ** power - ours))
+        self.assertAlmostEqual(100 * worst, stated, delta=0.2)
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ def place(values):
     return ours(t[9:]), ours([-b for b in back]), ours(back)
 
 
-def read(text):
+def read(text, nearest_window=0.995):
     lights, cards, k, materials = {}, [], None, {}
     if "use_physical_light_units=true" not in text:
         raise GateError("tscn: does not say that it needs physical light units")
@@ -85,7 +85,7 @@ def read(text):
             if float(values[short + "_attenuation"]) != 2.0:
                 raise GateError("tscn: attenuation is not 2")
             r = float(values[short + "_range"])
-            if (1 - (10 / r) ** 4) ** 2 < 0.995:
+            if (1 - (10 / r) ** 4) ** 2 < nearest_window:
                 raise GateError("tscn: range window at 10 m")
             per_candela = math.pi if short == "spot" else 4 * math.pi
             seen.candela = float(values["light_intensity_lumens"]) / per_candela * luminance(rgb)

@@ -36,8 +36,8 @@ def seen_from(kind, get, rgb, use_temperature, at, aim):
         seen.lux = value
         return seen
     seen.candela = value
-    if (1 - (5.0 * 100 / get("attenuation_radius")) ** 4) ** 2 < 0.995:
-        raise GateError("unreal: attenuation radius at 5 m")
+    if (1 - (2.0 * 100 / get("attenuation_radius")) ** 4) ** 2 < 0.99:
+        raise GateError("unreal: attenuation radius at 2 m")
     if kind == "RectLight":
         seen.size = (get("source_width") / 100, get("source_height") / 100)
     if kind == "SpotLight":
