@@ -11,12 +11,17 @@ void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options) {
       ->capture_default_str();
   parser.add_option("--effects", options.effects, "auto, all, none, or +name,-name")
       ->capture_default_str();
+  parser.add_flag("--full-angles", options.full_angles,
+                  "inner_deg and outer_deg of the session are full angles");
+  parser.add_flag("--monte-carlo", options.monte_carlo,
+                  "Intervals by sampling (JCGM 101, two digits) instead of the covariance");
 }
 
 Result<CalibratedSession> Calibrate(const CalibrationOptions& options, Console& console) {
   const auto tolerance = ParseTolerance(options.tolerance);
   if (!tolerance) return tl::unexpected(tolerance.error());
-  return CalibrateSession(options.session, {*tolerance, options.effects}, console);
+  return CalibrateSession(options.session, {*tolerance, options.effects, options.monte_carlo},
+                          console, options.full_angles);
 }
 
 }  // namespace lightcal::app

@@ -18,6 +18,8 @@ struct CalibrationOptions {
   std::string session;
   std::string tolerance = "1%";
   std::string effects = "auto";
+  bool monte_carlo = false;
+  bool full_angles = false;
 };
 
 // Adds SESSION, --tol and --effects; `options` must outlive parsing.

@@ -37,7 +37,8 @@ constexpr CommandRow kCommands[] = {
     {"camera", "What a camera needs to measure: its scale, noise, black, lens, filters, colours",
      "  lightcal camera my_camera -o camera.json\n"
      "  lightcal merge bracket/*.dng -o lum.exr --camera camera.json", BuildCamera},
-    {"plan", "The board to print for pictures of a lit wall",
+    {"plan", "The next readings that lower the uncertainty most; the board for a lit wall",
+     "  lightcal plan sample_data/sessions/amaran_200x_s_bare --light 5600K\n"
      "  lightcal plan --board board.pdf\n"
      "  lightcal plan --board board.svg --paper a3 --square 40mm", BuildPlan},
     {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",

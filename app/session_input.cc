@@ -82,6 +82,7 @@ Result<LightFile> FitLights(Session& session, const FitSettings& settings, Conso
   auto fitted = FitSession(others, settings);
   if (!fitted) return Propagate(std::move(fitted));
   console.Warn(fitted->warnings);
+  for (const std::string& note : fitted->notes) console.Note(note);
   LightFile all;
   for (const LightDescription& light : session.lights) {
     const auto wall = by_wall(light.name);
@@ -113,24 +114,33 @@ Result<Provenance> ProvenanceOf(const Session& session) {
   return provenance;
 }
 
-Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
-                                           Console& console) {
+Result<Session> LoadMeasuredSession(const std::string& path, Console& console, bool full_angles) {
   auto loaded = LoadSession(path);
   if (!loaded) return Propagate(std::move(loaded));
   console.Warn(loaded->warnings);
-  CalibratedSession calibrated;
-  calibrated.session = std::move(loaded->session);
-  for (SessionReading& row : calibrated.session.readings) {
-    if (auto resolved = ResolveSpectrum(calibrated.session, row, console); !resolved) {
+  Session& session = loaded->session;
+  for (LightDescription& light : session.lights) {
+    if (full_angles && light.inner) light.inner = *light.inner * 0.5;
+    if (full_angles && light.outer) light.outer = *light.outer * 0.5;
+  }
+  for (SessionReading& row : session.readings) {
+    if (auto resolved = ResolveSpectrum(session, row, console); !resolved) {
       return Propagate(std::move(resolved));
     }
   }
-  if (auto tables = AddDistributions(calibrated.session, console); !tables) {
+  if (auto tables = AddDistributions(session, console); !tables) {
     return Propagate(std::move(tables));
   }
-  if (auto added = AddCaptures(calibrated.session, console); !added) {
-    return Propagate(std::move(added));
-  }
+  if (auto added = AddCaptures(session, console); !added) return Propagate(std::move(added));
+  return std::move(session);
+}
+
+Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
+                                           Console& console, bool full_angles) {
+  auto session = LoadMeasuredSession(path, console, full_angles);
+  if (!session) return Propagate(std::move(session));
+  CalibratedSession calibrated;
+  calibrated.session = *std::move(session);
   auto lights = FitLights(calibrated.session, settings, console);
   if (!lights) return Propagate(std::move(lights));
   calibrated.lights = *std::move(lights);

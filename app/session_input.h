@@ -18,11 +18,17 @@ struct CalibratedSession {
 };
 
 // Loads the session, resolves `spectrum = "file"` of its readings through the importers and its
-// [[capture]]s to readings, fits, and
-// notes the inputs with their hashes. Warnings go to the console as they come up.
+// [[capture]]s to readings. Warnings go to the console as they come up.
+// With `full_angles` inner_deg and outer_deg are taken as full angles, as some data sheets give
+// them.
+[[nodiscard]] Result<Session> LoadMeasuredSession(const std::string& path, Console& console,
+                                                  bool full_angles = false);
+
+// The same, fitted, with the inputs' hashes.
 [[nodiscard]] Result<CalibratedSession> CalibrateSession(const std::string& path,
                                                          const FitSettings& settings,
-                                                         Console& console);
+                                                         Console& console,
+                                                         bool full_angles = false);
 
 // Who made an output from what: the session's input files with their hashes, the newest time found
 // in its readings (or SOURCE_DATE_EPOCH).  Fails as ReadWholeFile.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lightcal plan --board: the board that tells where a wall is, to be printed.
+// lightcal plan: the next readings of a session; or the board that tells where a wall is, to print.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -13,11 +13,13 @@
 #include "lightcal/core/units_text.h"
 #include "output_files.h"
 #include "picture_file.h"
+#include "session_plan.h"
 
 namespace lightcal::app {
 namespace {
 
 struct Options {
+  SessionPlanOptions session;
   std::string board, paper = "a4", square, squares, dictionary;
   bool force = false;
 };
@@ -71,7 +73,7 @@ std::string SessionLines(const CharucoBoard& board) {
   return lines;
 }
 
-Result<void> RunPlan(const Options& options, Console& console) {
+Result<void> PrintBoard(const Options& options, Console& console) {
   const auto paper = PaperByName(options.paper);
   if (!paper) return tl::unexpected(paper.error());
   const auto board = BoardOf(options, *paper);
@@ -95,12 +97,28 @@ Result<void> RunPlan(const Options& options, Console& console) {
   return {};
 }
 
+Result<void> RunPlan(const Options& options, Console& console) {
+  const bool session = !options.session.calibration.session.empty();
+  if (session && !options.board.empty()) {
+    return WrongUsage("plan", "takes a session or --board, not both");
+  }
+  if (session) return PlanSession(options.session, console);
+  if (!options.board.empty()) return PrintBoard(options, console);
+  return WrongUsage("plan", "give a session to plan the next readings of, or --board FILE");
+}
+
 }  // namespace
 
 Run BuildPlan(CLI::App& parser) {
   auto options = std::make_shared<Options>();
-  parser.add_option("--board", options->board, "Write the board to print here, .pdf or .svg")
-      ->required();
+  AddCalibrationOptions(parser, options->session.calibration);
+  parser.get_option("session")->required(false);
+  parser.remove_option(parser.get_option("--monte-carlo"));
+  parser.add_option("--light", options->session.light, "Only this light");
+  parser.add_option("--steps", options->session.steps, "Readings to plan, one on top of the other")
+      ->check(CLI::Range(1, 20))
+      ->capture_default_str();
+  parser.add_option("--board", options->board, "Write the board to print here, .pdf or .svg");
   parser.add_option("--paper", options->paper, "a4, a3 or letter")->capture_default_str();
   parser.add_option("--square", options->square, "Side of a square, e.g. 30mm [what fits]");
   parser.add_option("--squares", options->squares, "COLUMNSxROWS [9x6]");

@@ -53,8 +53,14 @@ Result<void> RunRun(const Options& options, Console& console) {
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
   console.Print(LightTable(calibrated->lights) + "\n" + FitTable(calibrated->lights) + "\n");
-  for (const OutputFile& file : *files) console.Print("wrote " + file.path + "\n");
   auto document = nlohmann::ordered_json::parse(files->front().contents);
+  auto& next = document["next_steps"] = nlohmann::ordered_json::object();
+  for (const FittedLight& light : calibrated->lights.lights) {
+    if (light.fit.readings == 0) continue;  // a wall or a data sheet measured it
+    next[light.name] = NextStep(calibrated->session, light);
+    console.Print("next, " + light.name + ": " + std::string(next[light.name]) + "\n");
+  }
+  for (const OutputFile& file : *files) console.Print("wrote " + file.path + "\n");
   auto& written = document["files"] = nlohmann::ordered_json::array();
   for (const OutputFile& file : *files) written.push_back(file.path);
   console.PrintJson(document);

@@ -124,6 +124,63 @@ TEST(RunCommand, NeverReplacesWhatItDidNotWrite) {
   EXPECT_EQ(RunLightcal({"run", session, "-o", out.path(), "--force"}).exit_code, 0);
 }
 
+TEST(RunCommand, FullAnglesOnRequestAreHalvedOnce) {
+  const TempDir dir;
+  const auto session = [&dir](const std::string& name, int inner, int outer) {
+    return dir.Write(
+        name, "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"spot\"\ninner_deg = " +
+                  std::to_string(inner) + "\nouter_deg = " + std::to_string(outer) +
+                  "\n[[reading]]\nlight = \"key\"\ndistance_m = 2\n" + "illuminance_lx = 400\n");
+  };
+  const json half =
+      LightcalJson("fit", {session("half.toml", 20, 35), "-o", dir.path() + "/a.json"});
+  const json full = LightcalJson(
+      "fit", {session("full.toml", 40, 70), "-o", dir.path() + "/b.json", "--full-angles"});
+  EXPECT_EQ(full["lights"], half["lights"]);
+  EXPECT_NEAR(double(full["lights"][0]["cone"]["outer_deg"]), 35.0, 1e-9);
+}
+
+TEST(PlanCommand, SaysTheNextReadingsWithWhatTheyLeave) {
+  const std::string session = SampleData("sessions/amaran_200x_s_bare");
+  const json document = LightcalJson("plan", {session, "--light", "5600K", "--steps", "2"});
+  ASSERT_EQ(document["lights"].size(), 1U);
+  const json& plan = document["lights"][0];
+  ASSERT_EQ(plan["steps"].size(), 2U);
+  EXPECT_LT(double(plan["steps"][0]["u95_relative"]), double(plan["u95_relative"]));
+  EXPECT_LT(double(plan["steps"][1]["u95_relative"]), double(plan["steps"][0]["u95_relative"]));
+  EXPECT_GT(double(plan["steps"][0]["expected_lx"]), 0.0);
+  EXPECT_NE(std::string(plan["advice"]).find("8 : 1"), std::string::npos);
+  const CliResult table = RunLightcal({"plan", session});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("take this reading"), std::string::npos);
+  EXPECT_EQ(RunLightcal({"plan"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"plan", session, "--light", "kye"}).exit_code, 3);
+}
+
+TEST(PlanCommand, PlansBeforeAnyReading) {
+  const TempDir dir;
+  const std::string session =
+      dir.Write("new.toml", "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+  const json plan = LightcalJson("plan", {session})["lights"][0];
+  EXPECT_FALSE(plan.contains("u95_relative"));
+  ASSERT_EQ(plan["steps"].size(), 3U);
+  EXPECT_LT(double(plan["steps"][2]["u95_relative"]), double(plan["steps"][0]["u95_relative"]));
+}
+
+TEST(FitCommand, MonteCarloSaysHowManySamplesItTook) {
+  const TempDir dir;
+  const std::string session = dir.Write("one.toml",
+                                        "lightcal = 1\n[[light]]\nname = \"key\"\nkind = "
+                                        "\"point\"\n[[reading]]\nlight = \"key\"\ndistance_m = "
+                                        "0.5\nilluminance_lx = 192\n");
+  const CliResult result =
+      RunLightcal({"fit", session, "-o", dir.path() + "/a.json", "--monte-carlo", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("0 samples"), std::string::npos) << result.err;
+  const json u = json::parse(result.out)["lights"][0]["intensity_cd"];
+  EXPECT_GT(double(u["value"]) - double(u["low95"]), 0.25 * double(u["value"]));
+}
+
 TEST(Explain, ListsEveryEffectWithBoundStateAndCost) {
   const CliResult result =
       RunLightcal({"explain", SampleData("sessions/three_real_lights"), "--json"});

@@ -7,6 +7,7 @@
 
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/monte_carlo.h"
 #include "lightcal/fit/solve.h"
 #include "lightcal/fit/starts.h"
 
@@ -69,6 +70,18 @@ void BM_SolveQuicklySixReadings(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fit::SolveQuickly(estimation, start));
 }
 BENCHMARK(BM_SolveQuicklySixReadings);
+
+// Ten thousand samples of it: one block of the adaptive procedure.
+void BM_MonteCarloTenThousand(benchmark::State& state) {
+  const fit::Estimation estimation = SixReadings();
+  fit::UncertaintyInput input;
+  input.estimation = &estimation;
+  input.theta = *fit::Solve(estimation, fit::ScanStart(estimation));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(fit::SampleEstimate(input, {.digits = 2, .largest_blocks = 1}));
+  }
+}
+BENCHMARK(BM_MonteCarloTenThousand)->Unit(benchmark::kMillisecond);
 
 // Gate, checks, start, solve, covariance, diagnostics: the whole answer.
 void BM_FitSession(benchmark::State& state) {

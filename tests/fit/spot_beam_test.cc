@@ -86,6 +86,47 @@ TEST(SpotBeam, TwelveFloorReadingsHoldTheTruthWithinTheirIntervals) {
   EXPECT_GE(hits.aim, 180);
 }
 
+// The light starts before or behind the stated place by as much as the prior allows: no reading is
+// taken for a slip of units or for light that grows with distance, and the intervals hold.
+TEST(SpotBeam, AnOffsetAsLargeAsItsPriorStaysWithinTheIntervals) {
+  constexpr int kTwins = 150;
+  std::mt19937_64 random(78);
+  std::normal_distribution<double> normal;
+  Hits hits;
+  double inner_z = 0.0;
+  double outer_z = 0.0;
+  for (int i = 0; i < kTwins; ++i) {
+    AreaTwin twin = CeilingSpot(14.0, 32.0);
+    twin.intensity_cd = 900.0;
+    const std::vector<Pose> poses = FloorRings(twin);
+    double nearest = INFINITY;
+    for (const Pose& pose : poses) {
+      nearest = std::min(nearest, Length(pose.position - *twin.light.position_m));
+    }
+    twin.offset_m = 0.15 * nearest * normal(random);
+    Session session = ReadAt(twin, poses, 0.01, random);
+    LightDescription& said = session.lights.front();
+    const Vec3 stated = *said.aim + Vec3{0.03 * normal(random), 0.03 * normal(random), 0.0};
+    said.aim = stated * (1.0 / Length(stated));
+    const auto fitted = FitSession(session, {});
+    ASSERT_TRUE(fitted.has_value()) << i << " " << fitted.error().message;
+    const FittedLight& light = fitted->lights.lights.front();
+    hits.intensity += twin.intensity_cd >= *light.intensity_cd->low &&
+                      twin.intensity_cd <= *light.intensity_cd->high;
+    const double inner = (*light.inner_deg - 14.0) / *light.inner_u95_deg;
+    const double outer = (*light.outer_deg - 32.0) / *light.outer_u95_deg;
+    hits.inner += std::abs(inner) <= 1.0;
+    hits.outer += std::abs(outer) <= 1.0;
+    inner_z += std::pow(kZ95 * inner, 2) / kTwins;
+    outer_z += std::pow(kZ95 * outer, 2) / kTwins;
+  }
+  EXPECT_GE(hits.intensity, 137);  // of 95 %, less than two standard deviations
+  EXPECT_GE(hits.inner, 137);
+  EXPECT_GE(hits.outer, 137);
+  EXPECT_LT(std::sqrt(inner_z), 1.1);
+  EXPECT_LT(std::sqrt(outer_z), 1.1);
+}
+
 TEST(SpotBeam, WithoutAStatedAimItIsFoundToo) {
   AreaTwin twin = CeilingSpot(20.0, 35.0);
   twin.intensity_cd = 500.0;

@@ -63,6 +63,7 @@ distribution = "wash.ies"
 [[meter]]
 name = "c800"
 sigma_relative = 0.03
+calibration_relative = 0.02
 cosine_f2 = 0.02
 spectral_f1 = 0.06
 head_radius_m = 0.01
@@ -101,6 +102,10 @@ vignetting = 3.5
 sensor_width_m = 0.0236
 masks = [0, 0, 10, 10, 20, 20, 5, 5]
 anchor_rect = [30, 30, 8, 8]
+[[reading]]
+lit = ["key"]
+distances_m = { key = 2.0 }
+illuminance_lx = 12.0
 [[reading]]
 light = "key"
 meter = "c800"
@@ -180,6 +185,8 @@ TEST(Schemas, ReadingSchemaAndWriterKnowTheSameKeys) {
   session->readings[1].reading.lamp = LampState::kOff;
   std::string journal;
   for (const SessionReading& row : session->readings) journal += ReadingToJson(row.reading) + "\n";
+  // Written by hand only.
+  journal += "{\"lit\":[\"key\"],\"distances_m\":{\"key\":2.0},\"illuminance_lx\":12}\n";
   ExpectValid("reading", {"--every-key", dir.Write("readings.jsonl", journal)});
 }
 

@@ -196,6 +196,14 @@ void Unscale(const Scales& scales, LightEstimate& out) {
   for (int i = 0; i < kParameters; ++i) {
     for (int j = 0; j < kParameters; ++j) out.covariance[i * kParameters + j] *= unit[i] * unit[j];
   }
+  if (!out.sampled) return;
+  const double ln_unit = std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
+  for (int k = 0; k < kParameters; ++k) {
+    SampledParameter& p = out.sampled->parameters[k];
+    const double shift = k == kLnIntensity ? ln_unit : 0.0;
+    p = {p.mean * unit[k] + shift, p.sd * unit[k], p.low * unit[k] + shift,
+         p.high * unit[k] + shift};
+  }
 }
 
 // Weighted linear least squares of I alone, E0 from the lamp-off readings: the only estimate that
@@ -262,7 +270,7 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
 }  // namespace
 
 Result<LightEstimate> EstimateLight(const Observations& observations, const ForwardModel& model,
-                                    const std::string& light) {
+                                    const std::string& light, bool monte_carlo) {
   Prepared prepared = Prepare(observations, model);
   if (prepared.lit_rows == 0) {
     return Refused("no_valid_readings", light,
@@ -305,6 +313,11 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   input.row_scale = BirgeRatio(estimate->kept, estimate->theta, out.diagnostics.degrees_of_freedom);
   if (input.row_scale > 1.0) covariance = EstimateCovariance(input);
   if (!covariance) return Propagate(std::move(covariance));
+  if (monte_carlo) {
+    Result<SampledEstimate> sampled = SampleEstimate(input);
+    if (!sampled) return Propagate(std::move(sampled));
+    out.sampled = *sampled;
+  }
 
   out.theta = estimate->theta;
   out.covariance = *covariance;

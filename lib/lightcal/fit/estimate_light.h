@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/monte_carlo.h"
 #include "lightcal/fit/observations.h"
 #include "lightcal/fit/uncertainty.h"
 #include "lightcal/light/axial_shape.h"
@@ -38,7 +39,8 @@ struct LightEstimate {
   bool ambient_free = false;
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
   std::optional<double> upper_limit;
-  Warnings warnings;  // row_rejected, prior_conflict, bimodal, ...
+  std::optional<SampledEstimate> sampled;  // where it was asked for
+  Warnings warnings;                       // row_rejected, prior_conflict, bimodal, ...
 };
 
 // Fits E = I (cos(tilt) g(r)/r^2 + bounce) + E0, r = d + d0.
@@ -48,6 +50,7 @@ struct LightEstimate {
 // Refused: no_valid_readings, over_range (no reading within the meter's range).
 [[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
                                                   const ForwardModel& model,
-                                                  const std::string& light);
+                                                  const std::string& light,
+                                                  bool monte_carlo = false);
 
 }  // namespace lightcal::fit

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/data_sheet.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/fit_color.h"
@@ -100,6 +101,29 @@ double Sd(const fit::Covariance& covariance, fit::Parameter k) {
   return std::sqrt(covariance[k * kParameters + k]);
 }
 
+// An interval that need not be symmetric.
+Uncertain Within(double value, double low, double high) {
+  return {value, 0.5 * (high - low), low, high};
+}
+
+std::string SayOfSampling(const fit::LightEstimate& estimate, const std::string& light) {
+  if (!estimate.sampled) {
+    return light +
+           ": no samples: its interval comes from the covariance (a place or cone was found "
+           "too, or only an upper limit)";
+  }
+  const fit::SampledParameter& ln = estimate.sampled->parameters[kLnIntensity];
+  const double middle = estimate.theta[kLnIntensity];
+  const double linear = kZ95 * Sd(estimate.covariance, kLnIntensity);
+  const auto percent = [](double ln_ratio) {
+    return RoundedText(100.0 * std::expm1(ln_ratio), 3) + " %";
+  };
+  return light + ": " + std::to_string(estimate.sampled->samples) + " samples" +
+         (estimate.sampled->stable ? "" : " (two digits would take more)") + ": 95 % from " +
+         percent(ln.low - middle) + " to +" + percent(ln.high - middle) +
+         "; the covariance alone says " + percent(-linear) + " to +" + percent(linear);
+}
+
 void FillParameters(const fit::LightEstimate& estimate, bool distance_law, FittedLight& out) {
   if (estimate.upper_limit) {
     const Uncertain limit{0.5 * *estimate.upper_limit, 0.5 * *estimate.upper_limit, 0.0,
@@ -107,12 +131,20 @@ void FillParameters(const fit::LightEstimate& estimate, bool distance_law, Fitte
     (distance_law ? out.intensity_cd : out.illuminance_lx) = limit;
     return;
   }
-  const Uncertain main =
+  Uncertain main =
       UncertainFromLog(estimate.theta[kLnIntensity], Sd(estimate.covariance, kLnIntensity));
+  if (estimate.sampled) {
+    const fit::SampledParameter& ln = estimate.sampled->parameters[kLnIntensity];
+    main = Within(main.value, std::exp(ln.low), std::exp(ln.high));
+  }
   if (distance_law) {
     out.intensity_cd = main;
     out.distance_offset_m = UncertainFromNormal(estimate.theta[kDistanceOffset],
                                                 Sd(estimate.covariance, kDistanceOffset));
+    if (estimate.sampled) {
+      const fit::SampledParameter& d0 = estimate.sampled->parameters[kDistanceOffset];
+      out.distance_offset_m = Within(estimate.theta[kDistanceOffset], d0.low, d0.high);
+    }
   } else {
     out.illuminance_lx = main;
   }
@@ -122,8 +154,45 @@ void FillParameters(const fit::LightEstimate& estimate, bool distance_law, Fitte
     ambient.low = 0.0;
     ambient.high = ambient.value + ambient.u95;
   }
+  if (estimate.sampled && estimate.ambient_free) {
+    const fit::SampledParameter& e0 = estimate.sampled->parameters[kAmbient];
+    ambient = Within(ambient.value, std::max(0.0, e0.low), e0.high);
+  }
   out.ambient_lx = ambient;
   out.covariance_lnI_d0_E0 = estimate.covariance;
+}
+
+double LargestCalibration(const fit::Observations& observations) {
+  double largest = 0.0;
+  for (const fit::Observation& o : observations.rows) {
+    if (o.lit) largest = std::max(largest, o.calibration);
+  }
+  return largest;
+}
+
+// One factor on every reading: ln I shifts by it, E0 grows with it.
+void AddCalibration(double calibration, fit::LightEstimate& estimate) {
+  const fit::Theta shift = {calibration, 0.0, calibration * estimate.theta[kAmbient]};
+  for (int i = 0; i < kParameters; ++i) {
+    for (int j = 0; j < kParameters; ++j) {
+      estimate.covariance[i * kParameters + j] += shift[i] * shift[j];
+    }
+  }
+}
+
+// The part of the interval that more readings do not lower.
+void ReportCalibration(const fit::Observations& observations, std::vector<EffectReport>& effects) {
+  const double calibration = LargestCalibration(observations);
+  if (!(calibration > 0.0)) return;
+  EffectReport report;
+  report.name = "meter_calibration";
+  report.state = EffectState::kOn;
+  report.bound = kZ95 * calibration;
+  report.cost_ns = 1.0;
+  report.reason = "the meter's own scale, within " + RoundedText(100.0 * report.bound, 2) +
+                  " %, widens the interval: repeating does not lower it, and it cancels in the "
+                  "ratio of two lamps read with one meter";
+  effects.push_back(std::move(report));
 }
 
 // The position found is where the light seems to start.
@@ -150,7 +219,8 @@ void WidenByShape(const fit::Observations& seen, fit::ForwardModel& model) {
 // gate then models.
 Result<FittedLight> FitLocated(const Session& session, const LightDescription& light,
                                const fit::Observations& observations, const FitSettings& settings,
-                               FittedLight out, Warnings& warnings) {
+                               FittedLight out, FittedSession& session_out) {
+  Warnings& warnings = session_out.warnings;
   Result<fit::LampLocation> first = fit::LocateLamp(observations, light, fit::ForwardModel{});
   if (!first) return Propagate(std::move(first));
   LightDescription placed = light;
@@ -162,6 +232,10 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   Result<fit::LampLocation> location = fit::LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
   Append(warnings, std::move(location->estimate.warnings));
+  AddCalibration(LargestCalibration(seen), location->estimate);
+  if (settings.monte_carlo) {
+    session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
+  }
   FillParameters(location->estimate, true, out);
   out.distance_offset_m.reset();
   out.position_m = location->position_m;
@@ -172,13 +246,15 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   out.residuals = location->estimate.residuals;
   out.effects = fit::ReportEffects(*plan, seen, location->estimate);
   NameOffsetFound(out.effects);
+  ReportCalibration(seen, out.effects);
   AddDerivedQuantities(light, out);
   fit::CheckDataSheet(light, out, warnings);
   return out;
 }
 
 Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
-                           const FitSettings& settings, Warnings& warnings) {
+                           const FitSettings& settings, FittedSession& session_out) {
+  Warnings& warnings = session_out.warnings;
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
   FittedLight out = Describe(light);
@@ -203,7 +279,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   }
   if (fit::NeedsLocating(*observations, light)) {
     Append(warnings, std::move(observations->warnings));
-    return FitLocated(session, light, *observations, settings, std::move(out), warnings);
+    return FitLocated(session, light, *observations, settings, std::move(out), session_out);
   }
   std::optional<fit::SpotBeam> beam;
   if (fit::NeedsBeam(*observations, light)) {
@@ -222,7 +298,8 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
     return Propagate(std::move(units));
   }
   const bool distance_law = fit::HasDistanceLaw(light.kind);
-  if (distance_law) {
+  // Across a beam that was found, illuminance falls by its shape more than by distance.
+  if (distance_law && !beam) {
     if (auto falloff = fit::CheckFalloff(*observations, light.name, warnings); !falloff) {
       return Propagate(std::move(falloff));
     }
@@ -230,8 +307,10 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Append(warnings, std::move(observations->warnings));
   Result<fit::ForwardPlan> plan = fit::PlanForward(session, light, *observations, settings);
   if (!plan) return Propagate(std::move(plan));
-  Result<fit::LightEstimate> estimate = fit::EstimateLight(*observations, plan->model, light.name);
+  Result<fit::LightEstimate> estimate =
+      fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
   if (!estimate) return Propagate(std::move(estimate));
+  if (settings.monte_carlo) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
     estimate->covariance[0] += beam->ln_intensity_extra_variance;
@@ -242,6 +321,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   out.fit = estimate->diagnostics;
   out.residuals = estimate->residuals;
   out.effects = fit::ReportEffects(*plan, *observations, *estimate);
+  ReportCalibration(*observations, out.effects);
   AddDerivedQuantities(beam ? fit::WithBeam(light, *beam) : light, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
   return out;
@@ -253,7 +333,7 @@ Result<FittedSession> FitSession(const Session& session, const FitSettings& sett
   FittedSession out;
   std::optional<Error> nothing_read;
   for (const LightDescription& light : session.lights) {
-    Result<FittedLight> fitted = FitOne(session, light, settings, out.warnings);
+    Result<FittedLight> fitted = FitOne(session, light, settings, out);
     if (fitted) {
       out.lights.lights.push_back(*std::move(fitted));
       continue;

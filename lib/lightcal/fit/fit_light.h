@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/fitted_light.h"
@@ -15,11 +16,13 @@ namespace lightcal {
 struct FitSettings {
   double tolerance_relative = 0.01;  // of the effect gate
   std::string effects = "auto";      // auto | all | none | +a,-b
+  bool monte_carlo = false;          // intervals by sampling (monte_carlo.h) instead of covariance
 };
 
 struct FittedSession {
-  LightFile lights;   // provenance left empty for the caller
-  Warnings warnings;  // prior_conflict, row_rejected, bimodal, cct_withheld, ...
+  LightFile lights;                  // provenance left empty for the caller
+  Warnings warnings;                 // prior_conflict, row_rejected, bimodal, cct_withheld, ...
+  std::vector<std::string> notes{};  // what sampling found, a sentence a light
 };
 
 // Fits every light of the session:

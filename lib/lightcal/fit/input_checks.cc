@@ -31,6 +31,13 @@ constexpr std::array<UnitSlip, 6> kSlips = {{
     {13.815511, 0.7, "1 000 000", "is their distance in mm?", "is the others' distance in mm?"},
 }};
 
+// Towards a beam's rim a degree of aim outweighs any unit: only its bright part is compared.
+constexpr double kBrightPart = 0.3;
+
+bool IsBright(const Observation& row) {
+  return row.lit && !row.over_range && !(row.off_axis && row.emission < kBrightPart);
+}
+
 struct Strength {
   double ln_candela;  // ln(E d^2/cos tilt)
   int index;
@@ -49,7 +56,7 @@ std::vector<Strength> Strengths(const Observations& observations) {
   std::vector<Strength> out;
   for (const Observation& row : observations.rows) {
     const double direct = row.measured_lx - (row.differenced ? 0.0 : ambient);
-    if (!row.lit || row.over_range || !(direct > 2.0 * row.sigma_lx)) continue;
+    if (!IsBright(row) || !(direct > 2.0 * row.sigma_lx)) continue;
     out.push_back({std::log(direct * row.distance_m * row.distance_m /
                             (std::cos(row.tilt_rad) * row.emission * row.table_part)),
                    row.index});
@@ -117,7 +124,7 @@ Result<void> CheckFalloff(const Observations& observations, const std::string& l
   double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   const auto for_each_lit = [&](auto&& visit) {
     for (const Observation& row : observations.rows) {
-      if (!row.lit || row.over_range || !(row.measured_lx > 2.0 * row.sigma_lx)) continue;
+      if (!IsBright(row) || !(row.measured_lx > 2.0 * row.sigma_lx)) continue;
       const double sigma = row.sigma_lx / row.measured_lx;
       visit(1.0 / (sigma * sigma), std::log(row.distance_m),
             std::log(row.measured_lx / (std::cos(row.tilt_rad) * row.emission * row.table_part)));

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "lightcal/fit/placed_starts.h"
+#include "lightcal/fit/row_values.h"
 #include "lightcal/light/effects/detector_size.h"
 
 namespace lightcal::fit {
 namespace {
 
-constexpr double kLinearBeyondSigma = 0.3;  // as in prepare.cc
 constexpr int kReadingsForAmbient = 6;
 
 PlacedFrame FrameOf(const Observations& observations) {
@@ -34,10 +34,7 @@ PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardMo
                 const PlacedFrame& frame) {
   const Observation& o = observations.rows[i];
   PlacedRow row;
-  row.measured = o.measured_lx / frame.lux;
-  row.sigma = o.sigma_lx / frame.lux;
-  row.ambient_gain = o.differenced ? 0.0 : 1.0;
-  row.form = ReadingRow::Form::kLinear;
+  FillRowValues(o, i, model, frame.length_m, frame.lux, row);
   row.direct_gain = o.lit ? 1.0 : 0.0;
   if (!o.lit) return row;
   if (IsPlaced(o)) row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
@@ -46,14 +43,6 @@ PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardMo
   if (!o.normal) row.direct_gain = std::cos(o.tilt_rad);
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, o.distance_m);
-  }
-  if (!o.differenced && i < model.bounce_per_candela.size()) {
-    row.bounce = model.bounce_per_candela[i] * frame.length_m * frame.length_m;
-  }
-  const double relative = o.sigma_lx / o.measured_lx;
-  if (o.measured_lx > 0.0 && relative < kLinearBeyondSigma) {
-    row.form = o.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
-    row.sigma = relative;
   }
   return row;
 }

@@ -7,6 +7,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/observations.h"
+#include "lightcal/fit/plan_readings.h"
 
 namespace lightcal {
 namespace {
@@ -60,9 +61,21 @@ std::optional<std::string> AboutRejected(const FittedLight& light) {
   return std::nullopt;
 }
 
+// A lamp that places told is told better by another place.
+std::optional<std::string> AboutPlace(const Session& session, const FittedLight& light) {
+  if (!light.position_u95_m) return std::nullopt;
+  const auto plan = PlanReadings(session, light.name, {}, 1);
+  if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
+  const PlannedReading& step = plan->steps.front();
+  const auto percent = [](double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; };
+  return SayPlannedReading(step) + ": it leaves " + percent(step.u95_relative) + " instead of " +
+         percent(*plan->u95_relative);
+}
+
 }  // namespace
 
 std::string NextStep(const Session& session, const FittedLight& light) {
+  if (auto place = AboutPlace(session, light)) return *place;
   const Taken taken = TakenOf(session, light);
   if (taken.distances_m.empty()) {
     return "measure the illuminance facing the lamp, about ten times its size away: so far only "

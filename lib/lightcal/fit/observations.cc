@@ -62,9 +62,14 @@ class Collector {
   Result<Observations> Collect() {
     for (const SessionReading& row : session_.readings) {
       if (row.reading.light != light_.name) continue;
+      if (row.reading.illuminance) (void)InstrumentIndex(row.reading);
+    }
+    for (const SessionReading& row : session_.readings) {
+      if (row.reading.light != light_.name) continue;
       const int index = out_.readings++;
       if (auto added = Add(row, index); !added) return tl::unexpected(std::move(added).error());
     }
+    if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
     SubtractShadows();
     FillSigmas();
     std::sort(out_.rejected.begin(), out_.rejected.end());
@@ -99,13 +104,28 @@ class Collector {
     observation.position_m = reading.position_m;
     observation.table_part = TablePart(reading);
     if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
-    const double sigma = reading.under_range
-                             ? kUnderRangeSigma
-                             : std::max(kLeastSigma, SigmaRelative(session_, reading));
+    observation.calibration = CalibrationRelative(session_, reading);
+    observation.instrument = InstrumentIndex(reading);
+    const double sigma = SigmaOf(reading);
     relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
-                         reading.shadow_card, !lit && !observation.placed});
+                         reading.shadow_card, !lit && !observation.placed, &row});
     out_.rows.push_back(observation);
     return {};
+  }
+
+  // Where several instruments speak, what sets them apart belongs to each reading's sigma.
+  [[nodiscard]] double SigmaOf(const Reading& reading) const {
+    if (reading.under_range) return kUnderRangeSigma;
+    return std::max(kLeastSigma, instruments_.size() == 1 ? RepeatabilityRelative(session_, reading)
+                                                          : SigmaRelative(session_, reading));
+  }
+
+  int InstrumentIndex(const Reading& reading) {
+    const std::string& name = InstrumentOf(reading);
+    const auto known = std::find(instruments_.begin(), instruments_.end(), name);
+    const auto index = static_cast<int>(known - instruments_.begin());
+    if (known == instruments_.end()) instruments_.push_back(name);
+    return index;
   }
 
   // Readings without positions stand on the lamp's aim; a lamp without an aim shines down.
@@ -162,25 +182,45 @@ class Collector {
     return {};
   }
 
-  void SubtractShadows() {
-    if (out_.shadow_readings == 0) return;
-    std::vector<Observation> kept;
-    std::vector<Extra> kept_extra;
-    std::vector<bool> consumed(out_.rows.size(), false);
+  // Readings with other lamps lit become differences; what they were subtracted from goes.
+  Result<void> SubtractOthers() {
+    std::vector<bool> gone(out_.rows.size(), false);
+    int separated = 0;
+    int mixed = 0;
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
-      if (out_.rows[i].lit && !out_.rows[i].over_range) SubtractFrom(i, consumed);
-    }
-    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
-      if (consumed[i]) {
-        out_.shadow_used.push_back(out_.rows[i].index);
+      const std::vector<std::string>& others = relative_[i].source->others_lit;
+      if (others.empty()) continue;
+      if (!out_.rows[i].lit) {
+        gone[i] = true;
         continue;
       }
-      if (relative_[i].shadow) {
-        out_.warnings.push_back({"shadow_unmatched", light_.name,
-                                 "a shadow-card reading has no lamp-on reading at its distance; it "
-                                 "counts as ambient light, within 30 %"});
-        relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
-      }
+      ++mixed;
+      const auto lamp_off = [&](std::size_t j) {
+        const SessionReading& off = *relative_[j].source;
+        return !out_.rows[j].lit && off.others_lit == others &&
+               off.place == relative_[i].source->place;
+      };
+      gone[i] = out_.rows[i].over_range || !Subtract(i, lamp_off);
+      out_.rows[i].ambient_subtracted = !gone[i];
+      separated += gone[i] ? 0 : 1;
+    }
+    const bool alone = std::any_of(out_.rows.begin(), out_.rows.end(), [&](const Observation& o) {
+      return o.lit && relative_[&o - out_.rows.data()].source->others_lit.empty();
+    });
+    if (mixed > 0 && separated == 0 && !alone) {
+      return Refused("not_separated", light_.name,
+                     "other lamps were lit in every reading of this one; read the same place once "
+                     "more with it off and the same others lit");
+    }
+    Keep(gone);
+    return {};
+  }
+
+  void Keep(const std::vector<bool>& gone) {
+    std::vector<Observation> kept;
+    std::vector<Extra> kept_extra;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (gone[i]) continue;
       kept.push_back(out_.rows[i]);
       kept_extra.push_back(relative_[i]);
     }
@@ -188,23 +228,54 @@ class Collector {
     relative_ = std::move(kept_extra);
   }
 
-  // Mean of the shadow-card readings at the same place, weighted by their sigmas.
-  void SubtractFrom(std::size_t i, std::vector<bool>& consumed) {
+  // Takes the mean of the readings `of`, weighted by their sigmas, from row i. False: there is
+  // none.
+  template <class Of>
+  bool Subtract(std::size_t i, const Of& of) {
     Observation& row = out_.rows[i];
     double weights = 0.0;
     double sum = 0.0;
     for (std::size_t j = 0; j < out_.rows.size(); ++j) {
-      if (!relative_[j].shadow || !SamePlace(row, j)) continue;
-      consumed[j] = true;
-      const double sigma = std::max(std::abs(out_.rows[j].raw_lx) * relative_[j].sigma,
-                                    kLeastSigma * std::abs(row.raw_lx));
+      if (!of(j)) continue;
+      const Observation& other = out_.rows[j];
+      double relative = relative_[j].sigma;
+      if (other.instrument != row.instrument) relative = std::hypot(relative, other.calibration);
+      const double sigma =
+          std::max(std::abs(other.raw_lx) * relative, kLeastSigma * std::abs(row.raw_lx));
       weights += 1.0 / (sigma * sigma);
-      sum += out_.rows[j].raw_lx / (sigma * sigma);
+      sum += other.raw_lx / (sigma * sigma);
     }
-    if (!(weights > 0.0)) return;
+    if (!(weights > 0.0)) return false;
     row.measured_lx = row.raw_lx - sum / weights;
     row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, 1.0 / std::sqrt(weights));
-    row.differenced = true;
+    return true;
+  }
+
+  void SubtractShadows() {
+    if (out_.shadow_readings == 0) return;
+    std::vector<bool> consumed(out_.rows.size(), false);
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.over_range || row.ambient_subtracted) continue;
+      const auto shadow = [&](std::size_t j) {
+        const bool here = relative_[j].shadow && SamePlace(row, j);
+        if (here) consumed[j] = true;
+        return here;
+      };
+      if (Subtract(i, shadow)) out_.rows[i].differenced = true;
+    }
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (consumed[i]) {
+        out_.shadow_used.push_back(out_.rows[i].index);
+        continue;
+      }
+      if (!relative_[i].shadow) continue;
+      out_.warnings.push_back({"shadow_unmatched", light_.name,
+                               "a shadow-card reading has no lamp-on reading at its distance; it "
+                               "counts as ambient light, within 30 %"});
+      relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
+    }
+    Keep(consumed);
   }
 
   [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
@@ -228,7 +299,7 @@ class Collector {
         std::isfinite(dimmest) ? kDarkFloor * dimmest : std::max(brightest, 0.1 / std::sqrt(12.0));
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       Observation& row = out_.rows[i];
-      if (row.differenced) continue;
+      if (row.differenced || row.ambient_subtracted) continue;
       const double proportional = std::abs(row.raw_lx) * relative_[i].sigma;
       row.sigma_lx = row.lit && row.raw_lx > 0.0 ? proportional : std::hypot(proportional, floor);
     }
@@ -238,12 +309,14 @@ class Collector {
     double sigma = 0.0;  // relative
     bool shadow = false;
     bool no_place = false;  // an off or shadow reading without a distance
+    const SessionReading* source = nullptr;
   };
 
   const Session& session_;
   const LightDescription& light_;
   Observations out_;
   std::vector<Extra> relative_;  // beside out_.rows
+  std::vector<std::string> instruments_;
 };
 
 }  // namespace

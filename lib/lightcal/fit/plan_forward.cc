@@ -43,6 +43,13 @@ std::optional<double> AmbientRatio(const Observations& observations) {
     off += row.measured_lx;
     ++count;
   }
+  const auto is_subtracted = [](const Observation& o) { return o.ambient_subtracted; };
+  const bool subtracted =
+      std::any_of(observations.rows.begin(), observations.rows.end(), is_subtracted) &&
+      std::all_of(observations.rows.begin(), observations.rows.end(), [&](const Observation& o) {
+        return is_subtracted(o) || (o.lit && o.differenced);
+      });
+  if (count == 0 && subtracted) return 0.0;
   if (count == 0 || !std::isfinite(dimmest)) return std::nullopt;
   return off / count / dimmest;
 }

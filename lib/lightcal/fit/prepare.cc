@@ -7,13 +7,13 @@
 #include <type_traits>
 #include <variant>
 
+#include "lightcal/fit/row_values.h"
 #include "lightcal/light/effects/detector_size.h"
 
 namespace lightcal::fit {
 namespace {
 
-constexpr double kLeastOffset = -0.9;       // of the shortest distance
-constexpr double kLinearBeyondSigma = 0.3;  // relative; such a reading's logarithm is not normal
+constexpr double kLeastOffset = -0.9;  // of the shortest distance
 constexpr int kDistancesForAmbient = 4;
 
 Scales ScalesOf(const Observations& observations) {
@@ -58,11 +58,9 @@ OffAxisPose Scaled(OffAxisPose pose, double length_m) {
 ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardModel& model,
                  const Scales& scales) {
   ReadingRow row;
-  const double lx = 1.0 / scales.illuminance_lx;
-  row.measured = observation.measured_lx * lx;
-  row.ambient_gain = observation.differenced ? 0.0 : 1.0;
-  row.sigma = observation.sigma_lx * lx;
-  row.form = ReadingRow::Form::kLinear;
+  FillRowValues(observation, i, model, scales.length_m, scales.illuminance_lx, row);
+  row.calibration = observation.calibration;
+  row.instrument = observation.instrument;
   if (!observation.lit) {
     row.direct_gain = 0.0;
     return row;
@@ -78,14 +76,6 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.direct_gain *= observation.table_part;
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
-  }
-  if (!observation.differenced && i < model.bounce_per_candela.size()) {
-    row.bounce = model.bounce_per_candela[i] * scales.length_m * scales.length_m;
-  }
-  const double relative = observation.sigma_lx / observation.measured_lx;
-  if (observation.measured_lx > 0.0 && relative < kLinearBeyondSigma) {
-    row.form = observation.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
-    row.sigma = relative;
   }
   return row;
 }

@@ -31,6 +31,8 @@ struct ReadingRow {
   double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
   double measured = 0.0;
   double sigma = 1.0;
+  double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
+  int instrument = 0;
 };
 
 // Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off

@@ -245,12 +245,17 @@ double SlopeAlongAmbient(const Estimation& estimation, const Theta& theta) {
 
 }  // namespace
 
-std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
+std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start) {
   std::optional<Theta> theta = SolveTiny(estimation, start, false);
   if (theta && estimation.rules[kAmbient].free && (*theta)[kAmbient] < 0.0) {
     theta = SolveTiny(estimation, {(*theta)[0], (*theta)[1], 0.0}, true);
     if (theta && SlopeAlongAmbient(estimation, *theta) < 0.0) return std::nullopt;
   }
+  return theta;
+}
+
+std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
+  const std::optional<Theta> theta = SolveCoarsely(estimation, start);
   if (!theta) return std::nullopt;
   return Polish(estimation, *theta);
 }

@@ -46,6 +46,9 @@ inline constexpr double kTukeyConstant = 4.685;
 // 1e-9; E0 at its bound is held there. Absent where it does not converge or d0 leaves its box.
 [[nodiscard]] std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start);
 
+// The same to 1e-7 of a parameter, for samples.
+[[nodiscard]] std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start);
+
 // Whitened residual of one row at theta.
 [[nodiscard]] double RowResidual(const ReadingRow& row, const Theta& theta);
 // Whitened residual and its derivatives by (ln I, d0, E0).

@@ -21,6 +21,7 @@ namespace {
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr double kDarkShare = 0.002;  // of the beam's peak: what a meter still sees in the dark
 constexpr std::size_t kStartsTried = 12;
+constexpr double kSpread = 1.5;
 
 using Parameters = std::array<double, kSpotParameters>;
 
@@ -229,6 +230,30 @@ Information InformationAt(const Beam& beam, const Parameters& p) {
   return information;
 }
 
+// The covariance averaged over the estimate's own spread (itself and kSpread standard deviations to both
+// sides along each axis). A reading on the edge of the inner cone tells much on one side of it and
+// nothing on the other, so that the curvature at the estimate alone may claim four times too much.
+Information SpreadCovariance(const Beam& beam, const Parameters& p) {
+  const Information at = InformationAt(beam, p);
+  const Eigen::SelfAdjointEigenSolver<Information> axes(at);
+  Information sum = at.inverse();
+  int count = 1;
+  for (int k = 0; k < kSpotParameters; ++k) {
+    const double sd = kSpread / std::sqrt(axes.eigenvalues()[k]);
+    for (const double side : {-1.0, 1.0}) {
+      Parameters moved = p;
+      for (int j = 0; j < kSpotParameters; ++j) {
+        if (beam.free[j]) moved[j] += side * sd * axes.eigenvectors()(j, k);
+      }
+      const Information there = InformationAt(beam, moved).inverse();
+      if (!there.allFinite()) continue;
+      sum += there;
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
 }  // namespace
 
 bool NeedsBeam(const Observations& observations, const LightDescription& light) {
@@ -268,11 +293,11 @@ Result<SpotBeam> FitSpotBeam(const Observations& observations, const LightDescri
                    "no cone fits the readings; give outer_deg, or read across the beam's edge");
   }
   const Parameters& p = best->p;
-  const Information information = InformationAt(beam, p);
+  const Information spread = SpreadCovariance(beam, p);
   const int free = static_cast<int>(std::count(beam.free.begin(), beam.free.end(), true));
   const int dof = static_cast<int>(beam.readings.size()) - (free - 1);
   const double birge = dof > 0 ? std::max(1.0, best->chi_squared / dof) : 1.0;
-  const Information covariance = information.inverse() * birge;
+  const Information covariance = spread * birge;
   const double x = LogisticOf(p[kSpotOuter]);
   const double share = LogisticOf(p[kSpotInner]);
   SpotBeam out;
@@ -296,7 +321,7 @@ Result<SpotBeam> FitSpotBeam(const Observations& observations, const LightDescri
   out.aim = aim * (1.0 / Length(aim));
   out.aim_sd = Radians(
       std::sqrt(std::max(covariance(kSpotAimX, kSpotAimX), covariance(kSpotAimY, kSpotAimY))));
-  const Eigen::Matrix2d cone_known = information.topLeftCorner<2, 2>().inverse() * birge;
+  const Eigen::Matrix2d cone_known = InformationAt(beam, p).topLeftCorner<2, 2>().inverse() * birge;
   out.ln_intensity_extra_variance =
       std::max(0.0, covariance(kSpotLnIntensity, kSpotLnIntensity) - cone_known(0, 0));
   return out;

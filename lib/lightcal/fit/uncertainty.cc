@@ -2,6 +2,7 @@
 #include "lightcal/fit/uncertainty.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -122,6 +123,25 @@ void AddConsidered(const UncertaintyInput& input, const Linearised& at, const Ma
   }
 }
 
+// Each instrument's calibration changes all of its rows by one factor.
+void AddCalibrations(const UncertaintyInput& input, const Linearised& at, const Matrix3& covariance,
+                     Matrix3& total) {
+  const std::vector<ReadingRow>& rows = input.estimation->rows;
+  int instruments = 0;
+  for (const ReadingRow& row : rows) instruments = std::max(instruments, row.instrument + 1);
+  for (int k = 0; k < instruments; ++k) {
+    Eigen::VectorXd whitened(at.jacobian.rows());
+    for (Eigen::Index i = 0; i < whitened.size(); ++i) {
+      const ReadingRow& row = rows[i];
+      const double unit = row.form == ReadingRow::Form::kLinear ? row.measured : 1.0;
+      whitened[i] =
+          row.instrument == k ? row.calibration * unit / (row.sigma * input.row_scale) : 0.0;
+    }
+    const Vector3 shift = ConsideredShift(covariance, at.jacobian, whitened);
+    total += shift * shift.transpose();
+  }
+}
+
 bool Determines(const Matrix3& triangle) {
   for (int k = 0; k < kParameters; ++k) {
     if (!(std::abs(triangle(k, k)) > 1e-300) || !std::isfinite(triangle(k, k))) return false;
@@ -149,6 +169,7 @@ Result<Covariance> EstimateCovariance(const UncertaintyInput& input) {
   if (estimation.rules[kAmbient].free) CutAmbient(input, at, covariance, total);
   AddHeldParameters(estimation, at, covariance, total);
   AddConsidered(input, at, covariance, total);
+  AddCalibrations(input, at, covariance, total);
   Covariance out{};
   for (int i = 0; i < kParameters; ++i) {
     for (int j = 0; j < kParameters; ++j) {

@@ -31,9 +31,11 @@ struct UncertaintyInput {
 // Covariance of (ln I, d0, E0) at theta: the inverse of J^T J of the whitened rows and of the
 // priors of the free parameters, by QR (weights may span 1e12), plus, for each parameter that is
 // held though uncertain (prior_sd > 0) and each considered influence, its standard deviation
-// carried through the estimate (Schmidt's consider covariance). A free E0 is bounded below by 0:
-// its marginal becomes the normal truncated there, and the others follow by their regression on it.
-// Fails: underdetermined (a free parameter no row and no prior determines).
+// carried through the estimate (Schmidt's consider covariance); so is each instrument's
+// calibration, a factor its rows have in common and more of them do not average away (JCGM 100,
+// F.1.2.3). A free E0 is bounded below by 0: its marginal becomes the normal truncated there, and
+// the others follow by their regression on it. Fails: underdetermined (a free parameter no row and
+// no prior determines).
 [[nodiscard]] Result<Covariance> EstimateCovariance(const UncertaintyInput& input);
 
 // Ratio of the largest to the smallest singular value of the whitened rows' Jacobian over the

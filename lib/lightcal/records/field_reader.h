@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lightcal/colorimetry/chromaticity.h"
@@ -85,6 +86,18 @@ class FieldReader {
   void Integers(std::string_view key, std::vector<int>& out);
   void Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule);
   void Texts(std::string_view key, std::vector<std::string>& out);
+  // A table of numbers under names of the person's own: { key = 2.0, fill = 1.5 }.
+  template <class T>
+  void NumbersByName(std::string_view key, std::vector<std::pair<std::string, T>>& out,
+                     const NumberRule& rule) {
+    const Node* table = Take(key, Node::Kind::kTable);
+    for (std::size_t i = 0; table != nullptr && i < table->members.size(); ++i) {
+      const Member& member = table->members[i];
+      if (const auto value = NumberOf(member.value, key, rule)) {
+        out.emplace_back(member.key, T(*value));
+      }
+    }
+  }
 
   // A table of its own that becomes *out; visit(archive, value).
   template <class T, class Visit>

@@ -81,6 +81,24 @@ void CheckMeasured(FieldReader& reader, const Reading& reading) {
   }
 }
 
+void CheckLit(FieldReader& reader, const Reading& reading, const LitKeys& keys) {
+  if (!keys.given) {
+    if (reader.Has("distances_m")) {
+      reader.Fail("distances_m", "distances_m goes with lit; beside light write distance_m");
+    }
+    return;
+  }
+  if (reader.Has("light") || reader.Has("lamp") || reading.shadow_card || reading.distance) {
+    reader.Fail("lit",
+                "lit names the lamps that were on; leave out light, lamp and shadow_card, and give "
+                "distances_m = { key = 2.0 } or position_m with normal instead of distance_m");
+  }
+  if (!reading.illuminance) reader.Fail("lit", "a reading of several lamps needs illuminance_lx");
+  if (!keys.distances.empty() && reading.position_m) {
+    reader.Fail("distances_m", "give distances_m, or position_m with normal, not both");
+  }
+}
+
 LineError BadLine(std::string_view where, std::string message) {
   return {{ErrorKind::kRefused, "bad_reading", std::string(where), std::move(message)}};
 }
@@ -94,7 +112,25 @@ void ReadReading(FieldReader& reader, Reading& reading) {
   CheckMeasured(reader, reading);
 }
 
+void ReadReading(FieldReader& reader, Reading& reading, LitKeys& keys) {
+  keys.given = reader.Has("lit");
+  reader.Texts("lit", keys.lit);
+  reader.NumbersByName("distances_m", keys.distances, kDistanceRule);
+  ReadReading(reader, reading);
+  CheckLit(reader, reading, keys);
+}
+
 tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::string_view where) {
+  LitKeys keys;
+  auto reading = ReadingFromLine(line, where, keys);
+  if (reading && keys.given) {
+    return tl::unexpected(BadLine(where, "lit: a reading of several lamps belongs to a session"));
+  }
+  return reading;
+}
+
+tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::string_view where,
+                                                 LitKeys& keys) {
   const auto node = ParseJson(line);
   if (!node) {
     LineError bad = BadLine(where, node.error().message);
@@ -108,7 +144,7 @@ tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::str
   ReadingOfFile file{std::string(where), "bad_reading", PlaceStyle::kJson, std::nullopt};
   FieldReader reader(*node, "", file);
   Reading reading;
-  ReadReading(reader, reading);
+  ReadReading(reader, reading, keys);
   if (file.error) return tl::unexpected(LineError{*std::move(file.error)});
   return reading;
 }

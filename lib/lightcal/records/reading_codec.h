@@ -3,7 +3,10 @@
 // room; ReadingToJson and ReadingFromJson are declared in session_codec.h.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/field_reader.h"
@@ -14,6 +17,15 @@ namespace lightcal::records {
 // Reads every key of a reading and checks that they agree with one another.
 void ReadReading(FieldReader& reader, Reading& reading);
 
+// The keys of a reading that names every lit lamp instead of one light.
+struct LitKeys {
+  bool given = false;
+  std::vector<std::string> lit;
+  std::vector<std::pair<std::string, Metres>> distances;
+};
+// The same with those keys; a reading has light or lit.
+void ReadReading(FieldReader& reader, Reading& reading, LitKeys& keys);
+
 // One journal line; on failure also whether it is no JSON at all, and whether it merely stops
 // early.
 struct LineError {
@@ -23,5 +35,8 @@ struct LineError {
 };
 [[nodiscard]] tl::expected<Reading, LineError> ReadingFromLine(std::string_view line,
                                                                std::string_view where);
+[[nodiscard]] tl::expected<Reading, LineError> ReadingFromLine(std::string_view line,
+                                                               std::string_view where,
+                                                               LitKeys& keys);
 
 }  // namespace lightcal::records

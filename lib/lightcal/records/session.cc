@@ -2,6 +2,8 @@
 #include "lightcal/records/session.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace lightcal {
 
@@ -10,6 +12,27 @@ double SigmaRelative(const Session& session, const Reading& reading) {
   const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
   if (meter != session.meters.end()) return meter->sigma_relative;
   return reading.meter == kDataSheetMeter ? kSigmaDataSheet : kSigmaUnnamedMeter;
+}
+
+double CalibrationRelative(const Session& session, const Reading& reading) {
+  if (reading.meter == kDataSheetMeter) return 0.0;
+  const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
+  const bool described = meter != session.meters.end();
+  if (described && meter->calibration_relative) return *meter->calibration_relative;
+  const bool own = reading.sigma_relative && InstrumentOf(reading).empty();
+  return own ? 0.0 : SigmaRelative(session, reading) / std::numbers::sqrt2;
+}
+
+double RepeatabilityRelative(const Session& session, const Reading& reading) {
+  constexpr double kLeastShare = 0.1;
+  const double sigma = SigmaRelative(session, reading);
+  const double calibration = CalibrationRelative(session, reading);
+  const double square = sigma * sigma - calibration * calibration;
+  return std::sqrt(std::max(square, kLeastShare * kLeastShare * sigma * sigma));
+}
+
+const std::string& InstrumentOf(const Reading& reading) {
+  return reading.meter.empty() ? reading.device : reading.meter;
 }
 
 const LightDescription* FindLight(const Session& session, std::string_view name) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "lightcal/core/units.h"
@@ -50,6 +51,8 @@ inline constexpr const char* kDataSheetMeter = "data_sheet";
 struct MeterDescription {
   std::string name;
   double sigma_relative = kSigmaUnnamedMeter;
+  // The part of it that all its readings share; see CalibrationRelative.
+  std::optional<double> calibration_relative{};
   std::optional<double> cosine_f2;
   std::optional<double> spectral_f1;
   std::optional<Metres> head_radius;
@@ -59,6 +62,19 @@ struct MeterDescription {
 struct SessionReading {
   Reading reading;
   std::string where;  // "session.toml [[reading]] 3", "readings.jsonl:7"
+  // Of a reading that names every lit lamp: which others shone too, and at which of the session's
+  // places it was taken (-1: not known to be any other reading's).
+  std::vector<std::string> others_lit{};
+  int place = -1;
+};
+
+// A reading that names every lamp that was lit, as written; SpreadLitReadings gives each light its
+// share.
+struct LitReading {
+  Reading reading;  // without light, lamp and distance
+  std::string where;
+  std::vector<std::string> lit;
+  std::vector<std::pair<std::string, Metres>> distances;  // from each lamp
 };
 
 struct Session {
@@ -68,7 +84,8 @@ struct Session {
   std::optional<Room> room;
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;
-  std::vector<SessionReading> readings;  // session.toml's first, then the journal's
+  std::vector<SessionReading> readings;  // session.toml's first, then the journal's, then lit ones
+  std::vector<LitReading> lit_readings;
   std::vector<CaptureDescription> captures;
   CameraDescription camera;
   std::vector<CameraFramesDescription> camera_frames;
@@ -77,6 +94,21 @@ struct Session {
 
 // The sigma a reading carries: its own, its meter's, the data sheet's, or the unnamed meter's.
 [[nodiscard]] double SigmaRelative(const Session& session, const Reading& reading);
+// Of that, what every reading of the same meter has in common: its calibration, 1 sigma, relative.
+// The meter's own calibration_relative, else sigma/sqrt(2); 0 for the data sheet and for a sigma
+// written on a reading of no named meter or device, whose error is taken as its own.
+[[nodiscard]] double CalibrationRelative(const Session& session, const Reading& reading);
+// The rest: sqrt(sigma^2 - calibration^2), at least a tenth of sigma.
+[[nodiscard]] double RepeatabilityRelative(const Session& session, const Reading& reading);
+// The instrument a reading's calibration belongs to: its meter's name, else its device, "" =
+// unnamed.
+[[nodiscard]] const std::string& InstrumentOf(const Reading& reading);
+
+// Adds, for each lit reading and each light, a SessionReading with the lamp on or off, the other
+// lit lamps beside it and the distance from it. Readings at one position, or at the same distance
+// from a lamp both name, stand in one place and share their distances; where none says, all do.
+void SpreadLitReadings(Session& session);
+
 [[nodiscard]] const LightDescription* FindLight(const Session& session, std::string_view name);
 
 }  // namespace lightcal

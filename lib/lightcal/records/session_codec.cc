@@ -78,8 +78,8 @@ class SessionReader {
       ReadMeter(r, meter);
       CheckName(r, out_.session.meters, "meter");
     });
-    reader.List("reading", session.readings,
-                [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
+    std::vector<SessionReading> rows;
+    reader.List("reading", rows, [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
     reader.List("capture", session.captures,
                 [this](FieldReader& r, CaptureDescription& c) { ReadCaptureOfLight(r, c); });
     std::optional<CameraDescription> camera;
@@ -150,11 +150,17 @@ class SessionReader {
   static void ReadMeter(FieldReader& reader, MeterDescription& meter) {
     reader.Text("name", meter.name);
     reader.Number("sigma_relative", meter.sigma_relative, kSigmaRule);
+    reader.Number("calibration_relative", meter.calibration_relative, kErrorFractionRule);
     reader.Number("cosine_f2", meter.cosine_f2, kErrorFractionRule);
     reader.Number("spectral_f1", meter.spectral_f1, kErrorFractionRule);
     reader.Number("head_radius_m", meter.head_radius, kPositive);
     reader.Require({"name"});
     reader.Finish();
+    if (meter.calibration_relative && *meter.calibration_relative > meter.sigma_relative) {
+      reader.Fail("calibration_relative",
+                  "calibration_relative exceeds sigma_relative, of which it is a part; give the "
+                  "meter's whole sigma_relative beside it");
+    }
     if (meter.name == kDataSheetMeter) {
       reader.Fail("name",
                   "the name data_sheet is reserved for figures a manufacturer prints and "
@@ -164,11 +170,20 @@ class SessionReader {
 
   void ReadRow(FieldReader& reader, SessionReading& row) {
     row.where = std::string(where_) + " " + reader.Place();
-    reader.Require({"light"});
-    ReadReading(reader, row.reading);
+    if (!reader.Has("lit")) reader.Require({"light"});
+    LitKeys keys;
+    ReadReading(reader, row.reading, keys);
     if (reader.Failed()) return;
-    if (const auto strange = FindStrangeName(out_.session, row.reading)) {
+    Session& session = out_.session;
+    const auto strange = keys.given ? FindStrangeName(session, row.reading, keys)
+                                    : FindStrangeName(session, row.reading);
+    if (strange) {
       reader.Fail(strange->code, strange->key, strange->message);
+    } else if (keys.given) {
+      session.lit_readings.push_back(
+          {std::move(row.reading), row.where, std::move(keys.lit), std::move(keys.distances)});
+    } else {
+      session.readings.push_back(row);
     }
   }
 
@@ -210,14 +225,15 @@ std::string NearestAmong(std::string_view word, const std::vector<Named>& all) {
   return DidYouMean(word, names);
 }
 
-}  // namespace
+std::optional<StrangeName> StrangeLight(const Session& session, const std::string& name,
+                                        const char* key) {
+  if (FindLight(session, name) != nullptr) return std::nullopt;
+  return StrangeName{"unknown_light", key,
+                     std::string(key) + " = " + Quoted(name) + " names no [[light]]" +
+                         NearestAmong(name, session.lights)};
+}
 
-std::optional<StrangeName> FindStrangeName(const Session& session, const Reading& reading) {
-  if (FindLight(session, reading.light) == nullptr) {
-    return StrangeName{"unknown_light", "light",
-                       "light = " + Quoted(reading.light) + " names no [[light]]" +
-                           NearestAmong(reading.light, session.lights)};
-  }
+std::optional<StrangeName> StrangeMeter(const Session& session, const Reading& reading) {
   const bool known = reading.meter.empty() || reading.meter == kDataSheetMeter ||
                      std::ranges::any_of(session.meters, [&](const MeterDescription& meter) {
                        return meter.name == reading.meter;
@@ -226,6 +242,24 @@ std::optional<StrangeName> FindStrangeName(const Session& session, const Reading
   return StrangeName{"unknown_meter", "meter",
                      "meter = " + Quoted(reading.meter) + " names no [[meter]]" +
                          NearestAmong(reading.meter, session.meters)};
+}
+
+}  // namespace
+
+std::optional<StrangeName> FindStrangeName(const Session& session, const Reading& reading) {
+  if (auto light = StrangeLight(session, reading.light, "light")) return light;
+  return StrangeMeter(session, reading);
+}
+
+std::optional<StrangeName> FindStrangeName(const Session& session, const Reading& reading,
+                                           const LitKeys& keys) {
+  for (const std::string& name : keys.lit) {
+    if (auto light = StrangeLight(session, name, "lit")) return light;
+  }
+  for (const auto& [name, distance] : keys.distances) {
+    if (auto light = StrangeLight(session, name, "distances_m")) return light;
+  }
+  return StrangeMeter(session, reading);
 }
 
 Result<LoadedSession> ParseSession(std::string_view text, std::string_view where) {
@@ -254,6 +288,7 @@ Result<LoadedSession> ParseSession(std::string_view text, std::string_view where
 Result<Session> ParseSessionToml(std::string_view text, std::string_view where) {
   auto loaded = records::ParseSession(text, where);
   if (!loaded) return Propagate(std::move(loaded));
+  SpreadLitReadings(loaded->session);
   return std::move(loaded->session);
 }
 

@@ -102,8 +102,11 @@ class JournalReader {
  private:
   void ReadLine(std::string_view line, int number, bool closed, bool last) {
     const std::string where = file_name_ + ":" + std::to_string(number);
-    auto reading = records::ReadingFromLine(line, where);
-    if (reading) {
+    records::LitKeys keys;
+    auto reading = records::ReadingFromLine(line, where, keys);
+    if (reading && keys.given) {
+      TakeLitReading(*std::move(reading), std::move(keys), where);
+    } else if (reading) {
       TakeReading(*std::move(reading), where);
     } else if (last && (reading.error().torn || (!closed && reading.error().syntax))) {
       WarnTorn(where);
@@ -119,6 +122,15 @@ class JournalReader {
       Reject(where, strange->message);
     } else {
       loaded_.session.readings.push_back({std::move(reading), where});
+    }
+  }
+
+  void TakeLitReading(Reading reading, records::LitKeys keys, const std::string& where) {
+    if (const auto strange = records::FindStrangeName(loaded_.session, reading, keys)) {
+      Reject(where, strange->message);
+    } else {
+      loaded_.session.lit_readings.push_back(
+          {std::move(reading), where, std::move(keys.lit), std::move(keys.distances)});
     }
   }
 
@@ -162,11 +174,13 @@ Result<LoadedSession> LoadSession(const std::string& path) {
     return Propagate(std::move(added));
   }
   std::error_code error;
-  if (!fs::exists(paths.journal, error)) return loaded;
-  const auto journal = ReadWhole(paths.journal);
-  if (!journal) return Failed("unreadable", paths.journal.string(), "cannot be read as a file");
-  session.input_files.push_back(paths.journal.string());
-  JournalReader(*loaded, paths.journal.filename().string()).Read(*journal);
+  if (fs::exists(paths.journal, error)) {
+    const auto journal = ReadWhole(paths.journal);
+    if (!journal) return Failed("unreadable", paths.journal.string(), "cannot be read as a file");
+    session.input_files.push_back(paths.journal.string());
+    JournalReader(*loaded, paths.journal.filename().string()).Read(*journal);
+  }
+  SpreadLitReadings(session);
   return loaded;
 }
 

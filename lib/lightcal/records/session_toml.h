@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/reading_codec.h"
 #include "lightcal/records/session_codec.h"
 
 namespace lightcal::records {
@@ -22,5 +23,8 @@ struct StrangeName {
 };
 [[nodiscard]] std::optional<StrangeName> FindStrangeName(const Session& session,
                                                          const Reading& reading);
+[[nodiscard]] std::optional<StrangeName> FindStrangeName(const Session& session,
+                                                         const Reading& reading,
+                                                         const LitKeys& keys);
 
 }  // namespace lightcal::records

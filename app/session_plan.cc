@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_plan.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/plan_readings.h"
+#include "session_input.h"
+#include "session_names.h"
+
+namespace lightcal::app {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr double kAdvisedSpan = 8.0;
+constexpr std::size_t kCandidatesShown = 8;
+
+const char* WordOf(PlannedAction action) {
+  if (action == PlannedAction::kShadowCard) return "shadow_card";
+  return action == PlannedAction::kLampOff ? "lamp_off" : "read";
+}
+
+ordered_json JsonOf(const PlannedReading& reading) {
+  ordered_json json = {{"action", WordOf(reading.action)}};
+  if (reading.distance) json["distance_m"] = reading.distance->value();
+  if (reading.position_m) json["position_m"] = *reading.position_m;
+  if (reading.normal) json["normal"] = *reading.normal;
+  json["expected_lx"] = reading.expected.value();
+  json["u95_relative"] = reading.u95_relative;
+  json["say"] = SayPlannedReading(reading);
+  return json;
+}
+
+struct PlannedLight {
+  const LightDescription* light = nullptr;
+  Result<ReadingPlan> plan;
+};
+
+std::string SpanAdvice(const ReadingPlan& plan) {
+  const std::string wanted =
+      "distances in geometric steps that span 8 : 1 (0.5, 1, 2, 4 m) tell "
+      "the lamp, its offset and other light apart";
+  if (!plan.span) return wanted;
+  if (*plan.span >= kAdvisedSpan * (1.0 - 1e-9)) return "";
+  return wanted + "; so far they span " + RoundedText(*plan.span, 2) + " : 1";
+}
+
+// What no interval of typed readings holds.
+std::string AdviceOf(const PlannedLight& planned, const Session& session) {
+  const LightKind kind = planned.light->kind;
+  if (kind == LightKind::kDirectional || kind == LightKind::kDome) return "";
+  std::string advice = SpanAdvice(*planned.plan);
+  const bool card = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == planned.light->name && row.reading.shadow_card;
+  });
+  if (!card) {
+    advice += advice.empty() ? "" : ". ";
+    advice += "No shadow-card reading yet: without one the room's bounce counts as the lamp";
+  }
+  return advice;
+}
+
+std::string Percent(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
+
+ordered_json JsonOf(const PlannedLight& planned, const Session& session) {
+  ordered_json json = {{"name", planned.light->name}};
+  if (!planned.plan) {
+    const Error& error = planned.plan.error();
+    json["refused"] = {{"code", error.code}, {"message", error.message}};
+    return json;
+  }
+  const ReadingPlan& plan = *planned.plan;
+  if (plan.u95_relative) json["u95_relative"] = *plan.u95_relative;
+  if (plan.span) json["span"] = *plan.span;
+  json["steps"] = ordered_json::array();
+  for (const PlannedReading& step : plan.steps) json["steps"].push_back(JsonOf(step));
+  json["candidates"] = ordered_json::array();
+  for (const PlannedReading& one : plan.candidates) json["candidates"].push_back(JsonOf(one));
+  const std::string advice = AdviceOf(planned, session);
+  if (!advice.empty()) json["advice"] = advice;
+  return json;
+}
+
+std::string TextOf(const PlannedLight& planned, const Session& session, bool verbose) {
+  std::string text = planned.light->name + ": ";
+  if (!planned.plan) return text + planned.plan.error().message + "\n";
+  const ReadingPlan& plan = *planned.plan;
+  text += plan.u95_relative ? "now " + Percent(*plan.u95_relative) + " (95 %)\n"
+                            : std::string("no reading yet\n");
+  std::vector<std::vector<std::string>> rows;
+  for (const PlannedReading& step : plan.steps) {
+    rows.push_back({std::to_string(rows.size() + 1), SayPlannedReading(step),
+                    RoundedText(step.expected.value(), 3) + " lx", Percent(step.u95_relative)});
+  }
+  text += TextTable({"step", "take this reading", "expect about", "then"}, rows);
+  if (verbose) {
+    rows.clear();
+    for (const PlannedReading& one : plan.candidates) {
+      if (rows.size() == kCandidatesShown) break;
+      rows.push_back({SayPlannedReading(one), Percent(one.u95_relative)});
+    }
+    text += "\n" + TextTable({"or first", "then"}, rows);
+  }
+  const std::string advice = AdviceOf(planned, session);
+  return text + (advice.empty() ? "" : "advice: " + advice + "\n");
+}
+
+}  // namespace
+
+Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
+  const auto tolerance = ParseTolerance(options.calibration.tolerance);
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  const auto session =
+      LoadMeasuredSession(options.calibration.session, console, options.calibration.full_angles);
+  if (!session) return tl::unexpected(session.error());
+  if (!options.light.empty()) {
+    if (auto known = CheckNames(*session, options.light, ""); !known) return known;
+  }
+  const FitSettings settings{*tolerance, options.calibration.effects};
+  std::vector<PlannedLight> planned;
+  const Error* refused = nullptr;
+  bool any = false;
+  for (const LightDescription& light : session->lights) {
+    if (!options.light.empty() && light.name != options.light) continue;
+    planned.push_back({&light, PlanReadings(*session, light.name, settings, options.steps)});
+    any = any || planned.back().plan.has_value();
+  }
+  if (!any && !planned.empty()) refused = &planned.front().plan.error();
+  if (refused != nullptr) return tl::unexpected(*refused);
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  ordered_json document = {{"lights", ordered_json::array()}};
+  for (const PlannedLight& light : planned) {
+    console.Print((&light == planned.data() ? "" : "\n") +
+                  TextOf(light, *session, console.verbose()));
+    document["lights"].push_back(JsonOf(light, *session));
+  }
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal plan SESSION: the next readings of every light, and how sure it will then be.
+#pragma once
+
+#include <string>
+
+#include "calibration_options.h"
+#include "console.h"
+#include "lightcal/core/result.h"
+
+namespace lightcal::app {
+
+struct SessionPlanOptions {
+  CalibrationOptions calibration;
+  std::string light;  // "" = all
+  int steps = 3;
+};
+
+// Prints the plan. A light whose readings are refused shows what the refusal asks for; refused only
+// where every light is. Fails as LoadMeasuredSession.
+[[nodiscard]] Result<void> PlanSession(const SessionPlanOptions& options, Console& console);
+
+}  // namespace lightcal::app

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which next reading lowers a lamp's uncertainty most, and what the uncertainty will then be.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal {
+
+enum class PlannedAction : std::uint8_t { kRead, kShadowCard, kLampOff };
+
+struct PlannedReading {
+  PlannedAction action = PlannedAction::kRead;
+  std::optional<Metres> distance;  // facing the lamp
+  std::optional<Vec3> position_m;  // or at this place
+  std::optional<Vec3> normal;
+  Lux expected{0.0};        // what the meter will show if the lamp is what it now seems
+  double u95_relative = 0;  // of the intensity (illuminance) once it is taken
+};
+
+struct ReadingPlan {
+  std::optional<double> u95_relative;      // now; absent before any reading
+  std::vector<PlannedReading> steps;       // in order, each on top of the former
+  std::vector<PlannedReading> candidates;  // for the first step, best first
+  std::optional<double> span;              // farthest over nearest distance so far
+};
+
+// c-optimal: of the readings a person could take next the one after which the interval of the
+// intensity is shortest, found by taking each in thought (at the illuminance the present estimate
+// predicts, by the meter used last) and fitting again; then the next on top of it. Candidates are
+// distances in geometric steps from 0.25 m to 10 m within a factor sqrt(8) of those taken, places
+// round those taken, across a spot's beam and on the axis of a lamp whose place and aim are known,
+// a shadow card where a reading stands, the lamp off. Before any reading the plan is that of a lamp
+// of its data sheet, or of any: relative uncertainty does not depend on its strength.
+// Refused: as FitSession (what the refusal asks for comes first), unknown_light.
+[[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
+                                               const FitSettings& settings, int steps);
+
+// "read at 1.41 m, facing the lamp", "hold a shadow card at 0.5 m ...".
+[[nodiscard]] std::string SayPlannedReading(const PlannedReading& reading);
+
+// Half of the 95 % interval of intensity or illuminance over its value; the larger side.
+[[nodiscard]] std::optional<double> RelativeUncertainty(const FittedLight& light);
+
+}  // namespace lightcal

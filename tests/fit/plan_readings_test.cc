@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The uncertainty a plan promises is the one that its reading brings.
+#include "lightcal/fit/plan_readings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "lamp_twin.h"
+#include "located_twin.h"
+
+namespace lightcal {
+namespace {
+
+using test::LampTruth;
+using test::LocatedTwin;
+using test::TwinSession;
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void TakeStep(const PlannedReading& step, TwinSession& twin) {
+  if (step.action == PlannedAction::kLampOff) {
+    twin.Off();
+  } else if (step.action == PlannedAction::kShadowCard) {
+    twin.ShadowCard(step.distance->value());
+  } else {
+    twin.On(step.distance->value());
+  }
+}
+
+double Obtained(const Session& session) {
+  const auto fitted = FitSession(session, {});
+  EXPECT_TRUE(fitted.has_value()) << fitted.error().message;
+  return fitted ? RelativeUncertainty(fitted->lights.lights.front()).value_or(NAN) : NAN;
+}
+
+LampTruth RandomLamp(std::mt19937_64& random, double nearest) {
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  LampTruth truth;
+  truth.intensity_cd = std::exp(5.0 + 2.0 * normal(random));
+  truth.offset_m = 0.05 * nearest * normal(random);
+  truth.ambient_lx = 0.001 * truth.intensity_cd * uniform(random);
+  return truth;
+}
+
+TEST(PlanReadings, TheNextReadingBringsThePromisedUncertainty) {
+  std::mt19937_64 random(61);
+  const std::vector<std::vector<double>> layouts = {{0.5}, {0.5, 1.0}, {1, 1.5, 2}, {0.5, 1, 2, 4}};
+  std::vector<double> ratios;
+  for (int i = 0; i < 200; ++i) {
+    const std::vector<double>& layout = layouts[static_cast<std::size_t>(i) % layouts.size()];
+    TwinSession twin(RandomLamp(random, layout.front()), 0.02, random());
+    twin.On(layout);
+    if (i % 3 == 0) twin.Off();
+    const auto plan = PlanReadings(twin.session(), "lamp", {}, 1);
+    ASSERT_TRUE(plan.has_value()) << plan.error().message;
+    ASSERT_EQ(plan->steps.size(), 1U);
+    EXPECT_LE(plan->steps.front().u95_relative, *plan->u95_relative * 1.02);
+    SCOPED_TRACE(std::to_string(i) + ": " + SayPlannedReading(plan->steps.front()));
+    TakeStep(plan->steps.front(), twin);
+    ratios.push_back(Obtained(twin.session()) / plan->steps.front().u95_relative);
+  }
+  EXPECT_NEAR(Median(ratios), 1.0, 0.1);
+  std::vector<double> apart;
+  for (const double r : ratios) apart.push_back(std::abs(r - 1.0));
+  EXPECT_LT(Median(apart), 0.1);
+  RecordProperty("median_ratio_ppm", static_cast<int>(1e6 * Median(ratios)));
+  RecordProperty("median_apart_ppm", static_cast<int>(1e6 * Median(apart)));
+}
+
+TEST(PlanReadings, BeforeAnyReadingTheWholePlanKeepsItsPromise) {
+  Session empty = TwinSession(LampTruth{}, 0.02, 1).session();
+  MeterDescription meter;
+  meter.name = "m";
+  meter.sigma_relative = 0.02;
+  meter.calibration_relative = 0.0;
+  empty.meters = {meter};
+  const auto plan = PlanReadings(empty, "lamp", {}, 5);
+  ASSERT_TRUE(plan.has_value()) << plan.error().message;
+  EXPECT_FALSE(plan->u95_relative.has_value());
+  ASSERT_EQ(plan->steps.size(), 5U);
+  std::mt19937_64 random(62);
+  std::vector<double> apart;
+  for (int i = 0; i < 200; ++i) {
+    LampTruth truth = RandomLamp(random, 0.5);
+    truth.ambient_lx = 0.0;
+    TwinSession twin(truth, 0.02, random());
+    for (const PlannedReading& step : plan->steps) TakeStep(step, twin);
+    apart.push_back(std::abs(Obtained(twin.session()) / plan->steps.back().u95_relative - 1.0));
+  }
+  EXPECT_LT(Median(apart), 0.1);
+}
+
+TEST(PlanReadings, ALampAtAnUnknownPlaceIsPlannedByPlaces) {
+  std::mt19937_64 random(63);
+  std::vector<double> apart;
+  for (int i = 0; i < 20; ++i) {
+    std::normal_distribution<double> normal;
+    test::PlacedLamp lamp;
+    lamp.position_m = {0.2 * normal(random), 0.2 * normal(random), 1.8 + 0.2 * normal(random)};
+    LocatedTwin twin(lamp, 0.01, random());
+    for (const Vec3& corner : test::SquareCorners(2.0)) twin.Flat(corner);
+    twin.Flat({0.0, 0.0, 0.0});
+    const auto plan = PlanReadings(twin.session(), "lamp", {}, 1);
+    ASSERT_TRUE(plan.has_value()) << plan.error().message;
+    ASSERT_FALSE(plan->steps.empty());
+    const auto place =
+        std::find_if(plan->candidates.begin(), plan->candidates.end(),
+                     [](const PlannedReading& r) { return r.action == PlannedAction::kRead; });
+    ASSERT_NE(place, plan->candidates.end());
+    ASSERT_TRUE(place->position_m.has_value());
+    twin.Flat(*place->position_m, *place->normal);
+    apart.push_back(std::abs(Obtained(twin.session()) / place->u95_relative - 1.0));
+  }
+  EXPECT_LT(Median(apart), 0.1);
+}
+
+TEST(PlanReadings, OneReadingAsksForAnotherDistance) {
+  TwinSession twin(LampTruth{}, 0.02, 3);
+  twin.On(0.5);
+  const auto plan = PlanReadings(twin.session(), "lamp", {}, 3);
+  ASSERT_TRUE(plan.has_value());
+  EXPECT_EQ(plan->steps.front().action, PlannedAction::kRead);
+  EXPECT_GT(plan->steps.front().distance->value(), 1.0);
+  EXPECT_EQ(plan->span, 1.0);
+  for (std::size_t i = 1; i < plan->steps.size(); ++i) {
+    EXPECT_LT(plan->steps[i].u95_relative, plan->steps[i - 1].u95_relative);
+  }
+}
+
+TEST(PlanReadings, AnUnknownLightIsRefused) {
+  EXPECT_EQ(PlanReadings(TwinSession(LampTruth{}, 0.02, 3).session(), "kye", {}, 1).error().code,
+            "unknown_light");
+}
+
+}  // namespace
+}  // namespace lightcal
