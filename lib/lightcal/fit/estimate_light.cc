@@ -306,6 +306,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   if (input.row_scale > 1.0) covariance = EstimateCovariance(input);
   if (!covariance) return Propagate(std::move(covariance));
 
+  out.variance_parts = VarianceParts(input);
   out.theta = estimate->theta;
   out.covariance = *covariance;
   out.ambient_free = prepared.estimation.rules[kAmbient].free;
