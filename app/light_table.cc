@@ -6,11 +6,14 @@
 
 #include "console.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/effects/effect_table.h"
 
 namespace lightcal::app {
 namespace {
 
 constexpr const char* kNone = "-";
+// Parts of less than a thousandth of the variance change nothing.
+constexpr double kLeastShareShown = 1e-3;
 
 std::string Percent(const std::optional<double>& relative) {
   return relative ? RoundedText(*relative * 100.0, 2) + " %" : kNone;
@@ -109,6 +112,28 @@ std::string EffectTable(const FittedLight& light) {
                     RoundedText(effect.cost_ns, 3) + " ns", effect.reason});
   }
   return TextTable({"effect", "state", "bound", "found", "cost", "why"}, rows);
+}
+
+std::string BudgetTable(const FittedLight& light) {
+  if (light.budget.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const BudgetPart& part : light.budget) {
+    if (part.share < kLeastShareShown) continue;
+    rows.push_back({part.name, RoundedText(part.sd_relative * 100.0, 2) + " %",
+                    RoundedText(part.share * 100.0, 2) + " %", part.halve});
+  }
+  return TextTable({"uncertainty from", "1 sigma", "share of u²", "what would halve it"}, rows);
+}
+
+std::string EffectsOfNoConcern(const FittedLight& light) {
+  if (light.effects.empty()) return "";
+  std::vector<std::string> names;
+  for (const Effect& effect : kEffects) {
+    const bool listed = std::ranges::any_of(
+        light.effects, [&](const EffectReport& e) { return e.name == effect.name; });
+    if (!listed) names.emplace_back(effect.name);
+  }
+  return names.empty() ? "" : "not of this scene: " + Join(names) + "\n";
 }
 
 }  // namespace lightcal::app

@@ -16,6 +16,11 @@ namespace lightcal::app {
 // The gate: one row an effect of one light.
 [[nodiscard]] std::string EffectTable(const FittedLight& light);
 
+// Where one light's uncertainty comes from, and what would halve each part; "" where nobody knows.
+[[nodiscard]] std::string BudgetTable(const FittedLight& light);
+// One line: the effects that this scene has nothing of.
+[[nodiscard]] std::string EffectsOfNoConcern(const FittedLight& light);
+
 // The row's headline number: intensity, else illuminance, else luminance, else flux.
 [[nodiscard]] std::string Headline(const FittedLight& light);
 

@@ -8,12 +8,35 @@
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal/report/gate_figure.h"
+#include "output_files.h"
+#include "picture_file.h"
 
 namespace lightcal::app {
 namespace {
 
-Result<void> RunExplain(const CalibrationOptions& options, Console& console) {
-  auto calibrated = Calibrate(options, console);
+struct Options {
+  CalibrationOptions calibration;
+  std::string plot;
+  bool force = false;
+};
+
+Result<void> WritePlot(const Options& options, const LightFile& lights) {
+  const auto tolerance = ParseTolerance(options.calibration.tolerance);
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  auto picture = PictureFile(options.plot, report::GatePlot(lights.lights, *tolerance));
+  if (!picture) return Propagate(std::move(picture));
+  return WriteOutputs({*std::move(picture)}, options.force);
+}
+
+nlohmann::ordered_json PartOf(const nlohmann::ordered_json& light) {
+  nlohmann::ordered_json part = {{"name", light["name"]}, {"effects", light["effects"]}};
+  if (light.contains("budget")) part["budget"] = light["budget"];
+  return part;
+}
+
+Result<void> RunExplain(const Options& options, Console& console) {
+  auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const auto json = LightFileToJson(calibrated->lights);
@@ -21,10 +44,14 @@ Result<void> RunExplain(const CalibrationOptions& options, Console& console) {
   const auto whole = nlohmann::ordered_json::parse(*json);
   nlohmann::ordered_json document = {{"lights", nlohmann::ordered_json::array()}};
   for (const auto& light : whole["lights"]) {
-    document["lights"].push_back({{"name", light["name"]}, {"effects", light["effects"]}});
+    document["lights"].push_back(PartOf(light));
+  }
+  if (!options.plot.empty()) {
+    if (auto written = WritePlot(options, calibrated->lights); !written) return written;
   }
   for (const FittedLight& light : calibrated->lights.lights) {
     console.Print(light.name + ": " + Headline(light) + "\n" + EffectTable(light) +
+                  EffectsOfNoConcern(light) + "\n" + BudgetTable(light) +
                   "next: " + NextStep(calibrated->session, light) + "\n\n");
   }
   console.PrintJson(document);
@@ -34,8 +61,14 @@ Result<void> RunExplain(const CalibrationOptions& options, Console& console) {
 }  // namespace
 
 Run BuildExplain(CLI::App& parser) {
-  auto options = std::make_shared<CalibrationOptions>();
-  AddCalibrationOptions(parser, *options);
+  auto options = std::make_shared<Options>();
+  AddCalibrationOptions(parser, options->calibration);
+  parser
+      .add_option("--plot", options->plot,
+                  "Write what the gate saves: cost and error of these lights beside other scenes")
+      ->type_name("FILE.svg|png");
+  parser.add_flag("--force", options->force,
+                  "Replace an existing file that lightcal did not write");
   return [options](Console& console) { return RunExplain(*options, console); };
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "run_cli.h"
@@ -193,6 +194,57 @@ TEST(Explain, ListsEveryEffectWithBoundStateAndCost) {
     EXPECT_GT(double(effect["cost_ns"]), 0.0) << effect;
     EXPECT_FALSE(std::string(effect["reason"]).empty()) << effect;
   }
+  double shares = 0.0;
+  for (const json& part : document["lights"][0]["budget"]) {
+    EXPECT_FALSE(std::string(part["halve"]).empty()) << part;
+    shares += double(part["share"]);
+  }
+  EXPECT_NEAR(shares, 1.0, 1e-3);
+}
+
+TEST(Explain, NamesNothingOfPicturesWhereNobodyTookOne) {
+  const std::string session = SampleData("sessions/three_real_lights");
+  const CliResult result = RunLightcal({"explain", session, "--json"});
+  EXPECT_EQ(result.out.find("rolling_shutter"), std::string::npos);
+  EXPECT_EQ(result.out.find("veiling_glare"), std::string::npos);
+  const CliResult told = RunLightcal({"explain", session});
+  EXPECT_NE(told.out.find("not of this scene: "), std::string::npos);
+  EXPECT_NE(told.out.find("what would halve it"), std::string::npos);
+}
+
+TEST(Explain, OverridesAreObeyed) {
+  const std::string session = SampleData("sessions/three_real_lights");
+  const auto states = [&](const std::string& effects) {
+    const CliResult result = RunLightcal({"explain", session, "--effects", effects, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::map<std::string, std::string> out;
+    const json document = json::parse(result.out);
+    for (const json& effect : document["lights"][0]["effects"]) {
+      out[effect["name"]] = effect["state"];
+    }
+    return out;
+  };
+  for (const auto& [name, state] : states("none")) EXPECT_EQ(state, "off") << name;
+  EXPECT_EQ(states("all")["haze"], "on");
+  EXPECT_EQ(states("auto")["haze"], "off");
+  EXPECT_EQ(states("+haze,-distance_offset")["haze"], "on");
+  EXPECT_EQ(states("+haze,-distance_offset")["distance_offset"], "off");
+  EXPECT_EQ(RunLightcal({"explain", session, "--effects", "+hase"}).exit_code, 2);
+}
+
+TEST(Explain, DrawsWhatTheGateSaves) {
+  const TempDir out;
+  const std::string svg = out.path() + "/gate.svg";
+  const std::string session = SampleData("sessions/three_real_lights");
+  ASSERT_EQ(RunLightcal({"explain", session, "--plot", svg}).exit_code, 0);
+  const std::string picture = ReadFile(svg);
+  for (const char* words : {"bare bulb, dark hall", "panel aslant, white room", "cob_bare",
+                            "tolerance 1 %", "every effect", "what the gate calls for"}) {
+    EXPECT_NE(picture.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(picture, ReadFile(std::string(LIGHTCAL_SOURCE_DIR) + "/lib/gate.svg"))
+      << "draw lib/gate.svg anew: lightcal explain sample_data/sessions/three_real_lights "
+         "--plot lib/gate.svg";
 }
 
 }  // namespace

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <set>
 
 #include "lightcal/light/effects/effect_table.h"
+#include "lightcal/light/intensity_table.h"
 
 namespace lightcal {
 namespace {
@@ -41,7 +43,7 @@ TEST(Gate, NamesEveryEffectOnceWithAPriceAndAReason) {
     EXPECT_FALSE(effect.reason.empty());
     EXPECT_GE(effect.finding.bound, 0.0);
   }
-  EXPECT_EQ(names.size(), 13U);
+  EXPECT_EQ(names.size(), 25U);
 }
 
 TEST(Gate, BoundsLeftOffTogetherStayWithinTheTolerance) {
@@ -124,6 +126,68 @@ TEST(Gate, AnUnknownNameIsAnErrorThatNamesTheNearest) {
   EXPECT_THAT(effects.error().message, HasSubstr("room_bounce"));
 }
 
+TEST(Gate, AnEffectOfNoConcernIsNotApplicableEvenWhenAllAreOn) {
+  for (const std::string_view overrides : {"auto", "all"}) {
+    for (const std::string_view name :
+         {"rolling_shutter", "vignetting", "veiling_glare", "noise", "storage", "engine_window",
+          "sh_truncation", "spectral_step", "table_interpolation"}) {
+      const GatedEffect effect = Named(Gate(OneReading(), 0.01, overrides), name);
+      EXPECT_FALSE(effect.finding.applies) << name;
+      EXPECT_EQ(effect.state, GateState::kOff) << name;
+      EXPECT_EQ(effect.finding.bound, 0.0) << name;
+      EXPECT_THAT(effect.reason, HasSubstr("not applicable")) << name;
+    }
+  }
+}
+
+TEST(Gate, WhatIsLeftOffTogetherIsCompounded) {
+  Scene scene = OneReading(1.0);
+  scene.ambient_ratio = 0.04;
+  scene.poses.front().tilt_rad = 0.2;
+  const auto effects = Gate(scene, 0.1);
+  double sum = 0.0;
+  double kept = 1.0;
+  for (const GatedEffect& effect : effects) {
+    if (!effect.ignored) continue;
+    sum += effect.finding.bound;
+    kept *= 1.0 - effect.finding.bound;
+  }
+  EXPECT_DOUBLE_EQ(LeftOffTogether(effects), 1.0 / kept - 1.0);
+  EXPECT_GT(LeftOffTogether(effects), sum);
+  EXPECT_LE(LeftOffTogether(effects), 0.1);
+}
+
+TEST(Gate, AnEffectThatIsOnStaysOnUntilItsBoundIsWellBelow) {
+  // A disk whose bound alone sits about a tolerance of 1 %; everything else far below.
+  const auto at = [](double distance) {
+    Scene scene = OneReading(distance);
+    scene.kind = LightKind::kDisk;
+    scene.size.diameter = Metres(0.2);
+    scene.ambient_ratio = 0.0;
+    scene.time.own_lamp = false;
+    return scene;
+  };
+  const auto bound = [&](double distance) { return effects::FindFiniteSource(at(distance)).bound; };
+  const double near = 1.0;     // 1 %: on
+  const double little = 1.12;  // 0.8 %
+  const double far = 1.35;     // 0.55 %
+  ASSERT_NEAR(bound(little), 0.008, 1e-4);
+  const auto on = Gate(at(near), 0.0112);
+  ASSERT_EQ(Named(on, "finite_source").state, GateState::kOn);
+  ASSERT_EQ(Named(Gate(at(little), 0.0112), "finite_source").state, GateState::kOff);
+  auto after = RegateEffects(on, at(little), 0.0112, "auto");
+  ASSERT_TRUE(after.has_value());
+  EXPECT_EQ(Named(*after, "finite_source").state, GateState::kOn);
+  EXPECT_FALSE(OutgrewShare(on, *after));
+  after = RegateEffects(on, at(far), 0.0112, "auto");
+  ASSERT_TRUE(after.has_value());
+  EXPECT_EQ(Named(*after, "finite_source").state, GateState::kOff);
+  const auto off = Gate(at(far), 0.0112);
+  after = RegateEffects(off, at(near), 0.0112, "auto");
+  ASSERT_TRUE(after.has_value());
+  EXPECT_TRUE(OutgrewShare(off, *after));
+}
+
 TEST(Effects, DistanceErrorBoundsWhatFiveMillimetresDo) {
   const EffectFinding finding = effects::FindDistanceError(OneReading(0.5));
   for (const double slip : {-0.005, -0.002, 0.003, 0.005}) {
@@ -181,6 +245,201 @@ TEST(Effects, NarrowBeamBoundsTheExactDisk) {
     const double exact = -2.0 / ((n + 1.0) * y) * std::expm1(-0.5 * (n + 1.0) * std::log1p(y));
     EXPECT_LE(std::abs(exact - 1.0), effects::FindNarrowBeam(scene).bound);
     EXPECT_GE(std::abs(exact - 1.0), 0.4 * effects::FindNarrowBeam(scene).bound);
+  }
+}
+
+TEST(Effects, OffItsAxisASourcesSizeStaysWithinItsBound) {
+  // Disk that shines as cos^n (n = 1 is Lambertian) and rectangle by midpoint sums, a facing meter.
+  const auto mean = [](double half_w, double half_h, bool disk, double n, const ScenePose& pose) {
+    const double s = std::sin(pose.emission_rad);
+    const double c = std::cos(pose.emission_rad);
+    const double d = pose.distance_m;
+    constexpr int kSteps = 80;
+    double sum = 0.0;
+    double area = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+      for (int j = 0; j < kSteps; ++j) {
+        double x = half_w * (2.0 * (i + 0.5) / kSteps - 1.0);
+        double y = half_h * (2.0 * (j + 0.5) / kSteps - 1.0);
+        if (disk && x * x + y * y > half_w * half_w) continue;
+        const double vx = d * s - x, vy = -y, vz = d * c;
+        const double r = std::sqrt(vx * vx + vy * vy + vz * vz);
+        sum += std::pow(vz / r, n) * (vx * s + vz * c) / (r * r * r);
+        area += 1.0;
+      }
+    }
+    return sum / area / (std::pow(c, n) / (d * d)) - 1.0;
+  };
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 120; ++i) {
+    Scene scene = OneReading(0.5 * std::pow(6.0, uniform(random)));
+    scene.poses.front().emission_rad = 0.01 + 0.9 * uniform(random);
+    const double half = 0.02 + 0.1 * uniform(random);
+    const double other = 0.02 + 0.1 * uniform(random);
+    const ScenePose& pose = scene.poses.front();
+    scene.kind = LightKind::kDisk;
+    scene.size.diameter = Metres(2.0 * half);
+    EXPECT_LE(std::abs(mean(half, half, true, 1.0, pose)),
+              effects::FindFiniteSource(scene).bound + 2e-4);
+    const double beam_deg = 15.0 + 90.0 * uniform(random);
+    scene.beam = RadiansFromDegrees(beam_deg);
+    const double n = effects::BeamExponent(RadiansFromDegrees(0.5 * beam_deg).value());
+    if (pose.emission_rad < RadiansFromDegrees(0.5 * beam_deg).value()) {
+      EXPECT_LE(std::abs(mean(half, half, true, n, pose)),
+                effects::FindNarrowBeam(scene).bound + 2e-4)
+          << n << " " << half / pose.distance_m << " " << pose.emission_rad;
+    }
+    scene.kind = LightKind::kRect;
+    scene.size = {};
+    scene.size.width = Metres(2.0 * half);
+    scene.size.height = Metres(2.0 * other);
+    EXPECT_LE(std::abs(mean(half, other, false, 1.0, pose)),
+              effects::FindFiniteSource(scene).bound + 2e-4);
+  }
+}
+
+TEST(Effects, FlickerBoundsPulsesAndRipplesAtEveryPhase) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 200; ++i) {
+    SceneTime time;
+    time.flicker_hz = 50.0 * std::pow(40.0, uniform(random));
+    const double window = 1e-3 * std::pow(500.0, uniform(random));
+    const double part = 0.05 + 0.9 * uniform(random);
+    const double begin = uniform(random) / *time.flicker_hz;
+    const bool pulses = i % 2 == 0;
+    (pulses ? time.duty : time.ripple) = part;
+    constexpr int kSteps = 40000;
+    double sum = 0.0;
+    for (int k = 0; k < kSteps; ++k) {
+      const double phase = *time.flicker_hz * (begin + window * (k + 0.5) / kSteps);
+      const double whole = phase - std::floor(phase);
+      sum += pulses ? (whole < part ? 1.0 / part : 0.0)
+                    : 1.0 + part * std::sin(2.0 * std::numbers::pi * phase);
+    }
+    EXPECT_LE(std::abs(sum / kSteps - 1.0), effects::FlickerBound(time, window) + 2e-3);
+  }
+}
+
+TEST(Effects, ARollingShutterAveragesOverItsRows) {
+  Scene scene = OneReading();
+  scene.picture.emplace();
+  scene.picture->exposure_s = 1e-3;
+  scene.time.duty = 0.5;
+  scene.picture->rows_s = 0.02;
+  const double banded = effects::FindRollingShutter(scene).bound;
+  EXPECT_NEAR(banded, 0.5 / (100.0 * 0.02), 1e-12);
+  EXPECT_LT(banded, effects::FindFlicker(scene).bound);
+  scene.picture->rows_s = 0.0;
+  EXPECT_FALSE(effects::FindRollingShutter(scene).applies);
+}
+
+TEST(Effects, WarmUpIsTheDriftLeftAndADefaultWhereNobodySays) {
+  Scene scene = OneReading();
+  EXPECT_NEAR(effects::FindWarmUp(scene).bound, 0.2 * std::exp(-2.0), 1e-12);
+  EXPECT_EQ(effects::FindWarmUp(scene).treatment, Treatment::kUnknown);
+  scene.time.on_for_s = 3600.0;
+  EXPECT_NEAR(effects::FindWarmUp(scene).bound, 0.2 * std::exp(-4.0), 1e-12);
+  scene.time.own_lamp = false;
+  EXPECT_FALSE(effects::FindWarmUp(scene).applies);
+}
+
+TEST(Effects, HorizonIsATestOfTheSourcesRadius) {
+  Scene scene = OneReading(1.0);
+  scene.kind = LightKind::kDisk;
+  scene.size.diameter = Metres(0.2);
+  EXPECT_EQ(effects::FindHorizon(scene).bound, 0.0);
+  scene.poses.front().tilt_rad = RadiansFromDegrees(85.0).value();
+  EXPECT_EQ(effects::FindHorizon(scene).bound, 1.0);
+}
+
+TEST(Effects, TableInterpolationBoundsSmoothLobesBetweenTheirNodes) {
+  for (const double n : {1.0, 4.0, 12.0, 30.0}) {
+    IntensityGrid grid{GoniometerType::kC, {0.0}, {}, {}};
+    const auto lobe = [n](double degrees) {
+      return std::pow(std::max(0.0, std::cos(RadiansFromDegrees(degrees).value())), n);
+    };
+    for (int i = 0; i <= 36; ++i) {
+      grid.vertical_deg.push_back(2.5 * i);
+      grid.candela.push_back(100.0 * lobe(2.5 * i));
+    }
+    const auto table = IntensityTable::Make(grid, "lobe");
+    ASSERT_TRUE(table.has_value());
+    Scene scene = OneReading();
+    scene.table = SceneTableOf(*table);
+    scene.poses.front().emission_rad = 0.3;
+    const double bound = effects::FindTableInterpolation(scene).bound;
+    double worst = 0.0;
+    for (double degrees = 0.0; degrees < 90.0; degrees += 0.1) {
+      const double between = table->At(Radians(0.0), RadiansFromDegrees(degrees)).value() / 100.0;
+      worst = std::max(worst, std::abs(between - lobe(degrees)));
+    }
+    EXPECT_LE(worst, bound) << n;
+    EXPECT_GE(worst, 0.3 * bound) << n;
+  }
+}
+
+TEST(Effects, ShTruncationBoundsASunAtEveryAngle) {
+  Scene scene = OneReading();
+  scene.kind = LightKind::kDome;
+  scene.probe = SceneProbe{0.4};
+  const double bound = effects::FindShTruncation(scene).bound;
+  for (double c = -1.0; c <= 1.0; c += 0.01) {
+    const double kernel = 0.25 + 0.5 * c + 0.3125 * 0.5 * (3.0 * c * c - 1.0);
+    EXPECT_LE(0.4 * std::abs(kernel - std::max(0.0, c)), bound + 1e-12);
+  }
+  EXPECT_NEAR(bound, 0.4 * 0.09375, 1e-12);
+}
+
+TEST(Effects, AnEnginesWindowIsItsOwnFormula) {
+  Scene scene = OneReading(1.0);
+  scene.window = SceneWindow{3.76, true};
+  EXPECT_NEAR(effects::FindEngineWindow(scene).bound, 0.01, 1e-4);
+  scene.window = SceneWindow{3.16, false};
+  EXPECT_NEAR(effects::FindEngineWindow(scene).bound, 0.01, 1e-4);
+  scene.window = SceneWindow{0.5, true};
+  EXPECT_EQ(effects::FindEngineWindow(scene).bound, 1.0);
+}
+
+TEST(Effects, PicturesHaveVignettingGlareNoiseAndStorage) {
+  Scene scene = OneReading();
+  scene.picture.emplace();
+  for (const double field : {0.05, 0.2, 0.4}) {
+    scene.picture->field_rad = field;
+    EXPECT_GE(effects::FindVignetting(scene).bound, 1.0 - std::pow(std::cos(field), 4.0));
+  }
+  scene.picture->glare = 0.02;
+  scene.picture->mean_over_patch = 0.5;
+  EXPECT_NEAR(effects::FindVeilingGlare(scene).bound, 0.01, 1e-12);
+  scene.picture->electrons = 9e4;
+  EXPECT_NEAR(effects::FindNoise(scene).bound, 0.01, 1e-12);
+  scene.picture->significant_bits = 11;
+  EXPECT_EQ(effects::FindStorage(scene).bound, std::ldexp(1.0, -11));
+  scene.picture->flat_field = true;
+  EXPECT_FALSE(effects::FindVignetting(scene).applies);
+}
+
+TEST(Effects, ASpectrumsStepIsBoundedForGaussianLines) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> uniform;
+  for (const double step : {1.0, 5.0, 10.0, 20.0}) {
+    for (const double width : {5.0, 10.0, 20.0, 50.0}) {
+      Scene scene = OneReading();
+      scene.spectrum = SceneSpectrum{step, width};
+      const double bound = effects::FindSpectralStep(scene).bound;
+      const double s = width / 2.3548200450309493;
+      for (int i = 0; i < 20; ++i) {
+        const double from = uniform(random) * step;
+        double sum = 0.0;
+        for (double x = -600.0 + from; x < 600.0; x += step) {
+          sum += std::exp(-0.5 * x * x / (s * s)) * step;
+        }
+        const double exact = s * std::sqrt(2.0 * std::numbers::pi);
+        EXPECT_TRUE(bound >= 1.0 || std::abs(sum / exact - 1.0) <= bound + 1e-9)
+            << step << " " << width;
+      }
+    }
   }
 }
 

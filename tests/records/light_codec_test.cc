@@ -97,6 +97,11 @@ TEST(LightJson, EffectsResidualsAndProvenanceComeBack) {
   EXPECT_FALSE(light.effects[1].contribution);
   EXPECT_EQ(light.effects[2].state, EffectState::kFitted);
   EXPECT_EQ(light.effects[2].reason, "near readings");
+  ASSERT_EQ(light.budget.size(), 1U);
+  EXPECT_EQ(light.budget[0].name, "readings");
+  EXPECT_EQ(light.budget[0].sd_relative, 1.0 / 30.0);
+  EXPECT_EQ(light.budget[0].share, 0.9);
+  EXPECT_EQ(light.budget[0].halve, "four times as many readings");
   ASSERT_EQ(light.residuals.size(), 2U);
   EXPECT_EQ(light.residuals[0].distance_m, 0.5);
   EXPECT_TRUE(light.residuals[0].used);

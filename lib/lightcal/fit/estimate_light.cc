@@ -319,6 +319,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
     out.sampled = *sampled;
   }
 
+  out.variance_parts = VarianceParts(input);
   out.theta = estimate->theta;
   out.covariance = *covariance;
   out.ambient_free = prepared.estimation.rules[kAmbient].free;

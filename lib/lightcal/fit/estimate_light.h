@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/budget.h"
 #include "lightcal/fit/monte_carlo.h"
 #include "lightcal/fit/observations.h"
 #include "lightcal/fit/uncertainty.h"
@@ -36,6 +37,7 @@ struct LightEstimate {
   Covariance covariance{};
   FitDiagnostics diagnostics;
   std::vector<ResidualRow> residuals;
+  std::vector<VariancePart> variance_parts;  // of ln I
   bool ambient_free = false;
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
   std::optional<double> upper_limit;

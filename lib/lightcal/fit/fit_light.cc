@@ -212,7 +212,7 @@ void WidenByShape(const fit::Observations& seen, fit::ForwardModel& model) {
     if (o.lit) nearest = std::min(nearest, o.distance_m);
   }
   const double off = 1.0 - AxialShapeFactor(model.shape, nearest);
-  if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0});
+  if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0, "finite_source"});
 }
 
 // A lamp at an unknown place: found once for the gate to see its distances, and again with what the
@@ -245,6 +245,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   out.fit = location->estimate.diagnostics;
   out.residuals = location->estimate.residuals;
   out.effects = fit::ReportEffects(*plan, seen, location->estimate);
+  out.budget = fit::BudgetOf(location->estimate.variance_parts);
   NameOffsetFound(out.effects);
   ReportCalibration(seen, out.effects);
   AddDerivedQuantities(light, out);
@@ -305,15 +306,26 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
     }
   }
   Append(warnings, std::move(observations->warnings));
-  Result<fit::ForwardPlan> plan = fit::PlanForward(session, light, *observations, settings);
+  const LightDescription seen = beam ? fit::WithBeam(light, *beam) : light;
+  Result<fit::ForwardPlan> plan = fit::PlanForward(session, seen, *observations, settings);
   if (!plan) return Propagate(std::move(plan));
   Result<fit::LightEstimate> estimate =
       fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
   if (!estimate) return Propagate(std::move(estimate));
+  Result<std::optional<fit::ForwardPlan>> again =
+      fit::PlanAfterFit(*plan, seen, *observations, settings, *estimate);
+  if (!again) return Propagate(std::move(again));
+  if (*again) {
+    plan = **std::move(again);
+    estimate =
+        fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
+    if (!estimate) return Propagate(std::move(estimate));
+  }
   if (settings.monte_carlo) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
     estimate->covariance[0] += beam->ln_intensity_extra_variance;
+    estimate->variance_parts.push_back({"cone", beam->ln_intensity_extra_variance});
     estimate->diagnostics.used += beyond;
     estimate->diagnostics.learned.emplace_back("cone");
   }
@@ -322,7 +334,8 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   out.residuals = estimate->residuals;
   out.effects = fit::ReportEffects(*plan, *observations, *estimate);
   ReportCalibration(*observations, out.effects);
-  AddDerivedQuantities(beam ? fit::WithBeam(light, *beam) : light, out);
+  if (!estimate->upper_limit) out.budget = fit::BudgetOf(estimate->variance_parts);
+  AddDerivedQuantities(seen, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
   return out;
 }

@@ -322,6 +322,12 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   if (TooVague(estimation, theta, *covariance)) {
     return RefuseLayout(kept.problem, kept.solutions, light.name);
   }
+  out.estimate.variance_parts = VarianceParts(
+      "readings_and_place", uncertainty.considered, [&](const std::vector<Consider>& considered) {
+        const auto some = EstimatePlacedCovariance(
+            estimation, theta, {uncertainty.row_scale, uncertainty.position_sd, considered});
+        return some ? (*some)[kPlacedLnIntensity * (kPlacedParameters + 1)] : -1.0;
+      });
   out.estimate.ambient_free = estimation.ambient.free;
   FillResiduals(observations, all, kept, out.estimate);
   FillEstimate(kept.problem.frame, theta, *covariance, out);

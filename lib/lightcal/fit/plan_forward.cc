@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "lightcal/light/effects/detector_size.h"
 #include "lightcal/light/gate.h"
@@ -54,6 +55,40 @@ std::optional<double> AmbientRatio(const Observations& observations) {
   return off / count / dimmest;
 }
 
+// Between the source's axis and the meter; 0 where nobody placed both.
+double EmissionOf(const LightDescription& light, const Observation& row) {
+  if (row.off_axis) {
+    const Vec3& p = row.off_axis->at.position;
+    const bool tube = std::holds_alternative<TubeSource>(row.off_axis->source);
+    return tube ? std::atan2(std::abs(p[0]), std::hypot(p[1], p[2]))
+                : std::atan2(std::hypot(p[0], p[1]), p[2]);
+  }
+  if (light.kind != LightKind::kPhotometric || !light.aim || !light.position_m || !row.position_m) {
+    return 0.0;
+  }
+  const Vec3 away = *row.position_m - *light.position_m;
+  return std::atan2(Length(Cross(*light.aim, away)), Dot(*light.aim, away));
+}
+
+// Who read, with what: a person's meter, a manufacturer, a camera.
+void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
+  scene.time.own_lamp = false;
+  bool pictures = false;
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light.name || !row.reading.illuminance) continue;
+    scene.time.own_lamp = scene.time.own_lamp || row.reading.meter != kDataSheetMeter;
+    pictures = pictures || row.reading.quality == MeterQuality::kDerived;
+  }
+  if (!pictures) return;
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
+    if (!scene.picture) scene.picture.emplace();
+    if (capture.exposure_s.empty()) continue;
+    scene.picture->exposure_s =
+        *std::min_element(capture.exposure_s.begin(), capture.exposure_s.end());
+  }
+}
+
 Scene SceneOf(const Session& session, const LightDescription& light,
               const Observations& observations) {
   Scene scene;
@@ -64,15 +99,22 @@ Scene SceneOf(const Session& session, const LightDescription& light,
   scene.inner = light.inner;
   scene.outer = light.outer;
   scene.beam = light.beam;
+  double least_part = 1.0;
   for (const Observation& row : observations.rows) {
     if (!row.lit) continue;
-    scene.poses.push_back(
-        {row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced, row.position_m});
+    scene.poses.push_back({row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced,
+                           row.position_m, EmissionOf(light, row)});
+    least_part = std::min(least_part, row.table_part);
   }
   scene.distances = CountDistinctDistances(observations.rows);
   scene.ambient_ratio = AmbientRatio(observations);
   if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance};
+  if (light.distribution) {
+    scene.table = SceneTableOf(*light.distribution);
+    scene.table->least_part = least_part;
+  }
   AddMeters(session, light, scene);
+  AddTime(session, light, scene);
   return scene;
 }
 
@@ -84,7 +126,7 @@ EffectState StateOf(GateState state) {
 // An influence of relative size sd at the farthest reading.
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
-  return {sd / std::pow(FarthestDistance(scene), power), power};
+  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name)};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
@@ -99,7 +141,7 @@ void ModelBounce(const Scene& scene, const Observations& observations, ForwardMo
     }
     model.bounce_per_candela.push_back(bounce);
   }
-  model.considered.push_back({kBounceSigma * mean, 2.0});
+  model.considered.push_back({kBounceSigma * mean, 2.0, "room_bounce"});
 }
 
 void ModelEffect(const Scene& scene, const LightDescription& light,
@@ -136,6 +178,22 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
   }
 }
 
+// What the size of a source placed off its axis does there, beside a point with the same lobe.
+double SizeOffAxis(const Observation& row) {
+  const Vec3& p = row.off_axis->at.position;
+  const double r = Length(p);
+  double lobe = 1.0;
+  if (std::holds_alternative<TubeSource>(row.off_axis->source)) {
+    lobe = std::hypot(p[1], p[2]) / r;
+  } else if (std::holds_alternative<DiskSource>(row.off_axis->source) ||
+             std::holds_alternative<RectSource>(row.off_axis->source)) {
+    lobe = p[2] / r;
+  } else {
+    return 0.0;
+  }
+  return row.emission / lobe - 1.0;
+}
+
 // What an effect did at the reading where it did most.
 std::optional<double> ContributionOf(const EffectReport& effect, const ForwardModel& model,
                                      const Observations& observations,
@@ -154,7 +212,7 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
     } else if (effect.name == "ambient") {
       part = estimate.theta[kAmbient] / row.raw_lx;
     } else if (effect.name == "finite_source") {
-      part = AxialShapeFactor(model.shape, d) - 1.0;
+      part = row.off_axis ? SizeOffAxis(row) : AxialShapeFactor(model.shape, d) - 1.0;
     } else if (effect.name == "meter_tilt") {
       part = std::cos(row.tilt_rad) - 1.0;
     } else if (effect.name == "room_bounce" && !model.bounce_per_candela.empty()) {
@@ -173,6 +231,26 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
   return most;
 }
 
+// The model and the report of what the gate decided.
+void Follow(const LightDescription& light, const Observations& observations, ForwardPlan& plan) {
+  plan.model = {};
+  plan.model.distance_law = HasDistanceLaw(light.kind);
+  plan.model.tilt = false;
+  plan.effects.clear();
+  for (GatedEffect& effect : plan.gated) {
+    // Lamp-off readings are fitted however little they show.
+    if (effect.name == "ambient" && plan.scene.ambient_ratio && effect.ignored) {
+      effect.ignored = false;
+      effect.state = GateState::kFitted;
+      effect.reason = effect.finding.reason;
+    }
+    Apply(plan.scene, light, observations, effect, plan.model);
+    if (!effect.finding.applies) continue;
+    plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
+                            std::nullopt, effect.cost_ns, effect.reason});
+  }
+}
+
 }  // namespace
 
 Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& light,
@@ -180,23 +258,41 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
   ForwardPlan plan;
   plan.model.distance_law = HasDistanceLaw(light.kind);
   plan.model.tilt = false;
-  const Scene scene = SceneOf(session, light, observations);
-  if (scene.poses.empty()) return plan;  // the estimate refuses: no reading of the lamp
+  plan.scene = SceneOf(session, light, observations);
+  if (plan.scene.poses.empty()) return plan;  // the estimate refuses: no reading of the lamp
   Result<std::vector<GatedEffect>> effects =
-      GateEffects(scene, settings.tolerance_relative, settings.effects);
+      GateEffects(plan.scene, settings.tolerance_relative, settings.effects);
   if (!effects) return Propagate(std::move(effects));
-  for (GatedEffect& effect : *effects) {
-    // Lamp-off readings are fitted however little they show.
-    if (effect.name == "ambient" && scene.ambient_ratio && effect.ignored) {
-      effect.ignored = false;
-      effect.state = GateState::kFitted;
-      effect.reason = effect.finding.reason;
-    }
-    Apply(scene, light, observations, effect, plan.model);
-    plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
-                            std::nullopt, effect.cost_ns, effect.reason});
-  }
+  plan.gated = *std::move(effects);
+  Follow(light, observations, plan);
   return plan;
+}
+
+Result<std::optional<ForwardPlan>> PlanAfterFit(const ForwardPlan& plan,
+                                                const LightDescription& light,
+                                                const Observations& observations,
+                                                const FitSettings& settings,
+                                                const LightEstimate& estimate) {
+  const double offset = estimate.theta[kDistanceOffset];
+  if (plan.gated.empty() || estimate.upper_limit || offset == 0.0) return std::nullopt;
+  ForwardPlan next;
+  next.scene = plan.scene;
+  for (ScenePose& pose : next.scene.poses) {
+    if (!pose.from_center) pose.distance_m = std::max(1e-6, pose.distance_m + offset);
+  }
+  Result<std::vector<GatedEffect>> effects =
+      RegateEffects(plan.gated, next.scene, settings.tolerance_relative, settings.effects);
+  if (!effects) return Propagate(std::move(effects));
+  if (!OutgrewShare(plan.gated, *effects)) return std::nullopt;
+  next.gated = *std::move(effects);
+  for (std::size_t i = 0; i < next.gated.size(); ++i) {
+    if (!plan.gated[i].ignored || next.gated[i].state == GateState::kOff) continue;
+    next.gated[i].reason += "; off at first, and outgrown by the distance offset found";
+  }
+  // Poses stay as read: the model adds the offset itself.
+  next.scene.poses = plan.scene.poses;
+  Follow(light, observations, next);
+  return next;
 }
 
 std::vector<EffectReport> ReportEffects(const ForwardPlan& plan, const Observations& observations,

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -19,6 +20,7 @@ using Covariance = std::array<double, std::size_t{kParameters} * kParameters>;
 struct Consider {
   double relative = 0.0;
   double distance_power = 0.0;
+  std::string name{};  // the effect it stands for
 };
 
 struct UncertaintyInput {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <numeric>
 
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
@@ -43,22 +45,34 @@ void SwitchOff(GatedEffect& effect, std::string why) {
   effect.reason = std::move(why);
 }
 
-void Decide(std::vector<GatedEffect>& effects, double tolerance) {
-  std::vector<GatedEffect*> order;
-  for (GatedEffect& effect : effects) order.push_back(&effect);
-  std::stable_sort(order.begin(), order.end(), [](const GatedEffect* a, const GatedEffect* b) {
-    return a->finding.bound < b->finding.bound;
-  });
-  double sum = 0.0;
-  for (GatedEffect* effect : order) {
-    const double bound = effect->finding.bound;
-    if (effect->finding.treatment != Treatment::kUnknown && sum + bound <= tolerance) {
-      sum += bound;
-      effect->ignored = true;
-      SwitchOff(*effect, "at most " + Percent(bound) + ", and all effects left off together " +
-                             Percent(sum) + ": " + effect->finding.reason);
+// Error left by effects that keep `kept` of the light between them.
+double Compounded(double kept) {
+  return kept > 0.0 ? 1.0 / kept - 1.0 : std::numeric_limits<double>::infinity();
+}
+
+bool IsOn(const GatedEffect& effect) { return effect.state != GateState::kOff; }
+
+// `slack` of an effect: what its bound is multiplied by before it may go off.
+void Decide(std::vector<GatedEffect>& effects, const std::vector<double>& slack, double tolerance) {
+  std::vector<std::size_t> order(effects.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) { return slack[i] * effects[i].finding.bound; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  double kept = 1.0;
+  for (const std::size_t i : order) {
+    GatedEffect& effect = effects[i];
+    const double bound = effect.finding.bound;
+    if (!effect.finding.applies) {
+      SwitchOff(effect, "not applicable: " + effect.finding.reason);
+    } else if (effect.finding.treatment != Treatment::kUnknown &&
+               Compounded(kept * (1.0 - std::min(1.0, key(i)))) <= tolerance) {
+      kept *= 1.0 - bound;
+      effect.ignored = true;
+      SwitchOff(effect, "at most " + Percent(bound) + ", and all effects left off together " +
+                            Percent(Compounded(kept)) + ": " + effect.finding.reason);
     } else {
-      SwitchOn(*effect);
+      SwitchOn(effect);
     }
   }
 }
@@ -99,25 +113,29 @@ Result<void> Override(std::vector<GatedEffect>& effects, std::string_view text) 
   return {};
 }
 
-}  // namespace
-
-Result<std::vector<GatedEffect>> GateEffects(const Scene& scene, double tolerance,
-                                             std::string_view overrides) {
+Result<std::vector<GatedEffect>> Gate(const Scene& scene, double tolerance,
+                                      std::string_view overrides,
+                                      const std::vector<GatedEffect>* before) {
   std::vector<GatedEffect> effects;
+  std::vector<double> slack;
   for (const Effect& effect : kEffects) {
     GatedEffect gated;
     gated.name = effect.name;
     gated.cost_ns = effect.cost_ns;
     gated.finding = effect.find(scene);
+    const bool was_on = before != nullptr && IsOn((*before)[effects.size()]);
+    slack.push_back(was_on ? 1.0 / kHysteresis : 1.0);
     effects.push_back(std::move(gated));
   }
   if (overrides == "none") {
     for (GatedEffect& effect : effects) SwitchOff(effect, "all effects are switched off");
     return effects;
   }
-  Decide(effects, tolerance);
+  Decide(effects, slack, tolerance);
   if (overrides == "all") {
-    for (GatedEffect& effect : effects) SwitchOn(effect);
+    for (GatedEffect& effect : effects) {
+      if (effect.finding.applies) SwitchOn(effect);
+    }
     return effects;
   }
   if (overrides.empty() || overrides == "auto") return effects;
@@ -125,6 +143,40 @@ Result<std::vector<GatedEffect>> GateEffects(const Scene& scene, double toleranc
     return tl::unexpected(std::move(done).error());
   }
   return effects;
+}
+
+}  // namespace
+
+Result<std::vector<GatedEffect>> GateEffects(const Scene& scene, double tolerance,
+                                             std::string_view overrides) {
+  return Gate(scene, tolerance, overrides, nullptr);
+}
+
+Result<std::vector<GatedEffect>> RegateEffects(const std::vector<GatedEffect>& before,
+                                               const Scene& fitted, double tolerance,
+                                               std::string_view overrides) {
+  return Gate(fitted, tolerance, overrides, &before);
+}
+
+bool OutgrewShare(const std::vector<GatedEffect>& before, const std::vector<GatedEffect>& after) {
+  for (std::size_t i = 0; i < before.size() && i < after.size(); ++i) {
+    if (before[i].ignored && IsOn(after[i])) return true;
+  }
+  return false;
+}
+
+double LeftOffTogether(const std::vector<GatedEffect>& effects) {
+  double kept = 1.0;
+  for (const GatedEffect& effect : effects) {
+    if (effect.ignored) kept *= 1.0 - effect.finding.bound;
+  }
+  return Compounded(kept);
+}
+
+double CostOf(const std::vector<GatedEffect>& effects) {
+  double cost_ns = 0.0;
+  for (const GatedEffect& effect : effects) cost_ns += IsOn(effect) ? effect.cost_ns : 0.0;
+  return cost_ns;
 }
 
 }  // namespace lightcal

@@ -23,14 +23,34 @@ struct GatedEffect {
   std::string reason;    // a sentence for people
 };
 
-// Finds every effect's bound for the scene, sorts by it, and leaves effects off while the sum of
-// the bounds left off stays within `tolerance` (the worst case, not the root of squares: 0
-// violations in 15 000 random scenes). The others are on when modelled, fitted when a parameter
-// takes them up; one that nothing here can bound is off and says so. `overrides`: "auto", "all",
-// "none", or
-// "+a,-b" on top of auto. In the order of the table.
+// An effect that is on stays on until its bound has fallen below this part of what would switch it
+// on.
+inline constexpr double kHysteresis = 0.7;
+
+// Finds every effect's bound for the scene, sorts by it, and leaves effects off while what is left
+// off together stays within `tolerance`: the worst case, compounded as 1/((1 - b1)(1 - b2)...) - 1,
+// which the bounds' sum never exceeds and which bounds |model/truth - 1| whatever their signs. The
+// others are on when modelled, fitted when a parameter takes them up; one that nothing here can
+// bound is off and says so. `overrides`: "auto", "all", "none", or "+a,-b" on top of auto. In the
+// order of the table.
 // Fails: usage (an unknown name; the nearest known one is given).
 [[nodiscard]] Result<std::vector<GatedEffect>> GateEffects(const Scene& scene, double tolerance,
                                                            std::string_view overrides);
+
+// The same with the scene as the fit found it. Effects that were on in `before` go off only where
+// 1/kHysteresis times their bound would fit.   Fails: as GateEffects.
+[[nodiscard]] Result<std::vector<GatedEffect>> RegateEffects(const std::vector<GatedEffect>& before,
+                                                             const Scene& fitted, double tolerance,
+                                                             std::string_view overrides);
+
+// Whether an effect left off in `before` outgrew its share: it is on or fitted in `after`.
+[[nodiscard]] bool OutgrewShare(const std::vector<GatedEffect>& before,
+                                const std::vector<GatedEffect>& after);
+
+// What the effects left off for being small can do together: 1/((1 - b1)(1 - b2)...) - 1.
+[[nodiscard]] double LeftOffTogether(const std::vector<GatedEffect>& effects);
+
+// Declared price of those that are on or fitted, in ns of one evaluation.
+[[nodiscard]] double CostOf(const std::vector<GatedEffect>& effects);
 
 }  // namespace lightcal

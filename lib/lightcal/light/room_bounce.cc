@@ -19,13 +19,14 @@ constexpr double kInside = 0.05;  // metres between a point and the wall it was 
 class Pattern {
  public:
   explicit Pattern(const Scene& scene) : aim_(scene.aim) {
-    if (scene.kind == LightKind::kDisk || scene.kind == LightKind::kRect) {
-      exponent_ = 1.0;
-    } else if (scene.outer) {
+    const bool flat = scene.kind == LightKind::kDisk || scene.kind == LightKind::kRect;
+    if (scene.outer && !flat) {
       cone_ = SpotCone{scene.inner.value_or(Radians(0.0)), *scene.outer};
     } else if (scene.beam && scene.beam->value() > 0.0 &&
                scene.beam->value() < RadiansFromDegrees(170.0).value()) {
       exponent_ = std::log(0.5) / std::log(std::cos(0.5 * scene.beam->value()));
+    } else if (flat) {
+      exponent_ = 1.0;
     }
     even_ = !cone_ && exponent_ == 0.0;
   }
@@ -134,6 +135,7 @@ Bounce BounceAt(const Scene& scene, const ScenePose& pose) {
   Pattern pattern(scene);
   pattern.AimAt(receiver.normal * -1.0);
   Bounce out;
+  out.toward = pattern.Toward(receiver.normal * -1.0);
   for (int axis = 0; axis < 3; ++axis) {
     const double low = axis == 2 ? 0.0 : -0.5 * size[axis];
     out.first += FromWall(scene, pattern, lamp, receiver, axis, low, 1.0);

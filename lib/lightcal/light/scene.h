@@ -12,6 +12,8 @@
 
 namespace lightcal {
 
+class IntensityTable;
+
 // A grey box of a room. The origin lies on the floor under its middle, Z up.
 struct RoomBox {
   Vec3 size_m{};
@@ -25,6 +27,57 @@ struct ScenePose {
   bool from_center = false;  // distance between two known positions: holds no offset
   bool differenced = false;  // shadow card subtracted: no ambient light, no bounce
   std::optional<Vec3> position_m;
+  // Between the source's axis and the meter, where lamp, aim and meter are placed (a tube: out of
+  // the plane square to it); 0 on the axis.
+  double emission_rad = 0.0;
+};
+
+// The lamp in time, and how long one reading gathers its light.
+struct SceneTime {
+  bool own_lamp = true;                  // false: every figure is the manufacturer's
+  std::optional<double> flicker_hz;      // twice the mains frequency, or the dimmer's
+  std::optional<double> duty;            // lit part of a period: pulse width modulation
+  std::optional<double> ripple;          // (max - min)/(max + min) of a smooth ripple
+  std::optional<double> window_s;        // of one reading
+  std::optional<double> on_for_s;        // since the lamp was switched on
+  std::optional<bool> filament;          // follows the mains voltage
+  std::optional<double> haze_per_metre;  // extinction of the air
+};
+
+// Readings that come out of pictures.
+struct ScenePicture {
+  std::optional<double> exposure_s;
+  std::optional<double> rows_s;     // from the first to the last row averaged; 0 = global shutter
+  std::optional<double> field_rad;  // of the patch off the lens's axis
+  bool flat_field = false;          // divided by the lens's own map
+  std::optional<double> glare;      // of the lens: part of the picture's mean on every pixel
+  std::optional<double> mean_over_patch;  // the picture's mean luminance over the patch's
+  std::optional<double> electrons;        // gathered by the whole patch
+  int significant_bits = 24;              // of a stored sample: 11 half, 9 RGBE, 24 float
+};
+
+// A distribution as a table of directions.
+struct SceneTable {
+  double step_rad = 0.0;           // the largest between two nodes of a plane
+  double second_difference = 0.0;  // the largest along a plane, over the peak
+  double least_part = 1.0;         // intensity over the peak, where a reading saw least
+};
+
+// An environment as spherical harmonics of order 2.
+struct SceneProbe {
+  double small_lights = 0.0;  // int L dw of its sun and lamps over the illuminance
+};
+
+// An engine's range around a punctual light.
+struct SceneWindow {
+  double range_m = 0.0;
+  bool squared = true;
+};
+
+// Illuminance as a sum over a spectrum.
+struct SceneSpectrum {
+  double step_nm = 5.0;
+  std::optional<double> narrowest_nm;  // full width at half maximum of its narrowest line
 };
 
 struct Scene {
@@ -41,11 +94,21 @@ struct Scene {
   std::optional<double> spectral_f1;  // of the worst meter that states it, fraction
   std::optional<double> cosine_f2;
   std::optional<Metres> head_radius;
+  SceneTime time;
+  std::optional<ScenePicture> picture;
+  std::optional<SceneTable> table;
+  std::optional<SceneProbe> probe;
+  std::optional<SceneWindow> window;
+  std::optional<SceneSpectrum> spectrum;
 };
+
+// The table's largest step and second difference along its planes, as its file has them.
+[[nodiscard]] SceneTable SceneTableOf(const IntensityTable& table);
 
 [[nodiscard]] double NearestDistance(const Scene& scene);
 [[nodiscard]] double FarthestDistance(const Scene& scene);
 [[nodiscard]] double LargestTilt(const Scene& scene);
+[[nodiscard]] double LargestEmission(const Scene& scene);
 // Whether the light follows a distance at all.
 [[nodiscard]] bool FollowsDistance(const Scene& scene);
 // The radius around the axis that the source fills: half its largest side; absent when unknown.

@@ -46,6 +46,14 @@ struct EffectReport {
   std::string reason;
 };
 
+// One cause of a light's uncertainty.
+struct BudgetPart {
+  std::string name;          // "readings", a held parameter, or an effect's name
+  double sd_relative = 0.0;  // standard deviation of the intensity it causes alone
+  double share = 0.0;        // of the variance; all parts make 1
+  std::string halve;         // a sentence: what would halve it
+};
+
 // One used or rejected row against the model, for tables and plots.
 struct ResidualRow {
   int index = 0;  // 0-based over the light's readings
@@ -97,6 +105,7 @@ struct FittedLight {
   std::vector<ResidualRow> residuals;
   // Covariance of (ln I, d0, E0), for predictions: u of a reading at another distance.
   std::optional<std::array<double, 9>> covariance_lnI_d0_E0;
+  std::vector<BudgetPart> budget{};  // of intensity_cd or illuminance_lx, largest first
 };
 
 struct InputFile {

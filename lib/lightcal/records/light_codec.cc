@@ -79,6 +79,14 @@ constexpr auto kVisitEffect = [](auto& archive, auto& effect) {
   archive.Require({"name", "state", "bound", "cost_ns"});
 };
 
+constexpr auto kVisitBudgetPart = [](auto& archive, auto& part) {
+  archive.Text("name", part.name);
+  archive.Number("sd_relative", part.sd_relative, kNotNegative);
+  archive.Number("share", part.share, kNotNegative);
+  archive.Text("halve", part.halve);
+  archive.Require({"name", "sd_relative", "share"});
+};
+
 constexpr auto kVisitResidual = [](auto& archive, auto& row) {
   archive.Integer("index", row.index);
   archive.Number("distance_m", row.distance_m);
@@ -129,6 +137,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
   archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
   archive.List("effects", light.effects, kVisitEffect);
+  archive.List("budget", light.budget, kVisitBudgetPart);
   archive.List("residuals", light.residuals, kVisitResidual);
   archive.Array("covariance_lnI_d0_E0", light.covariance_lnI_d0_E0);
   archive.Require({"name", "kind"});

@@ -223,7 +223,8 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
                      "\" id=\"light-" + std::to_string(index) + "\">\n";
   html += Title(light) + Hero(light) + Cards(light) + TypeIn(light.name, figures);
   html += Figures(light, prefix);
-  html += Below(ReadingTable(light.residuals)) + Below(EffectTable(light.effects));
+  html += Below(ReadingTable(light.residuals)) + Below(BudgetTable(light.budget)) +
+          Below(EffectTable(light.effects));
   return html + "</section>\n";
 }
 

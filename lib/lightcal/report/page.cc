@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/report/page.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "lightcal/report/gate_figure.h"
 #include "lightcal/report/light_section.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/text.h"
@@ -59,6 +61,22 @@ std::string Overview(const LightFile& file) {
   return html + "</tbody></table></div>\n";
 }
 
+// The tolerance that the effects were judged by is not kept in a light.json: the usual one.
+constexpr double kUsualTolerance = 0.01;
+
+std::string GateSection(const LightFile& file) {
+  if (std::ranges::all_of(file.lights, [](const FittedLight& l) { return l.effects.empty(); })) {
+    return "";
+  }
+  return "<section class=\"light\" id=\"gate\">\n<h2>What the effect gate saves</h2>\n"
+         "<figure>\n" +
+         report::GateFigure(file.lights, kUsualTolerance, "gate-figure") +
+         "<figcaption>Every effect a reading may hold has a price and a bound. The gate leaves "
+         "effects off while all of them together stay within the tolerance, so that the cost "
+         "follows the scene. Below the line the lights of this page: of what was left off only "
+         "the bound is known.</figcaption>\n</figure>\n</section>\n";
+}
+
 std::string Footer(const Provenance& provenance) {
   std::string html =
       "<footer>\n<h3>How to read this</h3>\n"
@@ -100,6 +118,7 @@ std::string ReportPage(const LightFile& file, std::string_view title,
     html +=
         report::LightSection(file.lights[i], static_cast<int>(i), file.lights.size() == 1, figures);
   }
+  html += GateSection(file);
   return html + Footer(file.provenance) + "</main>\n</body>\n</html>\n";
 }
 

@@ -49,6 +49,7 @@ figure { margin: 0; }
 figcaption { font-size: 14px; color: var(--soft); margin-top: 8px; }
 figcaption b { color: var(--ink); font-weight: 600; }
 svg { display: block; width: 100%; height: auto; max-width: 560px; }
+svg.wide { max-width: 980px; }
 svg text { fill: var(--ink); font-family: inherit; font-size: 13px; }
 svg .tick, svg .note { fill: var(--soft); font-size: 12.5px; }
 svg .grid { stroke: var(--rule); stroke-width: 1; }
@@ -79,6 +80,7 @@ th:last-child, td:last-child { padding-right: 0; }
 .overview td, .overview tbody th { font-size: 15.5px; padding-top: 10px; padding-bottom: 10px; }
 .overview tbody th { font-weight: 600; overflow-wrap: anywhere; }
 .overview td { white-space: nowrap; }
+.share { display: inline-block; height: 10px; min-width: 1px; background: var(--accent); border-radius: 2px; }
 .off { color: var(--warn); font-weight: 600; }
 .typein td, .typein tbody th { font-size: 16px; vertical-align: baseline; }
 .typein .value { font-weight: 650; font-size: 18px; white-space: nowrap; }

@@ -4,10 +4,14 @@
 #include <algorithm>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
 
 namespace lightcal::report {
 namespace {
+
+// Parts of less than a thousandth change nothing.
+constexpr double kLeastShareShown = 1e-3;
 
 std::string Words(const std::string& name) {
   std::string words = name;
@@ -97,6 +101,25 @@ std::string ReadingTable(const std::vector<ResidualRow>& rows) {
   return html + "</tbody></table></div></div>\n";
 }
 
+std::string BudgetTable(const std::vector<BudgetPart>& budget) {
+  if (budget.empty()) return "";
+  std::string html =
+      "<div class=\"block\"><h3>Where the uncertainty comes from</h3><div class=\"scroll\"><table "
+      "class=\"effects\"><thead><tr><th scope=\"col\">cause</th>"
+      "<th class=\"n\" scope=\"col\">alone (1 σ)</th>"
+      "<th class=\"n\" scope=\"col\">share of u²</th><th scope=\"col\"></th>"
+      "<th scope=\"col\">what would halve it</th></tr></thead><tbody>\n";
+  for (const BudgetPart& part : budget) {
+    if (part.share < kLeastShareShown) continue;
+    html += "<tr><th scope=\"row\">" + Words(part.name) +
+            "</th><td class=\"n\" data-label=\"alone \">" + Percent(part.sd_relative) +
+            "</td><td class=\"n\" data-label=\"share \">" + Percent(part.share) +
+            "</td><td><span class=\"share\" style=\"width:" + Px(100.0 * part.share) +
+            "px\"></span></td><td class=\"note\">" + Escaped(part.halve) + "</td></tr>\n";
+  }
+  return html + "</tbody></table></div></div>\n";
+}
+
 std::string EffectTable(const std::vector<EffectReport>& effects) {
   if (effects.empty()) return "";
   std::string html =
@@ -104,12 +127,13 @@ std::string EffectTable(const std::vector<EffectReport>& effects) {
       "class=\"effects\"><thead><tr>"
       "<th scope=\"col\">effect</th><th scope=\"col\">state</th>"
       "<th class=\"n\" scope=\"col\">at most</th><th class=\"n\" scope=\"col\">found</th>"
-      "<th scope=\"col\">why</th></tr></thead><tbody>\n";
+      "<th class=\"n\" scope=\"col\">cost</th><th scope=\"col\">why</th></tr></thead><tbody>\n";
   for (const EffectReport& effect : effects) {
     html += "<tr><th scope=\"row\">" + Words(effect.name) + "</th>" +
             Cell(StateWord(effect.state)) + "<td class=\"n\" data-label=\"at most \">" +
             Percent(effect.bound) + "</td>" + "<td class=\"n\" data-label=\"found \">" +
-            Percent(effect.contribution) + "</td>" + "<td class=\"note\">" +
+            Percent(effect.contribution) + "</td>" + "<td class=\"n\" data-label=\"cost \">" +
+            RoundedText(effect.cost_ns, 3) + "\u00A0ns</td><td class=\"note\">" +
             Escaped(effect.reason) + "</td></tr>\n";
   }
   return html + "</tbody></table></div></div>\n";

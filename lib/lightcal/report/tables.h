@@ -19,6 +19,9 @@ namespace lightcal::report {
 [[nodiscard]] std::string FitTable(const FitDiagnostics& fit);
 // Every reading against the model.
 [[nodiscard]] std::string ReadingTable(const std::vector<ResidualRow>& rows);
+// Where the uncertainty comes from: share of the variance, and what would halve each part.
+[[nodiscard]] std::string BudgetTable(const std::vector<BudgetPart>& budget);
+
 // The gate: what was considered, at most how large, what came of it.
 [[nodiscard]] std::string EffectTable(const std::vector<EffectReport>& effects);
 

@@ -20,7 +20,7 @@ inline constexpr double kHeadRadiusDefault = 0.01;
 
 //   bound = 3/4 (rho/d)^2 at the nearest reading.
 [[nodiscard]] inline EffectFinding FindDetectorSize(const Scene& scene) {
-  if (!FollowsDistance(scene)) return {0.0, Treatment::kModelled, 0.0, "no distance law"};
+  if (!FollowsDistance(scene)) return NotApplicable("no distance law");
   const double radius = scene.head_radius ? scene.head_radius->value() : kHeadRadiusDefault;
   const double ratio = radius / NearestDistance(scene);
   return {0.75 * ratio * ratio, scene.head_radius ? Treatment::kModelled : Treatment::kWidens, 0.0,

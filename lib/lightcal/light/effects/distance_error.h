@@ -14,7 +14,7 @@ inline constexpr double kDistanceErrorMetres = 0.005;
 //   bound = 1/(1 - u/d)^2 - 1, u = 5 mm, d the nearest distance. A common error of distance is a
 //   distance offset, which is fitted.
 [[nodiscard]] inline EffectFinding FindDistanceError(const Scene& scene) {
-  if (!FollowsDistance(scene)) return {0.0, Treatment::kFitted, 0.0, "no distance law"};
+  if (!FollowsDistance(scene)) return NotApplicable("no distance law");
   const double left = 1.0 - std::min(0.9, kDistanceErrorMetres / NearestDistance(scene));
   return {1.0 / (left * left) - 1.0, Treatment::kFitted, 0.0,
           "5 mm at the nearest distance; the distance offset takes up the common part"};

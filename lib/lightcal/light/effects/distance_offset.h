@@ -9,7 +9,7 @@ namespace lightcal::effects {
 //   E = I/(d + d0)^2,   bound = 1/(1 - |d0|/d)^2 - 1 at |d0| = 0.15 d, the prior's standard
 //   deviation.
 [[nodiscard]] inline EffectFinding FindDistanceOffset(const Scene& scene) {
-  if (!FollowsDistance(scene)) return {0.0, Treatment::kFitted, 0.0, "no distance law"};
+  if (!FollowsDistance(scene)) return NotApplicable("no distance law");
   constexpr double kRelative = 0.15;
   return {
       1.0 / ((1.0 - kRelative) * (1.0 - kRelative)) - 1.0, Treatment::kFitted, 0.0,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "lightcal/light/scene.h"
 
@@ -24,7 +25,12 @@ struct EffectFinding {
   Treatment treatment = Treatment::kModelled;
   double distance_power = 0.0;  // how it grows with distance: 0 common gain, 1, 2
   std::string reason;           // a sentence on where the bound comes from
+  bool applies = true;          // false: this scene has no such thing, and the bound is 0
 };
+
+[[nodiscard]] inline EffectFinding NotApplicable(std::string why) {
+  return {0.0, Treatment::kModelled, 0.0, std::move(why), false};
+}
 
 struct Effect {
   std::string_view name;

@@ -2,6 +2,8 @@
 // Light lost in the air.
 #pragma once
 
+#include <cmath>
+
 #include "lightcal/light/effects/effect.h"
 
 namespace lightcal::effects {
@@ -9,11 +11,13 @@ namespace lightcal::effects {
 // Extinction of clear air, per metre (visibility 20 km); stage haze has 0.01 to 0.05.
 inline constexpr double kClearAirPerMetre = 2e-4;
 
-//   E = I exp(-s d)/d^2,   bound = s d at the farthest reading.
+//   E = I exp(-s d)/d^2,   bound = 1 - exp(-s d) at the farthest reading.
 [[nodiscard]] inline EffectFinding FindHaze(const Scene& scene) {
-  if (!FollowsDistance(scene)) return {0.0, Treatment::kWidens, 0.0, "no distance law"};
-  return {kClearAirPerMetre * FarthestDistance(scene), Treatment::kWidens, 1.0,
-          "clear air; stage haze would take fifty times as much"};
+  if (!FollowsDistance(scene)) return NotApplicable("no distance law");
+  const double extinction = scene.time.haze_per_metre.value_or(kClearAirPerMetre);
+  return {-std::expm1(-extinction * FarthestDistance(scene)), Treatment::kWidens, 1.0,
+          scene.time.haze_per_metre ? "the stated extinction of the air"
+                                    : "clear air; stage haze would take fifty times as much"};
 }
 
 }  // namespace lightcal::effects

@@ -22,7 +22,7 @@ inline constexpr double kBounceDefault = 0.25;
     return {0.0, Treatment::kModelled, 2.0, "the shadow-card readings subtract it"};
   }
   if (!FollowsDistance(scene)) {
-    return {0.0, Treatment::kModelled, 0.0, "part of what this kind of light is"};
+    return NotApplicable("part of what this kind of light is");
   }
   if (!scene.room) {
     return {

@@ -11,7 +11,7 @@ namespace lightcal::effects {
 //   bound = (1 + R/d)^2 - 1 at the nearest reading; the model adds R to the distance.
 [[nodiscard]] inline EffectFinding FindSphereSurface(const Scene& scene) {
   if (scene.kind != LightKind::kSphere || !scene.size.diameter) {
-    return {0.0, Treatment::kModelled, 0.0, "not a sphere of known diameter"};
+    return NotApplicable("not a sphere of known diameter");
   }
   const bool from_center = std::all_of(scene.poses.begin(), scene.poses.end(),
                                        [](const ScenePose& pose) { return pose.from_center; });
