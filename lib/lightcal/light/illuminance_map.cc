@@ -17,15 +17,15 @@ namespace {
 BounceChoice ChoiceOver(const PredictedLamp& lamp, const Plane& plane, const PlaneGrid& grid,
                         const MapSettings& settings) {
   if (!lamp.has_walls()) return {};
-  if (settings.room_bounce != EffectChoice::kGate) return {settings.room_bounce, 0.0};
+  if (settings.room_bounce != EffectChoice::kGate) return {settings.room_bounce, 0.0, 0.0};
   std::array<SurfacePoint, 9> all;
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i] = plane.At(0.5 * static_cast<double>(i % 3) * (grid.width - 1) * plane.step_x,
                       0.5 * static_cast<double>(i / 3) * (grid.height - 1) * plane.step_y);
   }
   const double bound = kFieldMargin * lamp.BounceOverDirect(all);
-  if (bound > kOffShare * settings.tolerance) return {EffectChoice::kGate, 0.0};
-  return {EffectChoice::kNever, bound};
+  if (bound <= kOffShare * settings.tolerance) return {EffectChoice::kNever, bound, 0.0};
+  return {EffectChoice::kGate, 0.0, lamp.BounceBound(all)};
 }
 
 void Clear(const Region& tile, IlluminanceMap& map) {

@@ -29,6 +29,9 @@ class PredictedLamp {
   [[nodiscard]] const WallLight& Walls() const;
   // Largest bound of the walls' light over direct light at the points, relative.
   [[nodiscard]] double BounceOverDirect(std::span<const SurfacePoint> points) const;
+  // Its two parts: the largest bound at the points [lx], and what `lux` is at most of direct light.
+  [[nodiscard]] double BounceBound(std::span<const SurfacePoint> points) const;
+  [[nodiscard]] double OverDirect(double lux, std::span<const SurfacePoint> points) const;
   // 95 % half width of direct light, `left_off` a relative bound of what was left off.     [lx]
   [[nodiscard]] double DirectU95(const SurfacePoint& at, double direct_lx,
                                  const SourceDetail& detail, double left_off) const;

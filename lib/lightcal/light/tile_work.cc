@@ -21,13 +21,17 @@ class TileWork {
            const Output& out)
       : lamp_(lamp), over_(over), settings_(settings), out_(out) {}
 
-  // bounce: kGate where it is to be decided here; kNever with `left_off`, its bound.
-  void Do(const Region& tile, EffectChoice bounce, double left_off) {
+  void Do(const Region& tile, BounceChoice choice) {
+    EffectChoice bounce = choice.choice;
+    double left_off = choice.left_off;
     if (bounce == EffectChoice::kGate) {
-      const double bound = kFieldMargin * lamp_.BounceOverDirect(FivePoints(tile));
-      const bool off = bound <= kOffShare * settings_.tolerance;
-      bounce = off ? EffectChoice::kNever : EffectChoice::kGate;
-      left_off = off ? bound : 0.0;
+      // The plane's largest bound first: it costs no look at the walls.
+      const auto points = FivePoints(tile);
+      const double most = kOffShare * settings_.tolerance;
+      double bound = kFieldMargin * lamp_.OverDirect(choice.most_lx, points);
+      if (bound > most) bound = kFieldMargin * lamp_.BounceOverDirect(points);
+      bounce = bound <= most ? EffectChoice::kNever : EffectChoice::kGate;
+      left_off = bound <= most ? bound : 0.0;
     }
     out_.account.bounce_left_off = std::max(out_.account.bounce_left_off, left_off);
     const bool on = bounce != EffectChoice::kNever;
@@ -120,8 +124,9 @@ class TileWork {
       return;
     }
     const SourceDetail detail = DetailOf(settings_.finite_source, tolerance);
-    const auto relative = RelativeDoubt(r, detail, left_off);
-    if ((form.mixed || !relative) && CanSplit(r)) {
+    const bool cut = form.mixed && CanSplit(r);
+    const auto relative = cut ? std::nullopt : RelativeDoubt(r, detail, left_off);
+    if (!relative && CanSplit(r)) {
       return Split(r, [&](const Region& part) { Direct(part, tolerance, left_off); });
     }
     out_.account.points[static_cast<std::size_t>(form.form)] += r.points();
@@ -223,7 +228,7 @@ class TileWork {
 
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
               const Region& tile, BounceChoice bounce, const TileOutput& out) {
-  TileWork(lamp, over, settings, out).Do(tile, bounce.choice, bounce.left_off);
+  TileWork(lamp, over, settings, out).Do(tile, bounce);
 }
 
 }  // namespace lightcal

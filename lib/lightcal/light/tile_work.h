@@ -21,6 +21,7 @@ struct TileOutput {
 struct BounceChoice {
   EffectChoice choice = EffectChoice::kNever;
   double left_off = 0.0;
+  double most_lx = 0.0;  // kGate: what the walls' light cannot exceed anywhere on the plane
 };
 
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
