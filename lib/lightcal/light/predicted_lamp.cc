@@ -34,7 +34,32 @@ PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings
                   doubt.outer_rad > 0.0;
   const bool walls = room_ && room_->reflectance > 0.0 &&
                      settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);
-  if (walls) coarse_.emplace(*room_, lamp_, WallLight::Detail::kCoarse);
+  if (!walls) return;
+  coarse_.emplace(*room_, lamp_, WallLight::Detail::kCoarse);
+  FindHotSpots();
+}
+
+void PredictedLamp::FindHotSpots() {
+  constexpr double kLeastSize = 0.05;
+  constexpr double kBeamShare = 0.2;  // of the way to the wall
+  const Vec3& from = lamp_.pose.position_m;
+  const Vec3& aim = lamp_.pose.frame.z;
+  double to_wall = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = axis == 2 ? 0.0 : -0.5 * room_->size_m[axis];
+    for (const double wall : {low, low + room_->size_m[axis]}) {
+      HotSpot foot{from, std::max(kLeastSize, std::abs(wall - from[axis]))};
+      foot.position_m[axis] = wall;
+      hot_spots_.push_back(foot);
+      const double along = (wall - from[axis]) / aim[axis];
+      if (along > 0.0) to_wall = std::min(to_wall, along);
+    }
+  }
+  const bool beam = std::holds_alternative<SpotSource>(lamp_.source) ||
+                    std::holds_alternative<TableSource>(lamp_.source);
+  if (beam && to_wall < 1e300) {
+    hot_spots_.push_back({from + aim * to_wall, std::max(kLeastSize, kBeamShare * to_wall)});
+  }
 }
 
 const WallLight& PredictedLamp::Walls() const {
