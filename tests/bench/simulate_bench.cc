@@ -80,7 +80,7 @@ std::vector<Stage> Stages() {
   const SpotCone cone{RadiansFromDegrees(12.0), RadiansFromDegrees(30.0)};
   return {
       {"bare bulb, dark hall", LampAt(PointSource{}, 900.0, {0.2, 0.1, 3.0}, down),
-       RoomBox{{40.0, 40.0, 16.0}, 0.03}, 6.0},
+       RoomBox{{40.0, 40.0, 16.0}, 0.02}, 6.0},
       {"sun", LampAt(SunSource{0.00465}, 1e5, {}, {0.5, 0.2, -1.0}), std::nullopt, 6.0},
       {"spot, black studio", LampAt(SpotSource{cone}, 9000.0, {-1.0, 0.0, 4.0}, {0.3, 0.0, -1.0}),
        RoomBox{{12.0, 10.0, 6.0}, 0.05}, 6.0},

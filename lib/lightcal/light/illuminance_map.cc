@@ -2,7 +2,6 @@
 #include "lightcal/light/illuminance_map.h"
 
 #include <algorithm>
-#include <array>
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/light/lamp_over_plane.h"
@@ -17,15 +16,11 @@ namespace {
 BounceChoice ChoiceOver(const PredictedLamp& lamp, const Plane& plane, const PlaneGrid& grid,
                         const MapSettings& settings) {
   if (!lamp.has_walls()) return {};
-  if (settings.room_bounce != EffectChoice::kGate) return {settings.room_bounce, 0.0};
-  std::array<SurfacePoint, 9> all;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i] = plane.At(0.5 * static_cast<double>(i % 3) * (grid.width - 1) * plane.step_x,
-                      0.5 * static_cast<double>(i / 3) * (grid.height - 1) * plane.step_y);
-  }
+  if (settings.room_bounce != EffectChoice::kGate) return {settings.room_bounce, 0.0, 0.0};
+  const std::vector<SurfacePoint> all = BoundPoints(lamp, plane, {0, 0, grid.width, grid.height});
   const double bound = kFieldMargin * lamp.BounceOverDirect(all);
-  if (bound > kOffShare * settings.tolerance) return {EffectChoice::kGate, 0.0};
-  return {EffectChoice::kNever, bound};
+  if (bound <= kOffShare * settings.tolerance) return {EffectChoice::kNever, bound, 0.0};
+  return {EffectChoice::kGate, 0.0, lamp.BounceBound(all)};
 }
 
 void Clear(const Region& tile, IlluminanceMap& map) {

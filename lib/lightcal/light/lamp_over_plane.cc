@@ -44,6 +44,12 @@ Plane::Plane(const PlaneGrid& grid)
   along_y = grid.down_m * (1.0 / step_y);
 }
 
+SurfacePoint Plane::Nearest(const Vec3& p, const Region& region) const {
+  const Vec3 from = p - first;
+  return At(std::clamp(Dot(from, along_x), region.left * step_x, (region.right - 1) * step_x),
+            std::clamp(Dot(from, along_y), region.top * step_y, (region.bottom - 1) * step_y));
+}
+
 PlacedLamp Settled(PlacedLamp lamp) {
   if (std::holds_alternative<DiskSource>(lamp.source) ||
       std::holds_alternative<RectSource>(lamp.source) ||

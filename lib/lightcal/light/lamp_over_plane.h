@@ -8,6 +8,14 @@
 
 namespace lightcal {
 
+// Pixels [left, right) x [top, bottom).
+struct Region {
+  int left, top, right, bottom;
+  [[nodiscard]] int width() const { return right - left; }
+  [[nodiscard]] int height() const { return bottom - top; }
+  [[nodiscard]] std::int64_t points() const { return std::int64_t{width()} * height(); }
+};
+
 // Points first + x along + y across the plane's own axes [m]; pixels stand step_x, step_y apart.
 struct Plane {
   Vec3 first, along_x, along_y, normal;
@@ -17,14 +25,8 @@ struct Plane {
   [[nodiscard]] SurfacePoint At(double x, double y) const {
     return {first + along_x * x + along_y * y, normal};
   }
-};
-
-// Pixels [left, right) x [top, bottom).
-struct Region {
-  int left, top, right, bottom;
-  [[nodiscard]] int width() const { return right - left; }
-  [[nodiscard]] int height() const { return bottom - top; }
-  [[nodiscard]] std::int64_t points() const { return std::int64_t{width()} * height(); }
+  // The pixel centres' point nearest to p, of a region.
+  [[nodiscard]] SurfacePoint Nearest(const Vec3& p, const Region& region) const;
 };
 
 // Direct light over a region: `mixed` where its parts call for different forms.

@@ -14,6 +14,12 @@ namespace {
 // Standard deviation of a rectangular distribution of that half width.
 double Rectangular(double half_width) { return half_width / std::sqrt(3.0); }
 
+double Ratio(double bound, double direct) {
+  constexpr double kNoDirectLight = 1e9;
+  if (!(bound > 0.0)) return 0.0;
+  return direct > 0.0 ? bound / direct : kNoDirectLight;
+}
+
 }  // namespace
 
 SourceDetail DetailOf(EffectChoice finite_source, double tolerance) {
@@ -28,21 +34,58 @@ PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings
                   doubt.outer_rad > 0.0;
   const bool walls = room_ && room_->reflectance > 0.0 &&
                      settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);
-  if (walls) coarse_.emplace(*room_, lamp_, WallLight::kCoarse);
+  if (!walls) return;
+  coarse_.emplace(*room_, lamp_, WallLight::Detail::kCoarse);
+  FindHotSpots();
+}
+
+void PredictedLamp::FindHotSpots() {
+  constexpr double kLeastSize = 0.05;
+  constexpr double kBeamShare = 0.2;  // of the way to the wall
+  const Vec3& from = lamp_.pose.position_m;
+  const Vec3& aim = lamp_.pose.frame.z;
+  double to_wall = 1e300;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = axis == 2 ? 0.0 : -0.5 * room_->size_m[axis];
+    for (const double wall : {low, low + room_->size_m[axis]}) {
+      HotSpot foot{from, std::max(kLeastSize, std::abs(wall - from[axis]))};
+      foot.position_m[axis] = wall;
+      hot_spots_.push_back(foot);
+      const double along = (wall - from[axis]) / aim[axis];
+      if (along > 0.0) to_wall = std::min(to_wall, along);
+    }
+  }
+  const bool beam = std::holds_alternative<SpotSource>(lamp_.source) ||
+                    std::holds_alternative<TableSource>(lamp_.source);
+  if (beam && to_wall < 1e300) {
+    hot_spots_.push_back({from + aim * to_wall, std::max(kLeastSize, kBeamShare * to_wall)});
+  }
 }
 
 const WallLight& PredictedLamp::Walls() const {
-  std::call_once(fine_->once, [this] { fine_->walls.emplace(*room_, lamp_, WallLight::kFine); });
+  std::call_once(fine_->once,
+                 [this] { fine_->walls.emplace(*room_, lamp_, WallLight::Detail::kFine); });
   return *fine_->walls;
 }
 
 double PredictedLamp::BounceOverDirect(std::span<const SurfacePoint> points) const {
-  constexpr double kNoDirectLight = 1e9;
   double worst = 0.0;
   for (const SurfacePoint& at : points) {
-    const double direct = LuxOf(lamp_, at, {false, 0.1});
-    const double bound = coarse_->BoundAt(at);
-    if (bound > 0.0) worst = std::max(worst, direct > 0.0 ? bound / direct : kNoDirectLight);
+    worst = std::max(worst, Ratio(coarse_->BoundAt(at), LuxOf(lamp_, at, {false, 0.1})));
+  }
+  return worst;
+}
+
+double PredictedLamp::BounceBound(std::span<const SurfacePoint> points) const {
+  double most = 0.0;
+  for (const SurfacePoint& at : points) most = std::max(most, coarse_->BoundAt(at));
+  return most;
+}
+
+double PredictedLamp::OverDirect(double lux, std::span<const SurfacePoint> points) const {
+  double worst = 0.0;
+  for (const SurfacePoint& at : points) {
+    worst = std::max(worst, Ratio(lux, LuxOf(lamp_, at, {false, 0.1})));
   }
   return worst;
 }

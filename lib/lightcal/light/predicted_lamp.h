@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/illuminance_map.h"
@@ -14,6 +15,12 @@
 #include "lightcal/light/wall_light.h"
 
 namespace lightcal {
+
+// Where the lamp lights a wall most, and how wide that spot is: there the walls' light bends.
+struct HotSpot {
+  Vec3 position_m{};
+  double size_m = 0.0;
+};
 
 class PredictedLamp {
  public:
@@ -25,22 +32,30 @@ class PredictedLamp {
   // Whether a room is known that could throw its light back.
   [[nodiscard]] bool has_walls() const { return coarse_.has_value(); }
 
+  // The lamp's foot on each wall, and where its beam hits one. Empty without walls.
+  [[nodiscard]] std::span<const HotSpot> hot_spots() const { return hot_spots_; }
+
   // The fine walls, built when first asked for.
   [[nodiscard]] const WallLight& Walls() const;
   // Largest bound of the walls' light over direct light at the points, relative.
   [[nodiscard]] double BounceOverDirect(std::span<const SurfacePoint> points) const;
+  // Its two parts: the largest bound at the points [lx], and what `lux` is at most of direct light.
+  [[nodiscard]] double BounceBound(std::span<const SurfacePoint> points) const;
+  [[nodiscard]] double OverDirect(double lux, std::span<const SurfacePoint> points) const;
   // 95 % half width of direct light, `left_off` a relative bound of what was left off.     [lx]
   [[nodiscard]] double DirectU95(const SurfacePoint& at, double direct_lx,
                                  const SourceDetail& detail, double left_off) const;
 
  private:
   [[nodiscard]] double Unmodelled(const SurfacePoint& at) const;
+  void FindHotSpots();
 
   PlacedLamp lamp_;
   double haze_per_m_;
   bool shape_unsure_ = false;
   std::optional<RoomBox> room_;
   std::optional<WallLight> coarse_;
+  std::vector<HotSpot> hot_spots_;
   struct Fine {
     std::once_flag once;
     std::optional<WallLight> walls;

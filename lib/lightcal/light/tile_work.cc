@@ -21,13 +21,17 @@ class TileWork {
            const Output& out)
       : lamp_(lamp), over_(over), settings_(settings), out_(out) {}
 
-  // bounce: kGate where it is to be decided here; kNever with `left_off`, its bound.
-  void Do(const Region& tile, EffectChoice bounce, double left_off) {
+  void Do(const Region& tile, BounceChoice choice) {
+    EffectChoice bounce = choice.choice;
+    double left_off = choice.left_off;
     if (bounce == EffectChoice::kGate) {
-      const double bound = kFieldMargin * lamp_.BounceOverDirect(FivePoints(tile));
-      const bool off = bound <= kOffShare * settings_.tolerance;
-      bounce = off ? EffectChoice::kNever : EffectChoice::kGate;
-      left_off = off ? bound : 0.0;
+      // The plane's largest bound first: it costs no look at the walls.
+      const auto points = BoundPoints(lamp_, out_.plane, tile);
+      const double most = kOffShare * settings_.tolerance;
+      double bound = kFieldMargin * lamp_.OverDirect(choice.most_lx, points);
+      if (bound > most) bound = kFieldMargin * lamp_.BounceOverDirect(points);
+      bounce = bound <= most ? EffectChoice::kNever : EffectChoice::kGate;
+      left_off = bound <= most ? bound : 0.0;
     }
     out_.account.bounce_left_off = std::max(out_.account.bounce_left_off, left_off);
     const bool on = bounce != EffectChoice::kNever;
@@ -120,8 +124,9 @@ class TileWork {
       return;
     }
     const SourceDetail detail = DetailOf(settings_.finite_source, tolerance);
-    const auto relative = RelativeDoubt(r, detail, left_off);
-    if ((form.mixed || !relative) && CanSplit(r)) {
+    const bool cut = form.mixed && CanSplit(r);
+    const auto relative = cut ? std::nullopt : RelativeDoubt(r, detail, left_off);
+    if (!relative && CanSplit(r)) {
       return Split(r, [&](const Region& part) { Direct(part, tolerance, left_off); });
     }
     out_.account.points[static_cast<std::size_t>(form.form)] += r.points();
@@ -171,6 +176,7 @@ class TileWork {
 
   void BounceBetween(const Region& r) {
     if (r.width() < 3 || r.height() < 3) return BounceAtEach(r);
+    if (BendsWithin(r)) return Split(r, [&](const Region& part) { BounceBetween(part); });
     const WallLight& walls = lamp_.Walls();
     std::array<double, 9> lux{};
     for (std::size_t k = 0; k < 9; ++k) {
@@ -189,21 +195,45 @@ class TileWork {
     kernels::AddSmooth(tile.get(), lux.data(), {kBounceU95, kBounceU95, kBounceU95, kBounceU95});
   }
 
-  // Whether the biquadratic through 3 x 3 values meets the field at four points off its nodes and
-  // off its middle lines, toward each edge, where fields bend most.
+  // Whether the region is larger than the field's features: the walls' light varies over the
+  // distance to a spot on them plus that spot's own size.
+  [[nodiscard]] bool BendsWithin(const Region& r) const {
+    constexpr double kReach = 1.2;
+    constexpr double kOnPlane = 1e-3;  // a spot on the plane itself does not light it
+    if (!CanSplit(r)) return false;
+    const Plane& plane = out_.plane;
+    const double size = std::max(r.width() * plane.step_x, r.height() * plane.step_y);
+    return std::ranges::any_of(lamp_.hot_spots(), [&](const HotSpot& spot) {
+      if (Dot(spot.position_m - plane.first, plane.normal) < kOnPlane) return false;
+      const double away = Length(spot.position_m - plane.Nearest(spot.position_m, r).position_m);
+      return size > kReach * (away + spot.size_m);
+    });
+  }
+
+  // Whether the biquadratic through 3 x 3 values meets the field at points off its nodes and off
+  // its middle lines. Along the map's own border more of them: there it may touch a wall, whose
+  // patches are steps to a point close by.
   bool FitsBetween(const Region& r, const WallLight& walls, const std::array<double, 9>& v) {
-    constexpr std::array<std::array<double, 2>, 4> kChecks = {
+    using Part = std::array<double, 2>;
+    constexpr std::array<Part, 4> kChecks = {
         {{0.14, 0.31}, {0.69, 0.14}, {0.86, 0.69}, {0.31, 0.86}}};
+    constexpr std::array<double, 4> kAlong = {0.14, 0.36, 0.64, 0.86};
+    const auto fits = [&](const Part& part) { return Fits(r, walls, v, part[0], part[1]); };
+    if (!std::ranges::all_of(kChecks, fits)) return false;
+    return std::ranges::all_of(kAlong, [&](double at) {
+      return (r.left > 0 || fits({0.0, at})) && (r.right < out_.map.width || fits({1.0, at})) &&
+             (r.top > 0 || fits({at, 0.0})) && (r.bottom < out_.map.height || fits({at, 1.0}));
+    });
+  }
+  bool Fits(const Region& r, const WallLight& walls, const std::array<double, 9>& v, double s,
+            double t) {
     constexpr double kMargin = 0.4;  // of the share: elsewhere it may err more
-    out_.account.bounce_evaluated += static_cast<std::int64_t>(kChecks.size());
-    for (const auto& [s, t] : kChecks) {
-      const SurfacePoint at = Inside(r, s, t);
-      const double truth = walls.At(at);
-      const double total = truth + LuxOf(lamp_.lamp(), at, {false, 0.1});
-      const double share = kMargin * kBetweenShare * settings_.tolerance;
-      if (std::abs(Biquadratic(v, s, t) - truth) > share * total) return false;
-    }
-    return true;
+    const SurfacePoint at = Inside(r, s, t);
+    const double truth = walls.At(at);
+    ++out_.account.bounce_evaluated;
+    const double total = truth + LuxOf(lamp_.lamp(), at, {false, 0.1});
+    const double share = kMargin * kBetweenShare * settings_.tolerance;
+    return std::abs(Biquadratic(v, s, t) - truth) <= share * total;
   }
   static double Biquadratic(const std::array<double, 9>& v, double s, double t) {
     const auto along = [](double a, double b, double c, double x) {
@@ -221,9 +251,24 @@ class TileWork {
 
 }  // namespace
 
+std::vector<SurfacePoint> BoundPoints(const PredictedLamp& lamp, const Plane& plane,
+                                      const Region& region) {
+  std::vector<SurfacePoint> points;
+  for (const double s : {0.0, 0.5, 1.0}) {
+    for (const double t : {0.0, 0.5, 1.0}) {
+      points.push_back(plane.At((region.left + s * (region.width() - 1)) * plane.step_x,
+                                (region.top + t * (region.height() - 1)) * plane.step_y));
+    }
+  }
+  for (const HotSpot& spot : lamp.hot_spots()) {
+    points.push_back(plane.Nearest(spot.position_m, region));
+  }
+  return points;
+}
+
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
               const Region& tile, BounceChoice bounce, const TileOutput& out) {
-  TileWork(lamp, over, settings, out).Do(tile, bounce.choice, bounce.left_off);
+  TileWork(lamp, over, settings, out).Do(tile, bounce);
 }
 
 }  // namespace lightcal

@@ -2,6 +2,8 @@
 // One lamp over one tile of a map: the gate, region by region. Used by illuminance_map.cc alone.
 #pragma once
 
+#include <vector>
+
 #include "lightcal/light/lamp_over_plane.h"
 #include "lightcal/light/predicted_lamp.h"
 
@@ -21,7 +23,13 @@ struct TileOutput {
 struct BounceChoice {
   EffectChoice choice = EffectChoice::kNever;
   double left_off = 0.0;
+  double most_lx = 0.0;  // kGate: what the walls' light cannot exceed anywhere on the plane
 };
+
+// Where the walls' light over direct light is looked at: corners, middles of the sides, the middle,
+// and the points nearest to where the lamp lights the walls most.
+[[nodiscard]] std::vector<SurfacePoint> BoundPoints(const PredictedLamp& lamp, const Plane& plane,
+                                                    const Region& region);
 
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
               const Region& tile, BounceChoice bounce, const TileOutput& out);

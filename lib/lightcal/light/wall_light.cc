@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kInside = 0.05;  // metres between a lamp and the wall it was moved from
 constexpr double kTouching = 1e-4;
+constexpr int kFineSide = 10, kCoarseSide = 6;
 constexpr double kFineTolerance = 3e-3, kCoarseTolerance = 5e-2;
 
 double Low(const RoomBox& room, int axis) { return axis == 2 ? 0.0 : -0.5 * room.size_m[axis]; }
@@ -34,10 +35,33 @@ std::vector<double> Grade(double low, double high, double foot, double height, i
   return edges;
 }
 
+// Mean over a rectangle of half sides `along`, `across` about a wall's point.
+double MeanLux(const PlacedLamp& lamp, const SurfacePoint& middle, const Vec3& along,
+               const Vec3& across) {
+  double sum = 0.0;
+  for (const double s : GaussLegendre<2>::kNode) {
+    for (const double t : GaussLegendre<2>::kNode) {
+      const SurfacePoint at{middle.position_m + along * s + across * t, middle.normal};
+      sum += 0.25 * LuxOf(lamp, at, {false, kFineTolerance});
+    }
+  }
+  return sum;
+}
+
+// A patch as large as its distance acts as a disk: r^2 + A/pi instead of r^2.
+double DiskLuxPerCandela(const RectSource& patch, const Receiver<double>& at) {
+  const double toward = -Dot(at.normal, at.position);
+  if (!(toward > 0.0) || !(at.position[2] > 0.0)) return 0.0;
+  const double d2 = Dot(at.position, at.position);
+  const double area = 4.0 * patch.half_width * patch.half_height;
+  return toward * at.position[2] / (d2 * (d2 + area / std::numbers::pi));
+}
+
 }  // namespace
 
-WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, int side)
-    : room_(room), tolerance_(side >= kFine ? kFineTolerance : kCoarseTolerance) {
+WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail)
+    : room_(room), detail_(detail) {
+  const int side = detail == Detail::kFine ? kFineSide : kCoarseSide;
   PlacedLamp inside = lamp;
   inside.pose.position_m = Clamped(lamp.pose.position_m, room, kInside);
   patches_.reserve(static_cast<std::size_t>(6 * side * side));
@@ -69,6 +93,8 @@ void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) 
   wall.position_m[axis] = at;
   Vec3 along{};
   along[u] = 1.0;
+  Vec3 across{};
+  across[v] = 1.0;
   const SourceFrame frame = SourceFrame::Facing(wall.normal, along);
   for (int i = 0; i < side; ++i) {
     for (int j = 0; j < side; ++j) {
@@ -78,14 +104,10 @@ void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) 
       patch.pose.position_m[axis] = at;
       patch.pose.position_m[u] = 0.5 * (us[i + 1] + us[i]);
       patch.pose.position_m[v] = 0.5 * (vs[j + 1] + vs[j]);
-      double lux = 0.0;
-      for (const double s : GaussLegendre<2>::kNode) {
-        for (const double t : GaussLegendre<2>::kNode) {
-          wall.position_m[u] = patch.pose.position_m[u] + s * half_u;
-          wall.position_m[v] = patch.pose.position_m[v] + t * half_v;
-          lux += 0.25 * LuxOf(lamp, wall, {false, tolerance_});
-        }
-      }
+      wall.position_m = patch.pose.position_m;
+      const double lux = detail_ == Detail::kCoarse
+                             ? LuxOf(lamp, wall, {false, kCoarseTolerance})
+                             : MeanLux(lamp, wall, along * half_u, across * half_v);
       patch.candela = room_.reflectance * lux * 4.0 * half_u * half_v / std::numbers::pi;
       if (patch.candela > 0.0) patches_.push_back(patch);
     }
@@ -101,7 +123,9 @@ double WallLight::First(const SurfacePoint& at) const {
   for (const Patch& patch : patches_) {
     const Receiver<double> receiver{patch.pose.frame.Of(at.position_m - patch.pose.position_m),
                                     patch.pose.frame.Of(at.normal)};
-    sum += patch.candela * LuxPerCandela(patch.source, receiver, tolerance_);
+    sum += patch.candela * (detail_ == Detail::kCoarse
+                                ? DiskLuxPerCandela(patch.source, receiver)
+                                : LuxPerCandela(patch.source, receiver, kFineTolerance));
   }
   return sum;
 }
