@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <span>
 #include <utility>
 
+#include "bracket_work.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/parallel.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/flat_field.h"
 #include "lightcal/imaging/frame_agreement.h"
 #include "lightcal/imaging/merge_picture.h"
-#include "lightcal/imaging/response.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/exposure_grid.h"
+#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal::app {
 namespace {
@@ -28,195 +25,8 @@ constexpr double kIsoPriorSd = 0.2;
 constexpr double kOutputSensitivityExposure = 10.0;
 constexpr double kOutputSensitivityCode = 118.0 / 255.0;
 constexpr double kEncodedPriorSd = 0.3;
-constexpr std::size_t kScratchFrom = std::size_t{1} << 30;  // bytes of samples
-constexpr double kUsedFrom = 1e-4;                          // share of believed samples
+constexpr double kUsedFrom = 1e-4;  // share of believed samples
 constexpr double kClippedSigma = 0.99;
-
-void Append(const Warnings& from, Warnings& to) { to.insert(to.end(), from.begin(), from.end()); }
-
-Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
-  std::size_t bytes = 0;
-  for (const FrameInfo& info : infos) {
-    const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
-    bytes += sample * static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
-             static_cast<std::size_t>(info.channels);
-  }
-  const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
-  std::vector<std::optional<Result<Frame>>> loaded(infos.size());
-  ParallelFor(static_cast<int>(infos.size()), [&](int i) {
-    loaded[static_cast<std::size_t>(i)] = LoadFrame(infos[static_cast<std::size_t>(i)], store);
-  });
-  std::vector<Frame> frames;
-  for (auto& frame : loaded) {
-    if (!*frame) return Propagate(std::move(*frame));
-    LetGo(**frame, 0, (*frame)->info.height);
-    frames.push_back(std::move(**frame));
-  }
-  return frames;
-}
-
-tl::unexpected<Error> NoExposure(const std::string& file, const std::string& what,
-                                 const std::string& todo) {
-  return Refused("no_exposure_metadata", file, "the file does not say its " + what + "; " + todo);
-}
-
-// Exposures t S / N^2 as the tags have them. Without ISO or f-number, which is only possible under
-// an anchor, these are the same for all frames.
-Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool anchored) {
-  std::vector<double> labels;
-  for (const FrameInfo& info : infos) {
-    const FrameExposure& exposure = info.exposure;
-    if (!exposure.time) {
-      return NoExposure(info.file, "exposure time",
-                        "give one a file with --exposures 1/250,1/60,...");
-    }
-    if (!anchored && !exposure.iso) {
-      return NoExposure(info.file, "ISO speed", "give it with --iso, or a spot reading (--anchor)");
-    }
-    if (!anchored && !exposure.light_f_number()) {
-      return NoExposure(info.file, "f-number",
-                        "give it with --f-number, or a spot reading (--anchor)");
-    }
-    const FrameExposure& first = infos.front().exposure;
-    if (exposure.iso.has_value() != first.iso.has_value() ||
-        exposure.light_f_number().has_value() != first.light_f_number().has_value()) {
-      return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
-                        "give --iso and --f-number");
-    }
-    const double n = exposure.light_f_number().value_or(1.0);
-    labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
-  }
-  return labels;
-}
-
-// Everything that is needed until the picture is made.
-struct Work {
-  std::vector<Frame> frames;
-  ResponseCurves response;
-  std::vector<SignalFrame> signals;
-  PlannedMerge planned;
-  std::optional<FrameAlignment> alignment;
-  PictureColor color;
-  SampleCorrections corrections;
-};
-
-// The plan of frames that are in a plan's order already, cut to what all of them show.
-Result<void> Align(MergeRequest merge, Work& work) {
-  MergePlan plan = work.planned.plan;
-  // Frames that moved scatter, which is no noise to excuse their differences by.
-  if (work.planned.noise_source == NoiseSource::kEstimated) {
-    plan.noise.assign(plan.noise.size(), kMiddlingNoise);
-  }
-  const auto merger = BracketMerger::Make(work.signals, plan);
-  if (!merger) return tl::unexpected(merger.error());
-  const auto alignment = MeasureAlignment(*merger);
-  if (!alignment) return tl::unexpected(alignment.error());
-  work.alignment = *alignment;
-  if (!alignment->any()) return {};
-  TakeBack(*alignment, work.signals);
-  const std::vector<std::size_t> before = work.planned.order;
-  const MergeRequest given = merge;
-  merge.label_exposure.clear();
-  merge.noise_in_file.clear();
-  for (const std::size_t i : before) {
-    merge.label_exposure.push_back(given.label_exposure[i]);
-    merge.noise_in_file.push_back(given.noise_in_file[i]);
-  }
-  auto planned = PlanMerge(work.signals, merge);
-  if (!planned) return Propagate(std::move(planned));
-  for (std::size_t i = 0; i < planned->order.size(); ++i) {
-    work.alignment->moved[i] = alignment->moved[planned->order[i]];
-    planned->order[i] = before[planned->order[i]];
-  }
-  work.planned = std::move(*planned);
-  return {};
-}
-
-// An ideal lens's loss of light, for a sensor of this width.
-Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
-  if (!info.focal_length) {
-    return Refused("no_focal_length", info.file,
-                   "the file does not say its focal length, which cos^4 needs; take a flat field "
-                   "with lightcal camera instead");
-  }
-  const Metres half_diagonal(0.5 * sensor_width.value() *
-                             std::hypot(1.0, static_cast<double>(info.height) / info.width));
-  return CosineFourthFlat(half_diagonal, *info.focal_length, info.exposure.f_number.value_or(1.0));
-}
-
-Result<void> SetCorrections(const BracketMergeRequest& request, Work& work) {
-  std::vector<FrameInfo> infos;
-  for (const std::size_t i : work.planned.order) infos.push_back(work.frames[i].info);
-  const int x = work.alignment ? work.alignment->x : 0, y = work.alignment ? work.alignment->y : 0;
-  work.corrections = SampleCorrections(infos.front().width, infos.front().height, x, y);
-  if (request.camera) {
-    auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, x, y);
-    if (!corrections) return Propagate(std::move(corrections));
-    work.corrections = std::move(*corrections);
-  }
-  if (!request.cosine_fourth || work.corrections.flat()) return {};
-  const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
-  if (!flat) return tl::unexpected(flat.error());
-  work.corrections.SetFlat(*flat, SampleCorrections::FlatSource::kCosineFourth);
-  return {};
-}
-
-Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const Bracket& bracket,
-                                      Warnings& warnings) {
-  const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
-  if (!labels) return tl::unexpected(labels.error());
-  if (request.camera) {
-    if (auto fits = CheckCameraUse(*request.camera, bracket.frames.front()); !fits) {
-      return Propagate(std::move(fits));
-    }
-  }
-  auto color = ColorOfPicture(bracket.frames.front());
-  if (!color) return Propagate(std::move(color));
-  if (request.camera) *color = CameraColorOf(*request.camera, std::move(*color));
-  if (request.space && !color->has_colour) {
-    return Refused(
-        "no_colour", bracket.frames.front().file,
-        "holds no colour, or nobody knows its camera's; leave --space out for luminance");
-  }
-  Append(color->warnings, warnings);
-  auto frames = LoadFrames(bracket.frames);
-  if (!frames) return Propagate(std::move(frames));
-  auto work = std::make_unique<Work>();
-  work->frames = std::move(*frames);
-  work->color = std::move(*color);
-  MergeRequest merge;
-  merge.label_exposure = *labels;
-  merge.noise = request.noise;
-  if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
-    auto response = RecoverResponse(work->frames, *labels);
-    if (!response) return Propagate(std::move(response));
-    work->response = std::move(*response);
-    merge.keep_labels = true;
-  }
-  for (const Frame& frame : work->frames) {
-    auto signal = SignalOf(frame, &work->response);
-    if (!signal) return Propagate(std::move(signal));
-    work->signals.push_back(std::move(*signal));
-    merge.noise_in_file.push_back(request.own_noise ? std::vector<NoiseProfile>()
-                                                    : frame.info.noise);
-  }
-  if (request.camera) {
-    CorrectBlack(*request.camera, bracket.frames, work->signals);
-    auto noise = CameraNoiseOf(*request.camera, bracket.frames);
-    merge.noise_of_camera = !noise.empty();
-    if (!noise.empty()) merge.noise_in_file = std::move(noise);
-  }
-  auto planned = PlanMerge(work->signals, merge);
-  if (!planned) return Propagate(std::move(planned));
-  work->planned = std::move(*planned);
-  if (request.align) {
-    if (auto aligned = Align(std::move(merge), *work); !aligned)
-      return Propagate(std::move(aligned));
-  }
-  Append(work->planned.warnings, warnings);
-  if (auto set = SetCorrections(request, *work); !set) return Propagate(std::move(set));
-  return work;
-}
 
 // How much less light focusing near lets onto the sensor.
 double FocusOf(const FrameInfo& info) {
@@ -225,13 +35,13 @@ double FocusOf(const FrameInfo& info) {
 }
 
 // Signals of the shortest frame per unit of exposure t S/N^2.
-double PerExposure(const Work& work) {
+double PerExposure(const BracketWork& work) {
   return FocusOf(work.frames[work.planned.order.front()].info) /
          std::exp(work.planned.ln_exposure.front());
 }
 
 // Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
-Nits PriorScale(const Work& work) {
+Nits PriorScale(const BracketWork& work) {
   const FrameInfo& info = work.frames[work.planned.order.front()].info;
   const double exposure = std::exp(work.planned.ln_exposure.front());  // t S / N^2
   double nits = SaturatingExposure(1.0).value / (kIsoLensConstant * exposure);
@@ -248,7 +58,7 @@ Nits PriorScale(const Work& work) {
 }
 
 // Row by row product, then a scale.
-PictureRows RowsOf(const Work& work, const BracketMergeRequest& request, double scale) {
+PictureRows RowsOf(const BracketWork& work, const BracketMergeRequest& request, double scale) {
   const Matrix3& xyz = work.color.xyz_from_rgb;
   PictureRows rows;
   rows.corrections = work.corrections;
@@ -346,7 +156,7 @@ Result<Scale> AnchorScale(const BracketMerger& merger, const PictureRows& rows, 
                std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd)};
 }
 
-std::vector<MergedFrame> FramesOf(const Work& work) {
+std::vector<MergedFrame> FramesOf(const BracketWork& work) {
   std::vector<MergedFrame> frames;
   for (const Frame& frame : work.frames) frames.push_back({frame.info, std::nullopt, false});
   const PlannedMerge& planned = work.planned;
@@ -376,7 +186,7 @@ const char* ScaleSourceOf(const BracketMergeRequest& request) {
   return read ? kCameraScale : "iso_prior";
 }
 
-Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
+Result<Scale> ScaleOf(const BracketMerger& merger, const BracketWork& work,
                       const BracketMergeRequest& request) {
   if (request.raw) return Scale{PerExposure(work), work.planned.gauge_sd};
   const double prior = PriorScale(work).value();
@@ -405,7 +215,7 @@ Result<Scale> ScaleOf(const BracketMerger& merger, const Work& work,
 }
 
 // Pixels by which frames may still lie apart: aligned ones keep to whole periods of the pattern.
-double Unaligned(const Work& work) {
+double Unaligned(const BracketWork& work) {
   if (!work.alignment || !work.alignment->any()) return kLeastShiftPixels;
   const SignalFrame& frame = work.signals.front();
   return kLeastShiftPixels + 0.5 * std::hypot(frame.column_period, frame.row_period);
@@ -413,7 +223,8 @@ double Unaligned(const Work& work) {
 
 // The whole picture; frames that lie in scratch files are in memory by a band at a time.
 Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows& rows,
-                                 const Work& work, View2d<float> picture, View2d<float> sigma) {
+                                 const BracketWork& work, View2d<float> picture,
+                                 View2d<float> sigma) {
   constexpr int kBandRows = 20 * kLanes;  // whole periods of any pattern
   const bool in_files = std::all_of(work.frames.begin(), work.frames.end(),
                                     [](const Frame& frame) { return frame.in_file; });
@@ -447,11 +258,15 @@ void WarnOfClipping(MergedBracket& merged) {
 Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeRequest& request) {
   MergedBracket merged;
   merged.warnings = bracket.warnings;
-  const auto work = Prepare(request, bracket, merged.warnings);
+  const auto work = PrepareBracket(request, bracket, merged.warnings);
   if (!work) return tl::unexpected(work.error());
   const auto merger = BracketMerger::Make((*work)->signals, (*work)->planned.plan);
   if (!merger) return tl::unexpected(merger.error());
-  Append(CompareFrames(*merger, Unaligned(**work)), merged.warnings);
+  const auto let_go = [&](std::size_t k) {
+    const Frame& frame = (*work)->frames[(*work)->planned.order[k]];
+    LetGo(frame, 0, frame.info.height);
+  };
+  Append(CompareFrames(*merger, Unaligned(**work), let_go), merged.warnings);
   const auto scale = ScaleOf(*merger, **work, request);
   if (!scale) return tl::unexpected(scale.error());
 
@@ -492,7 +307,7 @@ Result<std::optional<NoiseProfile>> MeasureBracketNoise(const Bracket& bracket,
   request.camera->flat = false;
   request.own_noise = true;
   Warnings ignored;
-  const auto work = Prepare(request, bracket, ignored);
+  const auto work = PrepareBracket(request, bracket, ignored);
   if (!work) return tl::unexpected(work.error());
   const PlannedMerge& planned = (*work)->planned;
   if (planned.noise_source != NoiseSource::kEstimated) return std::nullopt;

@@ -53,4 +53,19 @@ Result<RgbSpace> ParseSpace(const std::string& option, const std::string& text) 
   return found->second;
 }
 
+Result<ColorWords> ParseColorWords(const std::string& space, const std::string& white) {
+  ColorWords words;
+  if (!space.empty()) {
+    const auto parsed = ParseSpace("--space", space);
+    if (!parsed) return tl::unexpected(parsed.error());
+    words.space = *parsed;
+  }
+  if (!white.empty()) {
+    const auto parsed = ParseWhite("--white", white);
+    if (!parsed) return tl::unexpected(parsed.error());
+    words.white = *parsed;
+  }
+  return words;
+}
+
 }  // namespace lightcal::app

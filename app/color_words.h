@@ -2,6 +2,7 @@
 // Whites and RGB spaces as people type them.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightcal/colorimetry/chromaticity.h"
@@ -14,5 +15,13 @@ namespace lightcal::app {
 [[nodiscard]] Result<Xy> ParseWhite(const std::string& option, const std::string& text);
 // "rec709" (or "srgb"), "acescg", "rec2020", "p3".
 [[nodiscard]] Result<RgbSpace> ParseSpace(const std::string& option, const std::string& text);
+
+// --space and --white as a person gave them; absent where they did not.
+struct ColorWords {
+  std::optional<RgbSpace> space;
+  std::optional<Xy> white;
+};
+[[nodiscard]] Result<ColorWords> ParseColorWords(const std::string& space,
+                                                 const std::string& white);
 
 }  // namespace lightcal::app

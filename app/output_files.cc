@@ -3,13 +3,17 @@
 
 #include <fcntl.h>
 #include <openssl/evp.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -62,6 +66,18 @@ std::string TemporaryName(const std::string& path) {
   return (p.parent_path() /
           ("." + p.filename().string() + "." + std::to_string(::getpid()) + ".tmp"))
       .string();
+}
+
+// Of a temporary's name: the process that writes it; absent for every other name.
+std::optional<int> WriterOfTemporary(const std::string& name) {
+  constexpr std::string_view kEnding = ".tmp";
+  if (!name.starts_with('.') || !name.ends_with(kEnding)) return std::nullopt;
+  const std::string_view stem = std::string_view(name).substr(0, name.size() - kEnding.size());
+  const std::string_view digits = stem.substr(stem.rfind('.') + 1);
+  int process = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
+  const bool whole = error == std::errc() && end == digits.data() + digits.size() && process > 0;
+  return whole ? std::optional(process) : std::nullopt;
 }
 
 // Forces to the disk what another writer left at `path`.
@@ -137,6 +153,16 @@ Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force
     }
   }
   return {};
+}
+
+void RemoveLeftovers(const std::string& directory) {
+  std::error_code ignored;
+  std::vector<fs::path> orphans;
+  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+    const auto process = WriterOfTemporary(entry.path().filename().string());
+    if (process && ::kill(*process, 0) != 0 && errno == ESRCH) orphans.push_back(entry.path());
+  }
+  for (const fs::path& orphan : orphans) fs::remove(orphan, ignored);
 }
 
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {

@@ -19,8 +19,8 @@ struct OutputFile {
 
 // Fails with "exists" (exit 1) before writing anything when a target exists, does not carry
 // lightcal's own provenance (the word "lightcal" in its first 4 KiB or anywhere in a JSON or PDF
-// file) and force is off; with "unwritable" when a directory or file cannot be written. Creates directories.
-// On any failure no target has changed.
+// file) and force is off; with "unwritable" when a directory or file cannot be written. Creates
+// directories. On any failure no target has changed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
 
 // A file whose writer fills the temporary name it is given: for pictures too large to hold twice.
@@ -31,6 +31,10 @@ struct OutputWriter {
 [[nodiscard]] OutputWriter WriterOf(OutputFile file);
 // As WriteOutputs.
 [[nodiscard]] Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force);
+
+// Removes what killed runs of lightcal were writing in a directory: hidden temporaries whose
+// process is gone.
+void RemoveLeftovers(const std::string& directory);
 
 // Paths relative to a directory become paths below it.
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);

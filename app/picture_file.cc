@@ -5,7 +5,6 @@
 #include <cairo.h>
 #include <dlfcn.h>
 #include <librsvg/rsvg.h>
-#include <zlib.h>
 
 #include <array>
 #include <cmath>
@@ -18,6 +17,7 @@
 #include "clock.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/raster_style.h"
+#include "raster_png.h"
 
 namespace lightcal::app {
 namespace {
@@ -137,25 +137,12 @@ Result<std::string> Painted(const Rasterizer& r, const std::string& svg) {
   return png;
 }
 
-std::string BigEndian(std::uint32_t value) {
-  std::string bytes;
-  for (int shift = 24; shift >= 0; shift -= 8) {
-    bytes += static_cast<char>((value >> static_cast<unsigned>(shift)) & 0xffU);
-  }
-  return bytes;
-}
-
 // A PNG chunk of text behind the header chunk.  Source: ISO/IEC 15948:2004, 5.3 and 11.3.4.3.
 void AddProvenance(std::string& png) {
   constexpr std::size_t kSignatureAndHeader = 8 + 25;
   if (png.size() < kSignatureAndHeader) return;
-  const std::string chunk = "tEXtSoftware" + std::string(1, '\0') + GeneratorName();
-  constexpr std::size_t kTypeLength = 4;
-  const auto crc =
-      crc32(0, reinterpret_cast<const Bytef*>(chunk.data()), static_cast<uInt>(chunk.size()));
   png.insert(kSignatureAndHeader,
-             BigEndian(static_cast<std::uint32_t>(chunk.size() - kTypeLength)) + chunk +
-                 BigEndian(static_cast<std::uint32_t>(crc)));
+             PngChunk("tEXt", "Software" + std::string(1, '\0') + GeneratorName()));
 }
 
 bool IsPng(const std::string& path) { return LowerAscii(path).ends_with(".png"); }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "picture_words.h"
 
-#include <array>
 #include <string_view>
 
 #include "lightcal/core/nearest_word.h"
@@ -18,9 +17,7 @@ Result<LuminanceConvention> ParseConvention(const std::string& option, const std
 
 Result<Projection> ParseProjection(const std::string& option, const std::string& word) {
   if (const auto projection = ProjectionByName(word)) return *projection;
-  constexpr std::array<std::string_view, 4> kKnown = {"rect", "latlong", "equidistant",
-                                                      "equisolid"};
-  const std::string near = NearestWord(word, kKnown);
+  const std::string near = NearestWord(word, kProjectionWords);
   return WrongUsage(option, "\"" + word + "\" is none of rect, latlong, equidistant, equisolid" +
                                 (near.empty() ? "" : "; did you mean " + near + "?"));
 }

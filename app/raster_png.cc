@@ -16,15 +16,15 @@ std::string BigEndian(std::uint32_t value) {
   return bytes;
 }
 
-std::string Chunk(const std::string& type, const std::string& data) {
+}  // namespace
+
+std::string PngChunk(const std::string& type, const std::string& data) {
   const std::string body = type + data;
   const auto crc =
       crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
   return BigEndian(static_cast<std::uint32_t>(data.size())) + body +
          BigEndian(static_cast<std::uint32_t>(crc));
 }
-
-}  // namespace
 
 std::string EncodePng(View2d<const std::uint8_t> rgb) {
   constexpr char kTrueColour = 2, kEightBits = 8;
@@ -43,7 +43,8 @@ std::string EncodePng(View2d<const std::uint8_t> rgb) {
   std::string header = BigEndian(static_cast<std::uint32_t>(rgb.width())) +
                        BigEndian(static_cast<std::uint32_t>(rgb.height()));
   header += {kEightBits, kTrueColour, 0, 0, 0};
-  return "\x89PNG\r\n\x1a\n" + Chunk("IHDR", header) + Chunk("IDAT", packed) + Chunk("IEND", "");
+  return "\x89PNG\r\n\x1a\n" + PngChunk("IHDR", header) + PngChunk("IDAT", packed) +
+         PngChunk("IEND", "");
 }
 
 std::string Base64(std::string_view bytes) {

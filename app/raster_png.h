@@ -14,6 +14,9 @@ namespace lightcal::app {
 // Source: ISO/IEC 15948:2004.
 [[nodiscard]] std::string EncodePng(View2d<const std::uint8_t> rgb);
 
+// A chunk of a PNG file: length, type, data, check sum.  Source: ISO/IEC 15948:2004, 5.3.
+[[nodiscard]] std::string PngChunk(const std::string& type, const std::string& data);
+
 // Bytes as base64 text (RFC 4648), as data: URIs hold them.
 [[nodiscard]] std::string Base64(std::string_view bytes);
 

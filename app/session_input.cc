@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "captures/ball_capture.h"
 #include "captures/capture_readings.h"
 #include "captures/wall_capture.h"
 #include "clock.h"
@@ -50,11 +51,13 @@ Result<void> AddDistributions(Session& session, Console& console) {
 }
 
 // Warnings come even where a capture is refused: they may say why.
-Result<void> AddCaptures(Session& session, Console& console) {
+Result<std::vector<BallPlacement>> AddCaptures(Session& session, Console& console) {
   Warnings warnings;
-  auto added = AddCaptureReadings(session, warnings);
+  auto placed = PlaceByBalls(session, warnings);
+  auto added = placed ? AddCaptureReadings(session, warnings) : Result<void>{};
   console.Warn(warnings);
-  return added;
+  if (!added) return Propagate(std::move(added));
+  return placed;
 }
 
 // Lights that walls measured, and all others fitted to their readings, in the session's order.
@@ -145,6 +148,10 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
   if (!lights) return Propagate(std::move(lights));
   calibrated.lights = *std::move(lights);
   for (FittedLight& light : calibrated.lights.lights) {
+    const auto ball = std::ranges::find(*placed, light.name, &BallPlacement::light);
+    if (ball != placed->end() && light.position_m == ball->position_m) {
+      light.position_u95_m = ball->u95_m;
+    }
     if (RestsOnCameraScale(calibrated.session, light.name)) {
       light.fit.prior.emplace_back(kCameraScalePrior);
     }

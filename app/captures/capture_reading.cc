@@ -4,7 +4,9 @@
 #include <memory>
 #include <utility>
 
+#include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/spectral_mismatch.h"
 #include "output_files.h"
 #include "session_files.h"
 
@@ -79,6 +81,21 @@ void NoteCapture(const CaptureDescription& capture, const MergedBracket& merged,
        "its absolute scale is what the ISO speed promises, +-" +
            RoundedText(100.0 * merged.scale_u95_relative, 2) +
            " %; one lux reading of this light, or anchor_illuminance_lx, makes it sure"});
+}
+
+Reading ReadingOfPicture(const CaptureDescription& capture, const FrameInfo& info,
+                         const MergedBracket& merged, const LampLuminance& lamp) {
+  Reading reading;
+  reading.light = capture.light;
+  reading.xy = lamp.xy;
+  reading.color_source = lamp.xy ? ColorSource::kCamera : ColorSource::kUnknown;
+  if (lamp.xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
+  reading.quality = MeterQuality::kDerived;
+  reading.device =
+      (merged.scale_source == kCameraScale ? kCalibratedDevicePrefix : kCameraDevicePrefix) +
+      (info.camera.empty() ? info.format : info.camera);
+  reading.time = info.time;
+  return reading;
 }
 
 double AnchorSigma(const Session& session, const CaptureDescription& capture) {

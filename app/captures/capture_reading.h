@@ -46,6 +46,12 @@ struct CaptureReading {
 void NoteCapture(const CaptureDescription& capture, const MergedBracket& merged, Session& session,
                  Warnings& warnings);
 
+// A reading of this capture's light with everything but illuminance and distance: colour, device,
+// time.
+struct LampLuminance;
+[[nodiscard]] Reading ReadingOfPicture(const CaptureDescription& capture, const FrameInfo& info,
+                                       const MergedBracket& merged, const LampLuminance& lamp);
+
 // 1 sigma of anchor_illuminance_lx, relative: the named meter's.
 [[nodiscard]] double AnchorSigma(const Session& session, const CaptureDescription& capture);
 

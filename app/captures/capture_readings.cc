@@ -10,6 +10,8 @@
 
 #include "capture_reading.h"
 #include "card_capture.h"
+#include "dome_capture.h"
+#include "source_capture.h"
 
 namespace lightcal::app {
 namespace {
@@ -23,11 +25,13 @@ Result<CaptureReadings> ReadCapture(Session& session, const CaptureDescription& 
   switch (capture.use) {
     case CaptureUse::kCard:
       return ReadCard(session, capture, warnings).map(one);
-    case CaptureUse::kWall:  // MeasureWalls
-      return CaptureReadings{};
     case CaptureUse::kSource:
+      return ReadSource(session, capture, warnings).map(one);
     case CaptureUse::kDome:
-      break;
+      return ReadDomeCapture(session, capture, warnings).map(one);
+    case CaptureUse::kWall:  // MeasureWalls
+    case CaptureUse::kBall:  // PlaceByBalls
+      return CaptureReadings{};
   }
   return Refused("capture_unsupported", capture.where, "this use is not built");
 }

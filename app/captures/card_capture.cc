@@ -9,7 +9,6 @@
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/spectral_mismatch.h"
 
 namespace lightcal::app {
 namespace {
@@ -111,21 +110,13 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   out.shared_sd = out.anchored ? AnchorSigma(session, capture)
                                : std::hypot(merged->scale_u95_relative / kZ95, corrected->sigma,
                                             capture.reflectance_sigma);
+  out.reading = ReadingOfPicture(capture, info, *merged, *corrected);
   Reading& reading = out.reading;
-  reading.light = capture.light;
   reading.distance = capture.distance;
   reading.tilt = capture.tilt;
   reading.illuminance = out.anchored
                             ? *capture.anchor_illuminance
                             : Lux(std::numbers::pi * corrected->nits / capture.reflectance);
-  reading.xy = corrected->xy;
-  reading.color_source = corrected->xy ? ColorSource::kCamera : ColorSource::kUnknown;
-  if (corrected->xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
-  reading.quality = MeterQuality::kDerived;
-  reading.device =
-      (merged->scale_source == kCameraScale ? kCalibratedDevicePrefix : kCameraDevicePrefix) +
-      (info.camera.empty() ? info.format : info.camera);
-  reading.time = info.time;
   return out;
 }
 

@@ -78,11 +78,8 @@ Result<LampLuminance> LuminanceOfLamp(const Session& session, const CaptureDescr
   }
   if (!color.has_colour) return LampLuminance{seen.Y, kGreenOnlySigma, std::nullopt};
   const MismatchFactor generic = GenericMismatch(capture.lamp_class);
-  if (raw && info.matrices) {
-    const auto daylight = DaylightXyzFromRaw(*info.matrices);
-    if (!daylight) return tl::unexpected(daylight.error());
-    return Corrected(generic, Reinterpret(*daylight, color, seen), XyFromXyz(seen));
-  }
+  // ColorOfPicture's matrix of RAW frames is the one for daylight, which the factor belongs to.
+  if (raw && info.matrices) return Corrected(generic, seen, XyFromXyz(seen));
   // A rendered picture: nobody knows by which matrix, so the mean stays an error.
   const double off = generic.At(MiredsOfLamp(XyFromXyz(seen))) - 1.0;
   return LampLuminance{seen.Y, std::hypot(generic.sigma, off), XyFromXyz(seen)};

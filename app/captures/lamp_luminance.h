@@ -22,7 +22,7 @@ struct LampLuminance {
 // sensitivities with the lamp's spectrum or class, else by the mean of 52 cameras for its class.
 // With a camera's profile `seen` is as the profile's matrix has it.
 // Refused: camera_needs_raw, several_spectra, and as CameraOfCapture, CameraMismatch,
-// SpectralCamera::Make, DaylightXyzFromRaw.
+// SpectralCamera::Make.
 [[nodiscard]] Result<LampLuminance> LuminanceOfLamp(const Session& session,
                                                     const CaptureDescription& capture,
                                                     const FrameInfo& info,

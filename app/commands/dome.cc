@@ -61,16 +61,9 @@ Result<Plan> PlanOf(const Options& options) {
     if (!plate) return tl::unexpected(plate.error());
     plan.plate = *plate;
   }
-  if (!options.space.empty()) {
-    const auto space = ParseSpace("--space", options.space);
-    if (!space) return tl::unexpected(space.error());
-    plan.colors.space = *space;
-  }
-  if (!options.white.empty()) {
-    const auto white = ParseWhite("--white", options.white);
-    if (!white) return tl::unexpected(white.error());
-    plan.colors.white = *white;
-  }
+  const auto colors = ParseColorWords(options.space, options.white);
+  if (!colors) return tl::unexpected(colors.error());
+  plan.colors = {colors->space, colors->white};
   return plan;
 }
 
@@ -181,6 +174,31 @@ std::string Table(const MeasuredDome& measured, const std::vector<std::string>& 
          "\n";
 }
 
+void AddViews(const DomeInput& input, nlohmann::ordered_json& document) {
+  if (input.views.empty()) return;
+  auto& views = document["views"] = nlohmann::ordered_json::array();
+  for (const DomeViewScale& view : input.views) {
+    views.push_back(
+        {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}});
+  }
+  if (input.views.size() > 1) {
+    document["rim_transmission"] = input.rim_transmission;
+    document["agreement_sd_relative"] = input.agreement_sd;
+  }
+  document["seen_fraction"] = input.seen_share;
+}
+
+std::string ViewsTable(const DomeInput& input) {
+  if (input.views.size() < 2) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const DomeViewScale& view : input.views) {
+    rows.push_back({view.file, ValueWithPercent(view.factor, view.u95_relative * view.factor, "")});
+  }
+  return TextTable({"view", "scale"}, rows) + "\nviews agree within " +
+         RoundedText(100.0 * input.agreement_sd, 2) + " % (1 sigma); the lens passes " +
+         RoundedText(100.0 * input.rim_transmission, 3) + " % at its rim\n\n";
+}
+
 nlohmann::ordered_json ToJson(const Plan& plan, const MeasuredDome& measured,
                               const std::vector<std::string>& names, std::size_t extracted,
                               const std::vector<Balance>& planes,
@@ -206,6 +224,7 @@ nlohmann::ordered_json ToJson(const Plan& plan, const MeasuredDome& measured,
   if (plan.plate) {
     document["plate"] = {{"ev100", Ev100(*plan.plate)}, {"exposure", ExposureScale(*plan.plate)}};
   }
+  AddViews(measured.input, document);
   document["files"] = written;
   return document;
 }
@@ -257,7 +276,7 @@ Result<void> RunDome(const Options& options, Console& console) {
   if (auto written = WriteOutputsWith(writers, options.force); !written) return written;
   std::vector<std::string> paths;
   for (const OutputWriter& writer : writers) paths.push_back(writer.path);
-  console.Print(Table(*measured, names, extracted, planes.front()));
+  console.Print(ViewsTable(measured->input) + Table(*measured, names, extracted, planes.front()));
   console.PrintJson(ToJson(*plan, *measured, names, extracted, planes, paths));
   for (const std::string& path : paths) console.Note("wrote " + path);
   return {};

@@ -151,17 +151,13 @@ Result<BracketMergeRequest> RequestOf(const Options& options) {
     }
     request.noise = NoiseProfile{options.noise[0], options.noise[1]};
   }
-  if (!options.space.empty()) {
-    const auto space = ParseSpace("--space", options.space);
-    if (!space) return tl::unexpected(space.error());
-    request.space = *space;
+  if (!options.white.empty() && options.space.empty()) {
+    return WrongUsage("--white", "belongs to a colour picture: add --space");
   }
-  if (!options.white.empty()) {
-    if (!request.space) return WrongUsage("--white", "belongs to a colour picture: add --space");
-    const auto white = ParseWhite("--white", options.white);
-    if (!white) return tl::unexpected(white.error());
-    request.white = *white;
-  }
+  const auto colors = ParseColorWords(options.space, options.white);
+  if (!colors) return tl::unexpected(colors.error());
+  request.space = colors->space;
+  request.white = colors->white;
   if (auto added = AddCamera(options, request); !added) return Propagate(std::move(added));
   return request;
 }

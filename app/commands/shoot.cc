@@ -12,6 +12,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "shooting/bracket_shoot.h"
+#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {
@@ -19,8 +20,8 @@ namespace {
 struct Options {
   ShootRequest request;
   std::string bracket;
-  int mains_hz = 0;  // 0 = the lamp does not flicker
-  std::string use, distance, tilt, lamp_class;
+  std::string mains, pwm;  // both empty: nothing flickers
+  std::string use, distance, tilt, fov, lamp_class;
   double reflectance = 0.0;
   std::vector<int> rect;
 };
@@ -34,7 +35,8 @@ std::size_t IndexOf(const std::string& word, const Words& words) {
 Result<std::optional<CaptureDescription>> CaptureOf(const Options& options) {
   const bool described = !options.use.empty() || !options.distance.empty() ||
                          options.reflectance > 0.0 || !options.rect.empty() ||
-                         !options.tilt.empty() || !options.lamp_class.empty();
+                         !options.tilt.empty() || !options.fov.empty() ||
+                         !options.lamp_class.empty();
   if (!described) return std::nullopt;
   CaptureDescription capture;
   if (!options.use.empty()) {
@@ -51,6 +53,11 @@ Result<std::optional<CaptureDescription>> CaptureOf(const Options& options) {
     if (!tilt) return tl::unexpected(tilt.error());
     capture.tilt = *tilt;
   }
+  if (!options.fov.empty()) {
+    const auto fov = ParseAngle(options.fov);
+    if (!fov) return tl::unexpected(fov.error());
+    capture.field_of_view = *fov;
+  }
   if (!options.rect.empty()) {
     capture.rect = {options.rect[0], options.rect[1], options.rect[2], options.rect[3]};
   }
@@ -61,8 +68,19 @@ Result<std::optional<CaptureDescription>> CaptureOf(const Options& options) {
   if (card && !(capture.reflectance > 0.0)) {
     return WrongUsage("--reflectance", "say what the card reflects, for example 0.18");
   }
-  if (card && !capture.distance) {
-    return WrongUsage("--distance", "say how far the card stood from the lamp, for example 0.8m");
+  const bool source = capture.use == CaptureUse::kSource;
+  if (!card && !source) {
+    return WrongUsage("--use",
+                      "shoot without --use, then describe the frames in a [[capture]] of "
+                      "session.toml: a wall, a dome and a ball need more than fits here");
+  }
+  if (!capture.distance) {
+    return WrongUsage("--distance",
+                      "say how far the card (or the camera, for a source) stood from "
+                      "the lamp, for example 0.8m");
+  }
+  if (source && !capture.field_of_view) {
+    return WrongUsage("--fov", "say what the lens sees across the picture's width, for example 40");
   }
   return capture;
 }
@@ -77,9 +95,11 @@ Result<ShootRequest> RequestOf(const Options& options) {
   auto bracket = ParseBracket(options.bracket);
   if (!bracket) return Propagate(std::move(bracket));
   request.bracket = *std::move(bracket);
-  // A lamp on the mains flickers at twice their frequency.
-  if (options.mains_hz > 0) {
-    request.bracket.lamps.push_back({.frequency_hz = 2.0 * options.mains_hz});
+  if (!options.mains.empty() || !options.pwm.empty()) {
+    const auto lamps = ParseLamps(options.mains.empty() ? "none" : options.mains, options.pwm);
+    if (!lamps) return tl::unexpected(lamps.error());
+    request.bracket.lamps = lamps->mains;
+    if (lamps->pwm) request.bracket.lamps.push_back(*lamps->pwm);
   }
   auto capture = CaptureOf(options);
   if (!capture) return Propagate(std::move(capture));
@@ -170,18 +190,19 @@ Run BuildShoot(CLI::App& parser) {
                     "The middle shutter time (1/60), unless the camera stands at it");
   parser.add_option("--aperture", request.exposure.aperture, "f/8, unless as the camera stands");
   parser.add_option("--iso", request.exposure.iso, "100, unless as the camera stands");
-  parser
-      .add_option("--mains", options->mains_hz,
-                  "The lamp flickers with mains of 50 or 60 Hz: prefer whole periods")
-      ->check(CLI::IsMember({50, 60}));
+  parser.add_option("--mains", options->mains,
+                    "50, 60 or none: the lamp flickers with these mains; prefer whole periods");
+  parser.add_option("--pwm", options->pwm, "HZ[,DUTY] of a dimmed lamp, likewise");
   parser.add_option(
       "--device", request.device,
       "gphoto2:ptpip:HOST, or an id of lightcal devices, where several are plugged in");
-  parser.add_option("-o,--use", options->use, "What the frames are for: card, source, wall, dome")
+  parser.add_option("-o,--use", options->use, "What the frames are for: card, source")
       ->check(OneOf(kCaptureUseWords));
   parser.add_option("-d,--distance", options->distance, "From the lamp to the card: 0.8m");
   parser.add_option("--reflectance", options->reflectance, "Of the card: 0.18")
       ->check(CLI::Range(0.0, 1.0));
+  parser.add_option("--fov", options->fov,
+                    "Of a source: what the lens sees across the picture's width, degrees");
   parser.add_option("--tilt", options->tilt, "Between the card's normal and the lamp, degrees");
   parser.add_option("--rect", options->rect, "The card in the picture: X,Y,WIDTH,HEIGHT")
       ->delimiter(',')

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "dome/dome_views.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
 #include "lightcal_devices/captures/bracket.h"
@@ -63,25 +64,20 @@ std::vector<float> ScaledSamples(View2d<const float> samples, double nits_per_un
   return scaled;
 }
 
-}  // namespace
-
-Result<DomeInput> ReadDomeInput(const DomeInputRequest& request) {
-  const std::string& file = request.files.front();
+// One file in its own projection.
+Result<DomeInput> ReadPicture(const std::string& file, const DomeInputRequest& request) {
   auto frame = ReadFrame(file);
   if (!frame) return Propagate(std::move(frame));
   const auto convention = request.convention.value_or(LuminanceConvention::kPhotometric);
   auto luminance = LuminanceOfPicture(*frame, convention);
   if (!luminance) return Propagate(std::move(luminance));
-  const auto view = PixelSolidAngles::Create(
-      {.projection = Projection::kLatLong, .width = luminance->width, .height = luminance->height});
-  if (!view) return tl::unexpected(view.error());
   if (auto range = CheckRange(*luminance, file); !range) return Propagate(std::move(range));
   const auto color = ColorOfPicture(frame->info);
   if (!color) return tl::unexpected(color.error());
 
   const auto& samples = std::get<View2d<const float>>(frame->samples);
   DomeInput input;
-  input.files = request.files;
+  input.files = {file};
   input.warnings = frame->info.warnings;
   for (const Warning& warning : luminance->warnings) {
     if (request.convention && warning.code == "relative_scale") continue;  // the person has said
@@ -106,6 +102,23 @@ Result<DomeInput> ReadDomeInput(const DomeInputRequest& request) {
     input.primaries = kRadiancePrimaries;
   }
   return input;
+}
+
+}  // namespace
+
+Result<DomeInput> ReadDomeInput(const DomeInputRequest& request) {
+  std::vector<DomeInput> pictures;
+  for (const std::string& file : request.files) {
+    auto picture = ReadPicture(file, request);
+    if (!picture) return Propagate(std::move(picture));
+    pictures.push_back(std::move(*picture));
+  }
+  if (!request.IsPanorama()) return ComposeViews(std::move(pictures), request);
+  const Dome& dome = pictures.front().dome;
+  const auto view = PixelSolidAngles::Create(
+      {.projection = Projection::kLatLong, .width = dome.width, .height = dome.height});
+  if (!view) return tl::unexpected(view.error());
+  return std::move(pictures.front());
 }
 
 }  // namespace lightcal::app

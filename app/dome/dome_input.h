@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/aimed_picture.h"
 #include "lightcal/imaging/dome_lights.h"
 #include "lightcal/imaging/panorama.h"
 #include "lightcal/imaging/picture_luminance.h"
@@ -18,6 +19,22 @@ struct DomeInputRequest {
   std::vector<std::string> files;
   std::optional<LuminanceConvention> convention;  // absent: photometric, relative if no file says
   std::optional<double> clip;  // samples of a file from here on are clipped, in the file's own unit
+  Projection projection = Projection::kLatLong;
+  Radians field_of_view{0.0};  // as PictureView has it
+  std::vector<ViewAim> aims;   // one a file; empty: a panorama as it is, a fisheye looking up
+  std::optional<int> width;    // of the lat-long dome made of views; absent: WidthForViews
+
+  // One lat-long file that needs no projecting.
+  [[nodiscard]] bool IsPanorama() const {
+    return projection == Projection::kLatLong && files.size() == 1 && aims.empty();
+  }
+};
+
+// One file of several on one scale.
+struct DomeViewScale {
+  std::string file;
+  double factor = 1.0;        // what its luminances were multiplied by
+  double u95_relative = 0.0;  // as a deviation from all views' common scale
 };
 
 struct DomeInput {
@@ -29,11 +46,17 @@ struct DomeInput {
   std::optional<RgbPrimaries> primaries;  // the file's own
   bool has_colour = false;
   std::vector<std::string> files;
+  std::vector<DomeViewScale> views;  // of a dome composed of views
+  double rim_transmission = 1.0;     // what their lens passes at its rim, of what in its middle
+  double agreement_sd = 0.0;         // of the views where they overlap, relative
+  double seen_share = 1.0;           // of the sphere
+  std::vector<std::uint8_t> unseen;  // by pixel, black; empty = none
   Warnings warnings;
 };
 
-// One lat-long panorama as it is.
-// Refused: as ReadFrame, LuminanceOfPicture, PixelSolidAngles; over_range (a pixel no scene has).
+// One lat-long panorama as it is, or views composed to one.
+// Refused: as ReadFrame, LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a pixel no
+// scene has).
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request);
 
 }  // namespace lightcal::app

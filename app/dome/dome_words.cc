@@ -2,7 +2,9 @@
 #include "dome/dome_words.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -43,13 +45,67 @@ Result<std::optional<DomeReading>> ReadingOf(const DomeWords& words) {
   return std::optional(reading);
 }
 
+Result<ViewAim> ParseAim(const std::string& text) {
+  std::array<double, 3> degrees{};
+  std::string_view rest = text;
+  std::size_t count = 0;
+  bool whole = true;
+  for (; whole && !rest.empty() && count < degrees.size(); ++count) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const auto number = ParseNumber(TrimBlanks(rest.substr(0, comma)));
+    whole = number.has_value();
+    degrees[count] = number.value_or(0.0);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  if (!whole || !rest.empty() || count < 2 || std::abs(degrees[1]) > 90.0) {
+    return WrongUsage("--aim", "\"" + text +
+                                   "\" is not YAW,PITCH[,ROLL] in degrees (right of +Y, above the "
+                                   "horizon, leaning right), such as 45,0 or 0,90");
+  }
+  return ViewAim{RadiansFromDegrees(degrees[0]), RadiansFromDegrees(degrees[1]),
+                 RadiansFromDegrees(degrees[2])};
+}
+
+Result<void> TakeViews(const DomeWords& words, DomeInputRequest& request) {
+  const auto projection = ParseProjection("--projection", words.projection);
+  if (!projection) return tl::unexpected(projection.error());
+  request.projection = *projection;
+  if (!words.fov.empty()) {
+    const auto fov = ParseAngle(words.fov);
+    if (!fov) return tl::unexpected(fov.error());
+    request.field_of_view = *fov;
+  }
+  for (const std::string& text : words.aims) {
+    const auto aim = ParseAim(text);
+    if (!aim) return tl::unexpected(aim.error());
+    request.aims.push_back(*aim);
+  }
+  const bool one = words.files.size() == 1 && request.projection != Projection::kRectilinear;
+  if (request.aims.size() != words.files.size() && !(one && request.aims.empty())) {
+    return WrongUsage("--aim", std::to_string(words.files.size()) +
+                                   " pictures are views and need --aim YAW,PITCH[,ROLL] once each, "
+                                   "in their order; " +
+                                   std::to_string(request.aims.size()) + " given");
+  }
+  if (words.width.empty()) return {};
+  const auto width = ParseNumber(words.width);
+  constexpr double kLeast = 16.0, kMost = 16384.0;
+  if (!width || !(*width >= kLeast && *width <= kMost) || std::fmod(*width, 2.0) != 0.0) {
+    return WrongUsage("--width",
+                      "\"" + words.width + "\" is not an even count of pixels, 16 to 16384");
+  }
+  request.width = static_cast<int>(*width);
+  return {};
+}
+
 }  // namespace
 
 void AddDomeWords(CLI::App& parser, DomeWords& w) {
   parser
       .add_option("panoramas", w.files,
                   "Lat-long panorama: EXR, Radiance HDR or float TIFF. Its centre looks along +Y, "
-                  "its right side is +X, its upper edge +Z")
+                  "its right side is +X, its upper edge +Z. Or views of other projections, several "
+                  "with their --aim each: overlaps give them one scale")
       ->required();
   parser.add_option("--lux", w.lux,
                     "A lux meter's reading where the panorama was taken: sets the scale, or what "
@@ -68,14 +124,26 @@ void AddDomeWords(CLI::App& parser, DomeWords& w) {
   parser.add_option("--luminance-convention", w.convention, kConventionHelp);
   parser.add_option("--north", w.north,
                     "Azimuth in degrees, right of the picture's centre, that becomes +Y [0]");
+  parser
+      .add_option("--projection", w.projection,
+                  "Of the pictures: latlong, equidistant, equisolid (fisheyes, looking up unless "
+                  "aimed) or rect (an ordinary lens)")
+      ->capture_default_str();
+  parser.add_option("--fov", w.fov,
+                    "Full angle in degrees: across a fisheye's circle, across a rect's width");
+  parser
+      .add_option("--aim", w.aims,
+                  "Where a view looks, once for each picture in their order: YAW,PITCH[,ROLL] in "
+                  "degrees, right of +Y, above the horizon, leaning right")
+      ->allow_extra_args(false);
+  parser.add_option("--width", w.width,
+                    "Pixels across the dome made of views [the finest view's detail]");
 }
 
 Result<DomeRequest> DomeRequestOf(const DomeWords& words) {
-  if (words.files.size() != 1) {
-    return WrongUsage(words.files[1], "dome reads one panorama at a time");
-  }
   DomeRequest request;
   request.input.files = words.files;
+  if (auto views = TakeViews(words, request.input); !views) return Propagate(std::move(views));
   if (!words.convention.empty()) {
     const auto convention = ParseConvention("--luminance-convention", words.convention);
     if (!convention) return tl::unexpected(convention.error());

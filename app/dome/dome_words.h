@@ -19,6 +19,8 @@ struct DomeWords {
   std::vector<std::string> files;
   std::string lux, lux_sigma = "5%", lux_direction = "up", lux_shaded;
   std::string convention, clip, north;
+  std::string projection = "latlong", fov, width;
+  std::vector<std::string> aims;
 };
 
 void AddDomeWords(CLI::App& parser, DomeWords& words);

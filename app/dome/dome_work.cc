@@ -19,6 +19,7 @@ constexpr int kPlateau = 4;
 constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
 constexpr double kUnknownScaleU95 = 0.05;
 constexpr double kConflict = 0.25;
+constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
 
 tl::unexpected<Error> AboutFile(const char* code, const DomeInput& input, const char* message) {
   return Refused(code, input.files.front(), message);
@@ -39,6 +40,27 @@ Result<void> CheckContents(const DomeInput& input, Warnings& warnings) {
                       "every pixel has the same value: the picture is saturated all over, or was "
                       "drawn"});
   return {};
+}
+
+// What no view shows is black: the meter must not have seen much of it.
+Result<void> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+  const DomeInput& input = measured.input;
+  if (input.unseen.empty()) return {};
+  measured.warnings.push_back({"partly_seen", input.files.front(),
+                               "no view shows " + RoundedText(100.0 * (1.0 - input.seen_share), 2) +
+                                   " % of the sphere; it is black in the dome"});
+  if (!reading) return {};
+  std::vector<float> hidden(input.unseen.begin(), input.unseen.end());
+  const double share = IlluminanceOn({hidden.data(), input.dome.width, input.dome.height},
+                                     input.dome.grid(), reading->normal)
+                           .value() /
+                       std::numbers::pi;
+  if (share <= kMostHidden) return {};
+  return AboutFile("reading_beyond_view", input,
+                   ("the meter saw what no view shows: " + RoundedText(100.0 * share, 2) +
+                    " % of what lights it from a uniform sphere; turn it to where the pictures "
+                    "look (--lux-direction), or add views")
+                       .c_str());
 }
 
 bool AtLimit(const DomeLight& light, float brightest) {
@@ -208,6 +230,7 @@ Result<MeasuredDome> MeasureDome(const DomeRequest& request) {
   }
   std::optional<DomeReading> reading = request.reading;
   if (reading) reading->normal = TurnedNorth(reading->normal, -request.north);
+  if (auto seen = CheckSeen(reading, measured); !seen) return Propagate(std::move(seen));
   measured.lights = FindLights(measured.input);
   JudgePlateaus(request, reading, measured);
   if (auto ok = Scale(reading, measured); !ok) return Propagate(std::move(ok));

@@ -19,6 +19,7 @@
 #include "lightcal_devices/captures/camera_settings.h"
 #include "lightcal_devices/captures/tether.h"
 #include "lightcal_devices/transport/transport.h"
+#include "output_files.h"
 #include "session_names.h"
 #include "shooting/frame_check.h"
 #include "shooting/shoot_folder.h"
@@ -113,6 +114,8 @@ class BracketShoot {
       folder_ = ShootFolder::New(CapturesPath(request_.session), shoot_.light);
       Describe();
       if (auto checked = CheckRecord(); !checked) return checked;
+    } else {
+      RemoveLeftovers(folder_->path());
     }
     if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
     for (const NamedSetting& setting : shoot_.settings) {

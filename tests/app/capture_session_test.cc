@@ -251,7 +251,7 @@ TEST_F(CaptureSession, WhatCannotBeReadIsRefusedByName) {
                                "f_number = 4\niso = 100\nrect = [55, 30, 50, 40]\n"},
       {"card_uneven", dng + "rect = [100, 120, 200, 160]\n"},
       {"bad_region", dng + "rect = [500, 120, 200, 160]\n"},
-      {"capture_unsupported", "[[capture]]\nlight = \"lamp\"\nframes = \"*\"\nuse = \"dome\"\n"},
+
       {"bad_sensitivities", Capture("camera = \"session.toml\"\n")}};
   for (const Case& one : cases) {
     const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml),

@@ -296,7 +296,10 @@ TEST_F(DomeCommand, AskedWrongItSaysWhatToWrite) {
   };
   fails({"--lux", "100", "--lux-direction", "north"}, 2, "AZIMUTH,ELEVATION");
   fails({"--lux-shaded", "10"}, 2, "--lux");
-  fails({file}, 2, "one panorama at a time");
+  fails({file}, 2, "need --aim YAW,PITCH[,ROLL] once each");
+  fails({"--aim", "10"}, 2, "YAW,PITCH[,ROLL]");
+  fails({"--projection", "equisolid"}, 3, "give --fov");
+  fails({"--aim", "0,0", "--width", "101"}, 2, "even count of pixels");
   fails({"--lux", "0"}, 3, "above 0");
   fails({"--lux", "100", "--lux-sigma", "2"}, 2, "2%");
   fails({"--extract", "-1"}, 2, "count");

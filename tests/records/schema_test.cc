@@ -102,6 +102,29 @@ vignetting = 3.5
 sensor_width_m = 0.0236
 masks = [0, 0, 10, 10, 20, 20, 5, 5]
 anchor_rect = [30, 30, 8, 8]
+[[capture]]
+light = "key"
+frames = "captures/lamp*.dng"
+use = "source"
+distance_m = 2
+fov_deg = 40
+[[capture]]
+light = "wash"
+frames = "captures/sky.exr"
+use = "dome"
+projection = "equisolid"
+fov_deg = 180
+[[capture]]
+light = "key"
+frames = "captures/ball.jpg"
+use = "ball"
+fov_deg = 30
+[capture.ball]
+diameter_m = 0.12
+rect = [400, 300, 200, 200]
+camera_position_m = [0, -1, 1]
+camera_aim = [0, 1, 0]
+camera_roll_deg = 2
 [[reading]]
 lit = ["key"]
 distances_m = { key = 2.0 }

@@ -47,6 +47,22 @@ TEST(CaptureJson, ReadsBackAsItWasWritten) {
   EXPECT_EQ(back->capture->distance, Metres(0.8));
 }
 
+TEST(CaptureJson, AgreesWithItsSchema) {
+  const test::TempDir folder;
+  TetheredShoot shoot = Example();
+  shoot.pictures = 2;
+  shoot.delete_from_card = true;
+  const std::string all = folder.Write("a.json", TetheredShootToJson(shoot));
+  shoot.complete = false;
+  shoot.capture.reset();
+  const std::string begun = folder.Write("b.json", TetheredShootToJson(shoot));
+  const std::string source = LIGHTCAL_SOURCE_DIR;
+  const auto result = test::RunProgram(
+      {"/usr/bin/python3", source + "/tests/tools/validate_json.py",
+       source + "/lib/lightcal/records/schemas", "capture", "--every-key", all, begun});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
 TEST(CaptureJson, RefusesWhatItWouldNotHaveWritten) {
   const std::string text = TetheredShootToJson(Example());
   const auto code = [](const std::string& changed) {

@@ -102,6 +102,32 @@ SkyView FisheyeView(int size, double fov_deg, double azimuth_deg, double elevati
   };
 }
 
+SkyView LensView(Lens lens, int width, int height, double fov_deg, double azimuth_deg,
+                 double elevation_deg, double roll_deg) {
+  const Ray forward = RayAt(azimuth_deg, elevation_deg);
+  const Ray level = RayAt(azimuth_deg + 90.0, 0.0);
+  const Ray upright = RayAt(azimuth_deg, elevation_deg + 90.0);
+  const double c = std::cos(Radians(roll_deg)), s = std::sin(Radians(roll_deg));
+  const double half = Radians(fov_deg) / 2.0;
+  const double rim = lens == Lens::kRect ? width / 2.0 : std::min(width, height) / 2.0;
+  return [=](double x, double y) {
+    const double px = x - width / 2.0, py = height / 2.0 - y, r = std::hypot(px, py);
+    double theta = std::atan(r / rim * std::tan(half));
+    if (lens == Lens::kEquidistant) theta = r / rim * half;
+    if (lens == Lens::kEquisolid) {
+      theta = 2.0 * std::asin(std::min(1.0, r / rim * std::sin(half / 2.0)));
+    }
+    if (lens != Lens::kRect && r > rim) return SkyRay{};
+    const double side = r > 0.0 ? std::sin(theta) / r : 0.0;
+    SkyRay out{true, {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double right = c * level[i] - s * upright[i], up = c * upright[i] + s * level[i];
+      out.ray[i] = std::cos(theta) * forward[i] + side * (px * right + py * up);
+    }
+    return out;
+  };
+}
+
 void AddLamps(const std::vector<SkyLamp>& lamps, const SkyView& view, SkyPicture& picture) {
   for (const SkyLamp& lamp : lamps) {
     const double middle = lamp.MiddleNits();

@@ -48,6 +48,14 @@ struct SkyRay {
 };
 using SkyView = std::function<SkyRay(double x, double y)>;
 SkyView LatLongView(int width, int height);
+enum class Lens {
+  kRect,         // r = f tan theta, fov across the width
+  kEquidistant,  // r = f theta, fov across the circle that touches the shorter sides
+  kEquisolid,    // r = 2 f sin(theta/2), likewise
+};
+// The axis looks to azimuth, elevation; the camera's top leans to its right by roll.
+SkyView LensView(Lens lens, int width, int height, double fov_deg, double azimuth_deg,
+                 double elevation_deg, double roll_deg);
 // r = f theta over `fov_deg` across the circle; the axis looks to azimuth, elevation; the picture's
 // top is towards the zenith.
 SkyView FisheyeView(int size, double fov_deg, double azimuth_deg, double elevation_deg);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kBandRms = 0.01;  // of a row's mean difference
 constexpr double kBandOverColumns = 3.0;
+constexpr std::size_t kAtOnce = 4;  // frames in memory as blocks
 
 Warning Misaligned(const FoundShift& found, const std::string& name, const std::string& other) {
   return {"misaligned", name,
@@ -77,27 +79,43 @@ Warning Moved(const Differences& d, const Blocks& blocks, const std::string& nam
               ": something moved or changed its brightness; sigma is wide there"};
 }
 
+// What is wrong between a frame and the one before it.
+std::optional<Warning> DifferenceOf(const Blocks& before, const Blocks& blocks,
+                                    const std::string& name, const std::string& other,
+                                    double tolerated_pixels) {
+  const Differences still = Compare(before, blocks, before.mean);
+  if (!Worth(still)) return std::nullopt;
+  if (const auto found = FindShift(before, blocks, still, kLeastShiftPixels)) {
+    if (found->length() <= tolerated_pixels) return std::nullopt;
+    return Misaligned(*found, name, other);
+  }
+  const auto flicker = Flicker(still, blocks, name, other);
+  return flicker ? *flicker : Moved(still, blocks, name, other);
+}
+
 }  // namespace
 
-Warnings CompareFrames(const BracketMerger& merger, double tolerated_pixels) {
+Warnings CompareFrames(const BracketMerger& merger, double tolerated_pixels,
+                       const std::function<void(std::size_t)>& done_with) {
   const std::size_t n = merger.frames().size();
-  std::vector<Blocks> blocks(n);
-  ParallelFor(static_cast<int>(n), [&](int k) {
-    blocks[static_cast<std::size_t>(k)] = BlocksOf(merger, static_cast<std::size_t>(k));
-  });
   Warnings warnings;
-  for (std::size_t k = 1; k < n; ++k) {
-    const Differences still = Compare(blocks[k - 1], blocks[k], blocks[k - 1].mean);
-    if (!Worth(still)) continue;
-    const std::string& name = merger.frames()[k].name;
-    const std::string& other = merger.frames()[k - 1].name;
-    const auto found = FindShift(blocks[k - 1], blocks[k], still, kLeastShiftPixels);
-    if (found) {
-      if (found->length() > tolerated_pixels) warnings.push_back(Misaligned(*found, name, other));
-      continue;
+  Blocks last;
+  for (std::size_t first = 0; first < n; first += kAtOnce) {
+    std::vector<Blocks> blocks(std::min(kAtOnce, n - first));
+    ParallelFor(static_cast<int>(blocks.size()), [&](int i) {
+      const std::size_t k = first + static_cast<std::size_t>(i);
+      blocks[k - first] = BlocksOf(merger, k);
+      if (done_with) done_with(k);
+    });
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      const std::size_t k = first + i;
+      if (k == 0) continue;
+      const Blocks& before = i == 0 ? last : blocks[i - 1];
+      auto warning = DifferenceOf(before, blocks[i], merger.frames()[k].name,
+                                  merger.frames()[k - 1].name, tolerated_pixels);
+      if (warning) warnings.push_back(*std::move(warning));
     }
-    const auto flicker = Flicker(still, blocks[k], name, other);
-    warnings.push_back(flicker ? *flicker : Moved(still, blocks[k], name, other));
+    last = std::move(blocks.back());
   }
   return warnings;
 }

@@ -2,6 +2,8 @@
 // Do the frames of a bracket show the same scene?
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 
 #include "lightcal/core/result.h"
@@ -16,8 +18,10 @@ namespace lightcal {
 //   flicker        whole rows differ, columns do not: a rolling shutter under a pulsed lamp
 //   moved_content  a part of the picture moved or changed its brightness (says where)
 // The merged picture is still made: where frames contradict each other its sigma is wide.
+// `done_with` is called, from any thread, when all of a frame has been read.
 inline constexpr double kLeastShiftPixels = 0.4;
 [[nodiscard]] Warnings CompareFrames(const BracketMerger& merger,
-                                     double tolerated_pixels = kLeastShiftPixels);
+                                     double tolerated_pixels = kLeastShiftPixels,
+                                     const std::function<void(std::size_t)>& done_with = {});
 
 }  // namespace lightcal

@@ -16,15 +16,6 @@ using std::numbers::pi;
 constexpr double kLatLongTolerance = 0.01;
 constexpr int kRimSamples = 16;
 
-struct NamedProjection {
-  std::string_view name;
-  Projection projection;
-};
-constexpr std::array kNames = {NamedProjection{"rect", Projection::kRectilinear},
-                               NamedProjection{"latlong", Projection::kLatLong},
-                               NamedProjection{"equidistant", Projection::kEquidistant},
-                               NamedProjection{"equisolid", Projection::kEquisolid}};
-
 // Gauss-Legendre, 3 points on [-1/2, 1/2].
 constexpr std::array<std::array<double, 2>, 3> kGauss = {
     {{-0.38729833462074170, 5.0 / 18.0}, {0.0, 8.0 / 18.0}, {0.38729833462074170, 5.0 / 18.0}}};
@@ -74,10 +65,9 @@ Result<void> CheckView(const PictureView& view) {
 }  // namespace
 
 std::optional<Projection> ProjectionByName(std::string_view name) {
-  for (const NamedProjection& row : kNames) {
-    if (row.name == name) return row.projection;
-  }
-  return std::nullopt;
+  const auto word = std::ranges::find(kProjectionWords, name);
+  if (word == kProjectionWords.end()) return std::nullopt;
+  return static_cast<Projection>(word - kProjectionWords.begin());
 }
 
 Result<PixelSolidAngles> PixelSolidAngles::Create(const PictureView& view) {
@@ -211,6 +201,42 @@ std::optional<Vec3> PixelSolidAngles::Direction(double x, double y) const {
   const double theta = FisheyeTheta(r);
   const double aside = r > 0.0 ? std::sin(theta) / r : 0.0;
   return Vec3{right * aside, std::cos(theta), up * aside};
+}
+
+std::optional<std::array<double, 2>> PixelSolidAngles::PointOf(const Vec3& direction) const {
+  const auto& [right, forward, up] = direction;
+  const double width = view_.width, height = view_.height;
+  if (view_.projection == Projection::kLatLong) {
+    const double azimuth = std::atan2(right, forward);
+    const double zenith = std::atan2(std::hypot(right, forward), up);
+    return std::array{(azimuth / (2.0 * pi) + 0.5) * width, zenith / pi * height};
+  }
+  if (view_.projection == Projection::kRectilinear) {
+    if (forward <= 0.0) return std::nullopt;
+    const std::array at = {width / 2.0 + focal_px_ * right / forward,
+                           height / 2.0 - focal_px_ * up / forward};
+    const bool inside = at[0] >= 0.0 && at[0] <= width && at[1] >= 0.0 && at[1] <= height;
+    return inside ? std::optional(at) : std::nullopt;
+  }
+  const double aside = std::hypot(right, up), theta = std::atan2(aside, forward);
+  const double r = view_.projection == Projection::kEquidistant
+                       ? focal_px_ * theta
+                       : 2.0 * focal_px_ * std::sin(theta / 2.0);
+  if (r > rim_px_) return std::nullopt;
+  const double scale = aside > 0.0 ? r / aside : 0.0;
+  return std::array{width / 2.0 + scale * right, height / 2.0 - scale * up};
+}
+
+double PixelSolidAngles::RimShare(double x, double y) const {
+  if (view_.projection == Projection::kLatLong) return 0.0;
+  const double r = std::hypot(x - view_.width / 2.0, y - view_.height / 2.0);
+  if (view_.projection != Projection::kRectilinear) return r / rim_px_;
+  return r / (std::hypot(view_.width, view_.height) / 2.0);
+}
+
+Radians PixelSolidAngles::MiddlePitch() const {
+  if (view_.projection == Projection::kLatLong) return Radians(pi / view_.height);
+  return Radians(1.0 / focal_px_);
 }
 
 }  // namespace lightcal

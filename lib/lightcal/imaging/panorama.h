@@ -3,6 +3,7 @@
 // centre looks along +Y, its right side is +X.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -10,15 +11,10 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/records/projection.h"
 
 namespace lightcal {
 
-enum class Projection {
-  kRectilinear,  // an ordinary lens: r = f tan theta
-  kLatLong,      // x is azimuth over 360 degrees, y is the angle from the zenith over 180
-  kEquidistant,  // fisheye, r = f theta
-  kEquisolid,    // fisheye, r = 2 f sin(theta/2): equal areas are equal solid angles
-};
 // "rect", "latlong", "equidistant", "equisolid"; absent for other words.
 [[nodiscard]] std::optional<Projection> ProjectionByName(std::string_view name);
 
@@ -50,6 +46,13 @@ class PixelSolidAngles {
   // Unit vector through the point (x, y) of the picture, pixel centres being at .5. The axis of
   // fisheyes is +Y. Absent outside the image circle.
   [[nodiscard]] std::optional<Vec3> Direction(double x, double y) const;
+  // The point x, y that looks along a unit vector; absent where the picture does not show it.
+  [[nodiscard]] std::optional<std::array<double, 2>> PointOf(const Vec3& direction) const;
+  // Distance from the middle as a share of the farthest the picture shows: what a lens's fall-off
+  // depends on. 0 for kLatLong, which no lens drew.
+  [[nodiscard]] double RimShare(double x, double y) const;
+  // The angle that a pixel's side covers in the middle (for kLatLong: on the equator).
+  [[nodiscard]] Radians MiddlePitch() const;
 
   [[nodiscard]] const PictureView& view() const { return view_; }
 

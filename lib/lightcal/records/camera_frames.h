@@ -24,10 +24,6 @@ enum class CameraFramesUse : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 6> kCameraFramesUseWords = {
     "scale", "noise", "flat", "dark", "nd", "chart"};
-// How a whole picture maps to directions; names as in imaging's ProjectionByName.
-inline constexpr std::array<std::string_view, 4> kProjectionWords = {"rect", "latlong",
-                                                                     "equidistant", "equisolid"};
-
 // Of a meter that has no [[meter]], 1 sigma.
 inline constexpr double kSigmaSpotMeter = 0.05;
 

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "lightcal/core/units.h"
+#include "lightcal/records/ball_capture.h"
+#include "lightcal/records/projection.h"
 #include "lightcal/records/wall_capture.h"
 
 namespace lightcal {
@@ -28,15 +30,17 @@ inline constexpr std::array<std::string_view, 6> kLampClassWords = {
     "unknown", "white_led", "high_cri_led", "rgb_led", "tungsten", "daylight"};
 
 // What the pictures are used for.
-enum class CaptureUse : std::uint8_t { kCard, kSource, kWall, kDome };
-inline constexpr std::array<std::string_view, 4> kCaptureUseWords = {"card", "source", "wall",
-                                                                     "dome"};
+enum class CaptureUse : std::uint8_t { kCard, kSource, kWall, kDome, kBall };
+inline constexpr std::array<std::string_view, 5> kCaptureUseWords = {"card", "source", "wall",
+                                                                     "dome", "ball"};
 
 // Cards and their printed reflectance agree within about this, 1 sigma.
 inline constexpr double kSigmaReflectance = 0.03;
 
 // card: a matt card of known reflectance that faces the lamp (or is tilted from it), photographed
 // in its light: E = pi L / reflectance.
+// source: the lamp itself, seen from distance_m.  dome: one panorama or fisheye picture of what
+// surrounds the scene.  ball: a mirror ball whose highlight shows where the lamp is.
 struct CaptureDescription {
   CaptureUse use = CaptureUse::kCard;
   std::string light;   // name of the [[light]]
@@ -45,17 +49,21 @@ struct CaptureDescription {
   std::string nd;      // the profile's filter that the frames were taken through; "" = none
   double reflectance = 0.0;
   double reflectance_sigma = kSigmaReflectance;  // relative
-  std::optional<Metres> distance;                // from the lamp's reference point to the card
-  Radians tilt{0.0};                             // between the card's normal and the lamp
-  std::optional<std::array<int, 4>> rect;        // x, y, width, height of the card in the picture
-  std::vector<double> exposure_s;                // one a frame; empty = from the files
-  std::optional<double> f_number, iso;           // override the files
-  std::optional<Lux> anchor_illuminance;         // a lux meter's reading at the card
-  std::string meter;                             // the [[meter]] that read it
+  std::optional<Metres> distance;  // from the lamp's reference point to the card (source: to the
+                                   // camera; ball: to its middle)
+  Radians tilt{0.0};               // between the card's normal and the lamp
+  std::optional<std::array<int, 4>> rect;  // x, y, width, height of the card in the picture
+  std::vector<double> exposure_s;          // one a frame; empty = from the files
+  std::optional<double> f_number, iso;     // override the files
+  std::optional<Lux> anchor_illuminance;   // a lux meter's reading at the card
+  std::string meter;                       // the [[meter]] that read it
   LampClass lamp_class = LampClass::kUnknown;
-  std::string spectrum_file;            // of the lamp, relative to the session; "" = unknown
-  std::optional<WallDescription> wall;  // [capture.wall]
-  std::string where;                    // "session.toml [[capture]] 1"
+  std::string spectrum_file;             // of the lamp, relative to the session; "" = unknown
+  std::optional<WallDescription> wall;   // [capture.wall]
+  std::optional<BallDescription> ball;   // [capture.ball]
+  std::optional<Projection> projection;  // source, dome, ball; absent: rect, of a dome latlong
+  std::optional<Radians> field_of_view;  // full angle across the width, or a fisheye's circle
+  std::string where;                     // "session.toml [[capture]] 1"
 };
 
 }  // namespace lightcal

@@ -23,6 +23,25 @@ void ReadRect(FieldReader& reader, std::optional<std::array<int, 4>>& out) {
 
 namespace {
 
+void ReadBall(FieldReader& reader, BallDescription& ball) {
+  reader.Number("diameter_m", ball.diameter, kPositive);
+  ReadRect(reader, ball.rect);
+  reader.Array("camera_position_m", ball.camera_position_m);
+  reader.Array("camera_aim", ball.camera_aim);
+  reader.Degrees("camera_roll_deg", ball.camera_roll, kAnyNumber);
+  reader.Require({"diameter_m", "rect", "camera_position_m", "camera_aim"});
+  if (ball.camera_aim && *ball.camera_aim == Vec3{}) {
+    reader.Fail("camera_aim", "camera_aim = [0, 0, 0] is no direction");
+  }
+}
+
+void ReadProjection(FieldReader& reader, CaptureDescription& capture) {
+  Projection projection = Projection::kRectilinear;
+  reader.Word("projection", projection, kProjectionWords);
+  if (reader.Has("projection")) capture.projection = projection;
+  reader.Degrees("fov_deg", capture.field_of_view, kFullAngleRule);
+}
+
 // What must be there for what the pictures are used for.
 void RequireForUse(FieldReader& reader, CaptureUse use) {
   switch (use) {
@@ -33,11 +52,12 @@ void RequireForUse(FieldReader& reader, CaptureUse use) {
       reader.Require({"reflectance", "wall"});
       return;
     case CaptureUse::kSource:
+      reader.Require({"distance_m", "fov_deg"});
+      return;
     case CaptureUse::kDome:
-      reader.Fail("capture_unsupported", "use",
-                  "use = " + Quoted(kCaptureUseWords[static_cast<std::size_t>(use)]) +
-                      ": this version reads use = \"card\", a matt card of known "
-                      "reflectance, and use = \"wall\", a lit wall with a printed board");
+      return;
+    case CaptureUse::kBall:
+      reader.Require({"ball", "fov_deg"});
       return;
   }
 }
@@ -60,6 +80,9 @@ void CheckCompanions(FieldReader& reader, const CaptureDescription& capture) {
     reader.Fail("wall",
                 "anchor_illuminance_lx and wall.anchor_rect, where on the wall it was read, "
                 "need each other");
+  }
+  if (capture.ball && capture.use != CaptureUse::kBall) {
+    reader.Fail("ball", "ball describes pictures of a mirror ball, and needs use = \"ball\"");
   }
   if (!capture.meter.empty() && !capture.anchor_illuminance) {
     reader.Fail("meter", "meter names what read anchor_illuminance_lx, which is missing");
@@ -87,6 +110,8 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Word("lamp_class", capture.lamp_class, kLampClassWords);
   reader.Text("spectrum", capture.spectrum_file);
   reader.Object("wall", capture.wall, ReadWall);
+  reader.Object("ball", capture.ball, ReadBall);
+  ReadProjection(reader, capture);
   reader.Require({"light", "frames", "use"});
   if (!reader.Failed()) RequireForUse(reader, capture.use);
   reader.Finish();

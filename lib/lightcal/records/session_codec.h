@@ -22,8 +22,8 @@ struct LoadedSession {
 // torn_journal; one that only lacks its newline is whole and counts. A cone whose inner_deg exceeds
 // its outer_deg is closed to the outer one with the warning cone_order.
 // A bad session.toml is refused: bad_session (syntax, NaN, wrong type, distance <= 0),
-// unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter,
-// capture_unsupported (a use that is not built); the subject is "session.toml:LINE".
+// unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter;
+// the subject is "session.toml:LINE".
 // A missing path fails: not_found; one that is no file: unreadable. A session with no light is
 // refused: no_light (unless it calibrates a camera). Readings may be none: what that means is the
 // verb's question.

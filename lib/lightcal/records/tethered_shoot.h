@@ -52,7 +52,7 @@ struct TetheredShoot {
 // "schema": "lightcal.capture/1", indented; the keys of "capture" are those of a [[capture]].
 [[nodiscard]] std::string TetheredShootToJson(const TetheredShoot& shoot);
 
-// Refused: bad_capture, unknown_key, capture_unsupported; the subject is `where`.
+// Refused: bad_capture, unknown_key; the subject is `where`.
 [[nodiscard]] Result<TetheredShoot> TetheredShootFromJson(std::string_view text,
                                                           std::string_view where);
 

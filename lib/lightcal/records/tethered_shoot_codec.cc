@@ -60,6 +60,7 @@ void WriteCapture(FieldWriter& writer, const CaptureDescription& capture) {
   if (capture.reflectance > 0.0) writer.Number("reflectance", capture.reflectance);
   writer.Number("distance_m", capture.distance);
   writer.Degrees("tilt_deg", capture.tilt, kTiltRule);
+  if (capture.field_of_view) writer.Degrees("fov_deg", *capture.field_of_view, kFullAngleRule);
   if (capture.rect) writer.Integers("rect", {capture.rect->begin(), capture.rect->end()});
   writer.WordUnlessFirst("lamp_class", capture.lamp_class, kLampClassWords);
 }

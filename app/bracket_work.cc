@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bracket_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lightcal/core/parallel.h"
+#include "lightcal/imaging/flat_field.h"
+#include "lightcal/imaging/merge_bracket.h"
+#include "lightcal_devices/captures/sample_store.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr std::size_t kScratchFrom = std::size_t{1} << 29;  // bytes of samples
+
+Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
+  std::size_t bytes = 0;
+  for (const FrameInfo& info : infos) {
+    const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
+    bytes += sample * static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
+             static_cast<std::size_t>(info.channels);
+  }
+  const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
+  std::vector<std::optional<Result<Frame>>> loaded(infos.size());
+  ParallelFor(static_cast<int>(infos.size()), [&](int i) {
+    loaded[static_cast<std::size_t>(i)] = LoadFrame(infos[static_cast<std::size_t>(i)], store);
+  });
+  std::vector<Frame> frames;
+  for (auto& frame : loaded) {
+    if (!*frame) return Propagate(std::move(*frame));
+    LetGo(**frame, 0, (*frame)->info.height);
+    frames.push_back(std::move(**frame));
+  }
+  return frames;
+}
+
+tl::unexpected<Error> NoExposure(const std::string& file, const std::string& what,
+                                 const std::string& todo) {
+  return Refused("no_exposure_metadata", file, "the file does not say its " + what + "; " + todo);
+}
+
+// Exposures t S / N^2 as the tags have them. Without ISO or f-number, which is only possible under
+// an anchor, these are the same for all frames.
+Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool anchored) {
+  std::vector<double> labels;
+  for (const FrameInfo& info : infos) {
+    const FrameExposure& exposure = info.exposure;
+    if (!exposure.time) {
+      return NoExposure(info.file, "exposure time",
+                        "give one a file with --exposures 1/250,1/60,...");
+    }
+    if (!anchored && !exposure.iso) {
+      return NoExposure(info.file, "ISO speed", "give it with --iso, or a spot reading (--anchor)");
+    }
+    if (!anchored && !exposure.light_f_number()) {
+      return NoExposure(info.file, "f-number",
+                        "give it with --f-number, or a spot reading (--anchor)");
+    }
+    const FrameExposure& first = infos.front().exposure;
+    if (exposure.iso.has_value() != first.iso.has_value() ||
+        exposure.light_f_number().has_value() != first.light_f_number().has_value()) {
+      return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
+                        "give --iso and --f-number");
+    }
+    const double n = exposure.light_f_number().value_or(1.0);
+    labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
+  }
+  return labels;
+}
+
+// The plan of frames that are in a plan's order already, cut to what all of them show.
+Result<void> Align(MergeRequest merge, BracketWork& work) {
+  MergePlan plan = work.planned.plan;
+  // Frames that moved scatter, which is no noise to excuse their differences by.
+  if (work.planned.noise_source == NoiseSource::kEstimated) {
+    plan.noise.assign(plan.noise.size(), kMiddlingNoise);
+  }
+  const auto merger = BracketMerger::Make(work.signals, plan);
+  if (!merger) return tl::unexpected(merger.error());
+  const auto alignment = MeasureAlignment(*merger);
+  if (!alignment) return tl::unexpected(alignment.error());
+  work.alignment = *alignment;
+  if (!alignment->any()) return {};
+  TakeBack(*alignment, work.signals);
+  const std::vector<std::size_t> before = work.planned.order;
+  const MergeRequest given = merge;
+  merge.label_exposure.clear();
+  merge.noise_in_file.clear();
+  for (const std::size_t i : before) {
+    merge.label_exposure.push_back(given.label_exposure[i]);
+    merge.noise_in_file.push_back(given.noise_in_file[i]);
+  }
+  auto planned = PlanMerge(work.signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  for (std::size_t i = 0; i < planned->order.size(); ++i) {
+    work.alignment->moved[i] = alignment->moved[planned->order[i]];
+    planned->order[i] = before[planned->order[i]];
+  }
+  work.planned = std::move(*planned);
+  return {};
+}
+
+// An ideal lens's loss of light, for a sensor of this width.
+Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
+  if (!info.focal_length) {
+    return Refused("no_focal_length", info.file,
+                   "the file does not say its focal length, which cos^4 needs; take a flat field "
+                   "with lightcal camera instead");
+  }
+  const Metres half_diagonal(0.5 * sensor_width.value() *
+                             std::hypot(1.0, static_cast<double>(info.height) / info.width));
+  return CosineFourthFlat(half_diagonal, *info.focal_length, info.exposure.f_number.value_or(1.0));
+}
+
+Result<void> SetCorrections(const BracketMergeRequest& request, BracketWork& work) {
+  std::vector<FrameInfo> infos;
+  for (const std::size_t i : work.planned.order) infos.push_back(work.frames[i].info);
+  const int x = work.alignment ? work.alignment->x : 0, y = work.alignment ? work.alignment->y : 0;
+  work.corrections = SampleCorrections(infos.front().width, infos.front().height, x, y);
+  if (request.camera) {
+    auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, x, y);
+    if (!corrections) return Propagate(std::move(corrections));
+    work.corrections = std::move(*corrections);
+  }
+  if (!request.cosine_fourth || work.corrections.flat()) return {};
+  const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
+  if (!flat) return tl::unexpected(flat.error());
+  work.corrections.SetFlat(*flat, SampleCorrections::FlatSource::kCosineFourth);
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& request,
+                                                    const Bracket& bracket, Warnings& warnings) {
+  const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
+  if (!labels) return tl::unexpected(labels.error());
+  if (request.camera) {
+    if (auto fits = CheckCameraUse(*request.camera, bracket.frames.front()); !fits) {
+      return Propagate(std::move(fits));
+    }
+  }
+  auto color = ColorOfPicture(bracket.frames.front());
+  if (!color) return Propagate(std::move(color));
+  if (request.camera) *color = CameraColorOf(*request.camera, std::move(*color));
+  if (request.space && !color->has_colour) {
+    return Refused(
+        "no_colour", bracket.frames.front().file,
+        "holds no colour, or nobody knows its camera's; leave --space out for luminance");
+  }
+  Append(color->warnings, warnings);
+  auto frames = LoadFrames(bracket.frames);
+  if (!frames) return Propagate(std::move(frames));
+  auto work = std::make_unique<BracketWork>();
+  work->frames = std::move(*frames);
+  work->color = std::move(*color);
+  MergeRequest merge;
+  merge.label_exposure = *labels;
+  merge.noise = request.noise;
+  if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
+    auto response = RecoverResponse(work->frames, *labels);
+    if (!response) return Propagate(std::move(response));
+    work->response = std::move(*response);
+    merge.keep_labels = true;
+  }
+  for (const Frame& frame : work->frames) {
+    auto signal = SignalOf(frame, &work->response);
+    if (!signal) return Propagate(std::move(signal));
+    work->signals.push_back(std::move(*signal));
+    LetGo(frame, 0, frame.info.height);
+    merge.noise_in_file.push_back(request.own_noise ? std::vector<NoiseProfile>()
+                                                    : frame.info.noise);
+  }
+  if (request.camera) {
+    CorrectBlack(*request.camera, bracket.frames, work->signals);
+    auto noise = CameraNoiseOf(*request.camera, bracket.frames);
+    merge.noise_of_camera = !noise.empty();
+    if (!noise.empty()) merge.noise_in_file = std::move(noise);
+  }
+  auto planned = PlanMerge(work->signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  work->planned = std::move(*planned);
+  for (const Frame& frame : work->frames) LetGo(frame, 0, frame.info.height);
+  if (request.align) {
+    if (auto aligned = Align(std::move(merge), *work); !aligned)
+      return Propagate(std::move(aligned));
+  }
+  Append(work->planned.warnings, warnings);
+  if (auto set = SetCorrections(request, *work); !set) return Propagate(std::move(set));
+  return work;
+}
+
+}  // namespace lightcal::app

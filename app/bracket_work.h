@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A bracket read and planned: all that MergeBracket needs until the picture is made.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bracket_merge.h"
+#include "lightcal/core/result.h"
+#include "lightcal/imaging/align_frames.h"
+#include "lightcal/imaging/plan_merge.h"
+#include "lightcal/imaging/response.h"
+#include "lightcal/imaging/sample_corrections.h"
+#include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/imaging/signal.h"
+
+namespace lightcal::app {
+
+struct BracketWork {
+  std::vector<Frame> frames;
+  ResponseCurves response;
+  std::vector<SignalFrame> signals;
+  PlannedMerge planned;
+  std::optional<FrameAlignment> alignment;
+  PictureColor color;
+  SampleCorrections corrections;
+};
+
+inline void Append(const Warnings& from, Warnings& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Frames load at once, from 512 MB of samples on into scratch files that lie in memory by bands.
+// Refused as MergeBracket.
+[[nodiscard]] Result<std::unique_ptr<BracketWork>> PrepareBracket(
+    const BracketMergeRequest& request, const Bracket& bracket, Warnings& warnings);
+
+}  // namespace lightcal::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// use = "ball": pictures of mirror balls -> where the lamp is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::app {
+
+struct BallPlacement {
+  std::string light;
+  Vec3 position_m{};
+  Vec3 u95_m{};
+};
+
+// One place for each light with [[capture]]s of use = "ball", from all of them together; it becomes
+// the position_m of a light without. Warned: position_differs (the session gives another place,
+// which is believed), several_highlights.
+// Files read are added to session.input_files.
+// Refused: several_pictures, bad_region, and as ReadFrame, PixelSolidAngles, FindHighlight,
+// RayOfBall, LampOfRays.
+[[nodiscard]] Result<std::vector<BallPlacement>> PlaceByBalls(Session& session, Warnings& warnings);
+
+}  // namespace lightcal::app

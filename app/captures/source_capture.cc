@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "source_capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lamp_luminance.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/source_luminance.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr double kFieldOfViewSd = 0.005;  // relative: twice that of a solid angle
+constexpr double kSizeDiffers = 0.1;      // relative
+
+Rgb RgbAt(const MergedBracket& merged, std::size_t i) {
+  if (merged.channels != 3) return {merged.picture[i], merged.picture[i], merged.picture[i]};
+  const float* pixel = &merged.picture[3 * i];
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+std::vector<float> LuminanceOf(const MergedBracket& merged) {
+  std::vector<float> nits;
+  nits.reserve(merged.sigma.size());
+  for (std::size_t i = 0; i < merged.sigma.size(); ++i) {
+    nits.push_back(static_cast<float>(LuminanceOfRgb(RgbAt(merged, i), RgbSpace::kSrgb)));
+  }
+  return nits;
+}
+
+// Mean colour of the luminous face.
+Xyz ColorOfFace(const MergedBracket& merged, const SourceLuminance& source, const Region& region) {
+  Rgb sum;
+  double count = 0.0;
+  for (std::size_t i = 0; i < source.face.size(); ++i) {
+    if (source.face[i] == 0) continue;
+    const int x = region.x + static_cast<int>(i) % region.width;
+    const int y = region.y + static_cast<int>(i) / region.width;
+    const Rgb rgb = RgbAt(merged, static_cast<std::size_t>(y) * merged.width + x);
+    sum = {sum.r + rgb.r, sum.g + rgb.g, sum.b + rgb.b};
+    count += 1.0;
+  }
+  return XyzFromLinearRgb({sum.r / count, sum.g / count, sum.b / count}, RgbSpace::kSrgb);
+}
+
+// Takes what was measured where nothing was said.
+void Settle(double measured_m, const char* what, const CaptureDescription& capture,
+            std::optional<Metres>& stated, Warnings& warnings) {
+  if (!stated) {
+    stated = Metres(measured_m);
+    return;
+  }
+  if (std::abs(measured_m / stated->value() - 1.0) <= kSizeDiffers) return;
+  warnings.push_back({"source_size_differs", capture.where,
+                      std::string("the luminous face's ") + what + " is " +
+                          RoundedText(measured_m, 3) + " m in the picture, " +
+                          RoundedText(stated->value(), 3) +
+                          " m in the session, which is believed; check distance_m and fov_deg"});
+}
+
+void SettleSize(const SourceLuminance& source, const CaptureDescription& capture,
+                LightDescription& light, Warnings& warnings) {
+  const double d = capture.distance->value();
+  const double radius = std::sqrt(source.area / std::numbers::pi);  // at distance 1
+  const double longer = std::max(source.width, source.height) * d;
+  switch (light.kind) {
+    case LightKind::kDisk:
+      Settle(2.0 * radius * d, "diameter", capture, light.diameter, warnings);
+      return;
+    case LightKind::kSphere: {
+      // The distance counts from its surface: R = (d + R) sin a.
+      const double sine = std::sin(std::atan(radius));
+      Settle(2.0 * d * sine / (1.0 - sine), "diameter", capture, light.diameter, warnings);
+      return;
+    }
+    case LightKind::kRect:
+      Settle(source.width * d, "width", capture, light.width, warnings);
+      Settle(source.height * d, "height", capture, light.height, warnings);
+      return;
+    case LightKind::kTube:
+      Settle(longer, "length", capture, light.length, warnings);
+      Settle(0.5 * std::min(source.width, source.height) * d, "radius", capture, light.radius,
+             warnings);
+      return;
+    default:
+      return;
+  }
+}
+
+Result<SourceLuminance> MeasureIn(const MergedBracket& merged, const CaptureDescription& capture,
+                                  const Region& region) {
+  const auto angles =
+      PixelSolidAngles::Create({capture.projection.value_or(Projection::kRectilinear), merged.width,
+                                merged.height, capture.field_of_view.value_or(Radians(0.0))});
+  if (!angles) return tl::unexpected(angles.error());
+  const std::vector<float> nits = LuminanceOf(merged);
+  return MeasureSource({nits.data(), merged.width, merged.height},
+                       {merged.sigma.data(), merged.width, merged.height}, *angles, region);
+}
+
+}  // namespace
+
+Result<CaptureReading> ReadSource(Session& session, const CaptureDescription& capture,
+                                  Warnings& warnings) {
+  const auto bracket = OpenCapture(session, capture);
+  if (!bracket) return AtCapture(capture, bracket.error());
+  const FrameInfo& info = bracket->frames.front();
+  const auto color = ColorOfPicture(info);
+  if (!color) return AtCapture(capture, color.error());
+  Region region{0, 0, info.width, info.height};
+  if (capture.rect) {
+    const auto inside = RegionOfCapture(capture, info);
+    if (!inside) return AtCapture(capture, inside.error());
+    region = *inside;
+  }
+  BracketMergeRequest request;
+  if (color->has_colour) request.space = RgbSpace::kSrgb;
+  request.want_sigma = true;
+  if (auto used = UseCameraOfCapture(session, capture, request); !used) {
+    return AtCapture(capture, used.error());
+  }
+  if (request.camera && request.camera->profile->color) request.space = RgbSpace::kSrgb;
+  const auto merged = MergeBracket(*bracket, request);
+  if (!merged) return AtCapture(capture, merged.error());
+  for (const Warning& warning : merged->warnings) {
+    // A clipped lamp is refused; what else is clipped here does not count.
+    if (warning.code != "clipped") warnings.push_back(warning);
+  }
+  const auto source = MeasureIn(*merged, capture, region);
+  if (!source) return AtCapture(capture, source.error());
+  const Xyz seen = ColorOfFace(*merged, *source, region);
+  const auto corrected = LuminanceOfLamp(session, capture, info, *color, seen);
+  if (!corrected) return AtCapture(capture, corrected.error());
+  NoteCapture(capture, *merged, session, warnings);
+  const auto light = std::ranges::find(session.lights, capture.light, &LightDescription::name);
+  if (light != session.lights.end()) SettleSize(*source, capture, *light, warnings);
+
+  CaptureReading out;
+  out.camera = info.camera;
+  out.anchored = capture.anchor_illuminance.has_value();
+  out.independent_sd = out.anchored ? 0.0 : kInterpolatedNoise * source->noise_sd_relative;
+  out.shared_sd = out.anchored ? AnchorSigma(session, capture)
+                               : std::hypot(merged->scale_u95_relative / kZ95, corrected->sigma,
+                                            2.0 * kFieldOfViewSd);
+  out.reading = ReadingOfPicture(capture, info, *merged, *corrected);
+  out.reading.distance = capture.distance;
+  out.reading.illuminance =
+      capture.anchor_illuminance.value_or(source->illuminance * (corrected->nits / seen.Y));
+  return out;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a picture's pixels are directions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace lightcal {
+
+enum class Projection : std::uint8_t {
+  kRectilinear,  // an ordinary lens: r = f tan theta
+  kLatLong,      // x is azimuth over 360 degrees, y is the angle from the zenith over 180
+  kEquidistant,  // fisheye, r = f theta
+  kEquisolid,    // fisheye, r = 2 f sin(theta/2): equal areas are equal solid angles
+};
+inline constexpr std::array<std::string_view, 4> kProjectionWords = {"rect", "latlong",
+                                                                     "equidistant", "equisolid"};
+
+}  // namespace lightcal
