@@ -15,6 +15,7 @@
 #include "lightcal/imaging/merge_picture.h"
 #include "lightcal/imaging/response.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/imaging/thin_frame.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/exposure_grid.h"
 
@@ -183,10 +184,12 @@ Result<std::unique_ptr<Work>> Prepare(const BracketMergeRequest& request, const 
   if (!frames) return Propagate(std::move(frames));
   auto work = std::make_unique<Work>();
   work->frames = std::move(*frames);
+  for (Frame& frame : work->frames) frame = ThinFrame(frame, request.work.pixel_stride);
   work->color = std::move(*color);
   MergeRequest merge;
   merge.label_exposure = *labels;
   merge.noise = request.noise;
+  merge.keep_labels = !request.work.measure_ratios;
   if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
     auto response = RecoverResponse(work->frames, *labels);
     if (!response) return Propagate(std::move(response));
@@ -451,7 +454,9 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   if (!work) return tl::unexpected(work.error());
   const auto merger = BracketMerger::Make((*work)->signals, (*work)->planned.plan);
   if (!merger) return tl::unexpected(merger.error());
-  Append(CompareFrames(*merger, Unaligned(**work)), merged.warnings);
+  if (request.work.check_frames) {
+    Append(CompareFrames(*merger, Unaligned(**work)), merged.warnings);
+  }
   const auto scale = ScaleOf(*merger, **work, request);
   if (!scale) return tl::unexpected(scale.error());
 

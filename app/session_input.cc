@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "captures/capture_readings.h"
 #include "captures/wall_capture.h"
 #include "clock.h"
+#include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/fit/fit_light.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
 #include "session_distributions.h"
@@ -20,16 +23,43 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The spectrum at a wider step, where it has a finer one.
+Spectrum ThinnedTo(const Spectrum& spectrum, double step_nm) {
+  if (!(step_nm > 0.0) || spectrum.wavelengths_nm.size() < 2) return spectrum;
+  const std::vector<double> edges = BinEdgesNm(spectrum);
+  const int count = static_cast<int>((edges.back() - edges.front()) / step_nm * (1.0 + 1e-12));
+  if (static_cast<std::size_t>(count) >= spectrum.wavelengths_nm.size()) return spectrum;
+  auto wider = ResampleByArea(spectrum, Nanometres(edges.front() + 0.5 * step_nm),
+                              Nanometres(step_nm), count);
+  return wider ? *std::move(wider) : spectrum;
+}
+
+// Leaves every n-th of each light's readings with the lamp on; what they are compared with stays.
+void ThinReadings(int n, Session& session) {
+  if (n <= 1) return;
+  std::map<std::string, int> seen;
+  std::erase_if(session.readings, [&](const SessionReading& row) {
+    const Reading& reading = row.reading;
+    if (reading.lamp == LampState::kOff || reading.shadow_card) return false;
+    return seen[reading.light]++ % n != 0;
+  });
+}
+
+FitSettings FitSettingsOf(const AccuracyProfile& profile) {
+  return {profile.tolerance_relative, profile.effects, profile.estimator, profile.cct_method};
+}
+
 // A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
 // none and the file's unit is an irradiance.
-Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& console) {
+Result<void> ResolveSpectrum(Session& session, SessionReading& row, double step_nm,
+                             Console& console) {
   Reading& reading = row.reading;
   if (reading.spectrum_file.empty()) return {};
   const std::string path = PathInSession(session, reading.spectrum_file);
   const auto one = ReadTheOneSpectrum(path, row.where);
   if (!one) return tl::unexpected(one.error());
   console.Warn(one->warnings);
-  const Spectrum& spectrum = one->imported.spectrum;
+  const Spectrum spectrum = ThinnedTo(one->imported.spectrum, step_nm);
   const auto xyz = XyzFromSpectrum(spectrum);
   if (!xyz) return tl::unexpected(xyz.error());
   reading.xy = XyFromXyz(*xyz);
@@ -58,9 +88,11 @@ Result<void> AddCaptures(Session& session, Console& console) {
 }
 
 // Lights that walls measured, and all others fitted to their readings, in the session's order.
-Result<LightFile> FitLights(Session& session, const FitSettings& settings, Console& console) {
+Result<LightFile> FitLights(Session& session, const FitSettings& settings, Console& console,
+                            StageClock& clock) {
   Warnings warnings;
   auto walls = MeasureWalls(session, warnings);
+  clock.Lap(tradeoff::Stage::kPictures);
   console.Warn(warnings);
   if (!walls) return Propagate(std::move(walls));
   const auto by_wall = [&](const std::string& name) {
@@ -113,25 +145,40 @@ Result<Provenance> ProvenanceOf(const Session& session) {
   return provenance;
 }
 
-Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
-                                           Console& console) {
+void StageClock::Lap(tradeoff::Stage stage) {
+  const auto now = std::chrono::steady_clock::now();
+  seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+}
+
+Result<CalibratedSession> CalibrateSession(const std::string& path, const AccuracyProfile& profile,
+                                           Console& console, StageClock* clock) {
+  StageClock unheard;
+  StageClock& laps = clock != nullptr ? *clock : unheard;
   auto loaded = LoadSession(path);
   if (!loaded) return Propagate(std::move(loaded));
   console.Warn(loaded->warnings);
   CalibratedSession calibrated;
   calibrated.session = std::move(loaded->session);
+  ThinReadings(profile.reading_stride, calibrated.session);
+  for (CaptureDescription& capture : calibrated.session.captures) capture.work = profile.pictures;
+  laps.Lap(tradeoff::Stage::kLoad);
   for (SessionReading& row : calibrated.session.readings) {
-    if (auto resolved = ResolveSpectrum(calibrated.session, row, console); !resolved) {
+    const double step = profile.spectral_step_nm;
+    if (auto resolved = ResolveSpectrum(calibrated.session, row, step, console); !resolved) {
       return Propagate(std::move(resolved));
     }
   }
   if (auto tables = AddDistributions(calibrated.session, console); !tables) {
     return Propagate(std::move(tables));
   }
+  laps.Lap(tradeoff::Stage::kSpectra);
   if (auto added = AddCaptures(calibrated.session, console); !added) {
     return Propagate(std::move(added));
   }
-  auto lights = FitLights(calibrated.session, settings, console);
+  laps.Lap(tradeoff::Stage::kPictures);
+  auto lights = FitLights(calibrated.session, FitSettingsOf(profile), console, laps);
+  laps.Lap(tradeoff::Stage::kFit);
   if (!lights) return Propagate(std::move(lights));
   calibrated.lights = *std::move(lights);
   for (FittedLight& light : calibrated.lights.lights) {
@@ -142,6 +189,7 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
   auto provenance = ProvenanceOf(calibrated.session);
   if (!provenance) return Propagate(std::move(provenance));
   calibrated.lights.provenance = std::move(*provenance);
+  laps.Lap(tradeoff::Stage::kLoad);
   return calibrated;
 }
 

@@ -2,13 +2,15 @@
 // From a session on disk to fitted lights: the way `fit`, `run`, `explain` and `report` share.
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include "console.h"
 #include "lightcal/core/result.h"
-#include "lightcal/fit/fit_light.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
+#include "lightcal/tradeoff/outcome.h"
 
 namespace lightcal::app {
 
@@ -17,12 +19,26 @@ struct CalibratedSession {
   LightFile lights;  // with provenance
 };
 
+// Seconds that each stage of a calibration took so far.
+class StageClock {
+ public:
+  // Counts the time since the last lap for `stage`.
+  void Lap(tradeoff::Stage stage);
+  [[nodiscard]] const tradeoff::StageSeconds& seconds() const { return seconds_; }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  tradeoff::StageSeconds seconds_{};
+};
+
 // Loads the session, resolves `spectrum = "file"` of its readings through the importers and its
 // [[capture]]s to readings, fits, and
-// notes the inputs with their hashes. Warnings go to the console as they come up.
+// notes the inputs with their hashes, with as much work as the profile says. Warnings go to the
+// console as they come up.
 [[nodiscard]] Result<CalibratedSession> CalibrateSession(const std::string& path,
-                                                         const FitSettings& settings,
-                                                         Console& console);
+                                                         const AccuracyProfile& profile,
+                                                         Console& console,
+                                                         StageClock* clock = nullptr);
 
 // Who made an output from what: the session's input files with their hashes, the newest time found
 // in its readings (or SOURCE_DATE_EPOCH).  Fails as ReadWholeFile.

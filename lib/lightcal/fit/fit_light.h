@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
@@ -15,6 +16,8 @@ namespace lightcal {
 struct FitSettings {
   double tolerance_relative = 0.01;  // of the effect gate
   std::string effects = "auto";      // auto | all | none | +a,-b
+  EstimatorChoice estimator{};
+  CctMethod cct_method = CctMethod::kExact;
 };
 
 struct FittedSession {

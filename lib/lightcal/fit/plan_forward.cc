@@ -48,7 +48,7 @@ std::optional<double> AmbientRatio(const Observations& observations) {
 }
 
 Scene SceneOf(const Session& session, const LightDescription& light,
-              const Observations& observations) {
+              const Observations& observations, int patches) {
   Scene scene;
   scene.kind = light.kind;
   scene.size = {light.diameter, light.width, light.height, light.length, light.radius};
@@ -64,7 +64,7 @@ Scene SceneOf(const Session& session, const LightDescription& light,
   }
   scene.distances = CountDistinctDistances(observations.rows);
   scene.ambient_ratio = AmbientRatio(observations);
-  if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance};
+  if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance, patches};
   AddMeters(session, light, scene);
   return scene;
 }
@@ -173,7 +173,8 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
   ForwardPlan plan;
   plan.model.distance_law = HasDistanceLaw(light.kind);
   plan.model.tilt = false;
-  const Scene scene = SceneOf(session, light, observations);
+  plan.model.choice = settings.estimator;
+  const Scene scene = SceneOf(session, light, observations, settings.estimator.bounce_patches);
   if (scene.poses.empty()) return plan;  // the estimate refuses: no reading of the lamp
   Result<std::vector<GatedEffect>> effects =
       GateEffects(scene, settings.tolerance_relative, settings.effects);
@@ -186,6 +187,7 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
       effect.reason = effect.finding.reason;
     }
     Apply(scene, light, observations, effect, plan.model);
+    if (!settings.estimator.exact_source) plan.model.shape = {};
     plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
                             std::nullopt, effect.cost_ns, effect.reason});
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/units.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/wall_capture.h"
 
 namespace lightcal {
@@ -55,6 +56,7 @@ struct CaptureDescription {
   LampClass lamp_class = LampClass::kUnknown;
   std::string spectrum_file;            // of the lamp, relative to the session; "" = unknown
   std::optional<WallDescription> wall;  // [capture.wall]
+  PictureChoice work{};                 // how much of its pictures to use; a profile's, no key
   std::string where;                    // "session.toml [[capture]] 1"
 };
 
