@@ -266,7 +266,9 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
     const Frame& frame = (*work)->frames[(*work)->planned.order[k]];
     LetGo(frame, 0, frame.info.height);
   };
-  Append(CompareFrames(*merger, Unaligned(**work), let_go), merged.warnings);
+  if (request.work.check_frames) {
+    Append(CompareFrames(*merger, Unaligned(**work), let_go), merged.warnings);
+  }
   const auto scale = ScaleOf(*merger, **work, request);
   if (!scale) return tl::unexpected(scale.error());
 

@@ -12,6 +12,7 @@
 #include "lightcal/imaging/align_frames.h"
 #include "lightcal/imaging/patches.h"
 #include "lightcal/imaging/plan_merge.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal_devices/captures/bracket.h"
 
 namespace lightcal::app {
@@ -44,6 +45,7 @@ struct BracketMergeRequest {
   // made of. own_noise: from the frames alone, whatever their files say.
   bool raw = false, own_noise = false;
   bool align = false;  // take back what the camera moved, where there is evidence
+  PictureChoice work{};
 };
 
 struct MergedFrame {

@@ -9,6 +9,7 @@
 #include "lightcal/core/parallel.h"
 #include "lightcal/imaging/flat_field.h"
 #include "lightcal/imaging/merge_bracket.h"
+#include "lightcal/imaging/thin_frame.h"
 #include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal::app {
@@ -156,10 +157,12 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
   if (!frames) return Propagate(std::move(frames));
   auto work = std::make_unique<BracketWork>();
   work->frames = std::move(*frames);
+  for (Frame& frame : work->frames) frame = ThinFrame(frame, request.work.pixel_stride);
   work->color = std::move(*color);
   MergeRequest merge;
   merge.label_exposure = *labels;
   merge.noise = request.noise;
+  merge.keep_labels = !request.work.measure_ratios;
   if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
     auto response = RecoverResponse(work->frames, *labels);
     if (!response) return Propagate(std::move(response));

@@ -20,12 +20,16 @@ struct CalibrationOptions {
   std::string effects = "auto";
   bool monte_carlo = false;
   bool full_angles = false;
+  std::string profile;  // a profile.json of tradeoff; what is asked for beside it comes first
+  bool tolerance_given = false, effects_given = false;
 };
 
-// Adds SESSION, --tol and --effects; `options` must outlive parsing.
+// Adds SESSION, --tol, --effects and --profile; `options` must outlive parsing.
 void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
 
-// CalibrateSession as the options ask. Wrong usage: a tolerance outside 0..1.
+// What the options ask for, and CalibrateSession by it. Wrong usage: a tolerance outside 0..1.
+// Refused as AccuracyProfileFromJson.
+[[nodiscard]] Result<CalibrationRequest> RequestAsked(const CalibrationOptions& options);
 [[nodiscard]] Result<CalibratedSession> Calibrate(const CalibrationOptions& options,
                                                   Console& console);
 

@@ -66,6 +66,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal simulate out/light.json --plane floor --grid 512 -o floor.png -o floor.exr\n"
      "  lightcal simulate my_lamp --plane z=0.8 --size 6x4m --tol 0.5% -o desk.csv",
      BuildSimulate},
+    {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
+     "  lightcal tradeoff sample_data/sessions/grey_card_exr --tol 1% -o tradeoff\n"
+     "  lightcal tradeoff sample_data/sessions/three_real_lights --budget 50ms\n"
+     "  lightcal tradeoff my_lamp --knobs frames,pixels,solver --json", BuildTradeoff},
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --bare -o presets --force", BuildExport},

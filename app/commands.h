@@ -23,6 +23,7 @@ Run BuildRun(CLI::App& parser);
 Run BuildFit(CLI::App& parser);
 Run BuildExplain(CLI::App& parser);
 Run BuildSimulate(CLI::App& parser);
+Run BuildTradeoff(CLI::App& parser);
 Run BuildExport(CLI::App& parser);
 Run BuildReport(CLI::App& parser);
 Run BuildPhotometric(CLI::App& parser);

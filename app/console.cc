@@ -66,6 +66,7 @@ void Console::Note(std::string_view text) {
 
 void Console::Warn(const Warning& warning) {
   warnings_.push_back(warning);
+  if (flags_.muted) return;
   Write(stderr, Sentence("warning: ", warning.subject, warning.message));
 }
 

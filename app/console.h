@@ -19,6 +19,7 @@ class Console {
     bool quiet = false;
     bool verbose = false;
     bool strict = false;
+    bool muted = false;  // not even warnings: for work done many times over
   };
   explicit Console(Flags flags) : flags_(flags) {}
 

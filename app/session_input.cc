@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "captures/ball_capture.h"
 #include "captures/capture_readings.h"
 #include "captures/wall_capture.h"
 #include "clock.h"
+#include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/fit/fit_light.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
 #include "session_distributions.h"
@@ -21,16 +24,49 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The spectrum at a wider step, where it has a finer one.
+Spectrum ThinnedTo(const Spectrum& spectrum, double step_nm) {
+  if (!(step_nm > 0.0) || spectrum.wavelengths_nm.size() < 2) return spectrum;
+  const std::vector<double> edges = BinEdgesNm(spectrum);
+  const int count = static_cast<int>((edges.back() - edges.front()) / step_nm * (1.0 + 1e-12));
+  if (static_cast<std::size_t>(count) >= spectrum.wavelengths_nm.size()) return spectrum;
+  auto wider = ResampleByArea(spectrum, Nanometres(edges.front() + 0.5 * step_nm),
+                              Nanometres(step_nm), count);
+  return wider ? *std::move(wider) : spectrum;
+}
+
+// Leaves every n-th of each light's readings with the lamp on; what they are compared with stays.
+void ThinReadings(int n, Session& session) {
+  if (n <= 1) return;
+  std::map<std::string, int> seen;
+  std::erase_if(session.readings, [&](const SessionReading& row) {
+    const Reading& reading = row.reading;
+    if (reading.lamp == LampState::kOff || reading.shadow_card) return false;
+    return seen[reading.light]++ % n != 0;
+  });
+}
+
+FitSettings FitSettingsOf(const CalibrationRequest& request) {
+  const AccuracyProfile& profile = request.profile;
+  return {profile.tolerance_relative, profile.effects, request.monte_carlo, profile.estimator,
+          profile.cct_method};
+}
+
+void Lap(const CalibrationRequest& request, tradeoff::Stage stage) {
+  if (request.clock != nullptr) request.clock->Lap(stage);
+}
+
 // A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
 // none and the file's unit is an irradiance.
-Result<void> ResolveSpectrum(Session& session, SessionReading& row, Console& console) {
+Result<void> ResolveSpectrum(Session& session, SessionReading& row, double step_nm,
+                             Console& console) {
   Reading& reading = row.reading;
   if (reading.spectrum_file.empty()) return {};
   const std::string path = PathInSession(session, reading.spectrum_file);
   const auto one = ReadTheOneSpectrum(path, row.where);
   if (!one) return tl::unexpected(one.error());
   console.Warn(one->warnings);
-  const Spectrum& spectrum = one->imported.spectrum;
+  const Spectrum spectrum = ThinnedTo(one->imported.spectrum, step_nm);
   const auto xyz = XyzFromSpectrum(spectrum);
   if (!xyz) return tl::unexpected(xyz.error());
   reading.xy = XyFromXyz(*xyz);
@@ -61,9 +97,10 @@ Result<std::vector<BallPlacement>> AddCaptures(Session& session, Console& consol
 }
 
 // Lights that walls measured, and all others fitted to their readings, in the session's order.
-Result<LightFile> FitLights(Session& session, const FitSettings& settings, Console& console) {
+Result<LightFile> FitLights(Session& session, const CalibrationRequest& request, Console& console) {
   Warnings warnings;
   auto walls = MeasureWalls(session, warnings);
+  Lap(request, tradeoff::Stage::kPictures);
   console.Warn(warnings);
   if (!walls) return Propagate(std::move(walls));
   const auto by_wall = [&](const std::string& name) {
@@ -82,7 +119,7 @@ Result<LightFile> FitLights(Session& session, const FitSettings& settings, Conso
                        "anchor_illuminance_lx with wall.anchor_rect to set the scale"}});
   }
   if (others.lights.empty()) return LightFile{*std::move(walls), {}};
-  auto fitted = FitSession(others, settings);
+  auto fitted = FitSession(others, FitSettingsOf(request));
   if (!fitted) return Propagate(std::move(fitted));
   console.Warn(fitted->warnings);
   for (const std::string& note : fitted->notes) console.Note(note);
@@ -117,39 +154,58 @@ Result<Provenance> ProvenanceOf(const Session& session) {
   return provenance;
 }
 
-Result<Session> LoadMeasuredSession(const std::string& path, Console& console, bool full_angles) {
+void StageClock::Lap(tradeoff::Stage stage) {
+  const auto now = std::chrono::steady_clock::now();
+  seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+}
+
+Result<MeasuredSession> LoadMeasuredSession(const std::string& path,
+                                            const CalibrationRequest& request, Console& console) {
+  const AccuracyProfile& profile = request.profile;
   auto loaded = LoadSession(path);
   if (!loaded) return Propagate(std::move(loaded));
   console.Warn(loaded->warnings);
-  Session& session = loaded->session;
+  MeasuredSession measured{std::move(loaded->session), {}};
+  Session& session = measured.session;
   for (LightDescription& light : session.lights) {
-    if (full_angles && light.inner) light.inner = *light.inner * 0.5;
-    if (full_angles && light.outer) light.outer = *light.outer * 0.5;
+    if (request.full_angles && light.inner) light.inner = *light.inner * 0.5;
+    if (request.full_angles && light.outer) light.outer = *light.outer * 0.5;
   }
+  ThinReadings(profile.reading_stride, session);
+  for (CaptureDescription& capture : session.captures) capture.work = profile.pictures;
+  Lap(request, tradeoff::Stage::kLoad);
   for (SessionReading& row : session.readings) {
-    if (auto resolved = ResolveSpectrum(session, row, console); !resolved) {
+    const double step = profile.spectral_step_nm;
+    if (auto resolved = ResolveSpectrum(session, row, step, console); !resolved) {
       return Propagate(std::move(resolved));
     }
   }
   if (auto tables = AddDistributions(session, console); !tables) {
     return Propagate(std::move(tables));
   }
-  if (auto added = AddCaptures(session, console); !added) return Propagate(std::move(added));
-  return std::move(session);
+  Lap(request, tradeoff::Stage::kSpectra);
+  auto placed = AddCaptures(session, console);
+  if (!placed) return Propagate(std::move(placed));
+  measured.placed = *std::move(placed);
+  Lap(request, tradeoff::Stage::kPictures);
+  return measured;
 }
 
-Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSettings& settings,
-                                           Console& console, bool full_angles) {
-  auto session = LoadMeasuredSession(path, console, full_angles);
-  if (!session) return Propagate(std::move(session));
+Result<CalibratedSession> CalibrateSession(const std::string& path,
+                                           const CalibrationRequest& request, Console& console) {
+  auto measured = LoadMeasuredSession(path, request, console);
+  if (!measured) return Propagate(std::move(measured));
   CalibratedSession calibrated;
-  calibrated.session = *std::move(session);
-  auto lights = FitLights(calibrated.session, settings, console);
+  calibrated.session = std::move(measured->session);
+  const std::vector<BallPlacement>& placed = measured->placed;
+  auto lights = FitLights(calibrated.session, request, console);
+  Lap(request, tradeoff::Stage::kFit);
   if (!lights) return Propagate(std::move(lights));
   calibrated.lights = *std::move(lights);
   for (FittedLight& light : calibrated.lights.lights) {
-    const auto ball = std::ranges::find(*placed, light.name, &BallPlacement::light);
-    if (ball != placed->end() && light.position_m == ball->position_m) {
+    const auto ball = std::ranges::find(placed, light.name, &BallPlacement::light);
+    if (ball != placed.end() && light.position_m == ball->position_m) {
       light.position_u95_m = ball->u95_m;
     }
     if (RestsOnCameraScale(calibrated.session, light.name)) {
@@ -159,6 +215,7 @@ Result<CalibratedSession> CalibrateSession(const std::string& path, const FitSet
   auto provenance = ProvenanceOf(calibrated.session);
   if (!provenance) return Propagate(std::move(provenance));
   calibrated.lights.provenance = std::move(*provenance);
+  Lap(request, tradeoff::Stage::kLoad);
   return calibrated;
 }
 

@@ -113,15 +113,17 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
 }  // namespace
 
 Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
-  const auto tolerance = ParseTolerance(options.calibration.tolerance);
-  if (!tolerance) return tl::unexpected(tolerance.error());
-  const auto session =
-      LoadMeasuredSession(options.calibration.session, console, options.calibration.full_angles);
-  if (!session) return tl::unexpected(session.error());
+  const auto request = RequestAsked(options.calibration);
+  if (!request) return tl::unexpected(request.error());
+  const auto measured = LoadMeasuredSession(options.calibration.session, *request, console);
+  if (!measured) return tl::unexpected(measured.error());
+  const Session* session = &measured->session;
   if (!options.light.empty()) {
     if (auto known = CheckNames(*session, options.light, ""); !known) return known;
   }
-  const FitSettings settings{*tolerance, options.calibration.effects};
+  FitSettings settings;
+  settings.tolerance_relative = request->profile.tolerance_relative;
+  settings.effects = request->profile.effects;
   std::vector<PlannedLight> planned;
   const Error* refused = nullptr;
   bool any = false;

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
@@ -29,7 +30,15 @@ Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& ca
   overrides.f_number = capture.f_number;
   overrides.iso = capture.iso;
   const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
-  return OpenBracket(patterns, overrides);
+  auto bracket = OpenBracket(patterns, overrides);
+  if (!bracket || capture.work.frame_stride <= 1) return bracket;
+  std::vector<FrameInfo> kept;
+  const auto stride = static_cast<std::size_t>(capture.work.frame_stride);
+  for (std::size_t i = 0; i < bracket->frames.size(); i += stride) {
+    kept.push_back(std::move(bracket->frames[i]));
+  }
+  bracket->frames = std::move(kept);
+  return bracket;
 }
 
 Result<CameraFile> CameraOfCapture(const Session& session, const CaptureDescription& capture) {

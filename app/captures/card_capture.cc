@@ -9,6 +9,7 @@
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/thin_frame.h"
 
 namespace lightcal::app {
 namespace {
@@ -29,6 +30,7 @@ BracketMergeRequest RequestOf(const CaptureDescription& capture, const Region& c
   BracketMergeRequest request;
   if (has_colour) request.space = RgbSpace::kSrgb;
   request.want_sigma = true;
+  request.work = capture.work;
   if (capture.anchor_illuminance) {
     const double nits =
         capture.anchor_illuminance->value() * capture.reflectance / std::numbers::pi;
@@ -87,9 +89,10 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   const FrameInfo& info = bracket->frames.front();
   const auto color = ColorOfPicture(info);
   if (!color) return AtCapture(capture, color.error());
-  const auto card = RegionOfCapture(capture, info);
-  if (!card) return AtCapture(capture, card.error());
-  BracketMergeRequest request = RequestOf(capture, *card, color->has_colour);
+  const auto stated = RegionOfCapture(capture, info);
+  if (!stated) return AtCapture(capture, stated.error());
+  const Region card = ThinRegion(*stated, capture.work.pixel_stride);
+  BracketMergeRequest request = RequestOf(capture, card, color->has_colour);
   if (auto used = UseCameraOfCapture(session, capture, request); !used) {
     return AtCapture(capture, used.error());
   }
@@ -97,7 +100,7 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   const auto merged = MergeBracket(*bracket, request);
   if (!merged) return AtCapture(capture, merged.error());
   warnings.insert(warnings.end(), merged->warnings.begin(), merged->warnings.end());
-  const auto patch = MeasureCard(*merged, *card);
+  const auto patch = MeasureCard(*merged, card);
   if (!patch) return AtCapture(capture, patch.error());
   const auto corrected = LuminanceOfLamp(session, capture, info, *color, patch->color);
   if (!corrected) return AtCapture(capture, corrected.error());

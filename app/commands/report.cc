@@ -38,7 +38,7 @@ Result<Source> FromLightFile(const std::string& path) {
 }
 
 Result<Source> FromSession(const std::string& path, Console& console) {
-  auto calibrated = CalibrateSession(path, FitSettings{}, console);
+  auto calibrated = CalibrateSession(path, CalibrationRequest{}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const Session& session = calibrated->session;
   return Source{std::move(calibrated->lights), session.name.empty() ? session.stem : session.name,

@@ -49,7 +49,9 @@ Result<Input> ReadInput(const Options& options, double tolerance, Console& conso
     return Input{std::move(*lights), std::nullopt, fs::path(options.input).stem().string()};
   }
   // The fit has its own gate; --effects is about the prediction.
-  auto calibrated = CalibrateSession(options.input, {tolerance, "auto"}, console);
+  CalibrationRequest request;
+  request.profile.tolerance_relative = tolerance;
+  auto calibrated = CalibrateSession(options.input, request, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string title =
       calibrated->session.name.empty() ? calibrated->session.stem : calibrated->session.name;

@@ -152,7 +152,9 @@ void FillDiagnostics(const RobustEstimate& estimate, const Prepared& prepared,
   if (d.degrees_of_freedom > 0) {
     d.chi2_dof = scatter.chi_squared / d.degrees_of_freedom;
     if (scatter.log_rows > 0) d.rms_relative = std::sqrt(scatter.sum_squared_ln / scatter.log_rows);
-    d.leave_one_out = LeaveOneOut(estimate.kept, estimate.theta);
+    if (estimate.kept.choice.leave_one_out) {
+      d.leave_one_out = LeaveOneOut(estimate.kept, estimate.theta);
+    }
   }
 }
 

@@ -27,6 +27,7 @@ struct ForwardModel {
   bool fit_ambient = true;                 // false: E0 = 0, and lamp-off readings say nothing
   std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none
   std::vector<Consider> considered;        // influences that widen the interval
+  EstimatorChoice choice{};
 };
 
 // 1 sigma of the distance offset's prior, as a fraction of the shortest distance.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::fit {
@@ -65,8 +65,8 @@ Matrix2 XyByMiredDuv(const Vector2& at) {
 }
 
 // (mired, Duv) of a chromaticity; false where it has none.
-bool MiredDuvOf(const Vector2& xy, Vector2& out) {
-  const CctResult cct = CctFromXy({xy[0], xy[1]});
+bool MiredDuvOf(const Vector2& xy, CctMethod method, Vector2& out) {
+  const CctResult cct = CctFromXy({xy[0], xy[1]}, method);
   if (!cct.valid()) return false;
   out = {MiredsFromKelvin(cct.temperature).value(), cct.duv};
   return true;
@@ -94,10 +94,10 @@ Estimate2 FromTemperature(const Reading& reading) {
   return out;
 }
 
-Estimate2 FromChromaticity(const Reading& reading) {
+Estimate2 FromChromaticity(const Reading& reading, CctMethod method) {
   const Vector2 xy(reading.xy->x, reading.xy->y);
   Vector2 mired_duv;
-  if (reading.color_source == ColorSource::kCamera && MiredDuvOf(xy, mired_duv)) {
+  if (reading.color_source == ColorSource::kCamera && MiredDuvOf(xy, method, mired_duv)) {
     const Matrix2 jacobian = XyByMiredDuv(mired_duv);
     const Vector2 variances(SigmaMired(reading) * SigmaMired(reading),
                             kSigmaDuvCamera * kSigmaDuvCamera);
@@ -117,7 +117,8 @@ bool UsableChromaticity(const Reading& reading) {
          reading.xy->y > 0.0;
 }
 
-std::vector<ColorReading> CollectColors(const Session& session, const LightDescription& light) {
+std::vector<ColorReading> CollectColors(const Session& session, const LightDescription& light,
+                                        CctMethod method) {
   std::vector<ColorReading> out;
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
@@ -126,7 +127,7 @@ std::vector<ColorReading> CollectColors(const Session& session, const LightDescr
     }
     const std::pair<std::string, ColorSource> instrument{reading.meter, reading.color_source};
     if (UsableChromaticity(reading)) {
-      out.push_back({FromChromaticity(reading), instrument});
+      out.push_back({FromChromaticity(reading, method), instrument});
     } else if (UsableTemperature(reading)) {
       out.push_back({FromTemperature(reading), instrument});
     }
@@ -194,11 +195,11 @@ void WidenByDisagreement(std::size_t count, const LightDescription& light, Combi
 }
 
 // The estimates in (mired, Duv); empty when one of them has no CCT.
-std::vector<Estimate2> InMiredDuv(const std::vector<Estimate2>& in_xy) {
+std::vector<Estimate2> InMiredDuv(const std::vector<Estimate2>& in_xy, CctMethod method) {
   std::vector<Estimate2> out;
   for (const Estimate2& one : in_xy) {
     Estimate2 converted;
-    if (!MiredDuvOf(one.mean, converted.mean)) return {};
+    if (!MiredDuvOf(one.mean, method, converted.mean)) return {};
     const Matrix2 inverse = XyByMiredDuv(converted.mean).inverse();
     converted.covariance = inverse * one.covariance * inverse.transpose();
     out.push_back(converted);
@@ -230,11 +231,12 @@ void Withhold(const Vector2& xy, const LightDescription& light, Warnings& warnin
 
 }  // namespace
 
-FittedColor FitColor(const Session& session, const LightDescription& light, Warnings& warnings) {
+FittedColor FitColor(const Session& session, const LightDescription& light, Warnings& warnings,
+                     CctMethod method) {
   FittedColor color;
-  const std::vector<Estimate2> in_xy = MeansOfInstruments(CollectColors(session, light));
+  const std::vector<Estimate2> in_xy = MeansOfInstruments(CollectColors(session, light, method));
   if (in_xy.empty()) return color;
-  const std::vector<Estimate2> in_mired = InMiredDuv(in_xy);
+  const std::vector<Estimate2> in_mired = InMiredDuv(in_xy, method);
   if (!in_mired.empty()) {
     Combined combined = Combine(in_mired);
     WidenByDisagreement(in_mired.size(), light, combined, warnings);

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
@@ -29,6 +30,6 @@ inline constexpr double kSigmaDuvAssumed = 0.006;
 // lower it, their scatter adds to it. Where a reading's chromaticity has no CCT the mean is taken
 // in xy and the CCT withheld with the warning cct_withheld. Empty when no reading holds colour.
 [[nodiscard]] FittedColor FitColor(const Session& session, const LightDescription& light,
-                                   Warnings& warnings);
+                                   Warnings& warnings, CctMethod method = CctMethod::kExact);
 
 }  // namespace lightcal::fit

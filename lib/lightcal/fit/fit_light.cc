@@ -259,7 +259,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
   FittedLight out = Describe(light);
-  out.color = fit::FitColor(session, light, warnings);
+  out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {
     if (observations->rejected.empty() && fit::HasDataSheet(light)) {
       if (auto filled = fit::FillFromDataSheet(light, out); !filled) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
@@ -17,6 +18,8 @@ struct FitSettings {
   double tolerance_relative = 0.01;  // of the effect gate
   std::string effects = "auto";      // auto | all | none | +a,-b
   bool monte_carlo = false;          // intervals by sampling (monte_carlo.h) instead of covariance
+  EstimatorChoice estimator{};
+  CctMethod cct_method = CctMethod::kExact;
 };
 
 struct FittedSession {

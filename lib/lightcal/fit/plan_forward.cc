@@ -90,7 +90,7 @@ void AddTime(const Session& session, const LightDescription& light, Scene& scene
 }
 
 Scene SceneOf(const Session& session, const LightDescription& light,
-              const Observations& observations) {
+              const Observations& observations, int patches) {
   Scene scene;
   scene.kind = light.kind;
   scene.size = {light.diameter, light.width, light.height, light.length, light.radius};
@@ -108,7 +108,7 @@ Scene SceneOf(const Session& session, const LightDescription& light,
   }
   scene.distances = CountDistinctDistances(observations.rows);
   scene.ambient_ratio = AmbientRatio(observations);
-  if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance};
+  if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance, patches};
   if (light.distribution) {
     scene.table = SceneTableOf(*light.distribution);
     scene.table->least_part = least_part;
@@ -232,8 +232,10 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
 }
 
 // The model and the report of what the gate decided.
-void Follow(const LightDescription& light, const Observations& observations, ForwardPlan& plan) {
+void Follow(const LightDescription& light, const Observations& observations,
+            const EstimatorChoice& choice, ForwardPlan& plan) {
   plan.model = {};
+  plan.model.choice = choice;
   plan.model.distance_law = HasDistanceLaw(light.kind);
   plan.model.tilt = false;
   plan.effects.clear();
@@ -245,6 +247,7 @@ void Follow(const LightDescription& light, const Observations& observations, For
       effect.reason = effect.finding.reason;
     }
     Apply(plan.scene, light, observations, effect, plan.model);
+    if (!choice.exact_source) plan.model.shape = {};
     if (!effect.finding.applies) continue;
     plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
                             std::nullopt, effect.cost_ns, effect.reason});
@@ -258,13 +261,13 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
   ForwardPlan plan;
   plan.model.distance_law = HasDistanceLaw(light.kind);
   plan.model.tilt = false;
-  plan.scene = SceneOf(session, light, observations);
+  plan.scene = SceneOf(session, light, observations, settings.estimator.bounce_patches);
   if (plan.scene.poses.empty()) return plan;  // the estimate refuses: no reading of the lamp
   Result<std::vector<GatedEffect>> effects =
       GateEffects(plan.scene, settings.tolerance_relative, settings.effects);
   if (!effects) return Propagate(std::move(effects));
   plan.gated = *std::move(effects);
-  Follow(light, observations, plan);
+  Follow(light, observations, settings.estimator, plan);
   return plan;
 }
 
@@ -291,7 +294,7 @@ Result<std::optional<ForwardPlan>> PlanAfterFit(const ForwardPlan& plan,
   }
   // Poses stay as read: the model adds the offset itself.
   next.scene.poses = plan.scene.poses;
-  Follow(light, observations, next);
+  Follow(light, observations, settings.estimator, next);
   return next;
 }
 

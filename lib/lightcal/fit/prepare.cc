@@ -84,6 +84,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
 
 Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   Prepared out;
+  out.estimation.choice = model.choice;
   out.scales = ScalesOf(observations);
   out.shortest = std::numeric_limits<double>::infinity();
   double dimmest = std::numeric_limits<double>::infinity();

@@ -146,7 +146,7 @@ Result<RobustEstimate> EstimateRobustly(const Estimation& estimation) {
   const std::vector<int> far = Beyond(Residuals(estimation, *squared), kSuspiciousResidual);
   const auto lit = std::count_if(estimation.rows.begin(), estimation.rows.end(),
                                  [](const ReadingRow& row) { return row.direct_gain > 0.0; });
-  if (far.empty()) return out;
+  if (far.empty() || !estimation.choice.reject) return out;
   if (lit >= kFewestForRejection) return RejectAndRefit(estimation, *squared);
   out.suspicious = far;
   if (lit == 4) {

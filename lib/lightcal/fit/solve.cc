@@ -63,6 +63,13 @@ ceres::Solver::Options SolverOptions(Loss loss) {
   return options;
 }
 
+ceres::Solver::Options LooseOptions(Loss loss) {
+  ceres::Solver::Options options = SolverOptions(loss);
+  options.function_tolerance = 1e-3;
+  options.parameter_tolerance = 1e-4;
+  return options;
+}
+
 template <class Cost, class T>
 T EvaluateAs(const ReadingRow& row, const T* theta) {
   T residual(0.0);
@@ -261,7 +268,9 @@ std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& sta
 }
 
 Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss, double scale) {
-  if (loss == Loss::kSquared) {
+  const SolverChoice solver = estimation.choice.solver;
+  if (solver == SolverChoice::kClosedForm) return start;
+  if (loss == Loss::kSquared && solver == SolverChoice::kQuick) {
     if (const std::optional<Theta> theta = SolveQuickly(estimation, start)) return *theta;
   }
   return SolveInFull(estimation, start, loss, scale);
@@ -282,13 +291,14 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
   AddPriors(estimation, theta, problem);
   AddBounds(estimation, theta, problem);
   ceres::Solver::Summary summary;
-  ceres::Solve(SolverOptions(loss), &problem, &summary);
+  const bool loose = estimation.choice.solver == SolverChoice::kLoose;
+  ceres::Solve(loose ? LooseOptions(loss) : SolverOptions(loss), &problem, &summary);
   const bool finite =
       std::all_of(theta.begin(), theta.end(), [](double x) { return std::isfinite(x); });
   if (!summary.IsSolutionUsable() || !finite) {
     return Failed("no_convergence", "fit", "the solver found no estimate: " + summary.message);
   }
-  return loss == Loss::kSquared ? Polish(estimation, theta) : theta;
+  return loss == Loss::kSquared && !loose ? Polish(estimation, theta) : theta;
 }
 
 double RowResidual(const ReadingRow& row, const Theta& theta) {

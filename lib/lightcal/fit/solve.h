@@ -10,6 +10,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/reading_model.h"
+#include "lightcal/records/accuracy_profile.h"
 
 namespace lightcal::fit {
 
@@ -26,6 +27,7 @@ struct Estimation {
   std::vector<ReadingRow> rows;
   std::array<ParameterRule, kParameters> rules;
   double least_distance_offset = -1e300;  // d0 stays at or above it, so that d + d0 > 0
+  EstimatorChoice choice{};
 };
 
 enum class Loss : std::uint8_t { kSquared, kHuber, kTukey };
@@ -36,7 +38,7 @@ inline constexpr double kTukeyConstant = 4.685;
 
 // Minimises 1/2 sum rho(r_i^2) + priors with Ceres from `start`, d0 and E0 in their boxes. `scale`
 // widens the loss (a multiple of sigma). Fails: no_convergence.
-// Squared losses try SolveQuickly first.
+// As estimation.choice.solver says: squared losses try SolveQuickly first by default.
 [[nodiscard]] Result<Theta> Solve(const Estimation& estimation, const Theta& start,
                                   Loss loss = Loss::kSquared, double scale = 1.0);
 // The same always by the full solver.

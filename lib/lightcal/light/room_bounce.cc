@@ -2,9 +2,9 @@
 #include "lightcal/light/room_bounce.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "lightcal/photometry/spot_cone.h"
 
@@ -12,7 +12,6 @@ namespace lightcal {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kPatches = 6;       // along each side of a wall
 constexpr double kInside = 0.05;  // metres between a point and the wall it was moved from
 
 // Relative intensity over directions.
@@ -68,12 +67,13 @@ Vec3 MovedInside(Vec3 p, const Vec3& size) {
 }
 
 // Edges of patches along one side, graded about `foot` with the lamp's height over the wall.
-std::array<double, kPatches + 1> Grade(double low, double high, double foot, double height) {
-  std::array<double, kPatches + 1> edges{};
+std::vector<double> Grade(int patches, double low, double high, double foot, double height) {
+  std::vector<double> edges(static_cast<std::size_t>(patches) + 1);
   const double from = std::asinh((low - foot) / height);
   const double to = std::asinh((high - foot) / height);
-  for (int i = 0; i <= kPatches; ++i) {
-    edges[i] = foot + height * std::sinh(from + (to - from) * i / kPatches);
+  for (int i = 0; i <= patches; ++i) {
+    edges[static_cast<std::size_t>(i)] =
+        foot + height * std::sinh(from + (to - from) * i / patches);
   }
   return edges;
 }
@@ -87,18 +87,19 @@ struct Receiver {
 double FromWall(const Scene& scene, const Pattern& pattern, const Vec3& lamp,
                 const Receiver& receiver, int axis, double at, double inward) {
   const Vec3& size = scene.room->size_m;
+  const auto patches = static_cast<std::size_t>(scene.room->bounce_patches);
   const double height = std::abs(lamp[axis] - at);
   const int u = (axis + 1) % 3;
   const int v = (axis + 2) % 3;
   const auto edges = [&](int side) {
     const double low = side == 2 ? 0.0 : -0.5 * size[side];
-    return Grade(low, low + size[side], lamp[side], height);
+    return Grade(scene.room->bounce_patches, low, low + size[side], lamp[side], height);
   };
   const auto u_edges = edges(u);
   const auto v_edges = edges(v);
   double sum = 0.0;
-  for (int i = 0; i < kPatches; ++i) {
-    for (int j = 0; j < kPatches; ++j) {
+  for (std::size_t i = 0; i < patches; ++i) {
+    for (std::size_t j = 0; j < patches; ++j) {
       Vec3 patch{};
       patch[axis] = at;
       patch[u] = 0.5 * (u_edges[i] + u_edges[i + 1]);

@@ -27,13 +27,12 @@ struct Bounce {
 // 1 sigma of Bounce::Estimate(), relative.
 inline constexpr double kBounceSigma = 0.10;
 
-// First bounce: Lambertian walls of one reflectance, each cut into 6 x 6 patches graded by asinh
-// about the lamp's foot, so that the bright spot under a lamp near a wall is resolved. Point,
-// sphere and tube shine evenly, disk and rect as cos, spots within their cone, and any lamp of a
-// stated beam as cos^n. A lamp
-// without position stands in the middle of the room; a reading without one stands along the aim (or
-// the room's longer side). Points outside the room are moved just inside. Requires scene.room, a
-// kind that follows distance.
+// First bounce: Lambertian walls of one reflectance, each cut into n x n patches
+// (room.bounce_patches) graded by asinh about the lamp's foot, so that the bright spot under a lamp
+// near a wall is resolved. Point, sphere and tube shine evenly, disk and rect as cos, spots within
+// their cone, and any lamp of a stated beam as cos^n. A lamp without position stands in the middle
+// of the room; a reading without one stands along the aim (or the room's longer side). Points
+// outside the room are moved just inside. Requires scene.room, a kind that follows distance.
 [[nodiscard]] Bounce BounceAt(const Scene& scene, const ScenePose& pose);
 
 }  // namespace lightcal

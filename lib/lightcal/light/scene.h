@@ -18,6 +18,7 @@ class IntensityTable;
 struct RoomBox {
   Vec3 size_m{};
   double reflectance = 0.5;
+  int bounce_patches = 6;  // along each side of each wall, where light bounces
 };
 
 // Where one reading was taken.

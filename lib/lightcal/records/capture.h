@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/units.h"
+#include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/ball_capture.h"
 #include "lightcal/records/projection.h"
 #include "lightcal/records/wall_capture.h"
@@ -63,6 +64,7 @@ struct CaptureDescription {
   std::optional<BallDescription> ball;   // [capture.ball]
   std::optional<Projection> projection;  // source, dome, ball; absent: rect, of a dome latlong
   std::optional<Radians> field_of_view;  // full angle across the width, or a fisheye's circle
+  PictureChoice work{};                  // how much of its pictures to use; a profile's, no key
   std::string where;                     // "session.toml [[capture]] 1"
 };
 

@@ -146,11 +146,7 @@ std::string PolarFigure(const FittedLight& light, std::string_view id) {
 }
 
 std::string PolarPlot(const IntensityTable& table, std::string_view title) {
-  std::string text = Draw(table, title, "polar");
-  const std::string style =
-      "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
-      "svg { background: var(--page); font-family: system-ui, sans-serif; }\n]]></style>";
-  return text.insert(text.find('>') + 1, style);
+  return StandaloneSvg(Draw(table, title, "polar"));
 }
 
 }  // namespace lightcal::report

@@ -60,6 +60,8 @@ svg .band { fill: var(--band); stroke: none; }
 svg .whisker { stroke: var(--ink); stroke-width: 1.4; }
 svg .used { fill: var(--ink); stroke: var(--page); stroke-width: 1.2; }
 svg .rejected { fill: none; stroke: var(--warn); stroke-width: 2.4; stroke-linecap: round; }
+svg .setting { fill: var(--soft); stroke: var(--page); stroke-width: 1; }
+svg .chosen { fill: var(--warn); stroke: var(--page); stroke-width: 1.2; }
 svg .locus { fill: none; stroke: var(--accent); stroke-width: 2; }
 svg .second { fill: none; stroke: var(--warn); stroke-width: 2; stroke-dasharray: 7 4; }
 svg .ring { fill: none; stroke: var(--rule); stroke-width: 1; }
@@ -137,6 +139,13 @@ a { color: var(--accent); }
   code { font-size: 10.5px; }
 }
 )css";
+}
+
+std::string StandaloneSvg(std::string svg) {
+  const std::string style =
+      "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
+      "svg { background: var(--page); font-family: system-ui, sans-serif; }\n]]></style>";
+  return svg.insert(svg.find('>') + 1, style);
 }
 
 }  // namespace lightcal::report

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace lightcal::report {
 
 // The page's style sheet: light and dark by the reader's setting, paper always light.
 [[nodiscard]] std::string_view StyleSheet();
+
+// A figure as a file of its own: the style sheet inside, and who wrote it.
+[[nodiscard]] std::string StandaloneSvg(std::string svg);
 
 }  // namespace lightcal::report

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tradeoff_answer.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "console.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/report/style.h"
+#include "lightcal/report/text.h"
+#include "lightcal/report/work_precision.h"
+#include "picture_file.h"
+
+namespace lightcal::app {
+namespace {
+
+using nlohmann::ordered_json;
+using report::Escaped;
+using tradeoff::Setting;
+using tradeoff::Study;
+using tradeoff::SweepRow;
+
+constexpr double kSeenError = 1e-9;
+
+std::string Percent(double relative) {
+  return relative < kSeenError ? "none" : RoundedText(100.0 * relative, 2) + " %";
+}
+std::string Milliseconds(double seconds) { return RoundedText(1e3 * seconds, 3); }
+
+// "0.02 % in the strength of key", "0.4 mired in the colour temperature of key".
+std::string Moved(const tradeoff::SettingError& error) {
+  std::string size = Percent(error.relative);
+  if (error.quantity == "colour temperature") {
+    size = RoundedText(tradeoff::kMiredPerUnit * error.relative, 2) + " mired";
+  }
+  if (error.quantity == "Duv") size = RoundedText(tradeoff::kDuvPerUnit * error.relative, 2);
+  return "the " + std::string(error.quantity) + " of " + error.light + " by " + size;
+}
+
+std::string Speed(double times) {
+  if (times > 1.0) return RoundedText(times, 3) + "x faster";
+  return times < 1.0 ? RoundedText(1.0 / times, 3) + "x slower" : "same";
+}
+
+std::string VerdictWord(const Setting& setting) {
+  return std::string(tradeoff::kVerdictWords[static_cast<std::size_t>(setting.verdict)]);
+}
+
+std::string LevelOf(const SweepRow& row) {
+  const tradeoff::Knob& knob = tradeoff::Knobs()[row.knob];
+  return std::string(knob.levels[row.setting.levels[row.knob]]);
+}
+
+double TimesFaster(const Study& study, const Setting& setting) {
+  const auto& usual = study.usual.measured.times;
+  const auto& own = setting.measured.times;
+  return tradeoff::TimesOverlap(usual, own) ? 1.0 : usual.total / own.total;
+}
+
+struct Cells {
+  std::string knob, level, time, speed, error, label;
+};
+
+Cells CellsOf(std::string knob, std::string level, const Setting& setting, double times_faster) {
+  if (setting.measured.refused) {
+    return {std::move(knob),     std::move(level), "", "", setting.measured.refused->code,
+            VerdictWord(setting)};
+  }
+  return {std::move(knob),
+          std::move(level),
+          Milliseconds(setting.measured.times.total),
+          Speed(times_faster),
+          Percent(setting.error.relative),
+          VerdictWord(setting)};
+}
+
+// The usual setting, then every knob's every level.
+std::vector<Cells> KnobRows(const Study& study) {
+  std::vector<Cells> rows = {CellsOf("as usual", "", study.usual, 1.0)};
+  for (const SweepRow& row : study.rows) {
+    rows.push_back(CellsOf(std::string(tradeoff::Knobs()[row.knob].name), LevelOf(row), row.setting,
+                           row.times_faster));
+    if (!row.in_play) rows.back().label = "not in play";
+  }
+  return rows;
+}
+
+std::vector<Cells> CombinationRows(const Study& study) {
+  std::vector<Cells> rows;
+  for (const Setting& one : study.combinations) {
+    rows.push_back(CellsOf("", tradeoff::NameOf(one.levels), one, TimesFaster(study, one)));
+  }
+  return rows;
+}
+
+std::string Share(double over_u) {
+  if (over_u < 1e-6) return "nothing of your u";
+  if (over_u > 1.0) return RoundedText(over_u, 2) + " times your u";
+  return "1/" + RoundedText(1.0 / over_u, 2) + " of your u";
+}
+
+std::string Effect(const Setting& setting, double times_faster) {
+  const std::string moved =
+      setting.error.relative < kSeenError
+          ? "changes nothing"
+          : "moves " + Moved(setting.error) + ", " + Share(setting.error.over_u);
+  return Speed(times_faster) + ", " + moved + ": " + VerdictWord(setting);
+}
+
+ordered_json TimesJson(const tradeoff::RunTimes& times) {
+  ordered_json json = {{"median", 1e3 * times.total},
+                       {"least", 1e3 * times.least},
+                       {"low", 1e3 * times.low},
+                       {"high", 1e3 * times.high},
+                       {"runs", times.runs}};
+  for (std::size_t i = 0; i < tradeoff::kStages; ++i) {
+    json["stages"][std::string(tradeoff::kStageWords[i])] = 1e3 * times.median[i];
+  }
+  return json;
+}
+
+ordered_json SettingJson(const Study& study, const Setting& setting) {
+  ordered_json json = {{"name", tradeoff::NameOf(setting.levels)}, {"label", VerdictWord(setting)}};
+  if (setting.measured.refused) {
+    json["refused"] = setting.measured.refused->code;
+    return json;
+  }
+  json["time_ms"] = TimesJson(setting.measured.times);
+  json["times_faster"] = TimesFaster(study, setting);
+  json["error_relative"] = setting.error.relative;
+  json["error_over_u"] = setting.error.over_u;
+  if (!setting.error.light.empty()) {
+    json["error_in"] = {{"light", setting.error.light}, {"quantity", setting.error.quantity}};
+  }
+  return json;
+}
+
+report::WorkPoint PointOf(const Setting& setting, report::WorkPointKind kind) {
+  const tradeoff::RunTimes& t = setting.measured.times;
+  return {tradeoff::NameOf(setting.levels), t.total, t.low, t.high, setting.error.relative, kind};
+}
+
+report::WorkPrecision PlotOf(const Study& study, double tolerance, const std::string& title) {
+  using Kind = report::WorkPointKind;
+  report::WorkPrecision plot{
+      title + ": accuracy against time", {}, {}, tolerance, study.allowed_relative};
+  plot.points.push_back(PointOf(study.usual, Kind::kUsual));
+  std::vector<const Setting*> all = {&study.usual};
+  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
+  for (const Setting& one : study.combinations) all.push_back(&one);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (!all[i]->measured.refused) plot.points.push_back(PointOf(*all[i], Kind::kSetting));
+  }
+  if (study.recommended.levels != study.usual.levels) {
+    plot.points.push_back(PointOf(study.recommended, Kind::kRecommended));
+  }
+  for (const std::size_t i : tradeoff::ParetoOf(study)) {
+    plot.best.push_back(PointOf(*all[i], i == 0 ? Kind::kUsual : Kind::kSetting));
+    if (all[i]->levels == study.recommended.levels) plot.best.back().kind = Kind::kRecommended;
+  }
+  return plot;
+}
+
+std::string HtmlTable(const std::string& heading, const std::vector<Cells>& rows) {
+  std::string html = "<table><thead><tr><th scope=\"col\">" + heading +
+                     "</th><th scope=\"col\">level</th><th scope=\"col\">time (ms)</th>"
+                     "<th scope=\"col\">against usual</th><th scope=\"col\">off by</th>"
+                     "<th scope=\"col\">label</th></tr></thead><tbody>\n";
+  for (const Cells& row : rows) {
+    html += "<tr><th scope=\"row\">" + Escaped(row.knob) + "</th>";
+    for (const std::string* cell : {&row.level, &row.time, &row.speed, &row.error, &row.label}) {
+      html += "<td>" + Escaped(*cell) + "</td>";
+    }
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table>\n";
+}
+
+std::string Page(const Study& study, const std::string& title, const std::string& svg) {
+  std::string html =
+      "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
+      "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\"/>\n<meta name=\"generator\" content=\"" +
+      Escaped(GeneratorName()) + "\"/>\n<title>" + Escaped(title) +
+      " · accuracy and time</title>\n<style>" + std::string(report::StyleSheet()) +
+      "</style>\n</head>\n<body>\n<main>\n<header><h1>" + Escaped(title) +
+      "</h1>\n<p class=\"lead\">What accuracy costs in time, measured on this session</p></header>"
+      "\n<figure>" +
+      svg + "</figure>\n<div class=\"block\">\n";
+  for (const std::string& sentence : TradeoffSentences(study)) {
+    html += "<p>" + Escaped(sentence) + "</p>\n";
+  }
+  html += "</div>\n" + HtmlTable("knob", KnobRows(study));
+  const std::vector<Cells> together = CombinationRows(study);
+  if (!together.empty()) html += HtmlTable("together", together);
+  return html +
+         "<p class=\"small soft\">Off by: the largest change of strength, "
+         "colour temperature or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 "
+         "of Duv. Free: below a tenth of your standard uncertainty u; safe: up to a third.</p>\n"
+         "</main>\n</body>\n</html>\n";
+}
+
+}  // namespace
+
+std::string TradeoffTable(const Study& study) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Cells& row : KnobRows(study)) {
+    rows.push_back({row.knob, row.level, row.time, row.speed, row.error, row.label});
+  }
+  std::string text = TextTable({"knob", "level", "ms", "against usual", "off by", "label"}, rows);
+  rows.clear();
+  for (const Cells& row : CombinationRows(study)) {
+    rows.push_back({row.time, row.speed, row.error, row.label, row.level});
+  }
+  if (rows.empty()) return text;
+  return text + "\n" + TextTable({"ms", "against usual", "off by", "label", "together"}, rows);
+}
+
+std::vector<std::string> TradeoffSentences(const Study& study) {
+  std::vector<std::string> out = {
+      "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" +
+      Milliseconds(study.recommended.measured.times.total) + " ms; " +
+      Effect(study.recommended, TimesFaster(study, study.recommended)) + ")."};
+  for (const SweepRow& row : study.rows) {
+    const bool good = row.setting.verdict == tradeoff::Verdict::kFree ||
+                      row.setting.verdict == tradeoff::Verdict::kSafe;
+    if (!good || !(row.times_faster > 1.0)) continue;
+    out.push_back(tradeoff::NameOf(row.setting.levels) + ": " +
+                  Effect(row.setting, row.times_faster));
+  }
+  if (study.meter_limits) {
+    out.push_back("Your readings are the limit: a third of their u is " +
+                  Percent(study.allowed_relative) + "; working finer than that buys nothing.");
+  }
+  return out;
+}
+
+ordered_json TradeoffJson(const Study& study, double tolerance_relative) {
+  ordered_json json = {
+      {"tolerance_relative", tolerance_relative},
+      {"allowed_relative", study.allowed_relative},
+      {"meter_limits", study.meter_limits},
+      {"reference",
+       {{"time_ms", TimesJson(study.reference.times)}, {"self_difference", study.self_difference}}},
+      {"usual", SettingJson(study, study.usual)},
+      {"knobs", ordered_json::array()},
+      {"combinations", ordered_json::array()},
+      {"recommended", SettingJson(study, study.recommended)}};
+  for (const SweepRow& row : study.rows) {
+    ordered_json one = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
+    one.update(SettingJson(study, row.setting));
+    one["in_play"] = row.in_play;
+    json["knobs"].push_back(std::move(one));
+  }
+  for (const Setting& one : study.combinations) {
+    json["combinations"].push_back(SettingJson(study, one));
+  }
+  json["sentences"] = TradeoffSentences(study);
+  return json;
+}
+
+Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, double tolerance_relative,
+                                              const std::string& title) {
+  auto profile = AccuracyProfileToJson(study.recommended.measured.profile);
+  if (!profile) return Propagate(std::move(profile));
+  ordered_json with_figures = ordered_json::parse(*profile);
+  with_figures["measured"] = SettingJson(study, study.recommended);
+  with_figures["measured"]["session"] = title;
+  ordered_json whole = {{"generator", GeneratorName()}};
+  whole.update(TradeoffJson(study, tolerance_relative));
+  const std::string svg = report::WorkPrecisionPlot(PlotOf(study, tolerance_relative, title));
+  auto png = PictureFile("tradeoff.png", svg);
+  if (!png) return Propagate(std::move(png));
+  return std::vector<OutputFile>{{"tradeoff.json", whole.dump(2) + "\n"},
+                                 {"profile.json", with_figures.dump(2) + "\n"},
+                                 {"tradeoff.svg", svg},
+                                 std::move(*png),
+                                 {"tradeoff.html", Page(study, title, svg)}};
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much work each step of a calibration does: what `tradeoff` varies, and what a profile.json
+// holds for `fit` and `run`.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "lightcal/colorimetry/cct_approximations.h"
+#include "lightcal/core/result.h"
+
+namespace lightcal {
+
+enum class SolverChoice : std::uint8_t {
+  kFull,        // ceres::Solve to the last digit
+  kQuick,       // ceres::TinySolver, the full solver where it does not converge; the same to 1e-9
+  kLoose,       // ceres::Solve to 1e-3 of the cost, without the last steps
+  kClosedForm,  // the linear start alone
+};
+inline constexpr std::array<std::string_view, 4> kSolverWords = {"full", "quick", "loose",
+                                                                 "closed_form"};
+
+struct EstimatorChoice {
+  SolverChoice solver = SolverChoice::kQuick;
+  bool reject = true;         // robust starts and rejection of readings that disagree
+  bool leave_one_out = true;  // the error of predicting each reading from the others
+  bool exact_source = true;   // the size of lamps near the meter; false: each a point
+  int bounce_patches = 6;     // along each side of each wall of the [room]
+};
+
+struct PictureChoice {
+  int frame_stride = 1;        // every n-th frame of a bracket, the shortest among them
+  int pixel_stride = 1;        // every n-th block of the colour filter pattern, both ways
+  bool measure_ratios = true;  // exposure ratios from the pixels; false: as the files say
+  bool check_frames = true;    // for flicker and what moved between the frames
+};
+
+struct AccuracyProfile {
+  double tolerance_relative = 0.01;  // of the effect gate
+  std::string effects = "auto";      // auto | all | none | +a,-b
+  EstimatorChoice estimator{};
+  CctMethod cct_method = CctMethod::kExact;
+  int reading_stride = 1;         // every n-th reading of a light, in the session's order
+  double spectral_step_nm = 0.0;  // spectra thinned to this step; 0 = as they were measured
+  PictureChoice pictures{};
+};
+
+inline constexpr std::string_view kProfileSchema = "lightcal.profile/1";
+
+// A profile.json.  Fails: not_finite.
+[[nodiscard]] Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile);
+// Refused: bad_profile, unknown_key. `where` names the file in messages. Keys left out keep their
+// default; what `tradeoff` found about the profile ("measured") is passed over.
+[[nodiscard]] Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text,
+                                                              std::string_view where);
+
+}  // namespace lightcal

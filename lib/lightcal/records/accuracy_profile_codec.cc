@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "lightcal/records/accuracy_profile.h"
+#include "lightcal/records/field_reader.h"
+#include "lightcal/records/field_writer.h"
+#include "lightcal/records/json_codec.h"
+
+namespace lightcal {
+namespace records {
+namespace {
+
+constexpr NumberRule kToleranceRule{[](double v) { return v > 0.0 && v < 1.0; },
+                                    "must lie between 0 and 1: 0.01 is 1 %"};
+constexpr int kMostPatches = 64;
+
+template <class Archive, class Estimator>
+void VisitEstimator(Archive& archive, Estimator& choice) {
+  archive.Word("solver", choice.solver, kSolverWords);
+  archive.Truth("reject", choice.reject);
+  archive.Truth("leave_one_out", choice.leave_one_out);
+  archive.Truth("exact_source", choice.exact_source);
+  archive.Integer("bounce_patches", choice.bounce_patches);
+}
+
+template <class Archive, class Pictures>
+void VisitPictures(Archive& archive, Pictures& choice) {
+  archive.Integer("frame_stride", choice.frame_stride);
+  archive.Integer("pixel_stride", choice.pixel_stride);
+  archive.Truth("measure_ratios", choice.measure_ratios);
+  archive.Truth("check_frames", choice.check_frames);
+}
+
+template <class Archive, class Profile>
+void VisitProfile(Archive& archive, Profile& profile) {
+  archive.Number("tolerance_relative", profile.tolerance_relative, kToleranceRule);
+  archive.Text("effects", profile.effects);
+  archive.Group("estimator", [&](auto& a) { VisitEstimator(a, profile.estimator); });
+  archive.Word("cct_method", profile.cct_method, kCctMethodWords);
+  archive.Integer("reading_stride", profile.reading_stride);
+  archive.Number("spectral_step_nm", profile.spectral_step_nm, kNotNegative);
+  archive.Group("pictures", [&](auto& a) { VisitPictures(a, profile.pictures); });
+}
+
+void CheckCounts(FieldReader& reader, const AccuracyProfile& profile) {
+  const auto check = [&](std::string_view key, int value, int most) {
+    if (value >= 1 && value <= most) return;
+    reader.Fail("bad_profile", key,
+                std::string(key) + " = " + std::to_string(value) + ": must lie between 1 and " +
+                    std::to_string(most));
+  };
+  check("bounce_patches", profile.estimator.bounce_patches, kMostPatches);
+  check("reading_stride", profile.reading_stride, 1 << 20);
+  check("frame_stride", profile.pictures.frame_stride, 1 << 10);
+  check("pixel_stride", profile.pictures.pixel_stride, 1 << 10);
+}
+
+}  // namespace
+}  // namespace records
+
+Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile) {
+  records::FieldWriter writer;
+  writer.Text("schema", std::string(kProfileSchema));
+  records::VisitProfile(writer, profile);
+  const records::Node node = writer.TakeTable();
+  if (const auto where = records::FindNotFinite(node)) {
+    return Failed("not_finite", *where, "is not a finite number and cannot be written");
+  }
+  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+}
+
+Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text, std::string_view where) {
+  const auto node = records::ParseJson(text);
+  if (!node) return Refused("bad_profile", std::string(where), node.error().message);
+  if (node->kind != records::Node::Kind::kTable) {
+    return Refused("bad_profile", std::string(where), "a profile.json must be one JSON object");
+  }
+  records::ReadingOfFile reading{std::string(where), "bad_profile", records::PlaceStyle::kJson,
+                                 std::nullopt};
+  records::FieldReader reader(*node, "", reading);
+  AccuracyProfile profile;
+  std::string schema;
+  reader.Text("schema", schema);
+  if (schema != kProfileSchema) {
+    reader.Fail("schema", "a profile.json has \"schema\": \"" + std::string(kProfileSchema) +
+                              "\"; `lightcal tradeoff SESSION -o DIR` writes one");
+  }
+  records::VisitProfile(reader, profile);
+  reader.Ignore("measured");
+  if (!reader.Failed()) records::CheckCounts(reader, profile);
+  reader.Finish();
+  if (reading.error) return tl::unexpected(*std::move(reading.error));
+  return profile;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The work-precision diagram: what each setting takes in time and costs in accuracy.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lightcal::report {
+
+enum class WorkPointKind : std::uint8_t { kSetting, kUsual, kRecommended };
+
+// One setting. Times in seconds: the median of its runs and their quartiles. error: relative,
+// against the reference.
+struct WorkPoint {
+  std::string name;
+  double seconds = 0.0, low = 0.0, high = 0.0;
+  double error = 0.0;
+  WorkPointKind kind = WorkPointKind::kSetting;
+};
+
+struct WorkPrecision {
+  std::string title;
+  std::vector<WorkPoint> points;
+  std::vector<WorkPoint> best;  // that none beats in both, cheapest first: joined by steps
+  double tolerance = 0.01;
+  std::optional<double> allowed;  // a third of the session's own standard uncertainty
+};
+
+// A whole SVG file: error in percent against milliseconds, both logarithmic. Settings without any
+// error of 1e-6 or more stand on the lower edge. At least one point.
+[[nodiscard]] std::string WorkPrecisionPlot(const WorkPrecision& study);
+
+}  // namespace lightcal::report

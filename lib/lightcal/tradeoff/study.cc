@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/tradeoff/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "lightcal/core/nearest_word.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/tradeoff/combine.h"
+
+namespace lightcal::tradeoff {
+namespace {
+
+constexpr double kReferenceShare = 0.01;  // of the tolerance: how well reference and check agree
+constexpr std::size_t kCombinations = 6;
+constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
+constexpr double kSeenError = 1e-9;  // relative
+
+using Levels = std::vector<std::size_t>;
+
+std::string PercentText(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
+std::string MillisecondsText(double seconds) { return RoundedText(1e3 * seconds, 3) + " ms"; }
+
+std::string WhereText(const SettingError& error) {
+  return std::string(error.quantity) + " of " + error.light;
+}
+
+Levels UsualLevels() {
+  Levels levels;
+  for (const Knob& knob : Knobs()) levels.push_back(knob.usual);
+  return levels;
+}
+
+AccuracyProfile ProfileOf(const Levels& levels, double tolerance) {
+  AccuracyProfile profile;
+  profile.tolerance_relative = tolerance;
+  for (std::size_t k = 0; k < levels.size(); ++k) Knobs()[k].set(profile, levels[k]);
+  return profile;
+}
+
+Result<std::vector<bool>> KnobsToMove(const std::vector<std::string>& names) {
+  std::vector<bool> moved(Knobs().size(), names.empty());
+  std::vector<std::string_view> known;
+  for (const Knob& knob : Knobs()) known.push_back(knob.name);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      return WrongUsage("--knobs " + name, "is no knob; did you mean \"" +
+                                               std::string(NearestWord(name, known)) + "\"?");
+    }
+    moved[static_cast<std::size_t>(found - known.begin())] = true;
+  }
+  return moved;
+}
+
+Result<void> CheckReference(const Measured& reference, const Measured& check, double tolerance,
+                            Study& study) {
+  if (check.refused) return tl::unexpected(*check.refused);
+  const SettingError apart = ErrorOf(DifferencesFrom(reference.lights, check.lights));
+  study.self_difference = apart.relative;
+  if (apart.relative <= kReferenceShare * tolerance) return {};
+  return Refused("no_reference", "tradeoff",
+                 "the strictest setting and its check, by another solver and other quadrature, "
+                 "differ by " +
+                     PercentText(apart.relative) + " in the " + WhereText(apart) +
+                     ", more than a hundredth of --tol: nothing finer than " +
+                     PercentText(apart.relative / kReferenceShare) + " can be judged here");
+}
+
+// The smallest of tolerance and a third of the figure's own uncertainty.
+std::vector<double> LimitsOf(const Study& study, double tolerance, double* least, bool* by_meter) {
+  std::vector<double> limits;
+  *least = tolerance;
+  for (const Difference& d : DifferencesFrom(study.reference.lights, study.reference.lights)) {
+    const double by_u = kSafeShare * d.sd;
+    limits.push_back(std::max(kSeenError, std::min(tolerance, by_u)));
+    *least = std::min(*least, limits.back());
+    if (d.quantity == "strength" && by_u >= tolerance) continue;
+    if (d.quantity == "strength") *by_meter = true;
+  }
+  return limits;
+}
+
+void Judge(const Study& study, Setting& setting) {
+  if (setting.measured.refused) return;
+  setting.error = ErrorOf(DifferencesFrom(study.reference.lights, setting.measured.lights));
+  setting.verdict = setting.error.over_u < kFreeShare    ? Verdict::kFree
+                    : setting.error.over_u <= kSafeShare ? Verdict::kSafe
+                                                         : Verdict::kCosts;
+}
+
+std::vector<double> SignedDifferences(const Study& study, const Measured& measured) {
+  std::vector<double> out;
+  for (const Difference& d : DifferencesFrom(study.reference.lights, measured.lights)) {
+    out.push_back(d.relative);
+  }
+  return out;
+}
+
+bool Meets(const Setting& setting, const Study& study, const std::vector<double>& limits) {
+  if (setting.measured.refused) return false;
+  const std::vector<double> differences = SignedDifferences(study, setting.measured);
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (std::abs(differences[i]) > limits[i]) return false;
+  }
+  return true;
+}
+
+// In the knob's own stage: what a noisy machine does in the others is none of its doing.
+double SavedSeconds(const Study& study, const SweepRow& row) {
+  const RunTimes& usual = study.usual.measured.times;
+  const RunTimes& own = row.setting.measured.times;
+  const Stage stage = Knobs()[row.knob].stage;
+  const auto i = static_cast<std::size_t>(stage);
+  const double saved = usual.median[i] - own.median[i];
+  const bool apart = !TimesOverlap(usual, own, stage) && std::abs(saved) > kSeenTime * usual.total;
+  return apart ? saved : 0.0;
+}
+
+void FillRow(const Study& study, SweepRow& row) {
+  Judge(study, row.setting);
+  if (row.setting.measured.refused) {
+    row.in_play = true;
+    return;
+  }
+  const double moved =
+      ErrorOf(DifferencesFrom(study.usual.measured.lights, row.setting.measured.lights)).relative;
+  row.saves_s = SavedSeconds(study, row);
+  row.in_play = row.saves_s != 0.0 || moved > kSeenError;
+  const double usual = study.usual.measured.times.total;
+  row.times_faster = usual / (usual - row.saves_s);
+}
+
+CombineInput InputOf(const Study& study, const std::vector<double>& limits, double budget) {
+  CombineInput input;
+  input.usual = study.usual.levels;
+  input.seconds = study.usual.measured.times.total;
+  input.differences = SignedDifferences(study, study.usual.measured);
+  input.limits = limits;
+  input.budget = budget;
+  input.changes.resize(Knobs().size());
+  for (const SweepRow& row : study.rows) {
+    const bool finer = row.setting.error.relative < study.usual.error.relative;
+    if (row.setting.measured.refused || (!(row.saves_s > 0.0) && !finer)) continue;
+    Change change{row.setting.levels[row.knob], -row.saves_s,
+                  SignedDifferences(study, row.setting.measured)};
+    for (std::size_t i = 0; i < change.differences.size(); ++i) {
+      change.differences[i] -= input.differences[i];
+    }
+    input.changes[row.knob].push_back(std::move(change));
+  }
+  return input;
+}
+
+std::size_t KnobsMoved(const Setting& setting) {
+  std::size_t moved = 0;
+  for (std::size_t k = 0; k < setting.levels.size(); ++k) {
+    if (setting.levels[k] != Knobs()[k].usual) ++moved;
+  }
+  return moved;
+}
+
+// Among settings that meet the limits the cheapest; of those no slower than it the most accurate,
+// then the one that moves the fewest knobs.
+const Setting* CheapestOf(const std::vector<const Setting*>& settings) {
+  const auto cheapest = std::ranges::min_element(
+      settings, {}, [](const Setting* s) { return s->measured.times.total; });
+  const Setting* best = *cheapest;
+  for (const Setting* one : settings) {
+    if (TimesOverlap(one->measured.times, (*cheapest)->measured.times) &&
+        std::pair(one->error.relative, KnobsMoved(*one)) <
+            std::pair(best->error.relative, KnobsMoved(*best))) {
+      best = one;
+    }
+  }
+  return best;
+}
+
+Result<void> Recommend(const Question& question, const std::vector<double>& limits, Study& study) {
+  std::vector<const Setting*> all = {&study.usual};
+  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
+  for (const Setting& one : study.combinations) all.push_back(&one);
+  std::erase_if(all, [](const Setting* s) { return s->measured.refused.has_value(); });
+  std::vector<const Setting*> fit;
+  for (const Setting* one : all) {
+    const bool in_time = !question.budget_s || one->measured.times.total <= *question.budget_s;
+    const bool good = question.budget_s ? one->error.relative <= question.tolerance_relative
+                                        : Meets(*one, study, limits);
+    if (in_time && good) fit.push_back(one);
+  }
+  if (!fit.empty()) {
+    study.recommended = question.budget_s
+                            ? **std::ranges::min_element(
+                                  fit, {}, [](const Setting* s) { return s->error.relative; })
+                            : *CheapestOf(fit);
+    return {};
+  }
+  const Setting* nearest = all.front();
+  for (const Setting* one : all) {
+    const bool late = question.budget_s && one->measured.times.total > *question.budget_s;
+    const bool nearest_late =
+        question.budget_s && nearest->measured.times.total > *question.budget_s;
+    if (std::pair(late, late ? one->measured.times.total : one->error.relative) <
+        std::pair(nearest_late,
+                  nearest_late ? nearest->measured.times.total : nearest->error.relative)) {
+      nearest = one;
+    }
+  }
+  return Refused("no_setting", "tradeoff",
+                 "no setting stays within " + PercentText(question.tolerance_relative) +
+                     (question.budget_s ? " in " + MillisecondsText(*question.budget_s) : "") +
+                     "; the nearest (" + NameOf(nearest->levels) + ") takes " +
+                     MillisecondsText(nearest->measured.times.total) + " and is " +
+                     PercentText(nearest->error.relative) + " off in the " +
+                     WhereText(nearest->error));
+}
+
+Result<void> MeasureCombinations(const Runner& run, const Question& question,
+                                 const std::vector<double>& limits, const Watch& watch,
+                                 Study& study) {
+  std::vector<Levels> wanted;
+  const CombineInput input = InputOf(study, limits, question.budget_s.value_or(0.0));
+  for (Foretold& one : BestCombinations(input, kCombinations)) {
+    wanted.push_back(std::move(one.levels));
+  }
+  std::vector<AccuracyProfile> profiles = {study.usual.measured.profile};
+  for (const Levels& levels : wanted) {
+    profiles.push_back(ProfileOf(levels, question.tolerance_relative));
+  }
+  auto measured =
+      MeasureInTurn(run, profiles, {.least_runs = 7, .most_runs = 101, .seconds = 6.0}, watch);
+  if (!measured) return Propagate(std::move(measured));
+  study.usual.measured = std::move(measured->front());
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i] == study.usual.levels) continue;
+    Setting setting{wanted[i], std::move((*measured)[i + 1]), {}, Verdict::kNoAnswer};
+    Judge(study, setting);
+    study.combinations.push_back(std::move(setting));
+  }
+  std::ranges::sort(study.combinations, {},
+                    [](const Setting& s) { return s.measured.times.total; });
+  return {};
+}
+
+}  // namespace
+
+std::string NameOf(const Levels& levels) {
+  std::string text;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const Knob& knob = Knobs()[k];
+    if (levels[k] == knob.usual) continue;
+    text += (text.empty() ? "" : ", ") + std::string(knob.name) + " " +
+            std::string(knob.levels[levels[k]]);
+  }
+  return text.empty() ? "as usual" : text;
+}
+
+Result<Study> StudyTradeoff(const Runner& run, const Question& question, const Watch& watch) {
+  const auto moved = KnobsToMove(question.knobs);
+  if (!moved) return tl::unexpected(moved.error());
+  const double tolerance = question.tolerance_relative;
+  Study study;
+  study.usual.levels = UsualLevels();
+  std::vector<AccuracyProfile> profiles = {StrictProfile(tolerance), StrictCheckProfile(tolerance),
+                                           ProfileOf(study.usual.levels, tolerance)};
+  for (std::size_t k = 0; k < Knobs().size(); ++k) {
+    for (std::size_t level = 0; (*moved)[k] && level < Knobs()[k].levels.size(); ++level) {
+      if (level == Knobs()[k].usual) continue;
+      SweepRow row;
+      row.knob = k;
+      row.setting.levels = study.usual.levels;
+      row.setting.levels[k] = level;
+      profiles.push_back(ProfileOf(row.setting.levels, tolerance));
+      study.rows.push_back(std::move(row));
+    }
+  }
+  auto measured = MeasureInTurn(run, profiles, {}, watch);
+  if (!measured) return Propagate(std::move(measured));
+  study.reference = std::move((*measured)[0]);
+  if (auto sure = CheckReference(study.reference, (*measured)[1], tolerance, study); !sure) {
+    return Propagate(std::move(sure));
+  }
+  study.usual.measured = std::move((*measured)[2]);
+  if (study.usual.measured.refused) return tl::unexpected(*study.usual.measured.refused);
+  Judge(study, study.usual);
+  for (std::size_t i = 0; i < study.rows.size(); ++i) {
+    study.rows[i].setting.measured = std::move((*measured)[3 + i]);
+    FillRow(study, study.rows[i]);
+  }
+  const std::vector<double> limits =
+      LimitsOf(study, tolerance, &study.allowed_relative, &study.meter_limits);
+  if (auto done = MeasureCombinations(run, question, limits, watch, study); !done) {
+    return Propagate(std::move(done));
+  }
+  if (auto chosen = Recommend(question, limits, study); !chosen)
+    return Propagate(std::move(chosen));
+  return study;
+}
+
+std::vector<std::size_t> ParetoOf(const Study& study) {
+  std::vector<const Setting*> all = {&study.usual};
+  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
+  for (const Setting& one : study.combinations) all.push_back(&one);
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::erase_if(order, [&](std::size_t i) { return all[i]->measured.refused.has_value(); });
+  std::ranges::sort(order, {}, [&](std::size_t i) {
+    return std::pair(all[i]->measured.times.total, all[i]->error.relative);
+  });
+  std::vector<std::size_t> pareto;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t i : order) {
+    if (!(all[i]->error.relative < least)) continue;
+    least = all[i]->error.relative;
+    pareto.push_back(i);
+  }
+  return pareto;
+}
+
+}  // namespace lightcal::tradeoff

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/tradeoff/timing.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace lightcal::tradeoff {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The value below which `share` of the values lie; values not empty.
+double Quantile(std::vector<double> values, double share) {
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+struct Series {
+  std::array<std::vector<double>, kStages> stages;
+  std::vector<double> totals;
+
+  void Add(const StageSeconds& seconds) {
+    double total = 0.0;
+    for (std::size_t i = 0; i < kStages; ++i) {
+      stages[i].push_back(seconds[i]);
+      total += seconds[i];
+    }
+    totals.push_back(total);
+  }
+
+  [[nodiscard]] RunTimes Summary() const {
+    RunTimes out;
+    out.runs = static_cast<int>(totals.size());
+    if (totals.empty()) return out;
+    for (std::size_t i = 0; i < kStages; ++i) {
+      out.median[i] = Quantile(stages[i], 0.5);
+      out.stage_low[i] = Quantile(stages[i], 0.25);
+      out.stage_high[i] = Quantile(stages[i], 0.75);
+      out.total += out.median[i];
+    }
+    out.least = *std::ranges::min_element(totals);
+    out.low = Quantile(totals, 0.25);
+    out.high = Quantile(totals, 0.75);
+    return out;
+  }
+};
+
+}  // namespace
+
+Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
+                                            std::span<const AccuracyProfile> profiles,
+                                            const TimingRules& rules, const Watch& watch) {
+  std::vector<Measured> out(profiles.size());
+  std::vector<Series> series(profiles.size());
+  const Clock::time_point start = Clock::now();
+  for (int round = 0; round < rules.most_runs; ++round) {
+    const double by_time = SecondsSince(start) / rules.seconds;
+    const double by_runs = static_cast<double>(round) / rules.least_runs;
+    if (round >= rules.least_runs && by_time >= 1.0) break;
+    for (std::size_t i = 0; i < profiles.size(); ++i) {
+      if (watch.stopped()) return Failed("interrupted", "tradeoff", "stopped; nothing was written");
+      if (out[i].refused) continue;
+      auto outcome = run(profiles[i]);
+      if (round == 0) {
+        out[i].profile = profiles[i];
+        // The first profile is what the others are measured against.
+        if (!outcome && i == 0) return Propagate(std::move(outcome));
+        if (!outcome) out[i].refused = outcome.error();
+        if (outcome) out[i].lights = std::move(outcome->lights);
+        continue;  // the first run of each warms caches
+      }
+      if (outcome) series[i].Add(outcome->seconds);
+    }
+    watch.progress(std::min({1.0, by_runs, std::max(by_time, by_runs / 2.0)}));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].times = series[i].Summary();
+  watch.progress(1.0);
+  return out;
+}
+
+bool TimesOverlap(const RunTimes& a, const RunTimes& b) {
+  return a.low <= b.high && b.low <= a.high;
+}
+
+bool TimesOverlap(const RunTimes& a, const RunTimes& b, Stage stage) {
+  const auto i = static_cast<std::size_t>(stage);
+  return a.stage_low[i] <= b.stage_high[i] && b.stage_low[i] <= a.stage_high[i];
+}
+
+}  // namespace lightcal::tradeoff

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long calibrations by several profiles take, measured side by side.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lightcal/tradeoff/outcome.h"
+
+namespace lightcal::tradeoff {
+
+struct TimingRules {
+  int least_runs = 7;  // of each profile
+  int most_runs = 61;
+  double seconds = 8.0;  // for all profiles together, beyond the least runs
+};
+
+struct Watch {
+  std::function<bool()> stopped = [] { return false; };
+  std::function<void(double)> progress = [](double /*share*/) {};  // of one measurement, 0 to 1
+};
+
+// Seconds of one profile's runs. `median` of the whole is the sum of the stages' medians, which is
+// what profiles are ranked by; low and high are the quartiles of whole runs.
+struct RunTimes {
+  int runs = 0;
+  StageSeconds median{}, stage_low{}, stage_high{};  // of each stage, with its quartiles
+  double total = 0.0, least = 0.0, low = 0.0, high = 0.0;
+};
+
+struct Measured {
+  AccuracyProfile profile;
+  std::vector<LightFigures> lights;
+  std::optional<Error> refused;  // this profile gives no answer for this session
+  RunTimes times;
+};
+
+// Runs the profiles in turn, A B C A B C ..., so that what else the machine does meets them alike.
+// Fails: interrupted, and as the first profile where that gives no answer.
+[[nodiscard]] Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
+                                                          std::span<const AccuracyProfile> profiles,
+                                                          const TimingRules& rules,
+                                                          const Watch& watch);
+
+// Whether the quartiles of two profiles' runs overlap: neither is then the faster.
+[[nodiscard]] bool TimesOverlap(const RunTimes& a, const RunTimes& b);
+// The same of one stage.
+[[nodiscard]] bool TimesOverlap(const RunTimes& a, const RunTimes& b, Stage stage);
+
+}  // namespace lightcal::tradeoff
