@@ -443,11 +443,11 @@ TEST(SimulateCommand, ItSaysWhichEffectsRanAndWhatEachCost) {
   panel["height_m"] = 0.6;
   panel["aim"] = {0.0, 0.0, -1.0};
   const std::string white = folder.Write("panel.json", LightFile({panel}));
-  const json room = LightcalJson("simulate", {white, "--plane", "floor", "--grid", "128", "--room",
+  const json room = LightcalJson("simulate", {white, "--plane", "floor", "--grid", "256", "--room",
                                               "4,3.4,2.6", "--reflectance", "0.8"});
   EXPECT_EQ(room["effects"][0]["state"], "on");
   EXPECT_EQ(room["effects"][1]["state"], "on");
-  EXPECT_LT(room["effects"][1]["evaluations"].get<int>(), 128 * 109 / 4);
+  EXPECT_LT(room["effects"][1]["evaluations"].get<int>(), 256 * 218 / 8);
   const CliResult table =
       RunLightcal({"simulate", white, "--at", "0,0,0", "--room", "4,3.4,2.6", "--timing"});
   EXPECT_EQ(table.exit_code, 0);
