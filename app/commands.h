@@ -24,6 +24,7 @@ Run BuildFit(CLI::App& parser);
 Run BuildExplain(CLI::App& parser);
 Run BuildSimulate(CLI::App& parser);
 Run BuildExport(CLI::App& parser);
+Run BuildCheck(CLI::App& parser);
 Run BuildReport(CLI::App& parser);
 Run BuildPhotometric(CLI::App& parser);
 Run BuildConvert(CLI::App& parser);
