@@ -13,7 +13,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kAsItShould = 0.02;   // |ln| of a factor that is nobody's mistake
 constexpr double kSameFactor = 0.025;  // |ln| between what is seen and what a mistake does
 constexpr double kSameTint = 0.03;     // largest difference of max-normalised components
-constexpr double kCurveShows = 0.04;   // |ln| of the cards' ratio over what it should be
+constexpr double kCurveShows = 0.08;   // |ln| of the cards' ratio over what it should be
 constexpr std::array<double, 3> kWeights = {0.212639, 0.715169, 0.072192};
 using Rgb3 = std::array<double, 3>;
 
@@ -88,7 +88,7 @@ std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardP
   }
   const double srgb =
       std::log(Encoded(rig.cards[0].reflectance) / Encoded(rig.cards[1].reflectance) / want);
-  if (std::abs(worst - srgb) < 2.0 * kCurveShows) {
+  if (std::abs(worst - srgb) < kCurveShows) {
     return RenderCause{"encoded_twice",
                        "the samples are sRGB encoded once too often; save linear "
                        "samples to EXR, and encode once to PNG"};

@@ -171,6 +171,9 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   if (!list) return Propagate(std::move(list));
   Json root = {{"name", stem}, {"lumens_per_watt", kLumensPerWatt}};
   root["lights"] = *std::move(list);
+  for (const Json& light : root["lights"]) {
+    preset.derived.push_back(json_pieces::DerivedFrom(light));
+  }
   root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
   if (!options.bare) root["rig"] = json_pieces::RigJson<Json>(rig);
   root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);

@@ -162,6 +162,9 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
   for (std::size_t i = 0; i < forms->size(); ++i) {
     root["lights"].push_back(LightJson(lights.lights[i], (*forms)[i]));
   }
+  for (const Json& light : root["lights"]) {
+    preset.derived.push_back(json_pieces::DerivedFrom(light));
+  }
   root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
   root["exposure"]["aperture"] = kAperture;
   root["exposure"]["shutter_s"] = kShutterPerScale * rig.exposure.scale;

@@ -2,6 +2,9 @@
 // The rig as JSON, in the session's frame: what preset.json lists and what scripts build.
 #pragma once
 
+#include <vector>
+
+#include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/rig.h"
@@ -65,6 +68,20 @@ template <class Json>
   json["color_luminance"] = light.color().luminance;
   if (!light.substitution.empty()) json["substituted"] = light.substitution;
   return json;
+}
+
+// The numbers of an exported light, for audit.
+template <class Json>
+[[nodiscard]] DerivedLight DerivedFrom(const Json& light) {
+  constexpr std::size_t kLongest = 4;
+  DerivedLight derived;
+  derived.type = light.at("type").template get<std::string>();
+  for (const auto& [key, value] : light.items()) {
+    if (value.is_number()) derived.Put(key, value.template get<double>());
+    if (!value.is_array() || value.size() > kLongest || !value.front().is_number()) continue;
+    derived.Put(key, value.template get<std::vector<double>>());
+  }
+  return derived;
 }
 
 // JSON text as it may stand inside a quoted string of a script: without apostrophes.

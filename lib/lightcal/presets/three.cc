@@ -130,6 +130,9 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
     root["lights"].push_back(LightJson(lights.lights[i], (*forms)[i], table));
   }
+  for (const Json& light : root["lights"]) {
+    preset.derived.push_back(json_pieces::DerivedFrom(light));
+  }
   root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
   if (!options.bare) {
     root["rig"] = json_pieces::RigJson<Json>(json_pieces::Turned(rig, GltfFromZUp));

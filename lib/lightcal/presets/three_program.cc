@@ -161,8 +161,7 @@ function babylonLight(BABYLON, scene, light) {
 }
 
 function babylonCard(BABYLON, scene, rig, card) {
-  const mesh = BABYLON.MeshBuilder.CreatePlane(card.name, {
-    size: rig.side_m, sideOrientation: BABYLON.Mesh.DOUBLESIDE }, scene);
+  const mesh = BABYLON.MeshBuilder.CreatePlane(card.name, { size: rig.side_m }, scene);
   const material = new BABYLON.PBRMaterial(card.name, scene);
   material.albedoColor = new BABYLON.Color3(card.reflectance, card.reflectance, card.reflectance);
   material.metallic = 0;
@@ -174,8 +173,9 @@ function babylonCard(BABYLON, scene, rig, card) {
   mesh.material = material;
   const row = new BABYLON.Vector3(...rig.row);
   const normal = new BABYLON.Vector3(...rig.normal);
+  // A plane of Babylon's faces its own -z.
   mesh.rotationQuaternion = BABYLON.Quaternion.RotationQuaternionFromAxis(
-    row, BABYLON.Vector3.Cross(normal, row), normal);
+    row, BABYLON.Vector3.Cross(row, normal), normal.scale(-1));
   mesh.position.set(...card.centre_m);
   return mesh;
 }

@@ -82,7 +82,7 @@ async function picture(F, preset, cards, eye, job) {
   view.setCamera(camera);
   view.setScene(scene);
   view.setViewport([0, 0, W, H]);
-  view.setColorGrading(F.ColorGrading.Builder().toneMapping(F.ColorGrading$ToneMapping.LINEAR).build(engine));
+  view.setColorGrading(F.ColorGrading.Builder().quality(F.ColorGrading$QualityLevel.ULTRA).toneMapping(F.ColorGrading$ToneMapping.LINEAR).build(engine));
   const loader = engine.createAssetLoader();
   const asset = loader.createAsset(squares(cards));
   await new Promise((done) => asset.loadResources(done, null, null));
