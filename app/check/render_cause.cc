@@ -54,6 +54,23 @@ std::optional<Rgb3> PerfectWhite(const CheckedRig& rig, const std::array<CardPix
   return white;
 }
 
+// Its luminance where the tint is the lamp's: one figure for all samples that are not clipped.
+// Eight bits with a clipped white card say more that way.
+double LuminanceInTint(const CheckedRig& rig, const std::array<CardPixels, 2>& cards,
+                       const Rgb3& tint) {
+  double above = 0.0, below = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (cards[i].clipped[c] || !(cards[i].step[c] > 0.0)) continue;
+      const double expected = rig.cards[i].reflectance * tint[c];
+      const double weight = 1.0 / (cards[i].step[c] * cards[i].step[c]);
+      above += weight * cards[i].rgb[c] * expected;
+      below += weight * expected * expected;
+    }
+  }
+  return below > 0.0 ? above / below * Luminance(tint) : 0.0;
+}
+
 double ScaleOf(const CheckedRig& rig, PixelUnit unit) {
   constexpr double kBlenderLumensPerWatt = 683.0;
   switch (unit) {
@@ -262,6 +279,9 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
     if (auto tint = TintIn(rig.lamps.front(), MaxNormalised(*white))) {
       verdict.cause = *std::move(tint);
       return verdict;
+    }
+    if (cards[0].step[0] > 0.0) {
+      verdict.lux = LuminanceInTint(rig, cards, rig.lamps.front().color) * lux_per_pixel;
     }
   }
   NameFactor(rig, verdict);
