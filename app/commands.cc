@@ -73,6 +73,10 @@ constexpr CommandRow kCommands[] = {
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --bare -o presets --force", BuildExport},
+    {"check", "A preset against the readings, or an engine's picture of the rig against the meter",
+     "  lightcal check presets/light.gltf --session sample_data/sessions/amaran_200x_s_bare\n"
+     "  lightcal check --render beauty.exr --rig presets/light.preset.json --engine blender",
+     BuildCheck},
     {"report", "One self-contained page: figures, plots, how sure and why, provenance",
      "  lightcal report sample_data/sessions/amaran_200x_s_bare -o report.html\n"
      "  lightcal report out/light.json -o report.html", BuildReport},

@@ -13,6 +13,16 @@ namespace lightcal {
 [[nodiscard]] Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
                                         const PresetOptions& options);
 
+// <stem>.blender.py: a script for Blender 3.4 and later, Cycles (blender.cc).
+[[nodiscard]] Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
+                                           const PresetOptions& options);
+// <stem>.three.js: an ES module for three.js and Babylon.js (three.cc).
+[[nodiscard]] Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
+                                         const PresetOptions& options);
+// <stem>.filament.json, and the same numbers as C++ in <stem>.filament.h (filament.cc).
+[[nodiscard]] Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
+                                            const PresetOptions& options);
+
 // <stem>-<light>.ies, LM-63-2002, and .ldt, EULUMDAT (photometric.cc). A light at infinity has none
 // (no_distribution).
 [[nodiscard]] Result<Preset> ExportIes(const LightFile& lights, const std::string& stem,

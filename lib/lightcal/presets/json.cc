@@ -9,7 +9,7 @@
 #include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
-#include "lightcal/presets/rig.h"
+#include "lightcal/presets/rig_pieces.h"
 
 namespace lightcal {
 namespace {
@@ -183,28 +183,9 @@ Json LightJson(const FittedLight& lamp, const PunctualLight& light, const Fallof
   return json;
 }
 
-Json CardJson(const RigCard& card) {
-  return {{"name", card.name},
-          {"reflectance", card.reflectance},
-          {"centre_m", Array<Json>(card.centre_m)},
-          {"illuminance_lx", card.illuminance.value()},
-          {"luminance_nits", card.luminance.value()}};
-}
-
-Json RigJson(const Rig& rig) {
-  Json json = {{"light", rig.light},
-               {"distance_m", rig.distance.value()},
-               {"from_reading", rig.from_reading},
-               {"normal", Array<Json>(rig.normal)},
-               {"side_m", rig.side.value()}};
-  json["cards"] = {CardJson(rig.cards[0]), CardJson(rig.cards[1])};
-  json["camera"] = {{"position_m", Array<Json>(rig.camera.position_m)},
-                    {"target_m", Array<Json>(rig.camera.target_m)},
-                    {"up", Array<Json>(rig.camera.up)},
-                    {"vertical_fov_deg", DegreesFromRadians(rig.camera.vertical_fov)},
-                    {"aspect_ratio", rig.camera.aspect_ratio}};
-  return json;
-}
+// The rig's illuminances are those of the lamps themselves, whatever an engine makes of them.
+constexpr EngineForms kEveryForm{
+    .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
 
 }  // namespace
 
@@ -213,12 +194,10 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   Preset preset;
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
-  constexpr EngineForms kEveryForm = {
-      .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
   Warnings said_already;
   const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
   if (!forms) return tl::unexpected(forms.error());
-  const Rig rig = BuildRig(lights, *punctual);
+  const Rig rig = BuildRig(lights, *forms);
   const auto refits = RefitInGltf(lights, *punctual, options, said_already);
   const auto derivations = Derivations(lights, stem, options);
   Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};
@@ -228,8 +207,8 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
                                        derivations, rig.exposure.scale));
     WarnOfHalfFloats((*forms)[i], rig.exposure.scale, preset.warnings);
   }
-  root["exposure"] = {{"ev100", rig.exposure.ev100}, {"exposure", rig.exposure.scale}};
-  if (!options.bare) root["rig"] = RigJson(rig);
+  root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
+  if (!options.bare) root["rig"] = json_pieces::RigJson<Json>(rig);
   root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
   auto text = json_pieces::TextOf(root, stem + ".preset.json");
   if (!text) return Propagate(std::move(text));

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check/engine_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lightcal::app {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double Clamp01(double v) { return std::clamp(v, 0.0, 1.0); }
+
+double Cone(const EngineLight& light, double cosine) {
+  const double outer = std::cos(light.outer_rad);
+  const double t = Clamp01((cosine - outer) / std::max(1e-9, std::cos(light.inner_rad) - outer));
+  return light.law == ConeLaw::kSquared ? t * t : t * t * (3.0 - 2.0 * t);
+}
+
+double Window(const EngineLight& light, double d) {
+  if (!(light.range_m > 0.0)) return 1.0;
+  const double edge = Clamp01(1.0 - std::pow(d / light.range_m, 4));
+  return edge * edge;
+}
+
+// Sum over small pieces of L cos cos dA/d^2.
+double FlatLux(const EngineLight& light, const Vec3& point, const Vec3& normal) {
+  constexpr int kPieces = 64;
+  const double area = light.width_m * light.height_m / (kPieces * kPieces);
+  double sum = 0.0;
+  for (int i = 0; i < kPieces; ++i) {
+    for (int j = 0; j < kPieces; ++j) {
+      const double u = (i + 0.5) / kPieces - 0.5;
+      const double v = (j + 0.5) / kPieces - 0.5;
+      if (light.round && u * u + v * v > 0.25) continue;
+      const Vec3 to = point - (light.position_m + light.x * (u * light.width_m) +
+                               light.y * (v * light.height_m));
+      const double d2 = Dot(to, to);
+      sum += std::max(0.0, Dot(to, light.aim)) * std::max(0.0, -Dot(to, normal)) / (d2 * d2);
+    }
+  }
+  return light.emitted * area * sum;
+}
+
+}  // namespace
+
+double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
+  if (light.kind == EngineLightKind::kDome) return kPi * light.emitted;
+  if (light.kind == EngineLightKind::kSun) {
+    return light.emitted * std::max(0.0, -Dot(light.aim, normal));
+  }
+  if (light.kind == EngineLightKind::kFlat) return FlatLux(light, point, normal);
+  const Vec3 to = point - light.position_m;
+  const double d = Length(to);
+  if (!(d > 0.0)) return 0.0;
+  double candela = light.emitted * Window(light, d);
+  if (light.kind == EngineLightKind::kSpot) candela *= Cone(light, Dot(to, light.aim) / d);
+  if (light.kind == EngineLightKind::kTable) {
+    candela *=
+        light.table->Towards({Dot(to, light.x), Dot(to, light.y), -Dot(to, light.aim)}).value();
+  }
+  return candela * std::max(0.0, -Dot(to, normal)) / (d * d * d);
+}
+
+}  // namespace lightcal::app

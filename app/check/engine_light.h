@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light as a preset file says it, read back, and the lux it gives. Shares nothing with the
+// exporters: its own constants, axes, cone laws and integration.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/light/intensity_table.h"
+
+namespace lightcal::app {
+
+enum class EngineLightKind : std::uint8_t { kPoint, kSpot, kSun, kFlat, kDome, kTable };
+enum class ConeLaw : std::uint8_t { kSquared, kSmooth };
+
+// Z up, metres. emitted has the colour's luminance in it: cd of a point or spot, lx of a sun, cd/m2
+// of a flat source (round: a disk) or a dome, a factor on a table's candela.
+struct EngineLight {
+  std::string name;
+  EngineLightKind kind = EngineLightKind::kPoint;
+  double emitted = 0.0;
+  Vec3 position_m{}, aim{0.0, 0.0, -1.0};
+  Vec3 x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0};  // a flat source's width and height; a table's C0, C90
+  double inner_rad = 0.0, outer_rad = 0.0;
+  ConeLaw law = ConeLaw::kSquared;
+  double range_m = 0.0;  // of the window (1 - (d/range)^4)^2, clamped; 0 = none
+  double width_m = 0.0, height_m = 0.0;
+  bool round = false;
+  std::optional<IntensityTable> table;
+  double offset_m = 0.0;  // from where distances were measured to the light, of lamps without aim
+};
+
+// On a surface of unit normal `normal`.
+[[nodiscard]] double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal);
+
+// By the file's name: .gltf, .blender.py, .three.js, .filament.json, .preset.json, .ies.
+// Wrong usage: another ending. Refused: bad_preset.
+[[nodiscard]] Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path,
+                                                              const std::string& text);
+
+}  // namespace lightcal::app

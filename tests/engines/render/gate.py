@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Renders one set of measured lamps in every engine that runs here and holds the lux of a white card
+at the meter's place against what the meter read.
+  gate.py --lightcal BINARY --modules NODE_FOLDER [--work FOLDER] [--engines a,b] [--table FILE]
+Exits 1 when a bar is missed. --table writes the parity table into FILE between its marks."""
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+import cases
+import pictures
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+# engine -> kind -> largest |got/read - 1|. A kind that is not here was not rendered.
+BARS = {
+    'blender': {'point': .005, 'spot': .005, 'sun': .005, 'rect': .005, 'ies': .002, 'dome': .005},
+    'three': {'point': .002, 'spot': .002, 'sun': .002, 'rect': .002, 'dome': .01},
+    'three_ies': {'axial': .02},
+    'babylon': {'point': .002, 'spot': .002, 'sun': .002, 'axial': .02, 'dome': .01},
+    'filament': {'point': .02, 'spot': .02, 'sun': .02, 'dome': .02},
+}
+TITLES = {'blender': 'Blender Cycles', 'three': 'three.js', 'three_ies': 'three.js WebGPU build',
+          'babylon': 'Babylon.js', 'filament': 'Filament'}
+KIND_TITLES = {'point': 'point', 'spot': 'spot 15/25', 'sun': 'sun', 'rect': 'rect 0.6 x 0.3 m',
+               'ies': 'IES, asymmetric', 'axial': 'IES, axial', 'dome': 'uniform dome'}
+RIG_BAR = .02
+
+
+def export(lightcal, work):
+    for kind in cases.KINDS:
+        for color in cases.COLORS:
+            folder = f'{work}/{kind}_{color}'
+            os.makedirs(folder, exist_ok=True)
+            with open(f'{folder}/session.toml', 'w') as f:
+                f.write(cases.session_toml(kind, color))
+            if kind in ('ies', 'axial'):
+                with open(f'{folder}/lamp.ies', 'w', newline='') as f:
+                    f.write(cases.ies_text(kind == 'axial'))
+            subprocess.run([lightcal, 'run', folder, '-o', f'{folder}/out', '--to',
+                            'json,gltf,blender,three,filament', '--force', '--quiet'], check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+
+def run_blender(work, jobs):
+    rows = [{'script': f'{work}/{j["name"]}/out/{j["name"]}.blender.py', 'probes': j['probes'],
+             'rig_png': j['png'], 'percent': 100 if j['name'] == 'point_2700K' else 25,
+             **({} if j['name'] == 'point_2700K' else {'samples': 16})} for j in jobs]
+    with open(f'{work}/blender_jobs.json', 'w') as f:
+        json.dump(rows, f)
+    out = f'{work}/blender_results.json'
+    done = subprocess.run(['blender', '-b', '--factory-startup', '-P', f'{HERE}/blender_probe.py',
+                           '--', f'{work}/blender_jobs.json', out], capture_output=True, text=True)
+    if not os.path.exists(out):
+        sys.exit('blender: ' + done.stdout[-2000:] + done.stderr[-2000:])
+    got = json.load(open(out))
+    return got['version'], got['results']
+
+
+def run_browser(modules, work, engine, jobs):
+    suffix = 'filament.json' if engine == 'filament' else 'three.js'
+    rows = [{'engine': engine, 'module': f'{j["name"]}/out/{j["name"]}.{suffix}',
+             'probes': j['probes'], **({} if engine == 'three_ies' else {'png': j['png']})}
+            for j in jobs]
+    with open(f'{work}/{engine}_jobs.json', 'w') as f:
+        json.dump(rows, f)
+    out = f'{work}/{engine}_results.json'
+    subprocess.run(['node', f'{HERE}/browse.mjs', modules, work, f'{work}/{engine}_jobs.json', out],
+                   check=True)
+    package = {'babylon': '@babylonjs/core', 'filament': 'filament'}.get(engine, 'three')
+    version = json.load(open(f'{modules}/node_modules/{package}/package.json'))['version']
+    return version, json.load(open(out))['results']
+
+
+def measure(args, work):
+    """[{engine, kind, color, read, got, worst, rig}]"""
+    rows, versions = [], {}
+    for engine in args.engines:
+        jobs = [{'name': f'{kind}_{color}', 'kind': kind, 'color': color,
+                 'probes': cases.probes(kind), 'png': f'{work}/{engine}_{kind}_{color}.png'}
+                for kind in BARS[engine] for color in cases.COLORS]
+        versions[engine], results = (run_blender(work, jobs) if engine == 'blender' else
+                                     run_browser(args.modules, work, engine, jobs))
+        for job, result in zip(jobs, results):
+            if 'lux' not in result:
+                sys.exit(f'{engine} {job["name"]}: {result}')
+            errors = [got / probe['lux'] - 1 for got, probe in zip(result['lux'], job['probes'])]
+            row = {'engine': engine, 'kind': job['kind'], 'color': job['color'],
+                   'read': job['probes'][0]['lux'], 'got': result['lux'][0],
+                   'worst': max(errors, key=abs)}
+            if os.path.exists(job['png']):
+                row['rig'] = grey(work, job)
+            rows.append(row)
+    return rows, versions
+
+
+def grey(work, job):
+    rig = json.load(open(f'{work}/{job["name"]}/out/{job["name"]}.preset.json'))['rig']
+    return pictures.card_luminance(job['png'], rig, 1)
+
+
+def judge(rows):
+    failures = []
+    for row in rows:
+        where = f'{row["engine"]} {row["kind"]} {row["color"]}'
+        rig = f' card {row["rig"]:.4f}' if 'rig' in row else ''
+        print(f'{where:28} read {row["read"]:8.2f} lx  got {row["got"]:9.3f}  worst {row["worst"]:+.3%}{rig}')
+        if not abs(row['worst']) <= BARS[row['engine']][row['kind']]:
+            failures.append(f'{where}: {row["worst"]:+.3%} of the meter\'s lux')
+        if 'rig' in row and not abs(row['rig'] / 0.18 - 1) <= RIG_BAR:
+            failures.append(f'{where}: the 18 % card shows as {row["rig"]:.4f}')
+    return failures
+
+
+def table(rows, versions):
+    engines = [e for e in TITLES if e in versions]
+    lines = ['| lamp | read | ' + ' | '.join(f'{TITLES[e]} {versions[e].split()[0]}' for e in engines) + ' |',
+             '|---|---|' + '---|' * len(engines)]
+    for kind in cases.KINDS:
+        for color in cases.COLORS:
+            cells = []
+            for engine in engines:
+                row = next((r for r in rows if (r['engine'], r['kind'], r['color']) == (engine, kind, color)), None)
+                digits = 1 if engine == 'filament' else 2
+                cells.append(f'{row["got"]:.{digits}f} ({row["got"] / row["read"] - 1:+.{digits}%})'.replace('-0.00%', '0.00%').replace('+0.00%', '0.00%')
+                             if row else '')
+            lines.append(f'| {KIND_TITLES[kind]}, {color} | {cases.KINDS[kind][1]:g} lx | ' + ' | '.join(cells) + ' |')
+    return '\n'.join(lines)
+
+
+def write_table(path, text):
+    old = open(path).read()
+    new = re.sub(r'(<!-- parity begin[^\n]*-->\n).*?(<!-- parity end -->)',
+                 lambda m: m.group(1) + text + '\n' + m.group(2), old, flags=re.S)
+    with open(path, 'w') as f:
+        f.write(new)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('--lightcal', required=True)
+    parser.add_argument('--modules', required=True)
+    parser.add_argument('--work')
+    parser.add_argument('--engines', default=','.join(BARS))
+    parser.add_argument('--table')
+    args = parser.parse_args()
+    args.engines = args.engines.split(',')
+    if args.engines == ['three']:
+        args.engines.append('three_ies')
+    with tempfile.TemporaryDirectory() as temporary:
+        work = os.path.abspath(args.work or temporary)
+        os.makedirs(work, exist_ok=True)
+        export(os.path.abspath(args.lightcal), work)
+        rows, versions = measure(args, work)
+    failures = judge(rows)
+    if args.table:
+        write_table(args.table, table(rows, versions))
+    for failure in failures:
+        print('FAILED ' + failure)
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == '__main__':
+    main()
