@@ -15,7 +15,7 @@ double SigmaRelative(const Session& session, const Reading& reading) {
 }
 
 double CalibrationRelative(const Session& session, const Reading& reading) {
-  if (reading.meter == kDataSheetMeter) return 0.0;
+  if (reading.meter == kDataSheetMeter || reading.quality == MeterQuality::kDerived) return 0.0;
   const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
   const bool described = meter != session.meters.end();
   if (described && meter->calibration_relative) return *meter->calibration_relative;
