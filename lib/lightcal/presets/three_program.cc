@@ -170,6 +170,7 @@ function babylonCard(BABYLON, scene, rig, card) {
   material.brdf.baseDiffuseModel = 2;  // Lambert, in Constants; the default darkens when seen aslant
   material.backFaceCulling = false;
   material.twoSidedLighting = false;
+  material.maxSimultaneousLights = Math.max(4, preset.lights.length);  // Babylon stops at 4
   mesh.material = material;
   const row = new BABYLON.Vector3(...rig.row);
   const normal = new BABYLON.Vector3(...rig.normal);

@@ -72,8 +72,14 @@ def main():
     args = parser.parse_args()
     stem = os.path.basename(os.path.normpath(args.session))
     with tempfile.TemporaryDirectory() as work:
-        subprocess.run([args.lightcal, 'run', args.session, '-o', f'{work}/out', '--quiet'], check=True,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        quiet = {'check': True, 'stdout': subprocess.DEVNULL, 'stderr': subprocess.DEVNULL}
+        subprocess.run([args.lightcal, 'fit', args.session, '-o', f'{work}/all.json', '--quiet'], **quiet)
+        one = json.load(open(f'{work}/all.json'))
+        one['lights'] = one['lights'][:1]  # a session may hold one lamp at several settings
+        with open(f'{work}/{stem}.json', 'w') as f:
+            json.dump(one, f)
+        subprocess.run([args.lightcal, 'export', f'{work}/{stem}.json', '--to',
+                        'json,blender,three,filament', '-o', f'{work}/out', '--quiet'], **quiet)
         rig = json.load(open(f'{work}/out/{stem}.preset.json'))
         lamp = rig['lights'][0]
         cd = lamp['photometry']['intensity_cd']['value']
