@@ -7,6 +7,7 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "light_table.h"
+#include "lightcal/fit/fit_light.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 #include "preset_files.h"

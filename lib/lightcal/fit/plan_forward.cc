@@ -82,6 +82,7 @@ void AddTime(const Session& session, const LightDescription& light, Scene& scene
   if (!pictures) return;
   for (const CaptureDescription& capture : session.captures) {
     if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
+    if (capture.anchor_illuminance) continue;  // a meter gives the level, the picture the colour
     if (!scene.picture) scene.picture.emplace();
     if (capture.exposure_s.empty()) continue;
     scene.picture->exposure_s =

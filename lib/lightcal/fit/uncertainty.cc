@@ -114,9 +114,10 @@ void AddConsidered(const UncertaintyInput& input, const Linearised& at, const Ma
     Eigen::VectorXd whitened(at.jacobian.rows());
     for (Eigen::Index i = 0; i < whitened.size(); ++i) {
       const ReadingRow& row = input.estimation->rows[i];
-      const bool lit = row.form == ReadingRow::Form::kLog && row.direct_gain > 0.0;
+      const bool counts = row.form != ReadingRow::Form::kCensored && row.direct_gain > 0.0;
+      const double unit = row.form == ReadingRow::Form::kLinear ? row.measured : 1.0;
       const double change = influence.relative * std::pow(row.distance, influence.distance_power);
-      whitened[i] = lit ? change / (row.sigma * input.row_scale) : 0.0;
+      whitened[i] = counts ? unit * change / (row.sigma * input.row_scale) : 0.0;
     }
     const Vector3 shift = ConsideredShift(covariance, at.jacobian, whitened);
     total += shift * shift.transpose();

@@ -181,13 +181,9 @@ std::string GateFigure(const std::vector<FittedLight>& lights, double tolerance,
 
 std::string GatePlot(const std::vector<FittedLight>& lights, double tolerance) {
   std::string svg = GateFigure(lights, tolerance, "gate");
-  const std::string style =
-      "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
-      "svg { background: var(--page); font-family: system-ui, sans-serif; max-width: none; }\n" +
-      std::string(kCss) + "]]></style>";
   const std::string own = "<style>" + std::string(kCss) + "</style>\n";
   svg.erase(svg.find(own), own.size());
-  return svg.insert(svg.find('>') + 1, style);
+  return StandaloneSvg(std::move(svg), "svg { max-width: none; }\n" + std::string(kCss));
 }
 
 }  // namespace lightcal::report

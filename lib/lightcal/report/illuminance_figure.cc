@@ -347,10 +347,7 @@ std::string IlluminancePicture(const IlluminanceFigure& figure, const LuxScale& 
     svg.Text("note", {kLeft, y}, "start", note);
     y += kNoteStep;
   }
-  std::string text = svg.Finish();
-  const std::string style = "\n<!-- written by lightcal -->\n<style><![CDATA[" +
-                            std::string(StyleSheet()) + std::string(kStyle) + "]]></style>";
-  text.insert(text.find('>') + 1, style);
+  std::string text = StandaloneSvg(svg.Finish(), kStyle);
   constexpr std::string_view kNamespace = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
   return text.insert(text.find(" xmlns="), kNamespace);
 }

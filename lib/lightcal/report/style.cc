@@ -141,10 +141,11 @@ a { color: var(--accent); }
 )css";
 }
 
-std::string StandaloneSvg(std::string svg) {
+std::string StandaloneSvg(std::string svg, std::string_view own_rules) {
   const std::string style =
       "\n<!-- written by lightcal -->\n<style><![CDATA[" + std::string(StyleSheet()) +
-      "svg { background: var(--page); font-family: system-ui, sans-serif; }\n]]></style>";
+      "svg { background: var(--page); font-family: system-ui, sans-serif; }\n" +
+      std::string(own_rules) + "]]></style>";
   return svg.insert(svg.find('>') + 1, style);
 }
 

@@ -9,7 +9,7 @@ namespace lightcal::report {
 // The page's style sheet: light and dark by the reader's setting, paper always light.
 [[nodiscard]] std::string_view StyleSheet();
 
-// A figure as a file of its own: the style sheet inside, and who wrote it.
-[[nodiscard]] std::string StandaloneSvg(std::string svg);
+// A figure as a file of its own: the style sheet and its own rules inside, and who wrote it.
+[[nodiscard]] std::string StandaloneSvg(std::string svg, std::string_view own_rules = {});
 
 }  // namespace lightcal::report

@@ -10,6 +10,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int kFewestRuns = 4;     // the first of them only warms caches
+constexpr double kPatience = 5.0;  // times the time asked for
+
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -63,6 +66,7 @@ Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
     const double by_time = SecondsSince(start) / rules.seconds;
     const double by_runs = static_cast<double>(round) / rules.least_runs;
     if (round >= rules.least_runs && by_time >= 1.0) break;
+    if (round >= kFewestRuns && by_time >= kPatience) break;
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       if (watch.stopped()) return Failed("interrupted", "tradeoff", "stopped; nothing was written");
       if (out[i].refused) continue;

@@ -12,7 +12,7 @@
 namespace lightcal::tradeoff {
 
 struct TimingRules {
-  int least_runs = 7;  // of each profile
+  int least_runs = 7;  // of each profile; three, where more take five times `seconds`
   int most_runs = 61;
   double seconds = 8.0;  // for all profiles together, beyond the least runs
 };
