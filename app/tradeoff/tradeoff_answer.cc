@@ -146,9 +146,7 @@ report::WorkPrecision PlotOf(const Study& study, double tolerance, const std::st
   report::WorkPrecision plot{
       title + ": accuracy against time", {}, {}, tolerance, study.allowed_relative};
   plot.points.push_back(PointOf(study.usual, Kind::kUsual));
-  std::vector<const Setting*> all = {&study.usual};
-  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
-  for (const Setting& one : study.combinations) all.push_back(&one);
+  const std::vector<const Setting*> all = tradeoff::AllSettings(study);
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (!all[i]->measured.refused) plot.points.push_back(PointOf(*all[i], Kind::kSetting));
   }

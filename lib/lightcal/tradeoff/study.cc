@@ -180,9 +180,7 @@ const Setting* CheapestOf(const std::vector<const Setting*>& settings) {
 }
 
 Result<void> Recommend(const Question& question, const std::vector<double>& limits, Study& study) {
-  std::vector<const Setting*> all = {&study.usual};
-  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
-  for (const Setting& one : study.combinations) all.push_back(&one);
+  std::vector<const Setting*> all = AllSettings(study);
   std::erase_if(all, [](const Setting* s) { return s->measured.refused.has_value(); });
   std::vector<const Setting*> fit;
   for (const Setting* one : all) {
@@ -247,6 +245,13 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
 
 }  // namespace
 
+std::vector<const Setting*> AllSettings(const Study& study) {
+  std::vector<const Setting*> all = {&study.usual};
+  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
+  for (const Setting& one : study.combinations) all.push_back(&one);
+  return all;
+}
+
 std::string NameOf(const Levels& levels) {
   std::string text;
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -301,9 +306,7 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
 }
 
 std::vector<std::size_t> ParetoOf(const Study& study) {
-  std::vector<const Setting*> all = {&study.usual};
-  for (const SweepRow& row : study.rows) all.push_back(&row.setting);
-  for (const Setting& one : study.combinations) all.push_back(&one);
+  const std::vector<const Setting*> all = AllSettings(study);
   std::vector<std::size_t> order(all.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::erase_if(order, [&](std::size_t i) { return all[i]->measured.refused.has_value(); });

@@ -64,8 +64,10 @@ struct Study {
 [[nodiscard]] Result<Study> StudyTradeoff(const Runner& run, const Question& question,
                                           const Watch& watch);
 
-// Settings that no other beats in both time and error, cheapest first: indices into the usual
-// setting (0), the rows (1 + i) and the combinations (1 + rows + i).
+// Every setting measured: the usual one, each row's, the combinations. They live in `study`.
+[[nodiscard]] std::vector<const Setting*> AllSettings(const Study& study);
+
+// Settings that no other beats in both time and error, cheapest first: indices into AllSettings.
 [[nodiscard]] std::vector<std::size_t> ParetoOf(const Study& study);
 
 // "effects none, solver closed_form": what differs from the usual profile; "as usual" where
