@@ -58,6 +58,39 @@ TEST(LightDistribution, SpotFollowsTheSquaredLinearProfile) {
   }
 }
 
+// A Lambertian mantle of length l far away: the sum of cos over the elements that face a direction.
+TEST(LightDistribution, TubesAreDarkTowardsTheirEndsWhereTheFitHasThem) {
+  FittedLight tube = SimpleLight("tube", LightKind::kTube, 100.0);
+  tube.aim = Vec3{0.0, 0.6, -0.8};
+  const auto preset = ExportIes(FileOf({tube}), "set", {});
+  ASSERT_TRUE(preset);
+  const auto read = IesFromText(preset->files.at(0).contents, "x");
+  ASSERT_TRUE(read);
+  // Seen from behind along its aim C0 is to the right, C90 as high up as may be; the fit's tubes
+  // lie along the right.
+  const Vec3 length = {1.0, 0.0, 0.0}, high = {0.0, 0.8, 0.6};
+  const auto mantle = [&](const Vec3& towards) {
+    constexpr int kElements = 720;
+    double sum = 0.0;
+    for (int i = 0; i < kElements; ++i) {
+      const double turn = 2.0 * kPi * (i + 0.5) / kElements;
+      const Vec3 normal = high * std::sin(turn) + *tube.aim * std::cos(turn);
+      sum += std::max(0.0, Dot(normal, towards)) / kElements;
+    }
+    return sum * kPi;  // 1 broadside
+  };
+  for (double gamma = 7.0; gamma < 180.0; gamma += 24.0) {
+    for (double c = 3.0; c < 360.0; c += 31.0) {
+      const Vec3 towards = length * (std::sin(Rad(gamma)) * std::cos(Rad(c))) +
+                           high * (std::sin(Rad(gamma)) * std::sin(Rad(c))) +
+                           *tube.aim * std::cos(Rad(gamma));
+      EXPECT_NEAR(read->file.table.At(Radians(Rad(c)), Radians(Rad(gamma))).value(),
+                  100.0 * mantle(towards), 0.7)
+          << "C" << c << " gamma " << gamma;
+    }
+  }
+}
+
 TEST(LightDistribution, HardSpotsKeepTheirFlux) {
   const IntensityTable table = TableOf(SpotOf(30.0, 30.0));
   EXPECT_NEAR(table.Flux().value(), 2000.0 * kPi * (1.0 - std::cos(Rad(30.0))), 0.6);

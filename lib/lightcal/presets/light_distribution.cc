@@ -136,7 +136,7 @@ Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp) {
                            [](double, double g) { return g < 90.0 ? Cosine(g) : 0.0; }));
     case LightKind::kTube:
       return given(Sampled(EvenAngles(90.0, 18), EvenAngles(180.0, 90), cd, [](double c, double g) {
-        const double along = Cosine(90.0 - g) * Cosine(90.0 - c);
+        const double along = Cosine(90.0 - g) * Cosine(c);
         return std::sqrt(std::max(0.0, 1.0 - along * along));
       }));
     case LightKind::kDirectional:

@@ -17,7 +17,8 @@ namespace lightcal {
 //   spot         the squared-linear profile of spot_cone.h (Frostbite, glTF), nodes at both cones;
 //                without a cone as a point
 //   disk, rect   I cos(gamma)
-//   tube         I sqrt(1 - sin^2(gamma) sin^2(C)): its length lies along C90
+//   tube         I sqrt(1 - sin^2(gamma) cos^2(C)): its length lies along C0, as the fit has it and
+//                as LM-63 has a luminaire's length (EULUMDAT's own habit is C90)
 // Absent: lights at infinity, lights without an intensity.   Fails: as IntensityTable::Make.
 [[nodiscard]] Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp);
 
