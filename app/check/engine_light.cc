@@ -11,10 +11,21 @@ constexpr double kPi = 3.14159265358979323846;
 
 double Clamp01(double v) { return std::clamp(v, 0.0, 1.0); }
 
+double SmoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
+
 double Cone(const EngineLight& light, double cosine) {
+  if (light.law == ConeLaw::kSmoothInAngle) {
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double edge = std::max(1e-9, light.outer_rad - light.inner_rad);
+    return SmoothStep(Clamp01((light.outer_rad - angle) / edge));
+  }
+  if (light.law == ConeLaw::kPower) {
+    const double rim = (1.0 - cosine) / std::max(1e-9, 1.0 - std::cos(light.outer_rad));
+    return rim < 1.0 ? 1.0 - std::pow(std::max(rim, 1e-4), light.cone_power) : 0.0;
+  }
   const double outer = std::cos(light.outer_rad);
   const double t = Clamp01((cosine - outer) / std::max(1e-9, std::cos(light.inner_rad) - outer));
-  return light.law == ConeLaw::kSquared ? t * t : t * t * (3.0 - 2.0 * t);
+  return light.law == ConeLaw::kSquared ? t * t : SmoothStep(t);
 }
 
 double Window(const EngineLight& light, double d) {
@@ -42,6 +53,26 @@ double FlatLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
   return light.emitted * area * sum;
 }
 
+// The same over a mantle.
+double TubeLux(const EngineLight& light, const Vec3& point, const Vec3& normal) {
+  constexpr int kPieces = 64;
+  const Vec3 side = Cross(light.x, light.y);
+  const double radius = light.height_m / 2.0;
+  const double area = light.width_m / kPieces * 2.0 * kPi * radius / kPieces;
+  double sum = 0.0;
+  for (int i = 0; i < kPieces; ++i) {
+    const Vec3 centre = light.position_m + light.x * (((i + 0.5) / kPieces - 0.5) * light.width_m);
+    for (int j = 0; j < kPieces; ++j) {
+      const double turn = 2.0 * kPi * (j + 0.5) / kPieces;
+      const Vec3 outward = light.y * std::cos(turn) + side * std::sin(turn);
+      const Vec3 to = point - (centre + outward * radius);
+      const double d2 = Dot(to, to);
+      sum += std::max(0.0, Dot(to, outward)) * std::max(0.0, -Dot(to, normal)) / (d2 * d2);
+    }
+  }
+  return light.emitted * area * sum;
+}
+
 }  // namespace
 
 double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
@@ -50,6 +81,7 @@ double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
     return light.emitted * std::max(0.0, -Dot(light.aim, normal));
   }
   if (light.kind == EngineLightKind::kFlat) return FlatLux(light, point, normal);
+  if (light.kind == EngineLightKind::kTube) return TubeLux(light, point, normal);
   const Vec3 to = point - light.position_m;
   const double d = Length(to);
   if (!(d > 0.0)) return 0.0;
@@ -59,7 +91,7 @@ double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
     candela *=
         light.table->Towards({Dot(to, light.x), Dot(to, light.y), -Dot(to, light.aim)}).value();
   }
-  return candela * std::max(0.0, -Dot(to, normal)) / (d * d * d);
+  return candela * std::max(0.0, -Dot(to, normal)) / d / std::pow(d, light.decay);
 }
 
 }  // namespace lightcal::app

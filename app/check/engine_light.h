@@ -14,11 +14,13 @@
 
 namespace lightcal::app {
 
-enum class EngineLightKind : std::uint8_t { kPoint, kSpot, kSun, kFlat, kDome, kTable };
-enum class ConeLaw : std::uint8_t { kSquared, kSmooth };
+enum class EngineLightKind : std::uint8_t { kPoint, kSpot, kSun, kFlat, kTube, kDome, kTable };
+// Over the cosine from outer to inner: squared, smoothstep; over the angle: smoothstep; 1 - u^power
+// with u = (1 - cos)/(1 - cos outer).
+enum class ConeLaw : std::uint8_t { kSquared, kSmooth, kSmoothInAngle, kPower };
 
 // Z up, metres. emitted has the colour's luminance in it: cd of a point or spot, lx of a sun, cd/m2
-// of a flat source (round: a disk) or a dome, a factor on a table's candela.
+// of a flat source (round: a disk), a tube or a dome, a factor on a table's candela.
 struct EngineLight {
   std::string name;
   EngineLightKind kind = EngineLightKind::kPoint;
@@ -27,18 +29,22 @@ struct EngineLight {
   Vec3 x{1.0, 0.0, 0.0}, y{0.0, 1.0, 0.0};  // a flat source's width and height; a table's C0, C90
   double inner_rad = 0.0, outer_rad = 0.0;
   ConeLaw law = ConeLaw::kSquared;
-  double range_m = 0.0;  // of the window (1 - (d/range)^4)^2, clamped; 0 = none
-  double width_m = 0.0, height_m = 0.0;
+  double cone_power = 1.0;
+  double decay = 2.0;                    // light falls with 1/d^decay
+  double range_m = 0.0;                  // of the window (1 - (d/range)^4)^2, clamped; 0 = none
+  double width_m = 0.0, height_m = 0.0;  // a tube: its length and its diameter
   bool round = false;
   std::optional<IntensityTable> table;
   double offset_m = 0.0;  // from where distances were measured to the light, of lamps without aim
+  bool placed = true;     // false: the file holds neither place nor aim
 };
 
 // On a surface of unit normal `normal`.
 [[nodiscard]] double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal);
 
-// By the file's name: .gltf, .blender.py, .three.js, .filament.json, .preset.json, .ies.
-// Wrong usage: another ending. Refused: bad_preset.
+// By the file's name: .gltf, .blender.py, .three.js, .filament.json, .preset.json, .tscn, .usda
+// (and the .ies files it names, beside it), .ies, .ldt.   Wrong usage: another ending. Refused:
+// bad_preset.
 [[nodiscard]] Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path,
                                                               const std::string& text);
 

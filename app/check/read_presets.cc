@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preset files read back by what their formats mean, not by what the exporters did.
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "check/engine_light.h"
-#include "lightcal/records/photometric_codec.h"
+#include "check/read_scenes.h"
+#include "output_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -15,15 +17,10 @@ namespace {
 using Json = nlohmann::json;
 constexpr double kPi = 3.14159265358979323846;
 
-double Luma(const Json& rgb) {
-  return 0.2126390 * rgb.at(0).get<double>() + 0.7151687 * rgb.at(1).get<double>() +
-         0.0721923 * rgb.at(2).get<double>();
-}
 Vec3 Vec(const Json& v) {
   return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
 }
-// Y up to Z up.
-Vec3 Stood(const Vec3& v) { return {v[0], -v[2], v[1]}; }
+double Luma(const Json& rgb) { return LumaOf(Vec(rgb)); }
 Vec3 Negative(const Vec3& v) { return {-v[0], -v[1], -v[2]}; }
 
 double OffsetIn(const Json& extras) {
@@ -91,15 +88,6 @@ std::vector<EngineLight> Gltf(const Json& root) {
     lights.push_back(FromGltf(node, list.at(index)));
   }
   return lights;
-}
-
-// ---- tables ----
-
-void TakeTable(EngineLight& light, const std::string& ies) {
-  auto read = IesFromText(ies, light.name);
-  if (!read) throw std::runtime_error(read.error().message);
-  light.kind = EngineLightKind::kTable;
-  light.table = std::move(read->file.table);
 }
 
 // ---- Blender ----
@@ -257,10 +245,6 @@ EngineLight FromPreset(const Json& json) {
 
 // ---- by name ----
 
-bool EndsWith(const std::string& text, std::string_view end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 Json Parsed(const std::string& text) { return Json::parse(text); }
 
 std::vector<EngineLight> Each(const Json& root, EngineLight (*read)(const Json&)) {
@@ -269,14 +253,27 @@ std::vector<EngineLight> Each(const Json& root, EngineLight (*read)(const Json&)
   return lights;
 }
 
+// Reads a file that a preset names, in its own directory only.
+FileText Beside(const std::string& path) {
+  return [folder = std::filesystem::path(path).parent_path()](const std::string& name) {
+    const std::filesystem::path file(name);
+    if (file.filename() != file.lexically_normal()) {
+      throw std::runtime_error(name + " does not stand beside it");
+    }
+    auto text = ReadWholeFile((folder / file).string());
+    if (!text) throw std::runtime_error(name + " " + text.error().message);
+    return *std::move(text);
+  };
+}
+
 std::vector<EngineLight> Read(const std::string& path, const std::string& text) {
-  if (EndsWith(path, ".gltf")) return Gltf(Parsed(text));
-  if (EndsWith(path, ".filament.json")) return Each(Parsed(text), &FromFilament);
-  if (EndsWith(path, ".preset.json")) return Each(Parsed(text), &FromPreset);
-  if (EndsWith(path, ".three.js")) {
+  if (path.ends_with(".gltf")) return Gltf(Parsed(text));
+  if (path.ends_with(".filament.json")) return Each(Parsed(text), &FromFilament);
+  if (path.ends_with(".preset.json")) return Each(Parsed(text), &FromPreset);
+  if (path.ends_with(".three.js")) {
     return Each(Parsed(Object(text, text.find("export const preset"))), &FromThree);
   }
-  if (EndsWith(path, ".blender.py")) {
+  if (path.ends_with(".blender.py")) {
     const Json root = Parsed(Object(text, text.find("json.loads(r'''")));
     std::vector<EngineLight> lights;
     for (const Json& json : root.at("lights")) {
@@ -284,9 +281,12 @@ std::vector<EngineLight> Read(const std::string& path, const std::string& text) 
     }
     return lights;
   }
+  if (path.ends_with(".tscn")) return LightsOfGodotScene(text);
+  if (path.ends_with(".usda")) return LightsOfUsda(text, Beside(path));
   EngineLight light;
   TakeTable(light, text);
   light.emitted = 1.0;
+  light.placed = false;
   return {light};
 }
 
@@ -294,13 +294,12 @@ std::vector<EngineLight> Read(const std::string& path, const std::string& text) 
 
 Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const std::string& text) {
   constexpr std::string_view kEndings[] = {".gltf",          ".blender.py",  ".three.js",
-                                           ".filament.json", ".preset.json", ".ies"};
-  bool known = false;
-  for (const std::string_view end : kEndings) known = known || EndsWith(path, end);
-  if (!known) {
+                                           ".filament.json", ".preset.json", ".tscn",
+                                           ".usda",          ".ies",         ".ldt"};
+  if (std::ranges::none_of(kEndings, [&](std::string_view end) { return path.ends_with(end); })) {
     return WrongUsage(path,
-                      "is none of .gltf, .blender.py, .three.js, .filament.json, "
-                      ".preset.json, .ies");
+                      "is none of .gltf, .blender.py, .three.js, .filament.json, .preset.json, "
+                      ".tscn, .usda, .ies, .ldt");
   }
   try {
     auto lights = Read(path, text);

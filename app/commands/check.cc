@@ -124,32 +124,72 @@ std::vector<const Reading*> ReadingsOf(const Session& session, const std::string
   return out;
 }
 
+// A lamp as the session has it. A lamp that is turned somewhere has its effective source behind the
+// place its distances count from, by its offset; of any other that is a radius.
+struct MeteredLamp {
+  const LightDescription& description;
+  const FittedLight& fitted;
+  Vec3 place_m{}, aim{0.0, 0.0, -1.0};
+  bool turned = false;
+  double offset_m = 0.0, surface_m = 0.0;  // surface: of a sphere that distances count from
+};
+
+MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
+  MeteredLamp lamp{description, fitted};
+  lamp.place_m = description.position_m.value_or(Vec3{});
+  const LightKind kind = description.kind;
+  if (description.aim && kind != LightKind::kDome) lamp.aim = *description.aim;
+  lamp.turned = description.aim || kind == LightKind::kSpot || kind == LightKind::kDisk ||
+                kind == LightKind::kRect || kind == LightKind::kPhotometric;
+  if (fitted.distance_offset_m) lamp.offset_m = fitted.distance_offset_m->value;
+  for (const EffectReport& effect : fitted.effects) {
+    if (effect.name == "sphere_surface" && effect.state != EffectState::kOff) {
+      lamp.surface_m = fitted.diameter_m.value_or(0.0) / 2.0;
+    }
+  }
+  return lamp;
+}
+
+// A photometric file hangs where the lamp does, C0 to the right as seen from behind it.
+EngineLight Hung(EngineLight light, const MeteredLamp& lamp) {
+  light.position_m = lamp.place_m - lamp.aim * (lamp.turned ? lamp.offset_m : 0.0);
+  light.offset_m = lamp.turned ? 0.0 : lamp.offset_m;
+  light.aim = lamp.aim;
+  const Vec3 level = {lamp.aim[1], -lamp.aim[0], 0.0};
+  const double length = Length(level);
+  light.x = length > 1e-9 ? level * (1.0 / length) : Vec3{1.0, 0.0, 0.0};
+  light.y = Cross(light.x, lamp.aim);
+  return light;
+}
+
 // What the file's lights give where the meter stood.
-double Predicted(const std::vector<EngineLight>& lights, const LightDescription& lamp,
+double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp,
                  const Reading& reading) {
   double sum = 0.0;
   for (const EngineLight& light : lights) {
-    if (!light.name.empty() && light.name != lamp.name) continue;
-    EngineLight placed = light;
-    if (light.name.empty()) placed.position_m = lamp.position_m.value_or(Vec3{});
-    const Vec3 aim = lamp.kind == LightKind::kDome ? Vec3{0.0, 0.0, -1.0}
-                                                   : lamp.aim.value_or(Vec3{0.0, 0.0, -1.0});
-    if (light.name.empty()) placed.aim = aim;
+    if (!light.name.empty() && light.name != lamp.fitted.name) continue;
+    const bool dome = lamp.description.kind == LightKind::kDome;
+    if (light.name.empty() && light.placed && !dome) continue;  // surroundings
+    const EngineLight placed = light.placed ? light : Hung(light, lamp);
     if (reading.position_m && reading.normal) {
       const Vec3 normal = *reading.normal * (1.0 / Length(*reading.normal));
       sum += LuxAt(placed, *reading.position_m, normal);
       continue;
     }
-    const double d = reading.distance ? reading.distance->value() : 1.0;
-    const Vec3 point =
-        lamp.position_m.value_or(Vec3{}) + aim * (d + (lamp.aim ? 0.0 : light.offset_m));
-    sum += LuxAt(placed, point, aim * -1.0) * std::cos(reading.tilt.value());
+    const double d = (reading.distance ? reading.distance->value() : 1.0) + lamp.surface_m +
+                     (lamp.turned ? 0.0 : placed.offset_m);
+    sum += LuxAt(placed, lamp.place_m + lamp.aim * d, lamp.aim * -1.0) *
+           std::cos(reading.tilt.value());
   }
   return sum;
 }
 
 std::vector<Compared> Compare(const CalibratedSession& calibrated,
-                              const std::vector<EngineLight>& lights) {
+                              std::vector<EngineLight> lights) {
+  for (EngineLight& light : lights) {
+    // A photometric file may be of any make: it stands for every lamp, unless it names one.
+    if (!light.placed && FindLight(calibrated.session, light.name) == nullptr) light.name.clear();
+  }
   std::vector<Compared> rows;
   for (const FittedLight& lamp : calibrated.lights.lights) {
     const auto readings = ReadingsOf(calibrated.session, lamp.name);
@@ -162,7 +202,7 @@ std::vector<Compared> Compare(const CalibratedSession& calibrated,
       const Reading& reading = *readings[static_cast<std::size_t>(row.index)];
       rows.push_back({lamp.name, row.index, row.distance_m,
                       row.measured_lx - (lamp.ambient_lx ? lamp.ambient_lx->value : 0.0),
-                      Predicted(lights, *description, reading), row.used});
+                      Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used});
     }
   }
   return rows;
@@ -233,7 +273,8 @@ Run BuildCheck(CLI::App& parser) {
   auto options = std::make_shared<Options>();
   parser.add_option(
       "preset", options->preset,
-      "An exported file: .gltf .blender.py .three.js .filament.json .preset.json .ies");
+      "An exported file: .gltf .blender.py .three.js .filament.json .preset.json .tscn .usda .ies "
+      ".ldt");
   parser.add_option("--session", options->session, "The readings it is checked against");
   parser.add_option("--render", options->render, "A picture an engine rendered of the rig");
   parser.add_option("--rig", options->rig, "The STEM.preset.json of that rig");

@@ -153,15 +153,26 @@ std::string NodeHead(const std::string& name, const std::string& type) {
   return "\n[node name=" + Quoted(name) + " type=\"" + type + "\" parent=\".\"]\n";
 }
 
-std::string LightNode(const std::string& name, const PresetLight& light,
+// d0 of a lamp whose place does not hold it: a dictionary entry, "" = none.
+std::string OffsetEntry(const FittedLight& lamp) {
+  if (!lamp.distance_offset_m) return {};
+  return ",\n\"distance_offset_m\": " + ShortestText(lamp.distance_offset_m->value);
+}
+
+std::string LightNode(const std::string& name, const FittedLight& lamp, const PresetLight& light,
                       const DerivedLight& derived) {
   std::string text =
       NodeHead(name, derived.type) + Transform(FrameOfLight(EngineAxes::kYUp, light));
   for (const DerivedField& field : derived.fields) text += FieldText(field);
   text += "shadow_enabled = true\n";
-  text += "metadata/lightcal = {\n\"kind\": \"" + std::string(LightKindName(light.punctual.kind)) +
+  text += "metadata/lightcal = {\n\"name\": " + Quoted(light.name()) + ",\n\"kind\": \"" +
+          std::string(LightKindName(light.punctual.kind)) +
           "\",\n\"candela\": " + ShortestText(light.candela) +
-          ",\n\"lux\": " + ShortestText(light.lux) + "\n}\n";
+          ",\n\"lux\": " + ShortestText(light.lux) + OffsetEntry(lamp);
+  if (!derived.substitution.empty()) {
+    text += ",\n\"substituted\": " + Quoted(derived.substitution);
+  }
+  text += "\n}\n";
   return text;
 }
 
@@ -248,7 +259,7 @@ std::string Scene(const LightFile& file, const std::string& stem,
     for (char& c : name)
       c = std::string_view(".:@/\"%").find(c) == std::string_view::npos ? c : '_';
     while (!taken.insert(name).second) name += "_";
-    nodes += LightNode(name, lights[i], derived[i]);
+    nodes += LightNode(name, file.lights[i], lights[i], derived[i]);
   }
   std::string text = "[gd_scene format=3]\n\n; " + text_pieces::GeneratorOf(file) +
                      ", not executed in Godot by this run: schema-checked.\n"

@@ -103,7 +103,7 @@ std::string FieldText(const DerivedField& field) {
          (color ? "(" + Numbers(field.values) + ")" : ShortestText(field.values[0])) + "\n";
 }
 
-std::string LightPrim(const std::string& name, const PresetLight& light,
+std::string LightPrim(const std::string& name, const FittedLight& lamp, const PresetLight& light,
                       const DerivedLight& derived, const std::optional<PresetFile>& ies) {
   const bool table = light.form == LightForm::kTable && ies;
   const bool shaped = table || light.form == LightForm::kSpot;
@@ -112,7 +112,11 @@ std::string LightPrim(const std::string& name, const PresetLight& light,
   text += "    displayName = " + Quoted(light.name()) +
           "\n    customData = {\n      double candela = " + ShortestText(light.candela) +
           "\n      double lux = " + ShortestText(light.lux) +
-          "\n      double nits = " + ShortestText(light.nits) + "\n    }\n  )\n  {\n";
+          "\n      double nits = " + ShortestText(light.nits) +
+          (lamp.distance_offset_m
+               ? "\n      double distance_offset_m = " + ShortestText(lamp.distance_offset_m->value)
+               : std::string()) +
+          "\n    }\n  )\n  {\n";
   for (const DerivedField& field : derived.fields) text += FieldText(field);
   text += "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
   if (light.form != LightForm::kDome) {
@@ -199,7 +203,8 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
     preset.derived.push_back(Derive(light));
     auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
-    text += LightPrim(Identifier(light.name(), taken), light, preset.derived.back(), (*ies)[i]);
+    text += LightPrim(Identifier(light.name(), taken), lights.lights[i], light,
+                      preset.derived.back(), (*ies)[i]);
     if (light.form == LightForm::kTable) {
       preset.warnings.push_back({"ies_not_portable", light.name(),
                                  "renderers scale shaping:ies:file differently; the candela are "

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """tinyusdz 0.9.0-rc10 on a .usda with every kind of light, bare and with the rig.
   gate.py LIGHTCAL MODULES"""
+import json
 import os
 import subprocess
 import sys
@@ -37,6 +38,30 @@ class TinyUsdz(unittest.TestCase):
                              "CylinderLight", "DomeLight", "ShapingAPI", "shaping:ies:file"):
                     self.assertIn(prim, result.stdout)
                 self.assertEqual("rig_camera" in result.stdout, not arguments)
+
+    def test_its_own_dump_of_the_layer_gives_the_same_residuals(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "session.toml"), "w") as out:
+                out.write('lightcal = 1\nname = "two"\n')
+                for name, keys in (("key", 'kind = "spot"\ninner_deg = 15\nouter_deg = 25\n'),
+                                   ("fill", 'kind = "rect"\nsize_m = [0.6, 0.3]\n')):
+                    out.write('[[light]]\nname = "%s"\n%sposition_m = [1, 2, 3]\naim = [0, 0.6, -0.8]\n'
+                              % (name, keys))
+                    for d, lux in ((1.0, 1003.0), (2.0, 250.6), (3.0, 110.7)):
+                        out.write('[[reading]]\nlight = "%s"\ndistance_m = %g\nilluminance_lx = %g\n'
+                                  'cct_K = 2700\nduv = 0.001\n' % (name, d, lux))
+            subprocess.run([LIGHTCAL, "run", folder, "-o", folder, "--to", "usd"], check=True,
+                           capture_output=True)
+            ours = [f for f in os.listdir(folder) if f.endswith(".usda")][0]
+            with open(os.path.join(folder, "dump.usda"), "w") as out:
+                out.write(load(os.path.join(folder, ours)).stdout)
+            rows = [json.loads(subprocess.run(
+                [LIGHTCAL, "check", os.path.join(folder, name), "--session", folder, "--json"],
+                check=True, capture_output=True).stdout)["readings"] for name in (ours, "dump.usda")]
+            self.assertEqual(len(rows[0]), 6)
+            for a, b in zip(*rows):
+                self.assertAlmostEqual(a["predicted_lx"] / b["predicted_lx"], 1.0, delta=1e-5)
+                self.assertLess(abs(a["error"]), 0.05)
 
     def test_it_rejects_what_is_no_usd(self):
         with tempfile.TemporaryDirectory() as folder:
