@@ -144,7 +144,7 @@ def set_exposure(scene, scale):
     scene.view_settings.exposure = math.log2(scale * PRESET['lumens_per_watt'])
     scene.render.resolution_x, scene.render.resolution_y = 600, 400
     scene.render.resolution_percentage = 100
-    scene.render.dither_intensity = 1.0  # 8 bit pictures keep their mean
+    scene.render.dither_intensity = 0.0  # Blender's only adds: .42 of an 8 bit code, 1 % of the grey
 
 
 def build():

@@ -43,6 +43,8 @@ FAULTS = [
      'missing_luminance_division', 'Y'),
     ('blender', 'dome_2700K', 'exr16', '', 'none', 1.0),
     ('blender', 'ies_green', 'png', '', 'none', 1.0),
+    ('blender', 'dome_2700K', 'png', '', 'none', 1.0),
+    ('blender', 'point_2700K', 'png', '', 'none', 1.0),
     ('three', 'point_2700K', 'png', '', 'none', 1.0),
     ('three', 'rect_green', 'exr', '', 'none', 1.0),
     ('filament', 'sun_6500K', 'png', '', 'none', 1.0),
