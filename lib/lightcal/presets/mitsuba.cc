@@ -53,13 +53,7 @@ DerivedLight Derive(const PresetLight& light, double exposure, Warnings& warning
     default:
       out.type = "area";
       out.Put("radiance", Scaled(light, light.nits * exposure));
-      if (light.form == LightForm::kRect) {
-        out.Put("width", light.width_m);
-        out.Put("height", light.height_m);
-      } else {
-        out.Put("radius", light.radius_m);
-      }
-      if (light.form == LightForm::kTube) out.Put("length", light.length_m);
+      text_pieces::PutSize(light, out);
       break;
   }
   return out;
@@ -187,6 +181,8 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
     auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     std::string comment = XmlEscaped(light.name());
+    const std::string note = text_pieces::SubstitutionNote(preset.derived.back());
+    if (!note.empty()) comment += "; " + note;
     // "--" ends no comment well.
     for (std::size_t at = 0; (at = comment.find("--", at)) != std::string::npos;) comment[at] = '_';
     text += "  <!-- " + comment + " -->\n  " + LightText(light, preset.derived.back()) + "\n";

@@ -48,13 +48,7 @@ DerivedLight Derive(const PresetLight& light) {
     default:
       out.type = "diffuse";
       out.Put("scale", light.nits);
-      if (light.form == LightForm::kRect) {
-        out.Put("width", light.width_m);
-        out.Put("height", light.height_m);
-      } else {
-        out.Put("radius", light.radius_m);
-      }
-      if (light.form == LightForm::kTube) out.Put("length", light.length_m);
+      text_pieces::PutSize(light, out);
       break;
   }
   return out;
@@ -199,7 +193,9 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
     preset.derived.push_back(Derive(light));
     auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
-    text += "# " + Quoted(light.name()) + "\n" + LightText(light, preset.derived.back());
+    const std::string note = text_pieces::SubstitutionNote(preset.derived.back());
+    text += "# " + Quoted(light.name()) + (note.empty() ? "" : " " + note) + "\n" +
+            LightText(light, preset.derived.back());
   }
   if (!options.bare) text += CardText(rig);
   preset.files.push_back({stem + ".pbrt", std::move(text)});

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/inverse_square.h"
 #include "lightcal/photometry/lambert.h"
+#include "lightcal/presets/table_cone.h"
 
 namespace lightcal {
 namespace {
@@ -51,6 +53,32 @@ void FromCone(const FittedLight& lamp, PunctualLight& light, Warnings& warnings)
              RadiansFromDegrees(*lamp.outer_deg).value());
 }
 
+std::string PerCent(double part) { return RoundedText(100.0 * part, 2) + " %"; }
+
+void FromDistribution(const FittedLight& lamp, PunctualLight& light, Warnings& warnings) {
+  if (!lamp.distribution) {
+    FromCone(lamp, light, warnings);
+    light.substitution = std::string("a measured distribution exported as a ") +
+                         (light.type == PunctualType::kSpot ? "spot" : "point") +
+                         ": right on the axis only";
+    return;
+  }
+  const auto nearest = SubstituteForTable(lamp.distribution->table);
+  if (!nearest) {
+    light.substitution =
+        "a measured distribution that is dark along its aim, exported as a point of its mean "
+        "intensity: its flux is kept, no direction is right";
+    return;
+  }
+  if (nearest->cone) BecomeSpot(light, nearest->cone->inner.value(), nearest->cone->outer.value());
+  const double flux = nearest->flux - 1.0;
+  light.substitution = std::string("a measured distribution exported as the nearest ") +
+                       (nearest->cone ? "spot" : "point") +
+                       ", round about its aim: right on the axis, elsewhere within " +
+                       PerCent(nearest->worst) + " of the axial intensity, flux " +
+                       PerCent(std::abs(flux)) + (flux < 0.0 ? " low" : " high");
+}
+
 void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warnings) {
   switch (lamp.kind) {
     case LightKind::kPoint:
@@ -82,10 +110,7 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
           "the axis within 17 % of the axial intensity, flux 11 % low, shadows are hard";
       break;
     case LightKind::kPhotometric:
-      FromCone(lamp, light, warnings);
-      light.substitution = std::string("a measured distribution exported as a ") +
-                           (light.type == PunctualType::kSpot ? "spot" : "point") +
-                           ": right on the axis only";
+      FromDistribution(lamp, light, warnings);
       break;
     case LightKind::kDome:
       light.type = PunctualType::kDirectional;

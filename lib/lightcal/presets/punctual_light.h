@@ -49,7 +49,7 @@ inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
 //   sphere       point            same beyond its surface; hard shadows
 //   tube         point            along its axis too bright, flux +27 %
 //   disk, rect   90-degree spot   axial intensity kept, see kLambertianInnerCosine
-//   photometric  spot if it has a cone, else point: axial intensity kept
+//   photometric  the nearest spot or point (table_cone.h): axial intensity kept
 //   dome         directional, straight down: right on upward surfaces only
 // A spot without a measured cone becomes a point (cone_unknown). A missing position is the origin
 // (position_unknown, said once a file with several lights).

@@ -74,6 +74,20 @@ PresetOptions InRec709(PresetOptions options, std::string_view engine, Warnings&
   return options;
 }
 
+void PutSize(const PresetLight& light, DerivedLight& derived) {
+  if (light.form == LightForm::kRect) {
+    derived.Put("width", light.width_m);
+    derived.Put("height", light.height_m);
+    return;
+  }
+  derived.Put("radius", light.radius_m);
+  if (light.form == LightForm::kTube) derived.Put("length", light.length_m);
+}
+
+std::string SubstitutionNote(const DerivedLight& derived) {
+  return derived.substitution.empty() ? std::string() : "substituted: " + derived.substitution;
+}
+
 Result<void> CheckFinite(const DerivedLight& light, const std::string& subject) {
   for (const DerivedField& field : light.fields) {
     for (const double v : field.values) {

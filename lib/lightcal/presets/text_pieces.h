@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "lightcal/presets/preset.h"
+#include "lightcal/presets/preset_light.h"
 
 namespace lightcal::text_pieces {
 
@@ -31,6 +32,12 @@ namespace lightcal::text_pieces {
 // space_unsupported when another was asked for.
 [[nodiscard]] PresetOptions InRec709(PresetOptions options, std::string_view engine,
                                      Warnings& warnings);
+
+// width and height of a rectangle, else the radius, and the length of a tube, for audit.
+void PutSize(const PresetLight& light, DerivedLight& derived);
+
+// What a light does otherwise than the lamp, as one line of a comment; "" = nothing.
+[[nodiscard]] std::string SubstitutionNote(const DerivedLight& derived);
 
 // Fails: not_finite, rather than write "inf" or "nan".
 [[nodiscard]] Result<void> CheckFinite(const DerivedLight& light, const std::string& subject);

@@ -62,6 +62,7 @@ Json LightJson(const PresetLight& light, const UnrealLight& unreal,
   json["properties"] = std::move(properties);
   json["light_color"] = unreal.color_srgb8;
   if (light.form == LightForm::kTable && ies) json["ies"] = ies->name;
+  if (!light.substitution.empty()) json["substituted"] = light.substitution;
   return json;
 }
 

@@ -12,9 +12,11 @@ import tempfile
 import unittest
 
 import golden_lights
+import read_gltf
 import read_godot
 import read_mitsuba
 import read_pbrt
+import read_scripts
 import read_unity
 import read_unreal
 import read_usd
@@ -71,10 +73,27 @@ def unreal(export, change=lambda t: t):
                                    os.path.join(export.path, "set.unreal.py"))
 
 
-READERS = {"godot": godot, "usd": usd, "mitsuba": mitsuba, "pbrt": pbrt, "unity": unity,
+def gltf(export, change=lambda t: t):
+    return read_gltf.read(change(export.text("set.gltf")))
+
+
+def blender(export, change=lambda t: t):
+    return read_scripts.blender(change(export.text("set.blender.py")))
+
+
+def three(export, change=lambda t: t):
+    return read_scripts.three(change(export.text("set.three.js")))
+
+
+def filament(export, change=lambda t: t):
+    return read_scripts.filament(change(export.text("set.filament.json")))
+
+
+READERS = {"gltf": gltf, "blender": blender, "three": three, "filament": filament, "godot": godot, "usd": usd, "mitsuba": mitsuba, "pbrt": pbrt, "unity": unity,
            "unreal": unreal}
+PASTED = ["blender", "godot", "usd", "mitsuba", "pbrt", "unity", "unreal"]
 # Godot's default tint is known to three digits; Unreal's square centimetre is 1e-4 at 1 m.
-TOLERANCE = {"godot": 6e-4, "usd": 1e-4, "mitsuba": 1e-4, "pbrt": 1e-4, "unity": 1e-4,
+TOLERANCE = {"gltf": 1e-4, "blender": 1e-4, "three": 1e-4, "filament": 1e-4, "godot": 6e-4, "usd": 1e-4, "mitsuba": 1e-4, "pbrt": 1e-4, "unity": 1e-4,
              "unreal": 2e-4}
 
 
@@ -99,6 +118,15 @@ class EveryKind(unittest.TestCase):
         compare(lights, ALL, TOLERANCE[target])
         return export
 
+    def test_what_runs_here(self):
+        for target, lacking in (("gltf", {"panel", "globe", "downlight", "tube", "luminaire", "sky"}),
+                                ("blender", {"tube"}), ("three", {"globe", "downlight", "tube"}),
+                                ("filament", {"panel", "globe", "downlight", "tube", "luminaire"})):
+            with self.subTest(target):
+                said = {w["subject"] for w in self.check(target).warnings
+                        if w["code"] == "substituted"}
+                self.assertEqual(said, lacking)
+
     def test_godot(self):
         export = self.check("godot")
         said = {w["subject"] for w in export.warnings if w["code"] == "substituted"}
@@ -112,6 +140,26 @@ class EveryKind(unittest.TestCase):
     def test_mitsuba(self):
         said = {w["subject"] for w in self.check("mitsuba").warnings if w["code"] == "substituted"}
         self.assertEqual(said, {"luminaire"})
+
+    def test_a_substitute_is_said_in_the_file_with_its_error(self):
+        for target, name in (("godot", "set.tscn"), ("unity", "set.unity.json"),
+                             ("mitsuba", "set.mitsuba.xml"), ("pbrt", "set.pbrt"),
+                             ("gltf", "set.gltf"), ("filament", "set.filament.json")):
+            export = Export(target, ["luminaire"], "--bare")
+            said = [w["message"] for w in export.warnings if w["code"] == "substituted"]
+            self.assertEqual(len(said), 1, target)
+            self.assertIn(said[0], export.text(name))
+            # cos^8, whose flux is 2 pi/9: a squared-linear cone comes near.
+            worst, flux = map(float, re.search(r"within ([\d.]+) % .*flux ([\d.]+) %",
+                                               said[0]).groups())
+            self.assertLess(worst, 12.0)
+            self.assertLess(flux, 12.0)
+        for target, name in (("godot", "set.tscn"), ("unity", "set.unity.json"),
+                             ("unreal", "set.unreal.py")):
+            export = Export(target, ["tube"], "--bare")
+            said = [w["message"] for w in export.warnings if w["code"] == "substituted"]
+            self.assertIn("flux 27 % high", said[0])
+            self.assertIn(said[0], export.text(name))
 
     def test_pbrt(self):
         self.check("pbrt")
@@ -131,7 +179,7 @@ class EveryKind(unittest.TestCase):
         compare(read_unreal.read_t3d(export.text("set.t3d")), ALL, TOLERANCE["unreal"])
 
     def test_each_has_a_paste_line_that_names_its_folder(self):
-        for target in READERS:
+        for target in PASTED:
             export = Export(target, ["key"])
             self.assertEqual(len(export.answer["paste"]), 1)
             self.assertTrue(export.answer["paste"][0].startswith(target + ": "))
@@ -202,6 +250,10 @@ class InjectedFaults(unittest.TestCase):
     def test_missing_division_by_luminance(self):
         y = 0.52  # of 2700 K
         for target, pattern in (
+                ("gltf", r'("intensity": )([-+.e\d]+)'),
+                ("blender", r'("energy_W": )([-+.e\d]+)'),
+                ("three", r'("intensity": )([-+.e\d]+)'),
+                ("filament", r'("intensity_candela": )([-+.e\d]+)'),
                 ("godot", r"(light_intensity_lumens = )([-+.e\d]+)"),
                 ("usd", r"(inputs:intensity = )([-+.e\d]+)"),
                 ("unity", r'("intensity": )([-+.e\d]+)'),
@@ -232,15 +284,28 @@ class InjectedFaults(unittest.TestCase):
                 with self.subTest(target):
                     self.fails(target, ["panel"], times(pattern, factor), "nits")
         self.fails("unreal", ["panel"], times(r'("intensity": )([-+.e\d]+)', pi), "candela")
+        for factor in (pi / 4.0, 4.0 / pi, 1.0 / pi):
+            self.fails("blender", ["panel"], times(r'("energy_W": )([-+.e\d]+)', factor), "nits")
+            self.fails("three", ["panel"], times(r'("intensity": )([-+.e\d]+)', factor), "nits")
+            self.fails("mitsuba", ["panel"],
+                       lambda t, f=factor: re.sub(
+                           r'(name="radiance" value=")([^"]*)', lambda m: m.group(1) + " ".join(
+                               repr(float(v) * f) for v in m.group(2).split()), t), "nits")
 
     def test_half_and_full_angles(self):
-        for target, pattern in (("godot", r"(spot_angle = )([-+.e\d]+)"),
+        for target, pattern in (("gltf", r'("outerConeAngle": )([-+.e\d]+)'),
+                                ("blender", r'("spot_size_rad": )([-+.e\d]+)'),
+                                ("three", r'("outer_rad": )([-+.e\d]+)'),
+                                ("godot", r"(spot_angle = )([-+.e\d]+)"),
                                 ("usd", r"(cone:angle = )([-+.e\d]+)"),
                                 ("mitsuba", r'("cutoff_angle" value=")([-+.e\d]+)'),
                                 ("pbrt", r'("float coneangle" \[ )([-+.e\d]+)'),
                                 ("unreal", r'("outer_cone_angle": )([-+.e\d]+)')):
             with self.subTest(target):
                 self.fails(target, ["green spot"], times(pattern, 2.0), "half angle")
+        # Its lumens are those of the half angle.
+        self.fails("filament", ["green spot"], times(r'("outer_rad": )([-+.e\d]+)', 2.0),
+                   "half angle")
         self.fails("unity", ["green spot"], times(r'("spot_angle_deg": )([-+.e\d]+)', 0.5),
                    "half angle")
 
@@ -255,6 +320,9 @@ class InjectedFaults(unittest.TestCase):
             read_ies("\r\n".join(lines))
         with self.assertRaisesRegex(GateError, "CRLF"):
             read_ies(text.replace("\r\n", "\n"))
+        self.fails("blender", ["luminaire"],
+                   lambda t: re.sub(r"(TILT=NONE(?:\\r\\n|\r\n)[^\\\r]*(?:\\r\\n|\r\n)1) 1 ",
+                                    r"\1 1.1 ", t), "reserved factor")
 
     def test_a_name_the_engine_does_not_have(self):
         export = Export("unreal", ["key"])

@@ -25,7 +25,7 @@ def matrix(node):
 
 def read(text):
     scale = float(re.search(r"nits times ([-+.e\d]+);", text).group(1))
-    names = re.findall(r"^  <!-- (.*) -->$", text, re.M)
+    names = re.findall(r"^  <!-- (.*?)(?:; substituted: .*)? -->$", text, re.M)
     root = tree.fromstring(text.encode())
     lights, cards = {}, []
     for node in root:

@@ -15,7 +15,7 @@ def directives(text):
              "Transform", "Shape", "Material"}
     for line in text.split("\n"):
         if line.startswith("#"):
-            comment = line[1:].strip().strip('"')
+            comment = line[1:].split(" substituted: ")[0].strip().strip('"')
             continue
         tokens = TOKEN.findall(line)
         i = 0
