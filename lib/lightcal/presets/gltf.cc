@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF 2.0 with KHR_lights_punctual, and EXT_lights_ies in a second scene. Intensities are cd and
-// lx divided by the luminance of the max-normalised colour (the extension's colour is a multiplier
-// in [0,1]); every light has a range, because Filament takes 10 m where none is given. Sources:
-// Khronos glTF 2.0; KHR_lights_punctual; EXT_lights_ies; KHR_materials_specular (the cards are
-// matt).
+// glTF 2.0 with KHR_lights_punctual; EXT_lights_ies and EXT_lights_image_based in further scenes.
+// Intensities are cd and lx divided by the luminance of the max-normalised colour (the extension's
+// colour is a multiplier in [0,1]); every light has a range, because Filament takes 10 m where none
+// is given. Sources: Khronos glTF 2.0; KHR_lights_punctual; EXT_lights_ies; KHR_materials_specular
+// (the cards are matt).
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <vector>
 
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/one_color_png.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/rig.h"
 
@@ -264,6 +268,64 @@ void AddPhotometricScene(Json& root, const LightFile& file,
   root["scenes"].push_back(std::move(scene));
 }
 
+// ---- domes ----
+
+// A radiance as RGBD, whose value is rgb/d: at most 255 in the largest component.
+std::array<std::uint8_t, 4> RgbdOf(const std::array<double, 3>& radiance) {
+  constexpr double kTop = 255.0;
+  const double largest = std::max({radiance[0], radiance[1], radiance[2], 1.0});
+  const double d = std::clamp(std::floor(kTop / largest), 1.0, kTop) / kTop;
+  const double clipped = std::min(1.0, 1.0 / (largest * d));
+  std::array<std::uint8_t, 4> out{};
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    out[i] = static_cast<std::uint8_t>(std::lround(kTop * SrgbEncoded(radiance[i] * d * clipped)));
+  }
+  out[3] = static_cast<std::uint8_t>(std::lround(kTop * d));
+  return out;
+}
+
+// A last scene, "NAME (image based)", in which the first even dome is EXT_lights_image_based
+// instead of the directional light of the others. Its irradiance, pi L in lux times the colour over
+// Y, is the one coefficient of a constant, over Y00; the mirror images are L in nits, clipped at
+// 255. The intensity stays 1: Babylon.js multiplies the coefficients by it twice.
+void AddImageBasedScene(Json& root, const LightFile& file,
+                        const std::vector<PunctualLight>& lights) {
+  constexpr double kPi = std::numbers::pi;
+  constexpr int kFaces = 6;
+  constexpr int kSide = 4;
+  const auto dome = std::ranges::find(file.lights, LightKind::kDome, &FittedLight::kind);
+  if (dome == file.lights.end()) return;
+  const auto index = static_cast<std::size_t>(dome - file.lights.begin());
+  const PunctualLight& light = lights[index];
+  const Rgb& c = light.color.max_normalised;
+  std::array<double, 3> radiance = {c.r, c.g, c.b};
+  Json coefficients = Json::array();
+  for (int k = 0; k < 9; ++k) coefficients.push_back({0.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    radiance[i] *= light.intensity / kPi;
+    coefficients[0][i] = kPi * radiance[i] * std::sqrt(4.0 * kPi);
+  }
+  root["images"] = {
+      {{"name", light.name},
+       {"uri", "data:image/png;base64," + Base64(PngOfOneColor(kSide, RgbdOf(radiance)))}}};
+  root["extensionsUsed"].push_back("EXT_lights_image_based");
+  root["extensions"]["EXT_lights_image_based"]["lights"] = {
+      {{"name", light.name},
+       {"intensity", 1.0},
+       {"irradianceCoefficients", std::move(coefficients)},
+       {"specularImages", Json::array({Json(std::vector<int>(kFaces, 0))})},
+       {"specularImageSize", kSide}}};
+  Json scene = root["scenes"].back();
+  scene["name"] = std::string(scene["name"]) + " (image based)";
+  Json nodes = Json::array();
+  for (const Json& node : scene["nodes"]) {
+    if (node != index) nodes.push_back(node);
+  }
+  scene["nodes"] = std::move(nodes);
+  scene["extensions"]["EXT_lights_image_based"]["light"] = 0;
+  root["scenes"].push_back(std::move(scene));
+}
+
 Json Document(const LightFile& file, const std::string& stem,
               const std::vector<PunctualLight>& lights, const std::vector<FalloffRefit>& refits,
               const PresetOptions& options) {
@@ -307,6 +369,7 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   const auto refits = RefitInGltf(lights, *punctual, options, preset.warnings);
   Json document = Document(lights, stem, *punctual, refits, options);
   AddPhotometricScene(document, lights, *punctual, *ies);
+  AddImageBasedScene(document, lights, *punctual);
   auto text = json_pieces::TextOf(document, stem + ".gltf");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".gltf", std::move(*text)});

@@ -17,6 +17,10 @@ import { Camera } from '/m/@babylonjs/core/Cameras/camera.js';
 import { Vector3, Quaternion } from '/m/@babylonjs/core/Maths/math.vector.js';
 import { Color3, Color4 } from '/m/@babylonjs/core/Maths/math.color.js';
 import { Constants } from '/m/@babylonjs/core/Engines/constants.js';
+import { AppendSceneAsync } from '/m/@babylonjs/core/Loading/sceneLoader.js';
+import '/m/@babylonjs/core/Loading/loadingScreen.js';
+import '/m/@babylonjs/core/Materials/Textures/baseTexture.polynomial.js';
+import '/m/@babylonjs/loaders/glTF/2.0/index.js';
 
 const BABYLON = { Engine, Scene, Light, PointLight, SpotLight, DirectionalLight, HemisphericLight,
   PBRMaterial, RawTexture, MeshBuilder, Mesh, FreeCamera, Vector3, Quaternion, Color3, Color4 };
@@ -24,17 +28,21 @@ const yUp = ([x, y, z]) => [x, z, -y];
 const size = 0.02;
 
 let engine, canvas;
+function start() {
+  if (engine) return;
+  canvas = document.createElement('canvas');
+  canvas.width = 600;
+  canvas.height = 400;
+  document.body.append(canvas);
+  engine = new Engine(canvas, true, { preserveDrawingBuffer: true });
+}
+
 export async function babylon(job) {
-  if (!engine) {
-    canvas = document.createElement('canvas');
-    canvas.width = 600;
-    canvas.height = 400;
-    document.body.append(canvas);
-    engine = new Engine(canvas, true, { preserveDrawingBuffer: true });
-  }
+  start();
   const module = await import(job.module);
   const scene = new Scene(engine);
   const built = module.buildBabylon(BABYLON, scene);
+  if (job.edit) new Function('BABYLON', 'built', 'preset', job.edit)(BABYLON, built, module.preset);
   scene.activeCamera = built.camera;
   await scene.whenReadyAsync();
   let png;
@@ -43,10 +51,35 @@ export async function babylon(job) {
     png = canvas.toDataURL('image/png');
   }
   built.cards?.forEach((card) => card.dispose());
-  const k = module.preset.exposure.exposure;
+  const lux = await luxAt(scene, job.probes, module.preset.exposure.exposure);
+  scene.dispose();
+  return { version: Engine.Version, lux, png };
+}
+
+// The last scene of a .gltf, in which a dome is EXT_lights_image_based. Babylon clamps pixels at 30:
+// its irradiance goes through the file's own exposure first.
+export async function babylon_gltf(job) {
+  start();
+  const gltf = await (await fetch(job.module)).json();
+  gltf.scene = gltf.scenes.length - 1;
+  const k = gltf.scenes[0].extras.lightcal.exposure.exposure;
+  for (const light of gltf.extensions.EXT_lights_image_based.lights) {
+    light.irradianceCoefficients = light.irradianceCoefficients.map((c) => c.map((v) => v * k));
+  }
+  const scene = new Scene(engine);
+  scene.useRightHandedSystem = true;
+  await AppendSceneAsync(`data:${JSON.stringify(gltf)}`, scene, { pluginExtension: '.gltf' });
+  if (scene.lights.length) throw new Error('the dome is lit twice');
+  [...scene.meshes].forEach((card) => card.dispose());
+  const lux = await luxAt(scene, job.probes, k);
+  scene.dispose();
+  return { version: Engine.Version, lux };
+}
+
+async function luxAt(scene, probes, k) {
   scene.imageProcessingConfiguration.applyByPostProcess = true;
   const lux = [];
-  for (const { point, normal } of job.probes) {
+  for (const { point, normal } of probes) {
     const at = new Vector3(...yUp(point));
     const n = new Vector3(...yUp(normal));
     const card = MeshBuilder.CreatePlane('probe', { size, sideOrientation: Mesh.DOUBLESIDE }, scene);
@@ -83,6 +116,5 @@ export async function babylon(job) {
     eye.dispose();
     target.dispose();
   }
-  scene.dispose();
-  return { version: Engine.Version, lux, png };
+  return lux;
 }

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders one set of measured lamps in every engine that runs here and holds the lux of a white card
 at the meter's place against what the meter read.
-  gate.py --lightcal BINARY --modules NODE_FOLDER [--work FOLDER] [--engines a,b] [--table FILE]
-Exits 1 when a bar is missed. --table writes the parity table into FILE between its marks."""
+  gate.py --lightcal BINARY --modules NODE_FOLDER [--work FOLDER] [--engines a,b] [--table FILE] [--contact PNG]
+Exits 1 when a bar is missed. --table writes the parity table into FILE between its marks, --contact
+the rigs of all of them on one sheet."""
 import argparse
 import json
 import os
@@ -22,10 +23,12 @@ BARS = {
     'three': {'point': .002, 'spot': .002, 'sun': .002, 'rect': .002, 'dome': .01},
     'three_ies': {'axial': .02},
     'babylon': {'point': .002, 'spot': .002, 'sun': .002, 'axial': .02, 'dome': .01},
+    'babylon_gltf': {'dome': .01},
     'filament': {'point': .02, 'spot': .02, 'sun': .02, 'dome': .02},
 }
 TITLES = {'blender': 'Blender Cycles', 'three': 'three.js', 'three_ies': 'three.js WebGPU build',
-          'babylon': 'Babylon.js', 'filament': 'Filament'}
+          'babylon': 'Babylon.js', 'babylon_gltf': 'Babylon.js, its glTF', 'filament': 'Filament'}
+WITHOUT_RIG = ('three_ies', 'babylon_gltf')
 KIND_TITLES = {'point': 'point', 'spot': 'spot 15/25', 'sun': 'sun', 'rect': 'rect 0.6 x 0.3 m',
                'ies': 'IES, asymmetric', 'axial': 'IES, axial', 'dome': 'uniform dome'}
 RIG_BAR = .02
@@ -42,7 +45,7 @@ def export(lightcal, work):
                 with open(f'{folder}/lamp.ies', 'w', newline='') as f:
                     f.write(cases.ies_text(kind == 'axial'))
             subprocess.run([lightcal, 'run', folder, '-o', f'{folder}/out', '--to',
-                            'json,gltf,blender,three,filament', '--force', '--quiet'], check=True,
+                            'json,gltf,blender,three,filament,godot', '--force', '--quiet'], check=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -62,16 +65,17 @@ def run_blender(work, jobs):
 
 
 def run_browser(modules, work, engine, jobs):
-    suffix = 'filament.json' if engine == 'filament' else 'three.js'
+    suffix = {'filament': 'filament.json', 'babylon_gltf': 'gltf'}.get(engine, 'three.js')
     rows = [{'engine': engine, 'module': f'{j["name"]}/out/{j["name"]}.{suffix}',
-             'probes': j['probes'], **({} if engine == 'three_ies' else {'png': j['png']})}
+             'probes': j['probes'], **({} if engine in WITHOUT_RIG else {'png': j['png']})}
             for j in jobs]
     with open(f'{work}/{engine}_jobs.json', 'w') as f:
         json.dump(rows, f)
     out = f'{work}/{engine}_results.json'
     subprocess.run(['node', f'{HERE}/browse.mjs', modules, work, f'{work}/{engine}_jobs.json', out],
                    check=True)
-    package = {'babylon': '@babylonjs/core', 'filament': 'filament'}.get(engine, 'three')
+    package = ('@babylonjs/core' if engine.startswith('babylon') else
+               'filament' if engine == 'filament' else 'three')
     version = json.load(open(f'{modules}/node_modules/{package}/package.json'))['version']
     return version, json.load(open(out))['results']
 
@@ -94,6 +98,7 @@ def measure(args, work):
                    'worst': max(errors, key=abs)}
             if os.path.exists(job['png']):
                 row['rig'] = grey(work, job)
+                row['png'] = job['png']
             rows.append(row)
     return rows, versions
 
@@ -132,6 +137,28 @@ def table(rows, versions):
     return '\n'.join(lines)
 
 
+def contact_sheet(args, work, rows):
+    """The rigs of the 2700 K lamps as each engine opens them, a row a lamp."""
+    engines = [e for e in args.engines if e not in WITHOUT_RIG]
+    lines = ['<tr><th></th>' + ''.join(f'<th>{TITLES[e]}</th>' for e in engines) + '</tr>']
+    for kind in cases.KINDS:
+        cells = []
+        for engine in engines:
+            row = next((r for r in rows if (r['engine'], r['kind'], r['color']) == (engine, kind, '2700K')
+                        and 'png' in r), None)
+            cells.append(f'<td><img src="file://{row["png"]}"><br>card {row["got"]:.4g} lx, 18 % shows as '
+                         f'{row["rig"]:.3f}</td>' if row else '<td class="none">no picture</td>')
+        lines.append(f'<tr><th>{KIND_TITLES[kind]}<br>meter {cases.KINDS[kind][1]:g} lx</th>'
+                     + ''.join(cells) + '</tr>')
+    with open(f'{work}/contact.html', 'w') as f:
+        f.write('<!doctype html><meta charset="utf-8"><style>body{font:13px sans-serif;margin:12px;width:948px}'
+                'img{width:196px}td,th{vertical-align:top;text-align:left;padding:2px 4px}.none{color:#777}'
+                '</style><p>One lamp of each kind, 2700 K: its exposed rig as each engine opens it, a 90 % and '
+                'an 18 % card at the place of the reading.</p><table>' + ''.join(lines) + '</table>')
+    subprocess.run(['node', f'{HERE}/screenshot.mjs', args.modules, f'{work}/contact.html',
+                    os.path.abspath(args.contact)], check=True)
+
+
 def write_table(path, text):
     old = open(path).read()
     new = re.sub(r'(<!-- parity begin[^\n]*-->\n).*?(<!-- parity end -->)',
@@ -147,15 +174,19 @@ def main():
     parser.add_argument('--work')
     parser.add_argument('--engines', default=','.join(BARS))
     parser.add_argument('--table')
+    parser.add_argument('--contact')
     args = parser.parse_args()
     args.engines = args.engines.split(',')
-    if args.engines == ['three']:
-        args.engines.append('three_ies')
+    for engine, further in (('three', 'three_ies'), ('babylon', 'babylon_gltf')):
+        if args.engines == [engine]:
+            args.engines.append(further)
     with tempfile.TemporaryDirectory() as temporary:
         work = os.path.abspath(args.work or temporary)
         os.makedirs(work, exist_ok=True)
         export(os.path.abspath(args.lightcal), work)
         rows, versions = measure(args, work)
+        if args.contact:
+            contact_sheet(args, work, rows)
     failures = judge(rows)
     if args.table:
         write_table(args.table, table(rows, versions))

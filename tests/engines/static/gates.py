@@ -2,6 +2,7 @@
 """The static gates: lightcal exports the golden lamps, readers that share nothing with its writers
 read them back, and each fault that people make is put into the files to see its gate fail.
   gates.py LIGHTCAL [unittest arguments]"""
+import base64
 import json
 import math
 import os
@@ -10,8 +11,11 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "render"))
 import golden_lights
+import pictures
 import read_gltf
 import read_godot
 import read_mitsuba
@@ -206,6 +210,49 @@ class PhotometricGltf(unittest.TestCase):
         for got, expected in zip(lamp["rotation"], (-0.5 ** 0.5, 0, 0, 0.5 ** 0.5)):
             self.assertAlmostEqual(got, expected, delta=1e-9)
         self.assertEqual(lamp["translation"], [-2.0, 2.8, -1.0])
+
+
+class ImageBasedGltf(unittest.TestCase):
+    """A dome is EXT_lights_image_based in the last scene, and there alone: pi L of irradiance, L in
+    the mirror images, up to 255 nits in the largest component."""
+    WEIGHTS = (0.2126, 0.7152, 0.0722)
+
+    def dome(self, nits):
+        with unittest.mock.patch.dict(golden_lights.LAMPS["sky"], lx=nits * math.pi):
+            export = Export("gltf", ["key", "sky"], "--bare")
+        root = json.loads(export.text("set.gltf"))
+        first, last = root["scenes"]
+        self.assertEqual(root["scene"], 0)
+        names = [[root["nodes"][i]["name"] for i in s["nodes"]] for s in (first, last)]
+        self.assertEqual(names, [["key", "sky"], ["key"]])
+        self.assertNotIn("extensions", first)
+        at = last["extensions"]["EXT_lights_image_based"]["light"]
+        light = root["extensions"]["EXT_lights_image_based"]["lights"][at]
+        self.assertEqual(light["intensity"], 1.0)
+        constant, *rest = light["irradianceCoefficients"]
+        self.assertEqual(rest, [[0.0, 0.0, 0.0]] * 8)
+        (faces,) = light["specularImages"]
+        self.assertEqual(faces, [0] * 6)
+        path = os.path.join(export.path, "dome.png")
+        with open(path, "wb") as f:
+            f.write(base64.b64decode(root["images"][0]["uri"].split(",")[1]))
+        width, height, rows, channels = pictures.read_png(path)
+        self.assertEqual((width, height, channels), (light["specularImageSize"],) * 2 + (4,))
+        pixels = {tuple(row[4 * x:4 * x + 4]) for row in rows for x in range(width)}
+        self.assertEqual(len(pixels), 1)
+        *rgb, d = pixels.pop()
+        return constant, [pictures.decode(v) / (d / 255.0) for v in rgb]
+
+    def test_it(self):
+        luminance = lambda rgb: sum(w * v for w, v in zip(self.WEIGHTS, rgb))
+        for nits in (0.6, 100.0, 1000.0):
+            constant, radiance = self.dome(nits)
+            self.assertAlmostEqual(luminance(constant) * 0.28209479177387814 / (nits * math.pi), 1.0,
+                                   delta=1e-4)
+            if nits < 255.0:
+                self.assertAlmostEqual(luminance(radiance) / nits, 1.0, delta=8e-3)
+            else:
+                self.assertAlmostEqual(max(radiance), 255.0, delta=0.01)
 
 
 class ExposedRig(unittest.TestCase):
