@@ -153,11 +153,24 @@ EngineLight FromNode(const Section& node) {
   return light;
 }
 
+// pixel = luminance * this, at the aperture, shutter and ISO of the camera; 0 = no camera.
+double ExposureIn(const std::vector<Section>& sections) {
+  for (const Section& section : sections) {
+    if (section.type != "CameraAttributesPhysical") continue;
+    const double n = section.Number("exposure_aperture", 16.0);
+    return section.Number("exposure_sensitivity", 100.0) / 100.0 /
+           section.Number("exposure_shutter_speed", 100.0) / (1.2 * n * n);
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 std::vector<EngineLight> LightsOfGodotScene(const std::string& text) {
   std::vector<EngineLight> lights;
-  for (const Section& section : SectionsOf(text)) {
+  const std::vector<Section> sections = SectionsOf(text);
+  const double exposure = ExposureIn(sections);
+  for (const Section& section : sections) {
     if (section.kind == "node" && (section.type == "OmniLight3D" || section.type == "SpotLight3D" ||
                                    section.type == "DirectionalLight3D")) {
       lights.push_back(FromNode(section));
@@ -165,7 +178,10 @@ std::vector<EngineLight> LightsOfGodotScene(const std::string& text) {
     if (section.type == "Environment" && section.values.contains("background_intensity")) {
       EngineLight dome;
       dome.kind = EngineLightKind::kDome;
-      dome.emitted = section.Number("background_intensity", 30000.0) *
+      // Its light goes past intensity and exposure; without a camera the intensity says which.
+      const double nits_per_unit =
+          exposure > 0.0 ? 1.0 / exposure : section.Number("background_intensity", 30000.0);
+      dome.emitted = section.Number("background_energy_multiplier", 1.0) * nits_per_unit *
                      LumaOf(LinearColor(section, "background_color"));
       lights.push_back(dome);
     }

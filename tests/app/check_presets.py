@@ -26,7 +26,7 @@ FIGURE = {
     "three.js": r'("intensity": )([-\d.e+]+)',
     "filament.json": r'("intensity_candela": |"intensity_lx": |"intensity": )([-\d.e+]+)',
     "preset.json": r'("(?:intensity_cd|illuminance_lx|luminance_nits)": \{\s+"value": )([-\d.e+]+)',
-    "tscn": r"(light_intensity_(?:lumens|lux) = |background_intensity = )([-\d.e+]+)",
+    "tscn": r"(light_intensity_(?:lumens|lux) = |background_energy_multiplier = )([-\d.e+]+)",
     "usda": r"(inputs:intensity = )([-\d.e+]+)",
     "ies": r"(TILT=NONE\r\n\S+ \S+ )([-\d.e+]+)",
     "ldt": r"((?:[^\n]*\n){23})([-\d.e+]+)",

@@ -87,7 +87,8 @@ SpotFit FitSpot(const SpotCone& cone) {
 
 double RangeOf(const FalloffRefit& refit) { return refit.range.value(); }
 
-DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, Warnings& warnings) {
+DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double exposure,
+                    Warnings& warnings) {
   DerivedLight out;
   out.substitution = light.substitution;
   const GodotColor color = ColorFor(light.color());
@@ -95,11 +96,17 @@ DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, Warning
   const Rgb& c = color.written;
   const std::vector<double> encoded = {SrgbEncoded(c.r), SrgbEncoded(c.g), SrgbEncoded(c.b), 1.0};
   if (light.form == LightForm::kDome) {
-    // Backgrounds know no temperature: the colour as it is.
+    // Backgrounds know no temperature: the colour as it is. What they light knows neither intensity
+    // nor exposure (rendered in 4.6.3), so the multiplier is the exposed luminance, and the
+    // intensity makes nits of it for what is seen.
     const Rgb& m = light.color().max_normalised;
     out.type = "Environment";
     out.Put("background_color", {SrgbEncoded(m.r), SrgbEncoded(m.g), SrgbEncoded(m.b), 1.0});
-    out.Put("background_intensity", light.nits / light.color().luminance);
+    out.Put("background_energy_multiplier", light.nits / light.color().luminance * exposure);
+    out.Put("background_intensity", 1.0 / exposure);
+    warnings.push_back({"ambient_at_one_exposure", light.name(),
+                        "Godot exposes no light of a plain background: right at this file's ev100; "
+                        "scale background_energy_multiplier with any other exposure"});
     return out;
   }
   out.Put("light_color", encoded);
@@ -291,8 +298,9 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
       RefitLights(lights, *forms,
                   {.engine = EngineFalloff::kGodot, .far_range = kFarRange, .fixed = options.range},
                   preset.warnings);
+  const double exposure = BuildRig(lights, *forms).exposure.scale;
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    preset.derived.push_back(Derive((*forms)[i], refits[i], preset.warnings));
+    preset.derived.push_back(Derive((*forms)[i], refits[i], exposure, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
     auto finite = text_pieces::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));

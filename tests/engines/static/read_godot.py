@@ -3,7 +3,7 @@
 import math
 import re
 
-from seen import GateError, Rig, Seen, decoded, luminance
+from seen import GateError, Rig, Seen, decoded, luminance, near
 
 TINT_6500 = (1.0, 0.942, 0.992)  # what 4.6.3 was measured to multiply colours by, linear
 
@@ -49,7 +49,7 @@ def place(values):
 
 
 def read(text, nearest_window=0.995):
-    lights, cards, k, materials = {}, [], None, {}
+    lights, cards, k, materials, ambient = {}, [], None, {}, None
     if "use_physical_light_units=true" not in text:
         raise GateError("tscn: does not say that it needs physical light units")
     for kind, head, values in sections(text):
@@ -63,8 +63,11 @@ def read(text, nearest_window=0.995):
         if kind == "sub_resource" and head["type"] == "Environment":
             if "background_intensity" in values:
                 rgb = decoded(numbers(values["background_color"], "Color")[:3])
-                lights["sky"] = Seen(nits=float(values["background_intensity"]) * luminance(rgb),
-                                     rgb=rgb)
+                # Light of a plain background is not exposed; what is seen of it is. Rendered in 4.6.3.
+                energy = float(values["background_energy_multiplier"])
+                lights["sky"] = Seen(nits=float(values["background_intensity"]) * energy *
+                                     luminance(rgb), rgb=rgb)
+                ambient = energy
         if kind != "node":
             continue
         if head["type"] == "MeshInstance3D":
@@ -94,4 +97,7 @@ def read(text, nearest_window=0.995):
             else:
                 seen.aim = None
         lights[head["name"]] = seen
+    if ambient is not None and k is not None:
+        near("what the sky lights", ambient * luminance(lights["sky"].rgb),
+             k * lights["sky"].nits, 1e-9)
     return lights, Rig(k, cards) if cards else None
