@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal check: a preset file against the readings, or a rendered picture against the meter.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -229,6 +230,11 @@ Result<void> CheckPreset(const Options& options, Console& console) {
   const std::vector<Compared> rows = Compare(*calibrated, *lights);
   if (rows.empty()) {
     return Refused("no_readings", options.session, "has no reading to check against");
+  }
+  if (std::ranges::any_of(rows,
+                          [](const Compared& row) { return !std::isfinite(row.predicted_lx); })) {
+    return Refused("bad_preset", options.preset,
+                   "gives no finite illuminance at a reading; look at its numbers");
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   Json document = {{"readings", Json::array()}};

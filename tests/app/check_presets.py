@@ -8,6 +8,7 @@ a file edited by hand gives the edit back as its residual.
 import json
 import math
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -177,6 +178,26 @@ def other_faults_show(session):
     assert check(short, session) == before
 
 
+def spoilt_files_are_answered(session, name):
+    """Lines gone, doubled, or with another number: an answer without NaN, or a refusal."""
+    chance = random.Random(20261122)
+    for ending in ("tscn", "usda"):
+        whole = read(file_of(session, ending)).split("\n")
+        for _ in range(12):
+            lines = list(whole)
+            for _ in range(chance.randrange(1, 4)):
+                at = chance.randrange(len(lines))
+                lines[at] = chance.choice([
+                    "", lines[at] * 2, lines[at][:chance.randrange(len(lines[at]) + 1)],
+                    re.sub(r"[-+.e\d]+", chance.choice(["0", "-1", "1e308", "1e999", "nan", "-", "x"]),
+                           lines[at], count=chance.randrange(3))])
+            spoilt = session / f"spoilt.{ending}"
+            spoilt.write_text("\n".join(lines))
+            done = lightcal("check", spoilt, "--session", session, "--json")
+            assert done.returncode in (0, 3), (name, done.returncode, done.stderr, "\n".join(lines))
+            assert "null" not in done.stdout and "nan" not in done.stdout, (done.stdout, lines)
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         for name in LAMPS:
@@ -184,6 +205,8 @@ def main():
             doubles_where_the_file_is_doubled(session, name)
             if name == "bulb":
                 other_faults_show(session)
+            if name in ("spot", "sky"):
+                spoilt_files_are_answered(session, name)
             broken = session / "broken.gltf"
             broken.write_text("{\"nodes\": 3}")
             assert lightcal("check", broken, "--session", session).returncode == 3
