@@ -8,7 +8,7 @@ const puppeteer = createRequire(path.join(modules, 'x'))('puppeteer-core');
 const browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   headless: true, args: ['--no-sandbox', '--disable-dev-shm-usage', '--force-color-profile=srgb'] });
 const tab = await browser.newPage();
-await tab.setViewport({ width: 980, height: 640 });
+await tab.setViewport({ width: 980, height: 240 });
 await tab.goto('file://' + path.resolve(page));
 await tab.screenshot({ path: out, fullPage: true });
 await browser.close();

@@ -23,6 +23,8 @@ NAIVE = {
                 "scene.view_settings.view_transform = 'Filmic'", 'the lamp\'s {watts:g} W, default view'),
     'three': ("built.lights.forEach((l, i) => {{ l.intensity = {cd}; }});"
               "preset.exposure.exposure = 1;", '{cd:.0f} cd beside its colour, exposure 1'),
+    'babylon': ("built.lights.forEach((l) => {{ l.intensity = {cd}; }});",
+                '{cd:.0f} cd beside its colour, exposure 1'),
     'filament': ("preset.lights.forEach((l) => {{ l.intensity_lm = {cd}; }});"
                  "Object.assign(preset.exposure, {{ aperture: 16, shutter_s: 1 / 125, iso: 100 }});",
                  '{cd:.0f} as intensity, f/16 1/125'),
