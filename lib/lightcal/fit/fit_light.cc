@@ -195,6 +195,23 @@ void ReportCalibration(const fit::Observations& observations, std::vector<Effect
   effects.push_back(std::move(report));
 }
 
+// An interval of more than a factor of 1000 each way says nothing, and its ends overflow.
+constexpr double kMostSdOfLn = 3.5;
+
+// Refused: underdetermined, out_of_range (a lamp that no number can hold).
+Result<void> CheckKnown(const fit::LightEstimate& estimate, const std::string& light) {
+  if (estimate.upper_limit) return {};
+  if (!std::isnormal(std::exp(estimate.theta[kLnIntensity]))) {
+    return Refused("out_of_range", light,
+                   "illuminance and distance give an intensity that no number can hold; check "
+                   "their units");
+  }
+  if (Sd(estimate.covariance, kLnIntensity) < kMostSdOfLn) return {};
+  return Refused("underdetermined", light,
+                 "the readings leave its strength open by more than a factor of 1000 each way: at "
+                 "such distances an error of a centimetre decides; measure from farther away");
+}
+
 // The position found is where the light seems to start.
 void NameOffsetFound(std::vector<EffectReport>& effects) {
   for (EffectReport& effect : effects) {
@@ -231,6 +248,9 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   WidenByShape(seen, plan->model);
   Result<fit::LampLocation> location = fit::LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
+  if (auto known = CheckKnown(location->estimate, light.name); !known) {
+    return Propagate(std::move(known));
+  }
   Append(warnings, std::move(location->estimate.warnings));
   AddCalibration(LargestCalibration(seen), location->estimate);
   if (settings.monte_carlo) {
@@ -321,6 +341,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
         fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
     if (!estimate) return Propagate(std::move(estimate));
   }
+  if (auto known = CheckKnown(*estimate, light.name); !known) return Propagate(std::move(known));
   if (settings.monte_carlo) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
