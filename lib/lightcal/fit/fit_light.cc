@@ -16,6 +16,7 @@
 #include "lightcal/fit/observations.h"
 #include "lightcal/fit/off_axis.h"
 #include "lightcal/fit/plan_forward.h"
+#include "lightcal/fit/reading_times.h"
 #include "lightcal/fit/spot_beam.h"
 #include "lightcal/photometry/source_photometry.h"
 
@@ -278,6 +279,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Warnings& warnings = session_out.warnings;
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
+  fit::CheckTimes(session, light, warnings);
   FittedLight out = Describe(light);
   out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {
@@ -358,6 +360,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (!estimate->upper_limit) out.budget = fit::BudgetOf(estimate->variance_parts);
   AddDerivedQuantities(seen, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
+  fit::CheckDrift(session, out, warnings);
   return out;
 }
 
