@@ -165,8 +165,9 @@ std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Conso
   if (count > 0) {
     console.Warn(
         {"bad_samples", inspected.info.file,
-         "left out: pixels of the region that hold no number (not finite, or beyond 1e30), " +
-             std::to_string(count) + " of them, the first at " + first});
+         "left out: " + std::to_string(count) +
+             (count == 1 ? " pixel of the region that holds" : " pixels of the region that hold") +
+             " no number (not finite, or beyond 1e30); the first at " + first});
   }
   return count;
 }

@@ -18,9 +18,18 @@ namespace lightcal::fit {
 namespace {
 
 constexpr double kLeastDrift = 0.02;
-constexpr double kStandardErrors = 5.0;
+// What one steady lamp of a thousand shows, in standard errors, over degrees of freedom left: the
+// 99.95th percentile of Student's t.
+constexpr std::size_t kFewestLeft = 3;
+constexpr std::array<double, 8> kStudent = {12.924, 8.610, 6.869, 5.959,
+                                            5.408,  5.041, 4.781, 4.587};  // from kFewestLeft on
 // What is left of a column is rounding where the others explain it to this.
 constexpr double kExplained = 1e-10;
+// Below this share of time left, it ran as distance did and tells nothing of its own.
+constexpr double kTimeLeft = 1e-3;
+constexpr std::size_t kFewestForDrift = 4;
+// Readings of one moment that a further one is compared with.
+constexpr std::size_t kMostOfOneMoment = 8;
 
 // Takes a whole number of exactly `digits` digits off the front.
 std::optional<int> TakeDigits(std::string_view& text, std::size_t digits) {
@@ -82,6 +91,62 @@ bool CannotBothBe(const Reading& a, const Reading& b) {
   return same_kind && a.distance == b.distance && a.position_m == b.position_m &&
          a.tilt == b.tilt && a.illuminance == b.illuminance;
 }
+
+// Sees the readings of one light in their order.
+class TimeWatch {
+ public:
+  TimeWatch(const std::string& light, Warnings& warnings) : light_(light), warnings_(warnings) {}
+
+  void See(const SessionReading& row) {
+    const Reading& reading = row.reading;
+    const auto seconds = SecondsOfTime(reading.time);
+    if (!seconds || !reading.illuminance || reading.quality == MeterQuality::kDerived) return;
+    Moment& last = last_[InstrumentOf(reading)];
+    const bool same = !last.rows.empty() && *seconds == last.seconds;
+    if (same) {
+      SayTwice(row, last);
+    } else {
+      if (!last.rows.empty() && *seconds < last.seconds) SayBackwards(row, *last.rows.back());
+      last.rows.clear();
+    }
+    if (last.rows.size() < kMostOfOneMoment) last.rows.push_back(&row);
+    last.seconds = *seconds;
+  }
+
+ private:
+  struct Moment {
+    double seconds = 0.0;
+    std::vector<const SessionReading*> rows;
+  };
+
+  void SayBackwards(const SessionReading& row, const SessionReading& before) {
+    if (std::exchange(backwards_, true)) return;
+    warnings_.push_back({"clock_backwards", light_,
+                         row.where + " has an earlier time than " + before.where +
+                             " before it: was a clock set, or are rows out of order? Times are "
+                             "not used but to look for drift"});
+  }
+
+  void SayTwice(const SessionReading& row, const Moment& moment) {
+    const auto other = std::find_if(
+        moment.rows.begin(), moment.rows.end(),
+        [&](const SessionReading* r) { return CannotBothBe(r->reading, row.reading); });
+    if (other == moment.rows.end() || std::exchange(twice_, true)) return;
+    const bool one_place = row.reading.distance == (*other)->reading.distance;
+    warnings_.push_back({"duplicate_time", light_,
+                         row.where + " has the very time of " + (*other)->where +
+                             (one_place ? " and its values: if it is one reading that stands there "
+                                          "twice, delete one"
+                                        : " at another distance: correct the times, or the "
+                                          "distances")});
+  }
+
+  const std::string& light_;
+  Warnings& warnings_;
+  std::map<std::string, Moment> last_;  // by instrument
+  bool backwards_ = false;
+  bool twice_ = false;
+};
 
 // Columns of the linearised model, whitened; each is made square to those before it.
 class Explained {
@@ -163,7 +228,7 @@ std::optional<double> DriftOf(const std::vector<TimedRow>& rows, const FittedLig
   model.Add(Column(rows, [d0](const TimedRow& r) { return 1.0 / (r.distance_m + d0); }));
   if (ambient) model.Add(Column(rows, [](const TimedRow& r) { return 1.0 / r.predicted_lx; }));
   const auto taken = model.count() + 1;
-  if (rows.size() < taken + 2) return std::nullopt;
+  if (rows.size() < taken + kFewestLeft) return std::nullopt;
   std::vector<double> left = Column(rows, [](const TimedRow& r) { return r.ln_ratio; });
   std::vector<double> time =
       Column(rows, [&](const TimedRow& r) { return (r.seconds - start) / span; });
@@ -171,12 +236,13 @@ std::optional<double> DriftOf(const std::vector<TimedRow>& rows, const FittedLig
   model.Remove(left);
   model.Remove(time);
   const double told = Explained::Length2(time);
-  if (!(told > 1e-3 * whole)) return std::nullopt;  // time went as distance did
+  if (!(told > kTimeLeft * whole)) return std::nullopt;
   const double change = Explained::Dot(left, time) / told;
   const double rest = std::max(0.0, Explained::Length2(left) - change * change * told);
-  const double variance = rest / static_cast<double>(rows.size() - taken) / told;
-  const bool shown = std::abs(change) > kLeastDrift &&
-                     change * change > kStandardErrors * kStandardErrors * variance;
+  const std::size_t freedom = rows.size() - taken;
+  const double error = std::sqrt(rest / static_cast<double>(freedom) / told);
+  const double most = kStudent[std::min(freedom - kFewestLeft, kStudent.size() - 1)] * error;
+  const bool shown = std::abs(change) > std::max(kLeastDrift, most);
   return shown ? std::optional(change) : std::nullopt;
 }
 
@@ -202,48 +268,15 @@ std::optional<double> SecondsOfTime(std::string_view iso8601) {
 }
 
 void CheckTimes(const Session& session, const LightDescription& light, Warnings& warnings) {
-  struct Last {
-    double seconds = 0.0;
-    std::vector<const SessionReading*> rows;  // of that moment
-  };
-  std::map<std::string, Last> instruments;
-  bool backwards = false;
-  bool twice = false;
+  TimeWatch watch(light.name, warnings);
   for (const SessionReading& row : session.readings) {
-    const Reading& reading = row.reading;
-    if (reading.light != light.name || reading.quality == MeterQuality::kDerived) continue;
-    const auto seconds = SecondsOfTime(reading.time);
-    if (!seconds || !reading.illuminance) continue;
-    Last& last = instruments[InstrumentOf(reading)];
-    if (!last.rows.empty() && *seconds < last.seconds && !backwards) {
-      backwards = true;
-      warnings.push_back({"clock_backwards", light.name,
-                          row.where + " has an earlier time than " + last.rows.back()->where +
-                              " before it: was a clock set, or are rows out of order? Times are "
-                              "not used but to look for drift"});
-    }
-    const bool same_moment = !last.rows.empty() && *seconds == last.seconds;
-    const auto other =
-        std::find_if(last.rows.begin(), last.rows.end(),
-                     [&](const SessionReading* r) { return CannotBothBe(r->reading, reading); });
-    if (same_moment && other != last.rows.end() && !twice) {
-      twice = true;
-      warnings.push_back({"duplicate_time", light.name,
-                          row.where + " has the very time of " + (*other)->where +
-                              (reading.distance == (*other)->reading.distance
-                                   ? " and its values: if it is one reading that stands there "
-                                     "twice, delete one"
-                                   : " at another distance: correct the times, or the distances")});
-    }
-    if (!same_moment) last.rows.clear();
-    if (last.rows.size() < 8) last.rows.push_back(&row);
-    last.seconds = *seconds;
+    if (row.reading.light == light.name) watch.See(row);
   }
 }
 
 void CheckDrift(const Session& session, const FittedLight& light, Warnings& warnings) {
   const std::vector<TimedRow> rows = TimedRows(session, light);
-  if (rows.size() < 4) return;
+  if (rows.size() < kFewestForDrift) return;
   const auto change = DriftOf(rows, light);
   if (!change) return;
   warnings.push_back({"drift", light.name,

@@ -22,10 +22,10 @@ namespace lightcal::fit {
 void CheckTimes(const Session& session, const LightDescription& light, Warnings& warnings);
 
 // The warning `drift`: light that changes with time beyond what the fitted model explains. Over the
-// residuals with a time, the trend t is what is left of time after intensity, distance offset and
-// ambient light (where fitted) took their part; it is told when it changes the light by more than
-// 2 % from the first reading to the last and is five of its own standard errors, with at least two
-// degrees of freedom left. Warnings only: nothing is corrected.
+// residuals with a time, the trend is what time still explains after intensity, distance offset and
+// ambient light (where fitted) took their part of both. It is told when it changes the light by
+// more than 2 % from the first reading to the last and by more than one steady lamp of a thousand
+// shows (Student's t, at least three degrees of freedom left). Nothing is corrected.
 void CheckDrift(const Session& session, const FittedLight& light, Warnings& warnings);
 
 }  // namespace lightcal::fit
