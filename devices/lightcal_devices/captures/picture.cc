@@ -224,7 +224,7 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path) {
   auto frame = ReadUnchecked(path, SampleStore::kMemory);
   if (!frame) return Propagate(std::move(frame));
   const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
-  if (floats == nullptr) return MaskedPicture{std::move(*frame), {}};
+  if (floats == nullptr || CheckSamples(*floats, path)) return MaskedPicture{std::move(*frame), {}};
   const auto channels = static_cast<std::size_t>(floats->channels());
   std::vector<float> samples;
   std::vector<std::size_t> masked;
@@ -238,7 +238,6 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path) {
     std::fill(pixel.begin(), pixel.end(), 0.0F);
     masked.push_back(i / channels);
   }
-  if (masked.empty()) return MaskedPicture{std::move(*frame), {}};
   auto whole = Kept(std::move(samples), std::move(frame->info), SampleStore::kMemory);
   if (!whole) return Propagate(std::move(whole));
   return MaskedPicture{std::move(*whole), std::move(masked)};
