@@ -12,7 +12,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -80,6 +82,32 @@ std::optional<int> WriterOfTemporary(const std::string& name) {
   return whole ? std::optional(process) : std::nullopt;
 }
 
+bool IsGone(int process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
+
+// What killed runs left beside these targets.
+void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
+  std::map<fs::path, std::set<std::string>> names;  // by directory
+  for (const OutputWriter& file : files) {
+    const fs::path path(file.path);
+    names[path.has_parent_path() ? path.parent_path() : fs::path(".")].insert(
+        path.filename().string());
+  }
+  std::error_code ignored;
+  for (const auto& [directory, targets] : names) {
+    std::vector<fs::path> leftovers;
+    for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+      const std::string name = entry.path().filename().string();
+      const auto process = WriterOfTemporary(name);
+      if (!process || !IsGone(*process)) continue;
+      const std::size_t ending = ("." + std::to_string(*process) + ".tmp").size();
+      if (targets.contains(name.substr(1, name.size() - 1 - ending))) {
+        leftovers.push_back(entry.path());
+      }
+    }
+    for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
+  }
+}
+
 // Forces to the disk what another writer left at `path`.
 Result<void> Sync(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -123,6 +151,7 @@ Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
 
 Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force) {
   if (auto checked = CheckTargets(files, force); !checked) return checked;
+  RemoveLeftoversOf(files);
   std::vector<std::string> temporaries;
   const auto discard = [&] {
     for (const std::string& name : temporaries) ::unlink(name.c_str());
@@ -160,7 +189,7 @@ void RemoveLeftovers(const std::string& directory) {
   std::vector<fs::path> orphans;
   for (const auto& entry : fs::directory_iterator(directory, ignored)) {
     const auto process = WriterOfTemporary(entry.path().filename().string());
-    if (process && ::kill(*process, 0) != 0 && errno == ESRCH) orphans.push_back(entry.path());
+    if (process && IsGone(*process)) orphans.push_back(entry.path());
   }
   for (const fs::path& orphan : orphans) fs::remove(orphan, ignored);
 }

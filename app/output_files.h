@@ -20,7 +20,8 @@ struct OutputFile {
 // Fails with "exists" (exit 1) before writing anything when a target exists, does not carry
 // lightcal's own provenance (the word "lightcal" in its first 4 KiB or anywhere in a JSON or PDF
 // file) and force is off; with "unwritable" when a directory or file cannot be written. Creates
-// directories. On any failure no target has changed.
+// directories. On any failure no target has changed. Temporaries of the same targets that a killed
+// run left are removed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
 
 // A file whose writer fills the temporary name it is given: for pictures too large to hold twice.

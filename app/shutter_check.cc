@@ -13,6 +13,8 @@ namespace lightcal::app {
 namespace {
 
 constexpr double kTolerance = 0.03;
+// A frame that may miss the lamp errs by 1; rounding must not save it.
+constexpr double kHopeless = 1.0 - 1e-9;
 constexpr Seconds kShortestOffered{1.0 / 8192.0};
 constexpr std::size_t kMostOffered = 8;
 
@@ -95,6 +97,17 @@ Warnings CheckShutters(std::span<const FrameInfo> frames, const LampsOnSet& lamp
                " s. Safe" + SafeShutters(lamps) +
                " s, with an ND filter against too much light; --mains none where nothing flickers "
                "(daylight, DC)"}};
+}
+
+Result<void> RefuseHopelessShutter(std::span<const FrameInfo> frames, const LampsOnSet& lamps) {
+  if (frames.size() != 1 || !lamps.pwm || !frames.front().exposure.time) return {};
+  const FrameInfo& frame = frames.front();
+  const double error = WorstFlickerError(*lamps.pwm, *frame.exposure.time);
+  if (!(error > kHopeless)) return {};
+  return Refused("flicker_unsafe_shutter", frame.file,
+                 "a single frame of a lamp that pulses like this may read up to " +
+                     RoundedText(100.0 * error, 2) + " % wrong. Safe" + SafeText(*lamps.pwm) +
+                     " s");
 }
 
 }  // namespace lightcal::app

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +23,7 @@
 #include "lightcal/imaging/patches.h"
 #include "lightcal/imaging/picture_luminance.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "lightcal_devices/captures/masked_picture.h"
 #include "picture_words.h"
 
 namespace lightcal::app {
@@ -40,8 +43,9 @@ struct Options {
 // A picture as luminances, and where its scale is from.
 struct Inspected {
   FrameInfo info;
-  PictureLuminance luminance;
+  PictureLuminance luminance;  // NaN where masked
   std::optional<double> scale_u95_relative;
+  std::vector<std::size_t> masked{};  // pixels, y * width + x
 };
 
 struct Answer {
@@ -122,13 +126,17 @@ Result<Inspected> Inspect(const Options& options, Console& console) {
                    "its codes are no luminance without the camera's response curve; merge the "
                    "bracket it belongs to (lightcal merge), or use the RAW");
   }
-  auto frame = ReadFrame(options.image);
-  if (!frame) return Propagate(std::move(frame));
-  auto luminance = LuminanceOfPicture(*frame, *convention);
+  auto picture = ReadMaskedPicture(options.image);
+  if (!picture) return Propagate(std::move(picture));
+  auto luminance = LuminanceOfPicture(picture->frame, *convention);
   if (!luminance) return Propagate(std::move(luminance));
-  console.Warn(frame->info.warnings);
+  for (const std::size_t pixel : picture->masked) {
+    luminance->nits[pixel] = std::numeric_limits<float>::quiet_NaN();
+  }
+  console.Warn(picture->frame.info.warnings);
   console.Warn(luminance->warnings);
-  Inspected inspected{std::move(frame->info), std::move(*luminance), std::nullopt};
+  Inspected inspected{std::move(picture->frame.info), std::move(*luminance), std::nullopt,
+                      std::move(picture->masked)};
   if (*convention == LuminanceConvention::kPhotometric) TakeOwnScale(inspected);
   return inspected;
 }
@@ -143,6 +151,27 @@ Result<Region> RegionOf(const Options& options, const PictureLuminance& picture)
   return region;
 }
 
+// Those of the region that hold no number, counted and named.
+std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Console& console) {
+  std::size_t count = 0;
+  std::string first;
+  for (const std::size_t pixel : inspected.masked) {
+    const int x = static_cast<int>(pixel) % inspected.luminance.width;
+    const int y = static_cast<int>(pixel) / inspected.luminance.width;
+    const bool inside = x >= region.x && x < region.x + region.width && y >= region.y &&
+                        y < region.y + region.height;
+    if (inside && count++ == 0) first = std::to_string(x) + "," + std::to_string(y);
+  }
+  if (count > 0) {
+    console.Warn(
+        {"bad_samples", inspected.info.file,
+         "left out: " + std::to_string(count) +
+             (count == 1 ? " pixel of the region that holds" : " pixels of the region that hold") +
+             " no number (not finite, or beyond 1e30); the first at " + first});
+  }
+  return count;
+}
+
 // Absent: nobody says how the picture was projected.
 Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
                                                  const Inspected& inspected) {
@@ -153,8 +182,8 @@ Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
     if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
     return std::nullopt;
   }
-  const auto projection = ParseProjection(
-      "--projection", options.projection.empty() ? "latlong" : options.projection);
+  const auto projection =
+      ParseProjection("--projection", options.projection.empty() ? "latlong" : options.projection);
   if (!projection) return tl::unexpected(projection.error());
   view.projection = *projection;
   if (view.projection != Projection::kLatLong) {
@@ -200,7 +229,7 @@ std::optional<Xy> AsShotWhite(const FrameInfo& info) {
 }
 
 nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
-                              const Answer& answer) {
+                              const Answer& answer, std::size_t masked) {
   const LuminanceStatistics& s = answer.statistics;
   nlohmann::ordered_json document;
   document["picture"] = {{"file", inspected.info.file},
@@ -213,6 +242,7 @@ nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
                                 {"median", s.median.value()},
                                 {"max", s.max.value()}};
   document["sigma_relative"] = s.sd_relative;
+  if (masked > 0) document["masked_pixels"] = masked;
   if (answer.illuminance) {
     document["illuminance_lx"] = answer.illuminance->illuminance.value();
     document["solid_angle_sr"] = answer.illuminance->solid_angle.value();
@@ -278,11 +308,12 @@ Result<void> RunInspect(const Options& options, Console& console) {
   if (!angles) return tl::unexpected(angles.error());
   const auto answer = Measure(inspected->luminance, *region, *angles);
   if (!answer) return tl::unexpected(answer.error());
+  const std::size_t masked = WarnOfMasked(*inspected, *region, console);
   if (auto ok = console.RefuseIfStrict(); !ok) return ok;
   const bool is_latlong =
       angles->has_value() && (*angles)->view().projection == Projection::kLatLong;
   console.Print(Table(*inspected, *region, *answer, is_latlong));
-  console.PrintJson(ToJson(*inspected, *region, *answer));
+  console.PrintJson(ToJson(*inspected, *region, *answer, masked));
   return {};
 }
 
@@ -299,8 +330,7 @@ Run BuildInspect(CLI::App& parser) {
                     "rect, latlong, equidistant or equisolid: gives illuminance and solid angle");
   parser.add_option("--fov", options->fov,
                     "full angle, across the width (rect) or the image circle (fisheyes)");
-  parser
-      .add_option("--luminance-convention", options->convention, kConventionHelp)
+  parser.add_option("--luminance-convention", options->convention, kConventionHelp)
       ->capture_default_str();
   parser.add_option("--exposure,--exposures", options->exposure,
                     "of a RAW that does not say it: 1/60");

@@ -308,6 +308,7 @@ Result<void> RunMerge(const Options& options, Console& console) {
   if (!lamps) return tl::unexpected(lamps.error());
   const auto bracket = OpenBracket(options.frames, *overrides);
   if (!bracket) return tl::unexpected(bracket.error());
+  if (auto safe = RefuseHopelessShutter(bracket->frames, *lamps); !safe) return safe;
   const auto merged = MergeBracket(*bracket, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/exr.h"
 #include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/picture_module.h"
 #include "lightcal_devices/captures/radiance_header.h"
 #include "lightcal_devices/captures/sample_check.h"
@@ -159,8 +161,6 @@ Result<Frame> Kept(std::vector<Sample> samples, FrameInfo info, SampleStore stor
 
 Result<Frame> FrameOf(OiioPicture picture, FrameInfo info, SampleStore store) {
   if (!picture.is_float) return Kept(std::move(picture.codes), std::move(info), store);
-  const View2d<const float> view(picture.floats.data(), info.width, info.height, info.channels);
-  if (auto ok = CheckSamples(view, info.file); !ok) return Propagate(std::move(ok));
   return Kept(std::move(picture.floats), std::move(info), store);
 }
 
@@ -188,6 +188,18 @@ Result<Opened> Open(const std::string& path) {
   return opened;
 }
 
+// The whole picture, whatever its samples are.
+Result<Frame> ReadUnchecked(const std::string& path, SampleStore store) {
+  auto opened = Open(path);
+  if (!opened) return Propagate(std::move(opened));
+  if (opened->format == "exr") return ReadExr(path, store);
+  auto picture = ReadThroughModule(path, true);
+  if (!picture) return Propagate(std::move(picture));
+  auto info = Describe(*picture, path, opened->format, opened->bytes());
+  if (!info) return Propagate(std::move(info));
+  return FrameOf(std::move(*picture), std::move(*info), store);
+}
+
 }  // namespace
 
 Result<FrameInfo> ReadPictureInfo(const std::string& path) {
@@ -200,20 +212,35 @@ Result<FrameInfo> ReadPictureInfo(const std::string& path) {
 }
 
 Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
-  auto opened = Open(path);
-  if (!opened) return Propagate(std::move(opened));
-  if (opened->format == "exr") {
-    auto frame = ReadExr(path, store);
-    if (!frame) return frame;
-    const auto& view = std::get<View2d<const float>>(frame->samples);
-    if (auto ok = CheckSamples(view, path); !ok) return Propagate(std::move(ok));
-    return frame;
+  auto frame = ReadUnchecked(path, store);
+  if (!frame) return frame;
+  const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
+  if (floats == nullptr) return frame;
+  if (auto ok = CheckSamples(*floats, path); !ok) return Propagate(std::move(ok));
+  return frame;
+}
+
+Result<MaskedPicture> ReadMaskedPicture(const std::string& path) {
+  auto frame = ReadUnchecked(path, SampleStore::kMemory);
+  if (!frame) return Propagate(std::move(frame));
+  const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
+  if (floats == nullptr || CheckSamples(*floats, path)) return MaskedPicture{std::move(*frame), {}};
+  const auto channels = static_cast<std::size_t>(floats->channels());
+  std::vector<float> samples;
+  std::vector<std::size_t> masked;
+  for (int y = 0; y < floats->height(); ++y) {
+    const std::span<const float> row = floats->row(y);
+    samples.insert(samples.end(), row.begin(), row.end());
   }
-  auto picture = ReadThroughModule(path, true);
-  if (!picture) return Propagate(std::move(picture));
-  auto info = Describe(*picture, path, opened->format, opened->bytes());
-  if (!info) return Propagate(std::move(info));
-  return FrameOf(std::move(*picture), std::move(*info), store);
+  for (std::size_t i = 0; i < samples.size(); i += channels) {
+    const std::span<float> pixel = std::span(samples).subspan(i, channels);
+    if (std::none_of(pixel.begin(), pixel.end(), IsBadSample)) continue;
+    std::fill(pixel.begin(), pixel.end(), 0.0F);
+    masked.push_back(i / channels);
+  }
+  auto whole = Kept(std::move(samples), std::move(frame->info), SampleStore::kMemory);
+  if (!whole) return Propagate(std::move(whole));
+  return MaskedPicture{std::move(*whole), std::move(masked)};
 }
 
 }  // namespace lightcal

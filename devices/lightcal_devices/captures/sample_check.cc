@@ -10,8 +10,6 @@ namespace {
 
 constexpr float kMost = 1e30F;
 
-bool IsBad(float v) { return !(std::abs(v) <= kMost); }
-
 struct Found {
   std::size_t nan = 0, infinite = 0, huge = 0;
   int x = -1, y = -1;  // the first
@@ -32,14 +30,16 @@ std::string Counted(std::size_t count, const char* what, const std::string& befo
 
 }  // namespace
 
+bool IsBadSample(float sample) { return !(std::abs(sample) <= kMost); }
+
 Result<void> CheckSamples(View2d<const float> samples, const std::string& subject) {
   Found found;
   for (int y = 0; y < samples.height(); ++y) {
     const std::span<const float> row = samples.row(y);
     bool any = false;
-    for (const float v : row) any = any || IsBad(v);
+    for (const float v : row) any = any || IsBadSample(v);
     for (std::size_t i = 0; any && i < row.size(); ++i) {
-      if (IsBad(row[i])) found.Take(row[i], static_cast<int>(i) / samples.channels(), y);
+      if (IsBadSample(row[i])) found.Take(row[i], static_cast<int>(i) / samples.channels(), y);
     }
   }
   if (found.x < 0) return {};

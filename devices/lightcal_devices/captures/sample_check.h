@@ -13,4 +13,7 @@ namespace lightcal {
 // the place of the first.
 [[nodiscard]] Result<void> CheckSamples(View2d<const float> samples, const std::string& subject);
 
+// Whether a sample is such a one.
+[[nodiscard]] bool IsBadSample(float sample);
+
 }  // namespace lightcal

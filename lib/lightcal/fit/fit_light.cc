@@ -16,6 +16,7 @@
 #include "lightcal/fit/observations.h"
 #include "lightcal/fit/off_axis.h"
 #include "lightcal/fit/plan_forward.h"
+#include "lightcal/fit/reading_times.h"
 #include "lightcal/fit/spot_beam.h"
 #include "lightcal/photometry/source_photometry.h"
 
@@ -195,6 +196,23 @@ void ReportCalibration(const fit::Observations& observations, std::vector<Effect
   effects.push_back(std::move(report));
 }
 
+// An interval of more than a factor of 1000 each way says nothing, and its ends overflow.
+constexpr double kMostSdOfLn = 3.5;
+
+// Refused: underdetermined, out_of_range (a lamp that no number can hold).
+Result<void> CheckKnown(const fit::LightEstimate& estimate, const std::string& light) {
+  if (estimate.upper_limit) return {};
+  if (!std::isnormal(std::exp(estimate.theta[kLnIntensity]))) {
+    return Refused("out_of_range", light,
+                   "illuminance and distance give an intensity that no number can hold; check "
+                   "their units");
+  }
+  if (Sd(estimate.covariance, kLnIntensity) < kMostSdOfLn) return {};
+  return Refused("underdetermined", light,
+                 "the readings leave its strength open by more than a factor of 1000 each way: at "
+                 "such distances an error of a centimetre decides; measure from farther away");
+}
+
 // The position found is where the light seems to start.
 void NameOffsetFound(std::vector<EffectReport>& effects) {
   for (EffectReport& effect : effects) {
@@ -231,6 +249,9 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   WidenByShape(seen, plan->model);
   Result<fit::LampLocation> location = fit::LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
+  if (auto known = CheckKnown(location->estimate, light.name); !known) {
+    return Propagate(std::move(known));
+  }
   Append(warnings, std::move(location->estimate.warnings));
   AddCalibration(LargestCalibration(seen), location->estimate);
   if (settings.monte_carlo) {
@@ -258,6 +279,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Warnings& warnings = session_out.warnings;
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
+  fit::CheckTimes(session, light, warnings);
   FittedLight out = Describe(light);
   out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {
@@ -321,6 +343,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
         fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
     if (!estimate) return Propagate(std::move(estimate));
   }
+  if (auto known = CheckKnown(*estimate, light.name); !known) return Propagate(std::move(known));
   if (settings.monte_carlo) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
@@ -337,6 +360,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (!estimate->upper_limit) out.budget = fit::BudgetOf(estimate->variance_parts);
   AddDerivedQuantities(seen, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
+  fit::CheckDrift(session, out, warnings);
   return out;
 }
 

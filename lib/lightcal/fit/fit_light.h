@@ -36,7 +36,8 @@ struct FittedSession {
 // that was never read answers from its data sheet (everything a prior), or, beside others that were
 // read, is left out with the warning no_readings. Refused: no_readings, no_valid_readings,
 // over_range, units_ambiguous (readings apart by a ratio of units), increasing_with_distance,
-// negative_distance, bad_beam, bad_effects, and as LocateLamp.
+// negative_distance, underdetermined (a strength open by a factor of 1000 each way), out_of_range,
+// bad_beam, bad_effects, and as LocateLamp.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval

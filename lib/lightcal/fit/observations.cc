@@ -22,6 +22,8 @@ constexpr double kLeastSigma = 1e-4;
 // A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
 // bounce differs from place to place.
 constexpr double kSigmaElsewhere = 0.3;
+// Nearer than this no meter's head fits and no distance is known.
+constexpr double kLeastDistance_m = 1e-3;
 // Readings within this many metres of each other stand in one place.
 constexpr double kSamePlace = 0.005;
 // People point a meter within a degree, 1 sigma, once they mean a tilt.
@@ -165,16 +167,19 @@ class Collector {
   std::string FaultOf(const Reading& reading, const Geometry& geometry, bool lit) const {
     const double lux = reading.illuminance->value();
     if (!std::isfinite(lux)) return "its illuminance is not a number";
-    if (!std::isfinite(geometry.distance_m) || !std::isfinite(geometry.tilt_rad)) {
-      return "its distance or tilt is not a number";
-    }
+    if (!std::isfinite(geometry.distance_m)) return "its distance is not a number";
+    if (lit && !(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
+    if (!std::isfinite(geometry.tilt_rad)) return "its tilt is not a number";
     if (!lit) return {};
-    if (!(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
     if (!(TablePart(reading) > 0.0)) {
       return "the lamp's photometric file has no light in the meter's direction";
     }
     if (geometry.distance_m < InnerRadius(light_)) {
       return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
+    }
+    if (HasDistanceLaw(light_.kind) && geometry.distance_m < kLeastDistance_m) {
+      return "it is nearer than 1 mm (" + ShortestText(geometry.distance_m) +
+             " m), where no distance is known: measure from farther away";
     }
     if (std::abs(geometry.tilt_rad) >= 0.5 * std::numbers::pi - 1e-9) {
       return "the meter faces away from the lamp (tilt 90 degrees or more)";
@@ -185,6 +190,8 @@ class Collector {
   // Readings with other lamps lit become differences; what they were subtracted from goes.
   Result<void> SubtractOthers() {
     std::vector<bool> gone(out_.rows.size(), false);
+    const std::vector<std::size_t> off =
+        RowsWhere([&](std::size_t j) { return !out_.rows[j].lit; });
     int separated = 0;
     int mixed = 0;
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
@@ -196,11 +203,10 @@ class Collector {
       }
       ++mixed;
       const auto lamp_off = [&](std::size_t j) {
-        const SessionReading& off = *relative_[j].source;
-        return !out_.rows[j].lit && off.others_lit == others &&
-               off.place == relative_[i].source->place;
+        const SessionReading& reading = *relative_[j].source;
+        return reading.others_lit == others && reading.place == relative_[i].source->place;
       };
-      gone[i] = out_.rows[i].over_range || !Subtract(i, lamp_off);
+      gone[i] = out_.rows[i].over_range || !Subtract(i, off, lamp_off);
       out_.rows[i].ambient_subtracted = !gone[i];
       separated += gone[i] ? 0 : 1;
     }
@@ -228,14 +234,23 @@ class Collector {
     relative_ = std::move(kept_extra);
   }
 
-  // Takes the mean of the readings `of`, weighted by their sigmas, from row i. False: there is
-  // none.
+  template <class Where>
+  [[nodiscard]] std::vector<std::size_t> RowsWhere(const Where& where) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
+      if (where(j)) rows.push_back(j);
+    }
+    return rows;
+  }
+
+  // Takes the mean of those readings among `candidates` that are `of` row i, weighted by their
+  // sigmas, from it. False: there is none.
   template <class Of>
-  bool Subtract(std::size_t i, const Of& of) {
+  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
     Observation& row = out_.rows[i];
     double weights = 0.0;
     double sum = 0.0;
-    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
+    for (const std::size_t j : candidates) {
       if (!of(j)) continue;
       const Observation& other = out_.rows[j];
       double relative = relative_[j].sigma;
@@ -254,15 +269,19 @@ class Collector {
   void SubtractShadows() {
     if (out_.shadow_readings == 0) return;
     std::vector<bool> consumed(out_.rows.size(), false);
+    const std::vector<std::size_t> shadows =
+        RowsWhere([&](std::size_t j) { return relative_[j].shadow; });
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       const Observation& row = out_.rows[i];
       if (!row.lit || row.over_range || row.ambient_subtracted) continue;
       const auto shadow = [&](std::size_t j) {
-        const bool here = relative_[j].shadow && SamePlace(row, j);
+        const bool here = SamePlace(row, j);
         if (here) consumed[j] = true;
         return here;
       };
-      if (Subtract(i, shadow)) out_.rows[i].differenced = true;
+      if (!Subtract(i, shadows, shadow)) continue;
+      out_.rows[i].differenced = true;
+      if (row.measured_lx < 0.0) WarnOfNegative(row);
     }
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       if (consumed[i]) {
@@ -276,6 +295,16 @@ class Collector {
       relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
     }
     Keep(consumed);
+  }
+
+  // Cutting it at 0 would make the lamp brighter than it is.
+  void WarnOfNegative(const Observation& row) {
+    out_.warnings.push_back(
+        {"negative_difference", light_.name,
+         "reading " + std::to_string(row.index) + " (" + RoundedText(row.raw_lx, 4) +
+             " lx) shows less than its shadow-card reading; the difference of " +
+             RoundedText(row.measured_lx, 3) +
+             " lx is kept with its sign: read again where the lamp is brighter"});
   }
 
   [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,21 @@ Result<LuminanceStatistics> MeasureRegion(View2d<const float> nits, const Region
   const View2d<const float> part = nits.Crop(region.x, region.y, region.width, region.height);
   std::vector<float> values;
   values.reserve(static_cast<std::size_t>(region.width) * region.height);
+  LuminanceStatistics statistics;
+  float most = -std::numeric_limits<float>::infinity();
   for (int y = 0; y < part.height(); ++y) {
-    values.insert(values.end(), part.row(y).begin(), part.row(y).end());
+    for (int x = 0; x < part.width(); ++x) {
+      const float v = part(x, y);
+      if (std::isnan(v)) continue;
+      values.push_back(v);
+      if (!(v > most)) continue;
+      most = v;
+      statistics.peak_x = region.x + x;
+      statistics.peak_y = region.y + y;
+    }
+  }
+  if (values.empty()) {
+    return Refused("all_masked", "region", "none of its pixels holds a number; choose another");
   }
   double sum = 0.0;
   for (const float v : values) sum += v;
@@ -48,16 +62,10 @@ Result<LuminanceStatistics> MeasureRegion(View2d<const float> nits, const Region
   double squares = 0.0;
   for (const float v : values) squares += (v - mean) * (v - mean);
 
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  // minmax_element gives the last of equal largest values; the peak is the first.
-  const auto peak = static_cast<int>(std::find(values.begin(), most, *most) - values.begin());
-  LuminanceStatistics statistics;
-  statistics.min = Nits(*least);
-  statistics.max = Nits(*most);
+  statistics.min = Nits(*std::min_element(values.begin(), values.end()));
+  statistics.max = Nits(most);
   statistics.mean = Nits(mean);
   statistics.sd_relative = mean > 0.0 ? std::sqrt(squares / count) / mean : 0.0;
-  statistics.peak_x = region.x + peak % region.width;
-  statistics.peak_y = region.y + peak / region.width;
   statistics.median = Nits(Median(values));
   return statistics;
 }
@@ -73,6 +81,7 @@ Result<RegionIlluminance> MeasureIlluminance(View2d<const float> nits,
   double lux = 0.0, solid_angle = 0.0;
   for (int y = region.y; y < region.y + region.height; ++y) {
     for (int x = region.x; x < region.x + region.width; ++x) {
+      if (std::isnan(nits(x, y))) continue;
       lux += nits(x, y) * angles.ProjectedSolidAngle(x, y);
       solid_angle += angles.SolidAngle(x, y);
     }

@@ -23,14 +23,15 @@ struct LuminanceStatistics {
 // Refused: bad_region (empty, or not inside the picture).
 [[nodiscard]] Result<void> CheckRegion(const Region& region, int width, int height);
 
-// Sums in double, row by row.  Holds for finite luminances.   Refused: bad_region.
+// Sums in double, row by row. Pixels of NaN are masked and left out.
+// Refused: bad_region, all_masked (no pixel of the region is left).
 [[nodiscard]] Result<LuminanceStatistics> MeasureRegion(View2d<const float> nits,
                                                         const Region& region);
 
 struct RegionIlluminance {
   Lux illuminance;            // of the plane that faces the axis (for lat-long: lies flat), by the
                               // region alone:  E = sum of L cos(theta) dOmega
-  Steradians solid_angle{0};  // of the whole region, behind the plane too
+  Steradians solid_angle{0};  // of the whole region, behind the plane too; without masked pixels
 };
 // Refused: bad_region, bad_view (picture and solid angles differ in size).
 [[nodiscard]] Result<RegionIlluminance> MeasureIlluminance(View2d<const float> nits,

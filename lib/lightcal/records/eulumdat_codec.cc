@@ -399,9 +399,15 @@ Result<std::string> EulumdatText(const PhotometricFile& file) {
   double printed_flux = 0.0;
   for (const LampSet& set : lamps)
     printed_flux += records::NumberEitherWay(Number(set.flux.value())).value_or(0.0);
+  const double candela_to_printed = 1000.0 / printed_flux;
+  if (!std::isfinite(candela_to_printed * file.table.peak().intensity.value())) {
+    return Refused("bad_table", header.luminaire,
+                   "its luminous flux is no number of lumens that EULUMDAT can print, and its "
+                   "candela are per 1000 of them");
+  }
   for (const std::size_t plane : planes.stored) {
     for (std::size_t g = 0; g < grid.vertical_deg.size(); ++g) {
-      line(Number(grid.candela[plane * grid.vertical_deg.size() + g] * 1000.0 / printed_flux));
+      line(Number(grid.candela[plane * grid.vertical_deg.size() + g] * candela_to_printed));
     }
   }
   return out;
