@@ -12,6 +12,7 @@ namespace lightcal::app {
 
 // One file each in commands/.
 Run BuildQuick(CLI::App& parser);
+Run BuildNew(CLI::App& parser);
 Run BuildPlan(CLI::App& parser);
 Run BuildShoot(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
