@@ -27,6 +27,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
      "  lightcal read --device sekonic --once --json\n"
      "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx_4995K.tape --once", BuildRead},
+    {"watch", "A meter's readings as they come: colour, steadiness, the lamp's intensity",
+     "  lightcal watch --device sekonic --for 10s\n"
+     "  lightcal watch -s my_lamp --light key --distance 0.5m\n"
+     "  lightcal watch --replay sample_data/tapes/line_192lx.tape", BuildWatch},
     {"shoot", "A bracket from a camera on a cable or in the network, into a session",
      "  lightcal shoot -s my_lamp --light key --bracket ±4EV/1EV --use card --distance 0.8m "
      "--reflectance 0.18\n"

@@ -35,5 +35,6 @@ Run BuildReference(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
 Run BuildRead(CLI::App& parser);
+Run BuildWatch(CLI::App& parser);
 
 }  // namespace lightcal::app
