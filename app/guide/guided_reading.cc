@@ -51,7 +51,6 @@ class Walk {
     const auto finished = source_.Finish(console_);
     if (!walked) return walked;
     if (!finished) return finished;
-    if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
     Conclude();
     return {};
   }
@@ -92,10 +91,11 @@ class Walk {
 
   void Introduce(const Session& session) const {
     const LightDescription& light = *FindLight(session, frame_.light);
-    console_.Note(
-        "Lamp " + light.name + " (" + std::string(LightKindName(light.kind)) +
-        "), until its intensity is known within " + Percent(options_.until_relative) +
-        " (95 %).\nMeasure distances from one point of the lamp that you can find again.");
+    console_.Note("Lamp " + light.name + " (" + std::string(LightKindName(light.kind)) +
+                  "), until it is known within " + Percent(options_.until_relative) + " (95 %).");
+    if (light.kind != LightKind::kDirectional && light.kind != LightKind::kDome) {
+      console_.Note("Measure distances from one point of the lamp that you can find again.");
+    }
     if (guide_->light()) console_.Note(Progress());
   }
 
@@ -241,6 +241,7 @@ class Walk {
       if (!keep) return EndOfInput();
       if (*keep != "k") return false;
     }
+    if (auto strict = console_.RefuseIfStrict(); !strict) return Propagate(std::move(strict));
     const std::string journal = JournalPath(options_.session);
     if (auto kept = AppendToJournal(journal, reading); !kept) return Propagate(std::move(kept));
     ++taken_;
@@ -280,9 +281,11 @@ class Walk {
         return "That is within the " + Percent(options_.until_relative) +
                " you wanted: enough is enough.\n";
       case Ending::kNoGain: {
+        const auto now = guide_->u95_relative();
+        const bool gains = best_left_ > 0.0 && now && best_left_ < *now;
         std::string text = "Enough with this meter: ";
-        text += best_left_ > 0.0 ? "the best further reading would leave " + Percent(best_left_)
-                                 : std::string("no further reading helps");
+        text += gains ? "the best further reading would leave " + Percent(best_left_)
+                      : std::string("no further reading helps");
         const auto& light = guide_->light();
         if (light && !light->budget.empty()) {
           text += ".\nMost of what is left is " + light->budget.front().name +

@@ -11,7 +11,8 @@ namespace lightcal::app {
 
 // Each reading is in the journal, synced, before the next step is asked for. q or the end of input
 // end the walk; Ctrl-C ends it as interrupted, after the meter was given back.
-// Refused: unknown_light, unknown_meter, and as PlanReadings. Fails: as ReadingSource::Open and
+// Refused: unknown_light, unknown_meter, as PlanReadings, and with --strict before a reading that
+// was warned of is written. Fails: as ReadingSource::Open and
 // AppendToJournal.
 [[nodiscard]] Result<void> ReadGuided(const ReadOptions& options, Console& console);
 
