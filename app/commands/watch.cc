@@ -218,7 +218,7 @@ Run BuildWatch(CLI::App& parser) {
   parser.add_option("--distance", options->distance, "From the lamp to the meter: 0.5m");
   parser.add_option("--count", options->count, "End after so many readings")
       ->check(CLI::Range(1L, 1000000000L));
-  parser.add_option("--for", options->lasting, "End after this time: 10s, 5min is 300s");
+  parser.add_option("--for", options->lasting, "End after this time: 10s");
   return [options](Console& console) { return Watching(*options, console).Run(); };
 }
 
