@@ -12,6 +12,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick 192lx@0.5m 52lx@1m --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
+    {"new", "Begin a session: asks about the lamp and the meter, writes session.toml",
+     "  lightcal new my_lamp --kind spot --box \"35W 36deg\" --to gltf,blender --yes\n"
+     "  lightcal new my_lamp --force --yes", BuildNew},
     {"run", "The main job: fit a session, write light.json, every preset and report.html",
      "  lightcal run sample_data/sessions/three_real_lights\n"
      "  lightcal run my_lamp -o calibrated --to gltf", BuildRun},
@@ -19,10 +22,15 @@ constexpr CommandRow kCommands[] = {
      "  lightcal devices\n"
      "  lightcal devices --json", BuildDevices},
     {"read", "Live or typed readings of a lamp into a session's journal",
+     "  lightcal read -s my_lamp --guided\n"
      "  lightcal read -s my_lamp --light key --distance 0.5m\n"
      "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
      "  lightcal read --device sekonic --once --json\n"
      "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx_4995K.tape --once", BuildRead},
+    {"watch", "A meter's readings as they come: colour, steadiness, the lamp's intensity",
+     "  lightcal watch --device sekonic --for 10s\n"
+     "  lightcal watch -s my_lamp --light key --distance 0.5m\n"
+     "  lightcal watch --replay sample_data/tapes/line_192lx.tape", BuildWatch},
     {"shoot", "A bracket from a camera on a cable or in the network, into a session",
      "  lightcal shoot -s my_lamp --light key --bracket ±4EV/1EV --use card --distance 0.8m "
      "--reflectance 0.18\n"

@@ -12,6 +12,7 @@ namespace lightcal::app {
 
 // One file each in commands/.
 Run BuildQuick(CLI::App& parser);
+Run BuildNew(CLI::App& parser);
 Run BuildPlan(CLI::App& parser);
 Run BuildShoot(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
@@ -34,5 +35,6 @@ Run BuildReference(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
 Run BuildRead(CLI::App& parser);
+Run BuildWatch(CLI::App& parser);
 
 }  // namespace lightcal::app

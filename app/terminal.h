@@ -11,7 +11,7 @@ namespace lightcal::app {
 [[nodiscard]] bool CanAsk();
 
 // Shows `prompt` on stderr and returns the line typed, without blanks at its ends; absent at the
-// end of input.
+// end of input, and where an InterruptGuard lives at the first Ctrl-C.
 [[nodiscard]] std::optional<std::string> Ask(const std::string& prompt);
 
 }  // namespace lightcal::app

@@ -1,29 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal read: live readings, or typed ones, into a session's journal.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <thread>
 
-#include "clock.h"
 #include "commands.h"
-#include "lightcal/core/numbers_text.h"
-#include "lightcal/core/uncertain.h"
-#include "lightcal/core/units_text.h"
+#include "guide/guided_reading.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
-#include "lightcal_devices/meters/summary.h"
-#include "lightcal_devices/meters/text/frame.h"
-#include "measuring.h"
-#include "meter_calibrations.h"
-#include "meter_session.h"
 #include "read_options.h"
+#include "reading_source.h"
 #include "session_names.h"
 #include "terminal.h"
 
@@ -38,66 +27,9 @@ bool HasBackground(const Session& session, const std::string& light) {
   });
 }
 
-// What the driver `typed` understands; what is no number is a wrong command line.
-Result<Summary> TypedSummary(const std::string& text) {
-  const auto typed = text::DecodeLine(text);
-  if (!typed || !*typed) {
-    if (auto number = ParseIlluminance(text); !number) return tl::unexpected(number.error());
-    return Refused("bad_reading", "--lux " + text, typed ? "is no reading" : typed.error().message);
-  }
-  Summary summary;
-  summary.count = 1;
-  summary.kept.reading.illuminance = (*typed)->illuminance;
-  summary.kept.reading.cct = (*typed)->cct;
-  summary.kept.reading.time = NowIso8601();
-  return summary;
-}
-
-Result<Summary> AskedSummary() {
-  const auto typed = Ask("What does the meter show? (for example 192, 17.8fc, or 192,2900K) ");
-  if (!typed || typed->empty()) {
-    return Failed("no_device", "meter", "no meter is plugged in and no number was typed");
-  }
-  return TypedSummary(*typed);
-}
-
-// The measured values in the frame of this run's light and place.
-Reading Placed(const Reading& measured, const Reading& frame) {
-  Reading reading = measured;
-  reading.light = frame.light;
-  reading.meter = frame.meter;
-  reading.distance = frame.distance;
-  reading.tilt = frame.tilt;
-  reading.lamp = frame.lamp;
-  reading.shadow_card = frame.shadow_card;
-  return reading;
-}
-
-// A limit is worth keeping, and worth better than a limit.
-void WarnOutOfRange(const Reading& reading, Warnings& warnings) {
-  if (reading.over_range) {
-    warnings.push_back({"over_range", reading.device,
-                        "the light is above the meter's range and is kept as \"at least " +
-                            RoundedText(reading.illuminance->value(), 4) +
-                            " lx\"; move back, or put a neutral-density filter of known density "
-                            "before it and divide"});
-  }
-  if (reading.under_range) {
-    warnings.push_back({"under_range", reading.device,
-                        "the light is below the meter's range and is kept as \"at most " +
-                            RoundedText(reading.illuminance->value(), 4) + " lx\"; move closer"});
-  }
-}
-
-// A reading the journal would not take back is refused before anything is written.
-Result<void> CheckReading(const Reading& reading) {
-  const auto read_back = ReadingFromJson(ReadingToJson(reading), "this reading");
-  if (!read_back) return tl::unexpected(read_back.error());
-  return {};
-}
-
-nlohmann::ordered_json ToJson(const Reading& reading, const Summary& summary, bool with_spectrum) {
-  auto json = nlohmann::ordered_json::parse(ReadingToJson(reading));
+nlohmann::ordered_json ToJson(const TakenReading& taken, bool with_spectrum) {
+  const Summary& summary = taken.summary;
+  auto json = nlohmann::ordered_json::parse(ReadingToJson(taken.reading));
   json["measurements"] = summary.count;
   if (summary.count > 1) json["spread_relative"] = summary.spread_relative;
   const MeterReading& kept = summary.kept;
@@ -112,25 +44,6 @@ nlohmann::ordered_json ToJson(const Reading& reading, const Summary& summary, bo
   return json;
 }
 
-std::string Sentence(const Reading& reading, const Summary& summary) {
-  std::string text = LuxText(reading);
-  const bool in_range = !reading.over_range && !reading.under_range;
-  if (reading.sigma_relative && in_range) {
-    text += " ± " + RoundedText(kZ95 * 100.0 * *reading.sigma_relative, 2) + " %";
-  }
-  if (reading.cct) text += ", " + RoundedText(reading.cct->value(), 4) + " K";
-  if (reading.duv) text += ", Duv " + RoundedText(*reading.duv, 2);
-  if (!reading.light.empty()) text += "  " + reading.light;
-  if (reading.distance) text += " at " + ShortestText(reading.distance->value()) + " m";
-  if (reading.shadow_card) text += ", shadow card";
-  if (reading.lamp == LampState::kOff) text += ", lamp off";
-  if (summary.count > 1) {
-    text += "  (median of " + std::to_string(summary.count) + ", spread " +
-            RoundedText(100.0 * summary.spread_relative, 2) + " %)";
-  }
-  return text + "\n";
-}
-
 // One run of the command.
 class ReadRun {
  public:
@@ -138,15 +51,14 @@ class ReadRun {
 
   Result<void> Execute() {
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
-    auto calibrations = MeterCalibrations::Load(options_.session);
-    if (!calibrations) return Propagate(std::move(calibrations));
-    calibrations_ = *std::move(calibrations);
-    if (auto opened = OpenTheMeter(); !opened) return opened;
+    const bool typed = options_.typed || !options_.lux.empty();
+    auto opened =
+        ReadingSource::Open({options_.session, typed, options_.request}, AsksQuestions(), console_);
+    if (!opened) return Propagate(std::move(opened));
+    source_ = *std::move(opened);
     auto done = TakeSeries(options_.frame);
-    if (meter_) {
-      const auto finished = meter_->Finish(console_);
-      if (done && !finished) return finished;
-    }
+    const auto finished = source_.Finish(console_);
+    if (done && !finished) return finished;
     if (!done) return done;
     if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
     console_.PrintJson(Document());
@@ -154,11 +66,6 @@ class ReadRun {
   }
 
  private:
-  struct Taken {
-    Reading reading;
-    Summary summary;
-  };
-
   Result<void> LoadTheSession() {
     if (options_.session.empty()) return {};
     auto loaded = LoadSession(options_.session);
@@ -168,27 +75,14 @@ class ReadRun {
     return CheckNames(*session_, options_.frame.light, options_.frame.meter);
   }
 
-  Result<void> OpenTheMeter() {
-    if (!options_.lux.empty()) return {};
-    auto opened = MeterSession::Open(options_.request, console_);
-    if (opened) {
-      meter_ = *std::move(opened);
-      return {};
-    }
-    const bool may_type = opened.error().code == fault::kNoDevice &&
-                          options_.request.device.empty() && AsksQuestions();
-    if (!may_type) return Propagate(std::move(opened));
-    console_.Note("No meter is plugged in: type what yours shows.");
-    return {};
-  }
-
   [[nodiscard]] bool AsksQuestions() const { return CanAsk() && !console_.json(); }
 
   // Each round is in the journal before it is printed, and printed before the next begins.
   Result<void> TakeSeries(const Reading& frame) {
     for (int round = 0; round < options_.repeat; ++round) {
-      if (round > 0 && meter_ && !meter_->HasMore()) break;
-      if (round > 0 && !(meter_ && meter_->IsReplay())) std::this_thread::sleep_for(options_.every);
+      if (round > 0 && !source_.HasMore()) break;
+      const bool is_replay = source_.meter() != nullptr && source_.meter()->IsReplay();
+      if (round > 0 && !is_replay) std::this_thread::sleep_for(options_.every);
       taken_.clear();
       if (auto taken = TakeReadings(frame); !taken) return taken;
       if (auto published = Publish(); !published) return published;
@@ -229,44 +123,29 @@ class ReadRun {
   }
 
   Result<void> TakeOne(const Reading& frame) {
-    auto summary = !options_.lux.empty() ? TypedSummary(options_.lux)
-                   : meter_              ? TakeSummary(options_.plan, *meter_, console_)
-                                         : AskedSummary();
-    if (!summary) return Propagate(std::move(summary));
-    Warnings& warnings = summary->kept.warnings;
-    calibrations_.Apply(summary->kept.reading, warnings);
-    WarnOutOfRange(summary->kept.reading, warnings);
-    WarnOnce(warnings);
-    Taken taken{Placed(summary->kept.reading, frame), *std::move(summary)};
-    if (auto checked = CheckReading(taken.reading); !checked) return checked;
-    taken_.push_back(std::move(taken));
+    auto taken = options_.lux.empty() ? source_.Take(frame, options_.plan, console_)
+                                      : source_.TakeTyped(frame, options_.lux, console_);
+    if (!taken) return Propagate(std::move(taken));
+    taken_.push_back(*std::move(taken));
     return {};
-  }
-
-  // A series may be long: what was said once is not said again.
-  void WarnOnce(const Warnings& warnings) {
-    for (const Warning& warning : warnings) {
-      if (warned_.insert(warning.code + " " + warning.subject).second) console_.Warn(warning);
-    }
   }
 
   Result<void> Publish() {
     if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
-    for (const Taken& taken : taken_) {
+    for (const TakenReading& taken : taken_) {
       if (session_) {
         const std::string journal = JournalPath(options_.session);
         if (auto kept = AppendToJournal(journal, taken.reading); !kept) return kept;
       }
       ++published_;
-      console_.Print(Sentence(taken.reading, taken.summary));
+      console_.Print(SayReading(taken));
       std::fflush(stdout);
     }
     return {};
   }
 
   [[nodiscard]] nlohmann::ordered_json Document() const {
-    const Taken& last = taken_.back();
-    auto json = ToJson(last.reading, last.summary, options_.with_spectrum);
+    auto json = ToJson(taken_.back(), options_.with_spectrum);
     if (options_.repeat > 1) json["repeated"] = published_;
     return json;
   }
@@ -274,10 +153,8 @@ class ReadRun {
   const ReadOptions& options_;
   Console& console_;
   std::optional<Session> session_;
-  std::unique_ptr<MeterSession> meter_;
-  MeterCalibrations calibrations_;
-  std::vector<Taken> taken_;  // of this round: a background reading, and the one asked for
-  std::set<std::string> warned_;
+  ReadingSource source_;
+  std::vector<TakenReading> taken_;  // of this round: a background reading, and the one asked for
   int published_ = 0;
 };
 
@@ -286,8 +163,9 @@ class ReadRun {
 Run BuildRead(CLI::App& parser) {
   auto arguments = AddReadOptions(parser);
   return [arguments](Console& console) -> Result<void> {
-    const auto options = ReadOptionsFrom(*arguments);
+    const auto options = ReadOptionsFrom(*arguments, CanAsk() && !console.json());
     if (!options) return tl::unexpected(options.error());
+    if (options->guided) return ReadGuided(*options, console);
     return ReadRun(*options, console).Execute();
   };
 }

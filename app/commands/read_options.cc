@@ -29,6 +29,12 @@ Result<Reading> FrameOf(const ReadArguments& arguments) {
   return reading;
 }
 
+// Nothing says which one reading is meant.
+bool NamesNoReading(const ReadArguments& a) {
+  return a.distance.empty() && a.lux.empty() && !a.shadow_card && !a.lamp_off && !a.once &&
+         a.from_memory < 0 && a.repeat == 1;
+}
+
 Result<void> CheckComplete(const ReadArguments& arguments) {
   const bool into_journal = !arguments.session.empty();
   if (!arguments.once && !into_journal) {
@@ -38,7 +44,9 @@ Result<void> CheckComplete(const ReadArguments& arguments) {
     return WrongUsage("--light", "name the lamp the reading is of");
   }
   if (into_journal && arguments.distance.empty()) {
-    return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
+    return WrongUsage("--distance",
+                      "give the distance from the lamp, for example 0.5m; or --guided to be told "
+                      "where to put the meter");
   }
   return {};
 }
@@ -108,6 +116,17 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
   lux->excludes(settle)->excludes(repeat)->excludes(memory);
   replay->excludes(device);
+  parser.add_flag("--guided", a.guided,
+                  "Be told where to put the meter [in a terminal, without --distance]");
+  parser.add_option("--until", a.until, "Guided: the interval (95 %) to reach")
+      ->capture_default_str();
+  parser.add_flag("--no-shadow-card", a.no_shadow_card, "Guided: ask for no shadow-card readings")
+      ->excludes(shadow);
+  parser.add_flag("--typed", a.typed, "You type what the meter shows, whatever is plugged in")
+      ->excludes(device)
+      ->excludes(replay)
+      ->excludes(record)
+      ->excludes(count);
   parser.add_flag("--once", a.once, "One measurement; -s, --light and --distance optional")
       ->excludes(count);
   parser.add_flag("--with-spectrum", a.with_spectrum, "With --json: the spectrum too");
@@ -116,27 +135,56 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   return arguments;
 }
 
-Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments) {
-  if (auto complete = CheckComplete(arguments); !complete) return Propagate(std::move(complete));
+Result<std::map<std::string, std::string>> DriverSettings(
+    const std::vector<std::string>& settings) {
+  std::map<std::string, std::string> out;
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return WrongUsage("--set " + setting, "write name=value");
+    }
+    out[setting.substr(0, equals)] = setting.substr(equals + 1);
+  }
+  return out;
+}
+
+Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments, bool can_ask) {
+  const bool guided =
+      !arguments.session.empty() && NamesNoReading(arguments) && (arguments.guided || can_ask);
+  if (arguments.guided && !guided) {
+    return WrongUsage("--guided",
+                      "needs a session (-s) and chooses the readings by itself: leave "
+                      "out --distance, --lux, --once and the like");
+  }
+  if (!guided) {
+    if (auto complete = CheckComplete(arguments); !complete) return Propagate(std::move(complete));
+  }
   auto frame = FrameOf(arguments);
   if (!frame) return Propagate(std::move(frame));
   auto plan = PlanOf(arguments);
   if (!plan) return Propagate(std::move(plan));
   const auto timeout = Milliseconds("--timeout", arguments.timeout, 1e-3, 3600.0);
   if (!timeout) return tl::unexpected(timeout.error());
+  const auto until = ParseTolerance(arguments.until);
+  if (!until) return tl::unexpected(until.error());
   const auto every = Milliseconds("--every", arguments.every, 0.0, 86400.0);
   if (!every) return tl::unexpected(every.error());
-  ReadOptions options{
-      arguments.session, arguments.lux, *std::move(frame),      arguments.request, *plan,
-      arguments.repeat,  *every,        arguments.with_spectrum};
+  ReadOptions options{arguments.session,
+                      arguments.lux,
+                      *std::move(frame),
+                      arguments.request,
+                      *plan,
+                      arguments.repeat,
+                      *every,
+                      arguments.with_spectrum,
+                      arguments.typed,
+                      guided,
+                      *until,
+                      !arguments.no_shadow_card};
   options.request.reply_timeout = *timeout;
-  for (const std::string& setting : arguments.settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      return WrongUsage("--set " + setting, "write name=value");
-    }
-    options.request.settings[setting.substr(0, equals)] = setting.substr(equals + 1);
-  }
+  auto settings = DriverSettings(arguments.settings);
+  if (!settings) return Propagate(std::move(settings));
+  options.request.settings = *std::move(settings);
   return options;
 }
 

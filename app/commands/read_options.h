@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct ReadArguments {
   std::string timeout = "1s";
   std::string settle = "0.5%";
   std::string every = "0s";
+  std::string until = "3%";
   std::vector<std::string> settings;  // name=value
   MeterRequest request;
   int measurements = 0;  // 0 = not said
@@ -32,6 +34,9 @@ struct ReadArguments {
   bool lamp_off = false;
   bool once = false;
   bool with_spectrum = false;
+  bool guided = false;
+  bool typed = false;
+  bool no_shadow_card = false;
 };
 
 struct ReadOptions {
@@ -43,12 +48,21 @@ struct ReadOptions {
   int repeat = 1;
   std::chrono::milliseconds every{0};
   bool with_spectrum = false;
+  bool typed = false;  // numbers are typed, whatever is plugged in
+  bool guided = false;
+  double until_relative = 0.0;  // guided: half of the 95 % interval wanted
+  bool shadow_cards = true;     // guided: ask for them
 };
 
 // Filled when the parser has run.
 [[nodiscard]] std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser);
 
+// "name=value" each, of the driver.  Wrong usage: anything else.
+[[nodiscard]] Result<std::map<std::string, std::string>> DriverSettings(
+    const std::vector<std::string>& settings);
+
+// Guided where it is asked for, or where nothing says what to read and `can_ask`.
 // Wrong usage: a value that is none, no session and not --once, no light or distance for a session.
-[[nodiscard]] Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments);
+[[nodiscard]] Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments, bool can_ask);
 
 }  // namespace lightcal::app

@@ -7,6 +7,7 @@
 #include <deque>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lightcal::test {
@@ -41,6 +42,9 @@ class FakeSekonic {
   enum class Answer { kBytes, kNothing, kStall, kGone };
 
   explicit FakeSekonic(SekonicSetting setting) : setting_(std::move(setting)) {}
+
+  // What the next measurement answers.
+  void Show(std::vector<std::byte> measurement) { setting_.measurement = std::move(measurement); }
 
   // A whole OUT transfer. False when the device is gone.
   bool Take(std::span<const std::byte> command);

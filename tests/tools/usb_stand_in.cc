@@ -84,6 +84,11 @@ UsbStandIn::UsbStandIn(SekonicSetting meter, UsbSetting usb)
     : impl_(std::make_unique<Impl>(std::move(meter), std::move(usb))) {}
 UsbStandIn::~UsbStandIn() = default;
 
+void UsbStandIn::Show(std::vector<std::byte> measurement) {
+  const std::lock_guard lock(impl_->node.mutex());
+  impl_->meter.Show(std::move(measurement));
+}
+
 std::vector<std::string> UsbStandIn::commands() const {
   const std::lock_guard lock(impl_->node.mutex());
   return impl_->meter.commands();

@@ -30,6 +30,8 @@ class UsbStandIn {
   UsbStandIn(const UsbStandIn&) = delete;
   UsbStandIn& operator=(const UsbStandIn&) = delete;
 
+  // The meter's next measurement answers with this reply.
+  void Show(std::vector<std::byte> measurement);
   [[nodiscard]] std::vector<std::string> commands() const;
   [[nodiscard]] bool remote() const;
   // Waits (5 s at most) until the device has taken this command; whether it has.

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reading_source.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "clock.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/records/session_codec.h"
+#include "lightcal_devices/meters/text/frame.h"
+#include "terminal.h"
+
+namespace lightcal::app {
+namespace {
+
+// What the driver `typed` understands; what is no number is a wrong command line.
+Result<Summary> TypedSummary(const std::string& text) {
+  const auto typed = text::DecodeLine(text);
+  if (!typed || !*typed) {
+    if (auto number = ParseIlluminance(text); !number) return tl::unexpected(number.error());
+    return Refused("bad_reading", "--lux " + text, typed ? "is no reading" : typed.error().message);
+  }
+  Summary summary;
+  summary.count = 1;
+  summary.kept.reading.illuminance = (*typed)->illuminance;
+  summary.kept.reading.cct = (*typed)->cct;
+  summary.kept.reading.time = NowIso8601();
+  return summary;
+}
+
+Result<Summary> AskedSummary() {
+  while (true) {
+    const auto typed = Ask("What does the meter show? (for example 192, 17.8fc, or 192,2900K) ");
+    if (!typed || typed->empty()) {
+      return Failed("no_device", "meter", "no meter is plugged in and no number was typed");
+    }
+    auto summary = TypedSummary(*typed);
+    if (summary) return summary;
+    std::fprintf(stderr, "  %s\n", summary.error().message.c_str());
+  }
+}
+
+// A limit is worth keeping, and worth better than a limit.
+void WarnOutOfRange(const Reading& reading, Warnings& warnings) {
+  if (reading.over_range) {
+    warnings.push_back({"over_range", reading.device,
+                        "the light is above the meter's range and is kept as \"at least " +
+                            RoundedText(reading.illuminance->value(), 4) +
+                            " lx\"; move back, or put a neutral-density filter of known density "
+                            "before it and divide"});
+  }
+  if (reading.under_range) {
+    warnings.push_back({"under_range", reading.device,
+                        "the light is below the meter's range and is kept as \"at most " +
+                            RoundedText(reading.illuminance->value(), 4) + " lx\"; move closer"});
+  }
+}
+
+// A reading the journal would not take back is refused before anything is written.
+Result<void> CheckReading(const Reading& reading) {
+  const auto read_back = ReadingFromJson(ReadingToJson(reading), "this reading");
+  if (!read_back) return tl::unexpected(read_back.error());
+  return {};
+}
+
+}  // namespace
+
+Reading PlacedIn(const Reading& frame, const Reading& measured) {
+  Reading reading = measured;
+  reading.light = frame.light;
+  reading.meter = frame.meter;
+  reading.distance = frame.distance;
+  reading.position_m = frame.position_m;
+  reading.normal = frame.normal;
+  reading.tilt = frame.tilt;
+  reading.lamp = frame.lamp;
+  reading.shadow_card = frame.shadow_card;
+  return reading;
+}
+
+std::string SayReading(const TakenReading& taken) {
+  const Reading& reading = taken.reading;
+  std::string text = LuxText(reading);
+  const bool in_range = !reading.over_range && !reading.under_range;
+  if (reading.sigma_relative && in_range) {
+    text += " ± " + RoundedText(kZ95 * 100.0 * *reading.sigma_relative, 2) + " %";
+  }
+  if (reading.cct) text += ", " + RoundedText(reading.cct->value(), 4) + " K";
+  if (reading.duv) text += ", Duv " + RoundedText(*reading.duv, 2);
+  if (!reading.light.empty()) text += "  " + reading.light;
+  if (reading.distance) text += " at " + ShortestText(reading.distance->value()) + " m";
+  if (reading.shadow_card) text += ", shadow card";
+  if (reading.lamp == LampState::kOff) text += ", lamp off";
+  if (taken.summary.count > 1) {
+    text += "  (median of " + std::to_string(taken.summary.count) + ", spread " +
+            RoundedText(100.0 * taken.summary.spread_relative, 2) + " %)";
+  }
+  return text + "\n";
+}
+
+Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_type,
+                                          Console& console) {
+  ReadingSource source;
+  auto calibrations = MeterCalibrations::Load(settings.session);
+  if (!calibrations) return Propagate(std::move(calibrations));
+  source.calibrations_ = *std::move(calibrations);
+  if (settings.typed) return source;
+  auto opened = MeterSession::Open(settings.request, console);
+  if (opened) {
+    source.meter_ = *std::move(opened);
+    return source;
+  }
+  const bool nothing_there =
+      opened.error().code == fault::kNoDevice && settings.request.device.empty();
+  if (!may_type || !nothing_there) return Propagate(std::move(opened));
+  console.Note("No meter is plugged in: type what yours shows.");
+  return source;
+}
+
+Result<TakenReading> ReadingSource::Take(const Reading& frame, const MeasuringPlan& plan,
+                                         Console& console) {
+  return Finished(frame, meter_ ? TakeSummary(plan, *meter_, console) : AskedSummary(), console);
+}
+
+Result<TakenReading> ReadingSource::TakeTyped(const Reading& frame, const std::string& text,
+                                              Console& console) {
+  return Finished(frame, TypedSummary(text), console);
+}
+
+Result<TakenReading> ReadingSource::Finished(const Reading& frame, Result<Summary> summary,
+                                             Console& console) {
+  if (!summary) return Propagate(std::move(summary));
+  Warnings& warnings = summary->kept.warnings;
+  calibrations_.Apply(summary->kept.reading, warnings);
+  WarnOutOfRange(summary->kept.reading, warnings);
+  for (const Warning& warning : warnings) {
+    if (warned_.insert(warning.code + " " + warning.subject).second) console.Warn(warning);
+  }
+  TakenReading taken{PlacedIn(frame, summary->kept.reading), *std::move(summary)};
+  if (auto checked = CheckReading(taken.reading); !checked) return Propagate(std::move(checked));
+  return taken;
+}
+
+Result<void> ReadingSource::Finish(Console& console) {
+  if (!meter_) return {};
+  return meter_->Finish(console);
+}
+
+}  // namespace lightcal::app
