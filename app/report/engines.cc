@@ -7,6 +7,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/gltf_light.h"
+#include "lightcal/presets/light_color.h"
 #include "lightcal/presets/preset_table.h"
 
 namespace lightcal::app {

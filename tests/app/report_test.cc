@@ -105,6 +105,7 @@ TEST(ReportCommand, ShowsSpectrumColourRenderingLuminanceAndDistributionWhereThe
   html = ReadFile(page);
   EXPECT_THAT(html, HasSubstr("data:image/png;base64,"));
   EXPECT_THAT(html, HasSubstr("C90 – C270"));
+  EXPECT_THAT(html, HasSubstr("of the peak (1 σ)"));
   EXPECT_LT(html.size(), 1000000U);
 }
 

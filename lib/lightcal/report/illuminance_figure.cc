@@ -2,7 +2,6 @@
 #include "lightcal/report/illuminance_figure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lightcal/report/contours.h"

@@ -186,7 +186,8 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
   html += Title(light) + Hero(light) + "</div>\n" + Cards(light) + "</div>\n";
   html += TypeIn(light.name, extras.figures) + Figures(light, extras, id + "-");
   html += Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.parity)) +
-          Below(BudgetTable(light.budget)) + Below(EffectTable(light.effects));
+          Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
+          Below(EffectTable(light.effects));
   return html + "</section>\n";
 }
 

@@ -2,6 +2,8 @@
 #include "lightcal/report/luminance_figure.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "lightcal/report/false_color.h"
 #include "lightcal/report/svg.h"

@@ -32,8 +32,8 @@ struct ParityRow {
   double expected_lx = 0.0;  // what the measured lamp gives there
   double engine_lx = 0.0;    // what the engine's own law makes of the numbers in its file
   std::string law;           // "1/d², range 164 m"
-  std::string executed;      // "rendered in Cycles 3.4: lux within 0.5 %"
-  bool rendered = false;     // whether the engine itself was run
+  std::string executed;      // how its exporter was checked: "rendered in Cycles 3.4: ..."
+  bool rendered = false;     // whether that ran the engine itself
 };
 
 // A light's spectrum as it was read, with what it does to colours where that is defined.

@@ -41,6 +41,11 @@ std::string Illuminance(double lux) {
   return Figure(lux == 0.0 ? 0.0 : ParseNumber(RoundedText(lux, 4)).value_or(lux));
 }
 
+// 100 px for all of it.
+std::string Bar(double part) {
+  return "<span class=\"share\" style=\"width:" + Px(100.0 * part) + "px\"></span>";
+}
+
 // What rounds to nothing has no sign.
 std::string Residual(double relative) {
   constexpr double kNothing = 5e-5;
@@ -131,7 +136,8 @@ std::string ParityTable(std::string_view light, const std::vector<ParityRow>& ro
          "\u00A0lx without ambient light. What the numbers above give there by each engine’s own "
          "law:</p><table class=\"stack parity\"><thead><tr><th scope=\"col\">engine</th>"
          "<th class=\"n\" scope=\"col\">gives</th><th class=\"n\" scope=\"col\">off by</th>"
-         "<th scope=\"col\">its falloff</th><th scope=\"col\">executed</th></tr></thead><tbody>\n" +
+         "<th scope=\"col\">its falloff</th><th scope=\"col\">how its exporter was "
+         "checked</th></tr></thead><tbody>\n" +
          body + "</tbody></table></div>\n";
 }
 
@@ -147,9 +153,25 @@ std::string BudgetTable(const std::vector<BudgetPart>& budget) {
     if (part.share < kLeastShareShown) continue;
     html += "<tr><th scope=\"row\">" + Words(part.name) +
             "</th><td class=\"n\" data-label=\"alone \">" + Percent(part.sd_relative) +
-            "</td><td class=\"n\" data-label=\"share \">" + Percent(part.share) +
-            "</td><td><span class=\"share\" style=\"width:" + Px(100.0 * part.share) +
-            "px\"></span></td><td class=\"note\">" + Escaped(part.halve) + "</td></tr>\n";
+            "</td><td class=\"n\" data-label=\"share \">" + Percent(part.share) + "</td><td>" +
+            Bar(part.share) + "</td><td class=\"note\">" + Escaped(part.halve) + "</td></tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string DistributionBudgetTable(const FittedLight& light) {
+  if (!light.distribution || light.distribution->budget.empty()) return "";
+  double most = 0.0;
+  for (const auto& part : light.distribution->budget) most = std::max(most, part.peak);
+  std::string html =
+      "<div class=\"block\"><h3>Where the uncertainty comes from</h3><table class=\"stack\"><thead>"
+      "<tr><th scope=\"col\">cause</th><th class=\"n\" scope=\"col\">of the peak (1 σ)</th>"
+      "<th class=\"n\" scope=\"col\">of the flux (1 σ)</th><td></td></tr></thead><tbody>\n";
+  for (const auto& part : light.distribution->budget) {
+    html += "<tr><th scope=\"row\">" + Words(part.name) +
+            "</th><td class=\"n\" data-label=\"peak \">" + Percent(part.peak) +
+            "</td><td class=\"n\" data-label=\"flux \">" + Percent(part.flux) + "</td><td>" +
+            Bar(most > 0.0 ? part.peak / most : 0.0) + "</td></tr>\n";
   }
   return html + "</tbody></table></div>\n";
 }

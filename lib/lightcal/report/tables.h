@@ -24,6 +24,8 @@ namespace lightcal::report {
 [[nodiscard]] std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows);
 // Where the uncertainty comes from: share of the variance, and what would halve each part.
 [[nodiscard]] std::string BudgetTable(const std::vector<BudgetPart>& budget);
+// The same of a measured distribution: standard deviations of its peak and its flux by cause.
+[[nodiscard]] std::string DistributionBudgetTable(const FittedLight& light);
 
 // The gate: what was considered, at most how large, what came of it.
 [[nodiscard]] std::string EffectTable(const std::vector<EffectReport>& effects);
