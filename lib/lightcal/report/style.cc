@@ -180,7 +180,7 @@ a { color: var(--accent); }
   .hero .unit, .hero .pm { font-size: 18px; }
   section.light { break-before: page; margin-top: 0; }
   section.light.only, section.light.first { break-before: auto; margin-top: 24px; }
-  figure, .card, tr, .block { break-inside: avoid; }
+  figure, .card, tr, .figures .block { break-inside: avoid; }
   .cards { grid-template-columns: repeat(2, 1fr); gap: 10px 16px; }
   .card dt, .card .sub, figcaption { font-size: 11.5px; }
   .card dd { font-size: 14px; }

@@ -36,7 +36,7 @@ def main():
             if page.stat().st_size > LARGEST_PAGE:
                 sys.exit(f"{name}: the page has {page.stat().st_size} bytes")
             pages.append(page)
-        command = ["node", HERE / "gate.mjs", options.modules, *pages]
+        command = ["node", HERE / "gate.mjs", pathlib.Path(options.modules).resolve(), *pages]
         if options.fault:
             command.append("--fault")
         if options.screenshots:
