@@ -87,7 +87,9 @@ constexpr CommandRow kCommands[] = {
      BuildCheck},
     {"report", "One self-contained page: figures, plots, how sure and why, provenance",
      "  lightcal report sample_data/sessions/amaran_200x_s_bare -o report.html\n"
-     "  lightcal report out/light.json -o report.html", BuildReport},
+     "  lightcal report out/light.json -o report.html\n"
+     "  lightcal report sample_data/sessions/lit_wall --plot polar=polar.svg,luminance=wall.png",
+     BuildReport},
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"

@@ -65,4 +65,8 @@ std::string Base64(std::string_view bytes) {
   return text;
 }
 
+std::string PngUri(View2d<const std::uint8_t> rgb) {
+  return "data:image/png;base64," + Base64(EncodePng(rgb));
+}
+
 }  // namespace lightcal::app

@@ -14,6 +14,9 @@ namespace lightcal::app {
 // Source: ISO/IEC 15948:2004.
 [[nodiscard]] std::string EncodePng(View2d<const std::uint8_t> rgb);
 
+// The same file as a data: URI.
+[[nodiscard]] std::string PngUri(View2d<const std::uint8_t> rgb);
+
 // A chunk of a PNG file: length, type, data, check sum.  Source: ISO/IEC 15948:2004, 5.3.
 [[nodiscard]] std::string PngChunk(const std::string& type, const std::string& data);
 

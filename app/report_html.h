@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report page with the figures to type into engines, as `report` and `run` write it.
+// The report page with everything that stands beside the lights, as `report` and `run` write it.
 #pragma once
 
 #include <string>
 #include <string_view>
 
+#include "captures/picture_record.h"
 #include "lightcal/records/fitted_light.h"
+#include "lightcal/report/report_extras.h"
+#include "session_input.h"
 
 namespace lightcal::app {
 
-// ReportPage with each light's engine figures (of the lights presets can export).
+// What engines make of the lights (of those presets can export).
+[[nodiscard]] ReportExtras ExtrasOf(const LightFile& lights);
+// With the session's spectra, and the pictures that were recorded while it was calibrated.
+[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated,
+                                    const PictureRecord& record);
+
+// The session's name, else its directory's.
+[[nodiscard]] const std::string& TitleOf(const Session& session);
+
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
+[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated,
+                                     const PictureRecord& record);
 
 }  // namespace lightcal::app

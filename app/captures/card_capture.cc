@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/thin_frame.h"
+#include "picture_record.h"
 
 namespace lightcal::app {
 namespace {
@@ -105,6 +106,8 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   const auto corrected = LuminanceOfLamp(session, capture, info, *color, patch->color);
   if (!corrected) return AtCapture(capture, corrected.error());
   NoteCapture(capture, *merged, session, warnings);
+  RecordPicture(capture, *merged,
+                capture.anchor_illuminance ? 1.0 : corrected->nits / patch->color.Y);
 
   CaptureReading out;
   out.camera = info.camera;

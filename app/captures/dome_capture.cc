@@ -8,6 +8,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/spectral_mismatch.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "picture_record.h"
 #include "session_files.h"
 
 namespace lightcal::app {
@@ -76,6 +77,7 @@ Result<CaptureReading> ReadDomeCapture(Session& session, const CaptureDescriptio
   }
   warnings.insert(warnings.end(), measured->warnings.begin(), measured->warnings.end());
   NoteInputFile(input.files.front(), session);
+  RecordPicture(capture, input.dome.luminance());
 
   CaptureReading out;
   out.anchored = capture.anchor_illuminance.has_value();

@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/source_luminance.h"
+#include "picture_record.h"
 
 namespace lightcal::app {
 namespace {
@@ -136,6 +137,7 @@ Result<CaptureReading> ReadSource(Session& session, const CaptureDescription& ca
   const auto corrected = LuminanceOfLamp(session, capture, info, *color, seen);
   if (!corrected) return AtCapture(capture, corrected.error());
   NoteCapture(capture, *merged, session, warnings);
+  RecordPicture(capture, *merged, corrected->nits / seen.Y);
   const auto light = std::ranges::find(session.lights, capture.light, &LightDescription::name);
   if (light != session.lights.end()) SettleSize(*source, capture, *light, warnings);
 

@@ -17,6 +17,7 @@
 #include "lightcal/imaging/spectral_mismatch.h"
 #include "lightcal/imaging/wall_samples.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "picture_record.h"
 #include "session_files.h"
 #include "wall_pictures.h"
 
@@ -89,6 +90,7 @@ Result<std::vector<std::vector<BoardCorner>>> FurtherViews(Session& session,
 Result<Wall> ReadWall(Session& session, const CaptureDescription& capture, Warnings& warnings) {
   auto picture = ReadWallPicture(session, capture, warnings);
   if (!picture) return Propagate(std::move(picture));
+  RecordPicture(capture, picture->nits.view());
   const auto grey = PoseGrey(session, capture, *picture);
   if (!grey) return tl::unexpected(grey.error());
   auto corners = CornersIn(*grey, *capture.wall);

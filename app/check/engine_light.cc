@@ -39,18 +39,22 @@ double FlatLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
   constexpr int kPieces = 64;
   const double area = light.width_m * light.height_m / (kPieces * kPieces);
   double sum = 0.0;
+  int inside = 0;
   for (int i = 0; i < kPieces; ++i) {
     for (int j = 0; j < kPieces; ++j) {
       const double u = (i + 0.5) / kPieces - 0.5;
       const double v = (j + 0.5) / kPieces - 0.5;
       if (light.round && u * u + v * v > 0.25) continue;
+      ++inside;
       const Vec3 to = point - (light.position_m + light.x * (u * light.width_m) +
                                light.y * (v * light.height_m));
       const double d2 = Dot(to, to);
       sum += std::max(0.0, Dot(to, light.aim)) * std::max(0.0, -Dot(to, normal)) / (d2 * d2);
     }
   }
-  return light.emitted * area * sum;
+  // The squares inside a circle are not quite its area.
+  const double whole = light.round ? kPi / 4.0 * kPieces * kPieces / inside : 1.0;
+  return light.emitted * area * whole * sum;
 }
 
 // The same over a mantle.

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// lightcal report: one self-contained page of a session or of fitted lights.
+// lightcal report: one self-contained page of a session or of fitted lights, and its plots.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "commands.h"
+#include "lightcal/core/file_name.h"
+#include "lightcal/core/nearest_word.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal/report/page.h"
+#include "lightcal/report/plots.h"
 #include "output_files.h"
+#include "picture_file.h"
 #include "report_html.h"
 #include "session_input.h"
 
@@ -19,46 +26,157 @@ namespace fs = std::filesystem;
 struct Options {
   std::string input;
   std::string output;
+  std::vector<std::string> plots;  // "distance=FILE.svg"
+  std::string light;
   bool force = false;
 };
 
 struct Source {
   LightFile lights;
+  ReportExtras extras;
   std::string title;
   std::string default_output;
 };
+
+std::string JoinedPlotNames() {
+  std::string names;
+  for (const std::string_view name : report::PlotNames()) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return names;
+}
+
+// ---- --plot NAME=FILE ----
+
+struct PlotRequest {
+  std::string name, file;
+};
+
+Result<PlotRequest> ParsePlot(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  const std::string name = text.substr(0, sign);
+  const std::vector<std::string_view> known = report::PlotNames();
+  if (std::ranges::find(known, name) == known.end()) {
+    const std::string nearest = NearestWord(name, known);
+    return WrongUsage("--plot", "\"" + name + "\" is no plot" +
+                                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
+                                    " (there are: " + JoinedPlotNames() + ")");
+  }
+  if (sign == std::string::npos) {
+    return WrongUsage("--plot", "say where it goes: " + name + "=FILE.svg or .png");
+  }
+  PlotRequest request{name, text.substr(sign + 1)};
+  if (auto named = CheckPictureName("--plot", request.file); !named) {
+    return Propagate(std::move(named));
+  }
+  return request;
+}
+
+Result<std::vector<PlotRequest>> ParsePlots(const std::vector<std::string>& texts) {
+  std::vector<PlotRequest> requests;
+  for (const std::string& text : texts) {
+    auto one = ParsePlot(text);
+    if (!one) return Propagate(std::move(one));
+    requests.push_back(*std::move(one));
+  }
+  return requests;
+}
+
+// "polar.svg" -> "polar-key.svg", as exports name the photometric files of their lights.
+std::string WithLight(const std::string& file, const std::string& light) {
+  const fs::path path(file);
+  return (path.parent_path() /
+          (path.stem().string() + "-" + FileNamePart(light) + path.extension().string()))
+      .string();
+}
+
+Result<void> AddPlot(const PlotRequest& request, const Source& source, const std::string& light,
+                     std::vector<OutputFile>& files) {
+  std::vector<report::PlotFile> plots =
+      report::PlotFilesOf(request.name, source.lights, source.extras);
+  std::erase_if(plots, [&](const report::PlotFile& plot) {
+    return !light.empty() && !plot.light.empty() && plot.light != light;
+  });
+  if (plots.empty()) {
+    return Refused("no_plot", request.name,
+                   light.empty() ? "no light here has what it shows"
+                                 : "the light \"" + light + "\" has not what it shows");
+  }
+  for (const report::PlotFile& plot : plots) {
+    auto picture = PictureFile(
+        plots.size() == 1 ? request.file : WithLight(request.file, plot.light), plot.svg);
+    if (!picture) return Propagate(std::move(picture));
+    files.push_back(*std::move(picture));
+  }
+  return {};
+}
+
+Result<void> CheckDistinct(const std::vector<OutputFile>& files) {
+  std::set<std::string> names;
+  for (const OutputFile& file : files) {
+    if (!names.insert(file.path).second) {
+      return WrongUsage("--plot", "\"" + file.path + "\" would be written twice");
+    }
+  }
+  return {};
+}
+
+// ---- the input ----
 
 Result<Source> FromLightFile(const std::string& path) {
   const auto text = ReadWholeFile(path);
   if (!text) return tl::unexpected(text.error());
   auto lights = LightFileFromJson(*text, path);
   if (!lights) return Propagate(std::move(lights));
-  return Source{std::move(*lights), fs::path(path).stem().string(),
+  ReportExtras extras = ExtrasOf(*lights);
+  return Source{std::move(*lights), std::move(extras), fs::path(path).stem().string(),
                 (fs::path(path).parent_path() / "report.html").string()};
 }
 
 Result<Source> FromSession(const std::string& path, Console& console) {
+  const PictureRecord pictures;
   auto calibrated = CalibrateSession(path, CalibrationRequest{}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
+  ReportExtras extras = ExtrasOf(*calibrated, pictures);
   const Session& session = calibrated->session;
-  return Source{std::move(calibrated->lights), session.name.empty() ? session.stem : session.name,
+  return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),
                 (fs::path(DefaultOutputDirectory(session)) / "report.html").string()};
 }
 
+Result<void> CheckLight(const std::string& light, const LightFile& file) {
+  std::vector<std::string_view> known;
+  for (const FittedLight& one : file.lights) known.push_back(one.name);
+  if (light.empty() || std::ranges::find(known, light) != known.end()) return {};
+  const std::string nearest = NearestWord(light, known);
+  return WrongUsage("--light", "there is no light \"" + light + "\"" +
+                                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+}
+
 Result<void> RunReport(const Options& options, Console& console) {
+  const auto plots = ParsePlots(options.plots);
+  if (!plots) return tl::unexpected(plots.error());
   const bool is_light_file = fs::path(options.input).extension() == ".json";
   const auto source =
       is_light_file ? FromLightFile(options.input) : FromSession(options.input, console);
   if (!source) return tl::unexpected(source.error());
+  if (auto known = CheckLight(options.light, source->lights); !known) return known;
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  const std::string path = options.output.empty() ? source->default_output : options.output;
-  if (auto written =
-          WriteOutputs({{path, ReportHtml(source->lights, source->title)}}, options.force);
-      !written) {
-    return written;
+  std::vector<OutputFile> files;
+  if (plots->empty() || !options.output.empty()) {
+    files.push_back({options.output.empty() ? source->default_output : options.output,
+                     ReportPage(source->lights, source->title, source->extras)});
   }
-  console.Print("wrote " + path + "\n");
-  console.PrintJson({{"files", nlohmann::ordered_json::array({path})}});
+  for (const PlotRequest& request : *plots) {
+    if (auto added = AddPlot(request, *source, options.light, files); !added) return added;
+  }
+  if (auto distinct = CheckDistinct(files); !distinct) return distinct;
+  if (auto written = WriteOutputs(files, options.force); !written) return written;
+  auto written = nlohmann::ordered_json::array();
+  for (const OutputFile& file : files) {
+    console.Print("wrote " + file.path + "\n");
+    written.push_back(file.path);
+  }
+  console.PrintJson({{"files", std::move(written)}});
   return {};
 }
 
@@ -70,6 +188,15 @@ Run BuildReport(CLI::App& parser) {
       ->required();
   parser.add_option("-o,--output", options->output,
                     "The page [SESSION/out/report.html, or beside light.json]");
+  parser
+      .add_option("--plot", options->plots,
+                  "One of its plots as a file, instead of the page (give -o for both): " +
+                      JoinedPlotNames() +
+                      ". Where several lights have it, each gets FILE-LIGHT.svg. Repeatable")
+      ->type_name("NAME=FILE.svg|png")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser.add_option("--light", options->light, "Plots of this light alone");
   parser.add_flag("--force", options->force, "Replace a file that lightcal did not write");
   return [options](Console& console) { return RunReport(*options, console); };
 }

@@ -25,30 +25,31 @@ struct Options {
 };
 
 Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::string& directory,
-                                          const CalibratedSession& calibrated, Console& console) {
+                                          const CalibratedSession& calibrated,
+                                          const PictureRecord& pictures, Console& console) {
   const LightFile& lights = calibrated.lights;
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
   const Session& session = calibrated.session;
-  const std::string& title = session.name.empty() ? session.stem : session.name;
   Warnings warnings;
   auto presets =
       PresetFiles(lights, session.stem, options.targets, {.bare = options.bare}, warnings);
   if (!presets) return Propagate(std::move(presets));
   console.Warn(warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportHtml(lights, title)}};
+                                   {"report.html", ReportHtml(calibrated, pictures)}};
   for (OutputFile& file : presets->files) files.push_back(std::move(file));
   PlaceUnder(directory, files);
   return files;
 }
 
 Result<void> RunRun(const Options& options, Console& console) {
+  const PictureRecord pictures;
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string directory =
       options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
-  const auto files = OutputsOf(options, directory, *calibrated, console);
+  const auto files = OutputsOf(options, directory, *calibrated, pictures, console);
   if (!files) return tl::unexpected(files.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, options.force); !written) return written;

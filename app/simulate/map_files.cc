@@ -20,9 +20,8 @@ bool EndsWith(const std::string& path, std::string_view ending) {
   return LowerAscii(path).ends_with(ending);
 }
 
-std::string PngUri(const std::vector<std::uint8_t>& rgb, int width, int height) {
-  return "data:image/png;base64," +
-         Base64(EncodePng(View2d<const std::uint8_t>(rgb.data(), width, height, 3)));
+std::string UriOf(const std::vector<std::uint8_t>& rgb, int width, int height) {
+  return PngUri({rgb.data(), width, height, 3});
 }
 
 std::size_t AxisOf(const std::string& name) { return static_cast<std::size_t>(name[0] - 'x'); }
@@ -45,7 +44,7 @@ std::vector<report::LampMark> Marks(const Simulated& s) {
 std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
   const MapPlane& plane = *s.plane;
   const View2d<const float> lux(s.map.lux.data(), s.map.width, s.map.height);
-  report::LuxScale scale = report::ScaleFor(lux);
+  ValueScale scale = report::ScaleFor(lux);
   if (words.scale == "log") scale = report::ScaleFor(lux, report::AxisScale::kLog);
   if (words.scale == "linear") scale = report::ScaleFor(lux, report::AxisScale::kLinear);
   report::IlluminanceFigure figure;
@@ -68,8 +67,8 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
                                                "), nothing in between"
                                          : "direct light alone: no walls, nothing in between");
   return report::IlluminancePicture(
-      figure, scale, PngUri(report::FalseColors(lux, scale), s.map.width, s.map.height),
-      PngUri(report::ScaleColors(kScaleRows), 1, kScaleRows));
+      figure, scale, UriOf(report::FalseColors(lux, scale), s.map.width, s.map.height),
+      UriOf(report::ScaleColors(kScaleRows), 1, kScaleRows));
 }
 
 std::string CsvOf(const Simulated& s) {

@@ -181,7 +181,7 @@ std::string Page(const Study& study, const std::string& title, const std::string
       "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\"/>\n<meta name=\"generator\" content=\"" +
       Escaped(GeneratorName()) + "\"/>\n<title>" + Escaped(title) +
-      " · accuracy and time</title>\n<style>" + std::string(report::StyleSheet()) +
+      " · accuracy and time</title>\n<style>" + report::StyleSheet() +
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + Escaped(title) +
       "</h1>\n<p class=\"lead\">What accuracy costs in time, measured on this session</p></header>"
       "\n<figure>" +

@@ -22,9 +22,9 @@ struct Drawn {
     EXPECT_TRUE(parsed) << parsed.description();
     EXPECT_EQ(text.find("nan"), std::string::npos);
   }
-  // The arrows: lines of width 3.
+  // The arrows.
   [[nodiscard]] pugi::xpath_node_set Arrows() const {
-    return svg.select_nodes("/svg/line[@stroke-width='3']");
+    return svg.select_nodes("//line[@class='shift']");
   }
 
   ColorFidelity fidelity;

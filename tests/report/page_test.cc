@@ -79,9 +79,10 @@ TEST(ReportPage, HasNoNumberThatIsNone) {
 }
 
 TEST(ReportPage, SaysWhatAnArtistAndAnAuditorAsk) {
-  const std::string page = ReportPage(
-      FileOf({WarmPoint()}), "Desk lamp",
-      {{"key", "glTF", "intensity", "1928.4 cd", "with its colour"}, {"other", "x", "y", "z", ""}});
+  const std::string page =
+      ReportPage(FileOf({WarmPoint()}), "Desk lamp",
+                 {.figures = {{"key", "glTF", "intensity", "1928.4", "cd", "with its colour"},
+                              {"other", "x", "y", "z", "", ""}}});
   for (const char* words : {"Desk lamp",
                             "key",
                             "point light",
@@ -93,7 +94,7 @@ TEST(ReportPage, SaysWhatAnArtistAndAnAuditorAsk) {
                             "6.0 ±\u00A02.0\u00A0cm",
                             "behind the reference point, learned",
                             "The number to type in",
-                            "1928.4 cd",
+                            "<span class=\"copy\">1928.4</span> <span class=\"unit\">cd</span>",
                             "distance from the reference point (m)",
                             "illuminance (lx)",
                             "measured − model (%)",

@@ -38,7 +38,7 @@ TEST(RasterStyle, OfThePlotIsResolvedThroughout) {
   const std::string svg = ForRaster(report::ChromaticityPlot(color));
   EXPECT_EQ(svg.find("var("), std::string::npos);
   EXPECT_EQ(svg.find("@media"), std::string::npos);
-  EXPECT_NE(svg.find("svg .locus { fill: none; stroke: #0067a8;"), std::string::npos);
+  EXPECT_NE(svg.find("svg .locus { fill: none; stroke: #15181c;"), std::string::npos);
 }
 
 }  // namespace

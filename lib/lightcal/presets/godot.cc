@@ -12,6 +12,7 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
+#include "lightcal/presets/godot_temperature.h"
 #include "lightcal/presets/text_pieces.h"
 
 namespace lightcal {
@@ -28,18 +29,6 @@ constexpr EngineForms kForms = {.sphere = true, .dome = true};
 
 // ---- colour ----
 
-// What light_temperature multiplies the light's colour by: Krystek's locus, largest component 1.
-Rgb ColorOfTemperature(double t) {
-  const double u = (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) /
-                   (1.0 + 8.42420235e-4 * t + 7.08145163e-7 * t * t);
-  const double v = (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) /
-                   (1.0 - 2.89741816e-5 * t + 1.61456053e-7 * t * t);
-  const Rgb c = LinearSrgbFromXyz(XyzFromXyAtUnitY(XyFromUv1960({u, v})));
-  const double largest = std::max({c.r, c.g, c.b});
-  const auto part = [&](double x) { return std::clamp(x / largest, 0.0, 1.0); };
-  return {part(c.r), part(c.g), part(c.b)};
-}
-
 // The light_color, linear, which the engine turns into the lamp's; luminance of the product.
 struct GodotColor {
   Rgb written;
@@ -48,7 +37,7 @@ struct GodotColor {
 
 GodotColor ColorFor(const EmittedColor& color) {
   const Rgb& m = color.max_normalised;
-  const Rgb tint = ColorOfTemperature(kTemperature);
+  const Rgb tint = GodotTemperatureColor(kTemperature);
   const Rgb ratio = {m.r / tint.r, m.g / tint.g, m.b / tint.b};
   const double largest = std::max({ratio.r, ratio.g, ratio.b});
   GodotColor out;

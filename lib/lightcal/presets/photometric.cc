@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "lightcal/core/file_name.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/light_distribution.h"
@@ -15,16 +16,6 @@ namespace lightcal {
 namespace {
 
 // A name as part of a file name that no shell or file system minds.
-std::string FileNamePart(const std::string& name) {
-  std::string out;
-  for (const char c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_' || c == '.' || static_cast<unsigned char>(c) >= 0x80U;
-    out += plain ? c : '_';
-  }
-  return out;
-}
-
 std::string PeakText(const FittedLight& lamp) {
   if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return {};
   const Uncertain& u = *lamp.intensity_cd;

@@ -10,6 +10,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/report/figures.h"
 #include "lightcal/report/svg.h"
+#include "lightcal/report/swatch.h"
 #include "lightcal/report/text.h"
 
 namespace lightcal::report {
@@ -23,6 +24,7 @@ constexpr double kHottest_mired = 40.0;    // 25 000 K
 constexpr double kColdest_mired = 1000.0;  // 1000 K
 constexpr int kLocusSteps = 160;
 constexpr int kEllipseSteps = 72;
+constexpr double kLeastUv = 1e-3;  // below it lies no colour
 
 struct Window {
   Axis u, v;
@@ -49,6 +51,30 @@ Window Around(Uv1976 centre) {
       {AxisScale::kLinear, centre.v - kHalfHeight, centre.v + kHalfHeight, area.bottom, area.top}};
 }
 
+// What the colours around here look like, roughly: one gradient across, one up and down over it.
+void DrawField(Svg& svg, const Window& window, Uv1976 centre, const std::string& id) {
+  constexpr int kStops = 6;
+  const PlotArea& area = Svg::Area();
+  const auto gradient = [&](const std::string& name, bool across) {
+    std::string markup = "<linearGradient id=\"" + name + "\" x1=\"0\" y1=\"0\" x2=\"" +
+                         (across ? "1" : "0") + "\" y2=\"" + (across ? "0" : "1") + "\">";
+    for (int i = 0; i <= kStops; ++i) {
+      const double part = static_cast<double>(i) / kStops;
+      const double u = across ? std::lerp(window.u.low, window.u.high, part) : centre.u;
+      const double v = across ? centre.v : std::lerp(window.v.high, window.v.low, part);
+      const Xy xy = XyFromUv1960({std::max(u, kLeastUv), std::max(v, kLeastUv) / 1.5});
+      markup += "<stop offset=\"" + Px(part) + "\" stop-color=\"" + SwatchOf(xy) + "\"/>";
+    }
+    return markup + "</linearGradient>";
+  };
+  svg.Element(gradient(id + "-across", true) + gradient(id + "-up", false));
+  for (const char* name : {"-across", "-up"}) {
+    svg.Element("<rect class=\"field" + std::string(name) + "\" x=\"" + Px(area.left) + "\" y=\"" +
+                Px(area.top) + "\" width=\"" + Px(area.right - area.left) + "\" height=\"" +
+                Px(area.bottom - area.top) + "\" fill=\"url(#" + id + name + ")\"/>");
+  }
+}
+
 void DrawLocus(Svg& svg, const Window& window, double duv, std::string_view css) {
   std::vector<PagePoint> points;
   for (int i = 0; i <= kLocusSteps; ++i) {
@@ -64,7 +90,7 @@ void DrawIsotherms(Svg& svg, const Window& window) {
   constexpr std::array<double, 18> kKelvins = {1500, 1800, 2000, 2200,  2500,  2700,
                                                3000, 3200, 3500, 4000,  4500,  5000,
                                                5600, 6500, 8000, 10000, 15000, 20000};
-  constexpr double kLabelGap = 46.0;
+  constexpr double kLabelGap = 60.0;
   const PlotArea& area = Svg::Area();
   double last_x = std::numeric_limits<double>::infinity();
   for (const double kelvin : kKelvins) {
@@ -76,7 +102,7 @@ void DrawIsotherms(Svg& svg, const Window& window) {
     const bool inside = label.first > area.left + 22.0 && label.first < area.right - 26.0 &&
                         label.second < area.bottom - 4.0;
     if (!inside || last_x - label.first < kLabelGap) continue;
-    svg.Text("note", label, "middle", Figure(kelvin) + " K");
+    svg.Text("note halo", label, "middle", Figure(kelvin) + " K");
     last_x = label.first;
   }
 }
@@ -107,6 +133,7 @@ std::string ChromaticityFigure(const FittedLight& light, std::string_view id) {
   Svg svg(std::string(id), "Chromaticity",
           "CIE 1976 u'v' around the light, with the Planckian locus and correlated colour "
           "temperatures");
+  DrawField(svg, window, *point, std::string(id));
   svg.Axes(window.u, window.v, "u′", "v′");
   svg.BeginPlot();
   DrawIsotherms(svg, window);

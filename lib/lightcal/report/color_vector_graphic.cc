@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "lightcal/report/style.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
 
@@ -14,7 +15,8 @@ namespace {
 
 constexpr double kSize = 480.0;
 constexpr double kCentre = kSize / 2.0;
-constexpr double kRadius = 150.0;  // of the reference circle
+constexpr double kRadius = 150.0;                   // of the reference circle
+constexpr double kSectors = 1.36, kNumbers = 1.45;  // times kRadius
 constexpr double kBinTurn = 2.0 * std::numbers::pi / kHueBinCount;
 
 struct Arrow {
@@ -40,29 +42,13 @@ std::vector<Arrow> ArrowsOf(const GamutAndBins& gamut) {
   return arrows;
 }
 
-// A hue for each bin, red at the first.
+// A hue for each bin, red at the first, as bright on paper as on a dark screen.
 std::string BinColor(std::size_t bin) {
   const double degrees = (static_cast<double>(bin) + 0.5) * 360.0 / kHueBinCount;
-  return "hsl(" + Px(degrees) + ",60%,45%)";
+  return "hsl(" + Px(degrees) + ",62%,50%)";
 }
 
 std::string Point(PagePoint p) { return Px(p.first) + " " + Px(p.second); }
-
-std::string Line(std::string_view attributes, PagePoint from, PagePoint to) {
-  return "<line " + std::string(attributes) + " x1=\"" + Px(from.first) + "\" y1=\"" +
-         Px(from.second) + "\" x2=\"" + Px(to.first) + "\" y2=\"" + Px(to.second) + "\"/>\n";
-}
-
-std::string Label(PagePoint at, std::string_view anchor, int size, std::string_view text) {
-  return "<text x=\"" + Px(at.first) + "\" y=\"" + Px(at.second) + "\" text-anchor=\"" +
-         std::string(anchor) + "\" font-size=\"" + std::to_string(size) + "\">" + Escaped(text) +
-         "</text>\n";
-}
-
-std::string Circle(double radius, std::string_view style) {
-  return "<circle cx=\"" + Px(kCentre) + "\" cy=\"" + Px(kCentre) + "\" r=\"" + Px(radius) +
-         "\" fill=\"none\" " + std::string(style) + "/>\n";
-}
 
 // A smooth closed curve through the points: cubic Bezier pieces of a Catmull-Rom spline.
 std::string SmoothPath(const std::vector<Arrow>& arrows) {
@@ -77,51 +63,58 @@ std::string SmoothPath(const std::vector<Arrow>& arrows) {
     data += "C" + Point({bx + (cx - ax) / 6, by + (cy - ay) / 6}) + " " +
             Point({cx - (dx - bx) / 6, cy - (dy - by) / 6}) + " " + Point({cx, cy});
   }
-  return "<path fill=\"none\" stroke=\"#c02020\" stroke-width=\"2.5\" d=\"" + data + "Z\"/>\n";
+  return "<path class=\"gamut\" d=\"" + data + "Z\"/>";
 }
 
-// Circles of 20 % less and more chroma, the sectors' limits and the reference.
-std::string Background() {
-  std::string svg;
-  for (const double relative : {0.8, 0.9, 1.1, 1.2}) {
-    svg += Circle(relative * kRadius, R"(stroke="#bbbbbb" stroke-dasharray="3 3")");
-  }
-  for (int i = 0; i < kHueBinCount; ++i) {
-    const double angle = i * kBinTurn;
-    svg += Line(R"(stroke="#dddddd")", {kCentre, kCentre},
-                OnPage(1.35 * std::cos(angle), 1.35 * std::sin(angle)));
+// A pale sector of each hue, its number, circles of 10 and 20 % less and more chroma, and the
+// reference.
+void DrawBackground(Svg& svg) {
+  for (std::size_t i = 0; i < kHueBinCount; ++i) {
+    const double angle = static_cast<double>(i) * kBinTurn;
+    const PagePoint from = OnPage(kSectors * std::cos(angle), kSectors * std::sin(angle));
+    const PagePoint to =
+        OnPage(kSectors * std::cos(angle + kBinTurn), kSectors * std::sin(angle + kBinTurn));
+    const std::string arc = Px(kSectors * kRadius);
+    svg.Element("<path class=\"hue\" fill=\"" + BinColor(i) + "\" d=\"M" + Px(kCentre) + " " +
+                Px(kCentre) + "L" + Point(from) + "A" + arc + " " + arc + " 0 0 0 " + Point(to) +
+                "Z\"/>");
     const double middle = angle + kBinTurn / 2;
-    PagePoint label = OnPage(1.43 * std::cos(middle), 1.43 * std::sin(middle));
-    label.second += 4.0;
-    svg += Label(label, "middle", 12, std::to_string(i + 1));
+    PagePoint label = OnPage(kNumbers * std::cos(middle), kNumbers * std::sin(middle));
+    label.second += 4.5;
+    svg.Text("tick", label, "middle", std::to_string(i + 1));
   }
-  return svg + Circle(kRadius, R"(stroke="#222222" stroke-width="2")");
+  for (const double relative : {0.8, 0.9, 1.1, 1.2}) {
+    svg.Circle("chroma", {kCentre, kCentre}, relative * kRadius);
+  }
+  svg.Circle("reference", {kCentre, kCentre}, kRadius);
 }
 
-std::string ArrowMark(const Arrow& arrow) {
-  const std::string color = BinColor(arrow.bin);
-  const auto [x, y] = arrow.to;
-  return Line("stroke=\"" + color + "\" stroke-width=\"3\"", arrow.from, arrow.to) +
-         "<circle cx=\"" + Px(x) + "\" cy=\"" + Px(y) + "\" r=\"4\" fill=\"" + color + "\"/>\n";
+void DrawArrow(Svg& svg, const Arrow& arrow) {
+  svg.Line("shift", arrow.from, arrow.to);
+  svg.Element("<circle class=\"shifted\" cx=\"" + Px(arrow.to.first) + "\" cy=\"" +
+              Px(arrow.to.second) + "\" r=\"4.5\" fill=\"" + BinColor(arrow.bin) + "\"/>");
 }
 
 }  // namespace
 
+std::string ColorVectorFigure(const ColorFidelity& fidelity, const GamutAndBins& gamut,
+                              std::string_view title, std::string_view id) {
+  const std::vector<Arrow> arrows = ArrowsOf(gamut);
+  Svg svg(std::string(id), "Colour vector graphic of " + std::string(title),
+          "ANSI/IES TM-30, written by lightcal: the reference light is the circle, the light the "
+          "curve",
+          {kSize, kSize});
+  DrawBackground(svg);
+  svg.Element(SmoothPath(arrows));
+  for (const Arrow& arrow : arrows) DrawArrow(svg, arrow);
+  svg.Text("score", {8.0, 26.0}, "start", "Rf " + Fixed(fidelity.Rf, 0));
+  svg.Text("score", {kSize - 8.0, 26.0}, "end", "Rg " + Fixed(gamut.Rg, 0));
+  return svg.Finish();
+}
+
 std::string ColorVectorGraphic(const ColorFidelity& fidelity, const GamutAndBins& gamut,
                                std::string_view title) {
-  const std::vector<Arrow> arrows = ArrowsOf(gamut);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + Px(kSize) + " " +
-                    Px(kSize) + "\" font-family=\"sans-serif\" role=\"img\">\n<title>" +
-                    Escaped("Colour vector graphic of " + std::string(title)) +
-                    "</title>\n<desc>ANSI/IES TM-30, written by lightcal: the reference light is "
-                    "the circle, the light the curve.</desc>\n"
-                    "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
-  svg += Background() + SmoothPath(arrows);
-  for (const Arrow& arrow : arrows) svg += ArrowMark(arrow);
-  svg += Label({16, 28}, "start", 18, "Rf " + Fixed(fidelity.Rf, 0));
-  svg += Label({kSize - 16, 28}, "end", 18, "Rg " + Fixed(gamut.Rg, 0));
-  svg += Label({kCentre, kSize - 8}, "middle", 12, title);
-  return svg + "</svg>\n";
+  return StandaloneSvg(ColorVectorFigure(fidelity, gamut, title, "tm30"));
 }
 
 }  // namespace lightcal::report

@@ -9,12 +9,17 @@
 
 namespace lightcal::report {
 
-// A whole SVG file: the reference as a circle, the light's 16 bin means as a closed curve, an arrow
-// from one to the other per bin, and Rf, Rg. The reference means are moved onto the circle at their
-// hue, and the light's shift is scaled with them:
+// The reference as a circle, the light's 16 bin means as a closed curve, an arrow from one to the
+// other per bin, and Rf, Rg. The reference means are moved onto the circle at their hue, and the
+// light's shift is scaled with them:
 //   point = (cos h, sin h) + (test - reference)/C,   h and C of the bin's reference mean.
-// title says which light. Source: ANSI/IES TM-30-20, annex on graphics (shape and meaning; the
-// colours are ours).
+// title says which light; id must be unique in the page. Source: ANSI/IES TM-30-20, annex on
+// graphics (shape and meaning; the colours are ours).
+[[nodiscard]] std::string ColorVectorFigure(const ColorFidelity& fidelity,
+                                            const GamutAndBins& gamut, std::string_view title,
+                                            std::string_view id);
+
+// A whole SVG file of it, with its style sheet.
 [[nodiscard]] std::string ColorVectorGraphic(const ColorFidelity& fidelity,
                                              const GamutAndBins& gamut, std::string_view title);
 

@@ -129,6 +129,10 @@ constexpr std::string_view kCss =
 
 }  // namespace
 
+bool HasEffects(const std::vector<FittedLight>& lights) {
+  return std::ranges::any_of(lights, [](const FittedLight& l) { return !l.effects.empty(); });
+}
+
 std::string GateFigure(const std::vector<FittedLight>& lights, double tolerance,
                        std::string_view id) {
   std::vector<Row> rows;

@@ -10,6 +10,12 @@
 
 namespace lightcal::report {
 
+// The tolerance that effects are judged by where nobody says another; a light.json keeps none.
+inline constexpr double kUsualTolerance = 0.01;
+
+// Whether any light says which effects it considered.
+[[nodiscard]] bool HasEffects(const std::vector<FittedLight>& lights);
+
 // Cost and error of one evaluation with every effect, with those the gate calls for and with none,
 // over the scenes of light/gate_ladder.h, and below them the session's own lights: of those only
 // what was left off at most is known, and what the effects found do when they are all left out. id

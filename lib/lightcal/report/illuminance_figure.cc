@@ -2,7 +2,6 @@
 #include "lightcal/report/illuminance_figure.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lightcal/report/contours.h"
@@ -19,71 +18,6 @@ constexpr double kLeft = 70.0, kTop = 52.0, kRight = 132.0, kBelow = 62.0, kNote
 constexpr double kBarGap = 26.0, kBarWidth = 18.0;
 constexpr double kTickGap = 46.0;
 constexpr int kMostContourSamples = 256;
-constexpr double kLinearUpTo = 20.0;  // brightest over dimmest
-constexpr double kMostDecades = 3.0;
-
-using Rgb = std::array<double, 3>;
-// Evenly spaced along the scale, sRGB 0..255.
-constexpr std::array<Rgb, 9> kAnchors = {{{9, 11, 28},
-                                          {33, 30, 84},
-                                          {75, 37, 127},
-                                          {126, 45, 137},
-                                          {180, 57, 120},
-                                          {222, 85, 85},
-                                          {245, 134, 58},
-                                          {251, 188, 76},
-                                          {255, 244, 190}}};
-
-std::array<std::uint8_t, 3> ColorAt(double part) {
-  const double at = std::clamp(part, 0.0, 1.0) * (kAnchors.size() - 1);
-  const std::size_t k = std::min(static_cast<std::size_t>(at), kAnchors.size() - 2);
-  const double f = at - static_cast<double>(k);
-  std::array<std::uint8_t, 3> out{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    out[c] = static_cast<std::uint8_t>(
-        std::lround(kAnchors[k][c] + f * (kAnchors[k + 1][c] - kAnchors[k][c])));
-  }
-  return out;
-}
-
-double PartOf(const LuxScale& scale, double lux) {
-  if (scale.way == AxisScale::kLinear) return (lux - scale.low) / (scale.high - scale.low);
-  return lux > 0.0 ? std::log(lux / scale.low) / std::log(scale.high / scale.low) : 0.0;
-}
-
-// The next round number, upward or downward.
-double Round(double value, bool up) {
-  const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  constexpr std::array<double, 9> kSteps = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
-  const double mantissa = value / decade;
-  if (up) {
-    for (const double step : kSteps) {
-      if (mantissa <= step * (1.0 + 1e-9)) return step * decade;
-    }
-    return 10.0 * decade;
-  }
-  for (auto step = kSteps.rbegin(); step != kSteps.rend(); ++step) {
-    if (mantissa >= *step * (1.0 - 1e-9)) return *step * decade;
-  }
-  return decade;
-}
-
-struct Range {
-  double dim, bright;  // the twentieth below which a twentieth lies, the brightest
-};
-Range RangeOf(View2d<const float> lux) {
-  std::vector<float> lit;
-  for (int y = 0; y < lux.height(); ++y) {
-    for (const float v : lux.row(y)) {
-      if (v > 0.0F) lit.push_back(v);
-    }
-  }
-  if (lit.empty()) return {0.0, 1.0};
-  const double bright = *std::max_element(lit.begin(), lit.end());
-  const auto twentieth = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 20);
-  std::nth_element(lit.begin(), twentieth, lit.end());
-  return {*twentieth, bright};
-}
 
 // Where things lie on the page.
 struct Layout {
@@ -102,15 +36,8 @@ struct Layout {
     x = axis(f.left, f.right, kLeft, kLeft + width);
     y = axis(f.bottom, f.top, kTop + height, kTop);
   }
-  [[nodiscard]] double bar_left() const { return kLeft + width + kBarGap; }
+  [[nodiscard]] ScaleBar bar() const { return {kLeft + width + kBarGap, kTop, kBarWidth, height}; }
 };
-
-std::string Image(PagePoint at, PagePoint size, std::string_view uri, std::string_view style) {
-  return "<image x=\"" + Px(at.first) + "\" y=\"" + Px(at.second) + "\" width=\"" + Px(size.first) +
-         "\" height=\"" + Px(size.second) +
-         "\" preserveAspectRatio=\"none\" style=\"image-rendering:" + std::string(style) +
-         "\" xlink:href=\"" + std::string(uri) + "\"/>";
-}
 
 std::string Turned(PagePoint at, double degrees, std::string_view css, std::string_view text) {
   return "<text class=\"" + std::string(css) + "\" text-anchor=\"middle\" transform=\"translate(" +
@@ -139,36 +66,6 @@ void DrawAxes(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) {
             {kLeft + layout.width, bottom},
             {kLeft, bottom}},
            true);
-}
-
-Axis BarAxis(const LuxScale& scale, const Layout& layout) {
-  return {scale.way, scale.low, scale.high, kTop + layout.height, kTop};
-}
-
-std::vector<double> Levels(const LuxScale& scale, const Layout& layout) {
-  std::vector<double> levels =
-      TicksOf(BarAxis(scale, layout), std::max(26.0, layout.height / 14.0));
-  std::erase_if(levels, [&](double v) { return !(v > 0.0); });
-  return levels;
-}
-
-void DrawScale(Svg& svg, const LuxScale& scale, const Layout& layout, std::string_view uri) {
-  const double left = layout.bar_left();
-  svg.Element(Image({left, kTop}, {kBarWidth, layout.height}, uri, "auto"));
-  svg.Path("frame",
-           {{left, kTop},
-            {left + kBarWidth, kTop},
-            {left + kBarWidth, kTop + layout.height},
-            {left, kTop + layout.height}},
-           true);
-  const Axis axis = BarAxis(scale, layout);
-  for (const double level : Levels(scale, layout)) {
-    const double at = axis.At(level);
-    svg.Line("frame", {left + kBarWidth, at}, {left + kBarWidth + 5.0, at});
-    svg.Text("tick", {left + kBarWidth + 9.0, at + 4.5}, "start", Figure(level));
-  }
-  svg.Text("axis", {left, kTop - 12.0}, "start",
-           scale.way == AxisScale::kLog ? "lux (log)" : "lux");
 }
 
 // A label lies on its line where the line is straightest and no other label is near.
@@ -226,14 +123,14 @@ class Labels {
   std::vector<PagePoint> taken_;
 };
 
-void DrawIsolux(Svg& svg, const IlluminanceFigure& figure, const LuxScale& scale,
+void DrawIsolux(Svg& svg, const IlluminanceFigure& figure, const ValueScale& scale,
                 const Layout& layout, Labels& labels) {
   const ReducedField field = Reduce(figure.lux, kMostContourSamples);
   const double per_x = layout.width * field.block / figure.lux.width();
   const double per_y = layout.height * field.block / figure.lux.height();
   const double shortest = 12.0;
   std::vector<std::pair<Contour, std::string>> to_label;
-  for (const double level : Levels(scale, layout)) {
+  for (const double level : BarLevels(scale, layout.bar())) {
     std::size_t labelled = 0;
     for (Contour& line : ContoursOf(field.view(), level)) {
       for (PagePoint& p : line) {
@@ -285,51 +182,14 @@ svg .lampdot { fill: #ffffff; }
 
 }  // namespace
 
-LuxScale ScaleFor(View2d<const float> lux, AxisScale way) {
-  const Range range = RangeOf(lux);
-  if (way == AxisScale::kLinear) return {way, 0.0, Round(range.bright, true)};
-  const double least = range.bright * std::pow(10.0, -kMostDecades);
-  double low = Round(std::max(range.dim, least), false);
-  const double high = Round(range.bright, true);
-  if (!(low < 0.5 * high)) low = 0.1 * high;
-  return {way, low, high};
-}
-
-LuxScale ScaleFor(View2d<const float> lux) {
-  const Range range = RangeOf(lux);
-  return ScaleFor(lux,
-                  range.bright > kLinearUpTo * range.dim ? AxisScale::kLog : AxisScale::kLinear);
-}
-
-std::vector<std::uint8_t> FalseColors(View2d<const float> lux, const LuxScale& scale) {
-  std::vector<std::uint8_t> out;
-  out.reserve(3 * static_cast<std::size_t>(lux.width()) * lux.height());
-  for (int y = 0; y < lux.height(); ++y) {
-    for (const float v : lux.row(y)) {
-      const auto color = ColorAt(PartOf(scale, double{v}));
-      out.insert(out.end(), color.begin(), color.end());
-    }
-  }
-  return out;
-}
-
-std::vector<std::uint8_t> ScaleColors(int height) {
-  std::vector<std::uint8_t> out;
-  for (int y = 0; y < height; ++y) {
-    const auto color = ColorAt(1.0 - (y + 0.5) / height);
-    out.insert(out.end(), color.begin(), color.end());
-  }
-  return out;
-}
-
-std::string IlluminancePicture(const IlluminanceFigure& figure, const LuxScale& scale,
+std::string IlluminancePicture(const IlluminanceFigure& figure, const ValueScale& scale,
                                std::string_view image_uri, std::string_view scale_uri) {
   const Layout layout(figure);
   const double notes = kNoteStep * static_cast<double>(figure.notes.size());
   const PagePoint size = {kLeft + layout.width + kRight, kTop + layout.height + kBelow + notes};
   Svg svg("illuminance", figure.title, "Illuminance map in lux, written by lightcal", size);
   svg.Text("title", {kLeft, 28.0}, "start", figure.title);
-  svg.Element(Image({kLeft, kTop}, {layout.width, layout.height}, image_uri, "auto"));
+  svg.Element(ImageElement({kLeft, kTop}, {layout.width, layout.height}, image_uri));
   svg.Element("<clipPath id=\"map\"><rect x=\"" + Px(kLeft) + "\" y=\"" + Px(kTop) + "\" width=\"" +
               Px(layout.width) + "\" height=\"" + Px(layout.height) +
               "\"/></clipPath><g clip-path=\"url(#map)\">");
@@ -341,15 +201,13 @@ std::string IlluminancePicture(const IlluminanceFigure& figure, const LuxScale& 
   DrawLamps(svg, figure, layout);
   svg.Element("</g>");
   DrawAxes(svg, figure, layout);
-  DrawScale(svg, scale, layout, scale_uri);
+  DrawScaleBar(svg, scale, layout.bar(), scale_uri, "lux");
   double y = kTop + layout.height + kBelow + 4.0;
   for (const std::string& note : figure.notes) {
     svg.Text("note", {kLeft, y}, "start", note);
     y += kNoteStep;
   }
-  std::string text = StandaloneSvg(svg.Finish(), kStyle);
-  constexpr std::string_view kNamespace = " xmlns:xlink=\"http://www.w3.org/1999/xlink\"";
-  return text.insert(text.find(" xmlns="), kNamespace);
+  return StandaloneSvg(WithXlink(svg.Finish()), kStyle);
 }
 
 }  // namespace lightcal::report

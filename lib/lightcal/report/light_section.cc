@@ -2,26 +2,15 @@
 #include "lightcal/report/light_section.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "lightcal/colorimetry/cct.h"
-#include "lightcal/colorimetry/rgb_spaces.h"
-#include "lightcal/report/figures.h"
+#include "lightcal/report/plots.h"
+#include "lightcal/report/swatch.h"
 #include "lightcal/report/tables.h"
 #include "lightcal/report/text.h"
 
 namespace lightcal::report {
 namespace {
-
-// IEC 61966-2-1 transfer function, 8 bit, two hex digits.
-std::string EncodedHex(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-  const auto code = static_cast<unsigned int>(std::lround(encoded * 255.0));
-  constexpr std::string_view kHex = "0123456789abcdef";
-  return {kHex[code >> 4U], kHex[code & 0xFU]};
-}
 
 std::string Card(std::string_view label, const std::string& value, const std::string& sub) {
   return "<div class=\"card\"><dt>" + Escaped(label) + "</dt><dd>" + value +
@@ -99,13 +88,10 @@ std::string Cards(const FittedLight& light) {
 }
 
 std::string Title(const FittedLight& light) {
-  const std::string swatch = SwatchOf(light.color);
-  std::string html = "<div class=\"title\">";
-  if (!swatch.empty()) {
-    html += "<span class=\"swatch\" style=\"background:" + swatch + "\"></span>";
-  }
-  return html + "<h2>" + Escaped(light.name) + "</h2><span class=\"kind\">" +
-         std::string(LightKindName(light.kind)) + " light</span></div>\n";
+  const std::string swatch = SwatchOf(light.color).empty() ? "" : "<span class=\"swatch\"></span>";
+  return "<div class=\"title\">" + swatch + "<h2>" + Escaped(light.name) +
+         "</h2><span class=\"kind\">" + std::string(LightKindName(light.kind)) +
+         " light</span></div>\n";
 }
 
 std::string Hero(const FittedLight& light) {
@@ -127,61 +113,43 @@ std::string Hero(const FittedLight& light) {
   return html + "<p class=\"soft\">" + line + "</p>\n";
 }
 
+// Three numbers, or one of many digits.
+constexpr std::size_t kLongValue = 11;
+
+// The value is selected whole by one click, without a script.
+std::string EngineCard(const EngineFigure& figure) {
+  return "<li><h4>" + Escaped(figure.engine) + "</h4><p class=\"field\">" + Escaped(figure.field) +
+         "</p><p class=\"number\"><span class=\"" +
+         (figure.value.size() > kLongValue ? "copy long" : "copy") + "\">" + Escaped(figure.value) +
+         "</span>" +
+         (figure.unit.empty() ? "" : " <span class=\"unit\">" + Escaped(figure.unit) + "</span>") +
+         "</p>" +
+         (figure.note.empty() ? "" : "<p class=\"note\">" + Escaped(figure.note) + "</p>") +
+         "</li>\n";
+}
+
 std::string TypeIn(const std::string& light, const std::vector<EngineFigure>& figures) {
-  std::string rows;
+  std::string cards;
   for (const EngineFigure& figure : figures) {
-    if (figure.light != light) continue;
-    rows += "<tr><th scope=\"row\">" + Escaped(figure.engine) + "</th><td>" +
-            Escaped(figure.field) + "</td><td class=\"value\">" + Escaped(figure.value) +
-            "</td><td class=\"soft note\">" + Escaped(figure.note) + "</td></tr>\n";
+    if (figure.light == light) cards += EngineCard(figure);
   }
-  if (rows.empty()) return "";
-  return "<div class=\"block below\"><h3>The number to type in</h3>"
-         "<div class=\"scroll\"><table class=\"typein\"><tbody>\n" +
-         rows + "</tbody></table></div></div>\n";
+  if (cards.empty()) return "";
+  return "<div class=\"below\"><h3>The number to type in</h3><ul class=\"engines\">\n" + cards +
+         "</ul></div>\n";
 }
 
-std::string Key(std::string_view mark, std::string_view label) {
-  return "<span class=\"key\"><svg viewBox=\"0 0 22 12\" aria-hidden=\"true\">" +
-         std::string(mark) + "</svg>" + std::string(label) + "</span>";
-}
-
-std::string FigureBlock(const std::string& svg, std::string_view heading,
-                        const std::string& caption) {
+std::string FigureBlock(const LightPlot& plot, const FittedLight& light, const ReportExtras& extras,
+                        const std::string& prefix) {
+  const std::string svg = plot.draw(light, extras, prefix + std::string(plot.name));
   if (svg.empty()) return "";
-  return "<figure>\n<h3>" + std::string(heading) + "</h3>\n" + svg + "<figcaption>" + caption +
-         "</figcaption>\n</figure>\n";
+  return "<figure>\n<h3>" + std::string(plot.heading) + "</h3>\n" + svg + "<figcaption>" +
+         plot.caption(light, extras) + "</figcaption>\n</figure>\n";
 }
 
-std::string ReadingKeys(const FittedLight& light) {
-  const bool rejected =
-      std::ranges::any_of(light.residuals, [](const ResidualRow& row) { return !row.used; });
-  return Key("<line class=\"whisker\" x1=\"11\" y1=\"0\" x2=\"11\" y2=\"12\"/>"
-             "<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>",
-             "reading with its 95 %") +
-         (rejected ? Key("<path class=\"rejected\" d=\"M7 2L15 10M7 10L15 2\"/>", "rejected") : "");
-}
-
-std::string Figures(const FittedLight& light, const std::string& prefix) {
-  const std::string model =
-      Key("<line class=\"model\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>", "model");
-  const std::string band =
-      Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>", "its 95 % band");
-  std::string html =
-      FigureBlock(DistanceFigure(light, prefix + "distance"), "Illuminance against distance",
-                  ReadingKeys(light) + model + (light.covariance_lnI_d0_E0 ? band : ""));
-  html += FigureBlock(ResidualFigure(light, prefix + "residual"), "Distance from the model",
-                      ReadingKeys(light));
-  html += FigureBlock(PolarFigure(light, prefix + "polar"), "Intensity by direction", "");
-  html += FigureBlock(
-      ChromaticityFigure(light, prefix + "chromaticity"), "Chromaticity, CIE 1976 u′v′",
-      Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "light") +
-          (light.color.cct_K ? Key("<ellipse class=\"ellipse\" cx=\"11\" cy=\"6\" rx=\"9\" "
-                                   "ry=\"5\"/>",
-                                   "its 95 % region")
-                             : "") +
-          Key("<line class=\"locus\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>", "Planckian locus") +
-          Key("<line class=\"guide\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>", "Duv ±0.006"));
+std::string Figures(const FittedLight& light, const ReportExtras& extras,
+                    const std::string& prefix) {
+  std::string html;
+  for (const LightPlot& plot : LightPlots()) html += FigureBlock(plot, light, extras, prefix);
   return "<div class=\"figures\">\n" + html + FitTable(light.fit) + "</div>\n";
 }
 
@@ -199,17 +167,6 @@ Headline HeadlineOf(const FittedLight& light) {
   return {};
 }
 
-std::string SwatchOf(const FittedColor& color) {
-  std::optional<Xy> xy = color.xy;
-  if (!xy && color.cct_K && color.cct_K->value > 0.0) {
-    xy = XyFromCct(Kelvin(color.cct_K->value), color.duv ? color.duv->value : 0.0);
-  }
-  if (!xy || !(xy->y > 0.0)) return "";
-  const Rgb c = LinearRgbFromXyz(XyzFromXyAtUnitY(*xy), RgbSpace::kSrgb);
-  const double largest = std::max({c.r, c.g, c.b});
-  return "#" + EncodedHex(c.r / largest) + EncodedHex(c.g / largest) + EncodedHex(c.b / largest);
-}
-
 std::string DecidedBy(const FitDiagnostics& fit, std::string_view parameter) {
   if (std::ranges::find(fit.learned, parameter) != fit.learned.end()) return "learned";
   if (std::ranges::find(fit.prior, parameter) != fit.prior.end()) return "prior";
@@ -217,13 +174,19 @@ std::string DecidedBy(const FitDiagnostics& fit, std::string_view parameter) {
 }
 
 std::string LightSection(const FittedLight& light, int index, bool alone,
-                         const std::vector<EngineFigure>& figures) {
-  const std::string prefix = "light-" + std::to_string(index) + "-";
-  std::string html = std::string("<section class=\"light") + (alone ? " only" : "") +
-                     "\" id=\"light-" + std::to_string(index) + "\">\n";
-  html += Title(light) + Hero(light) + Cards(light) + TypeIn(light.name, figures);
-  html += Figures(light, prefix);
-  html += Below(ReadingTable(light.residuals)) + Below(BudgetTable(light.budget)) +
+                         const ReportExtras& extras) {
+  const std::string id = "light-" + std::to_string(index);
+  const std::string swatch = SwatchOf(light.color);
+  const std::string lamp = swatch.empty() ? "" : " style=\"--lamp:" + swatch + "\"";
+  std::string html = std::string("<section class=\"light") +
+                     (alone        ? " only"
+                      : index == 0 ? " first"
+                                   : "") +
+                     "\" id=\"" + id + "\"" + lamp + ">\n<div class=\"summary\">\n<div>\n";
+  html += Title(light) + Hero(light) + "</div>\n" + Cards(light) + "</div>\n";
+  html += TypeIn(light.name, extras.figures) + Figures(light, extras, id + "-");
+  html += Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.parity)) +
+          Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
           Below(EffectTable(light.effects));
   return html + "</section>\n";
 }

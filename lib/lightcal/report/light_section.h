@@ -2,10 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "lightcal/records/fitted_light.h"
-#include "lightcal/report/page.h"
+#include "lightcal/report/report_extras.h"
 
 namespace lightcal::report {
 
@@ -16,15 +16,12 @@ struct Headline {
 };
 [[nodiscard]] Headline HeadlineOf(const FittedLight& light);
 
-// "#ffd3a1": the light's colour at full brightness, sRGB; empty when its colour is unknown.
-[[nodiscard]] std::string SwatchOf(const FittedColor& color);
-
 // "learned", "prior" or "": who decided a parameter.
 [[nodiscard]] std::string DecidedBy(const FitDiagnostics& fit, std::string_view parameter);
 
 // The section of one light: headline, cards, what to type in, figures, tables. index makes ids
 // unique; alone says that the page has no other light.
 [[nodiscard]] std::string LightSection(const FittedLight& light, int index, bool alone,
-                                       const std::vector<EngineFigure>& figures);
+                                       const ReportExtras& extras);
 
 }  // namespace lightcal::report

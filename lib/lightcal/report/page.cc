@@ -61,17 +61,15 @@ std::string Overview(const LightFile& file) {
   return html + "</tbody></table></div>\n";
 }
 
-// The tolerance that the effects were judged by is not kept in a light.json: the usual one.
-constexpr double kUsualTolerance = 0.01;
-
 std::string GateSection(const LightFile& file) {
-  if (std::ranges::all_of(file.lights, [](const FittedLight& l) { return l.effects.empty(); })) {
-    return "";
-  }
+  if (!report::HasEffects(file.lights)) return "";
   return "<section class=\"light\" id=\"gate\">\n<h2>What the effect gate saves</h2>\n"
-         "<figure>\n" +
-         report::GateFigure(file.lights, kUsualTolerance, "gate-figure") +
-         "<figcaption>Every effect a reading may hold has a price and a bound. The gate leaves "
+         "<figure>\n<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Cost and "
+         "error "
+         "of the gate\">" +
+         report::GateFigure(file.lights, report::kUsualTolerance, "gate-figure") +
+         "</div><figcaption>Every effect a reading may hold has a price and a bound. The gate "
+         "leaves "
          "effects off while all of them together stay within the tolerance, so that the cost "
          "follows the scene. Below the line the lights of this page: of what was left off only "
          "the bound is known.</figcaption>\n</figure>\n</section>\n";
@@ -86,7 +84,7 @@ std::string Footer(const Provenance& provenance) {
       "axis, d₀ positive when the effective source lies behind the point the distance was measured "
       "from, E₀ the ambient light. Readings are numbered from 0. <em>Learned</em> means that the "
       "readings decided, <em>prior</em> that lightcal's expectation did.</p>\n"
-      "<h3 style=\"margin-top:24px\">Provenance</h3>\n<p class=\"small\">Written by " +
+      "<h3>Provenance</h3>\n<p class=\"small\">Written by " +
       Escaped(Generator(provenance)) + ".</p>\n";
   if (provenance.inputs.empty()) return html + "</footer>\n";
   html +=
@@ -101,8 +99,7 @@ std::string Footer(const Provenance& provenance) {
 
 }  // namespace
 
-std::string ReportPage(const LightFile& file, std::string_view title,
-                       const std::vector<EngineFigure>& figures) {
+std::string ReportPage(const LightFile& file, std::string_view title, const ReportExtras& extras) {
   const std::string name = Escaped(title);
   std::string html =
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
@@ -110,13 +107,13 @@ std::string ReportPage(const LightFile& file, std::string_view title,
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n"
       "<meta name=\"generator\" content=\"" +
       Escaped(Generator(file.provenance)) + "\"/>\n<title>" + name +
-      " · lightcal</title>\n<style>" + std::string(report::StyleSheet()) +
+      " · lightcal</title>\n<style>" + report::StyleSheet() +
       "</style>\n</head>\n<body>\n<main>\n<header>\n<h1>" + name + "</h1>\n<p class=\"lead\">" +
       Escaped(Lead(file)) + "</p>\n</header>\n";
   html += Overview(file);
   for (std::size_t i = 0; i < file.lights.size(); ++i) {
     html +=
-        report::LightSection(file.lights[i], static_cast<int>(i), file.lights.size() == 1, figures);
+        report::LightSection(file.lights[i], static_cast<int>(i), file.lights.size() == 1, extras);
   }
   html += GateSection(file);
   return html + Footer(file.provenance) + "</main>\n</body>\n</html>\n";

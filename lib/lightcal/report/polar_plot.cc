@@ -24,6 +24,7 @@ struct Layout {
   double radius = 0.0;  // of the outermost ring
   bool whole = false;   // both hemispheres
   Axis rings;
+  double ring_gap = 34.0;
 
   // out: angle from straight down, positive to the right.
   [[nodiscard]] PagePoint At(double candela, double out) const {
@@ -59,10 +60,14 @@ Layout LayoutOf(const IntensityTable& table) {
   Layout layout;
   constexpr double kVisible = 0.005;  // of the peak
   layout.whole = LargestAbove(table) > kVisible * table.peak().intensity.value();
-  layout.radius = layout.whole ? 128.0 : 206.0;
+  layout.radius = layout.whole ? 128.0 : 192.0;
   layout.centre = {kFigureWidth / 2.0, layout.whole ? 180.0 : 52.0};
   layout.rings = {AxisScale::kLinear, 0.0, table.peak().intensity.value(), 0.0,
-                  layout.whole ? 122.0 : 198.0};
+                  layout.whole ? 122.0 : 184.0};
+  // Their numbers stand side by side.
+  constexpr double kCharacter = 9.0, kSpace = 8.0;
+  const auto length = static_cast<double>(Figure(std::round(layout.rings.high)).size());
+  layout.ring_gap = std::max(layout.ring_gap, kCharacter * length + kSpace);
   return layout;
 }
 
@@ -73,12 +78,8 @@ void DrawGrid(Svg& svg, const Layout& layout) {
     for (int i = -90; i <= 90; ++i) points.push_back(layout.At(candela, most * i / 90.0));
     return points;
   };
-  const double gap = layout.whole ? 26.0 : 34.0;
-  for (const double candela : TicksOf(layout.rings, gap)) {
-    if (!(candela > 0.0)) continue;
-    svg.Path("ring", arc(candela));
-    const PagePoint at = layout.At(candela, 0.0);
-    svg.Text("tick", {at.first + 4.0, at.second - 3.0}, "start", Figure(candela));
+  for (const double candela : TicksOf(layout.rings, layout.ring_gap)) {
+    if (candela > 0.0) svg.Path("ring", arc(candela));
   }
   const double edge = layout.rings.high * layout.radius / layout.rings.to_px;
   for (double deg = 0.0; deg <= DegreesFromRadians(Radians(most)) + 1e-9; deg += kSpokeDeg) {
@@ -95,14 +96,24 @@ void DrawGrid(Svg& svg, const Layout& layout) {
   }
 }
 
+// Along the horizon, where few lamps shine.
+void DrawRingLabels(Svg& svg, const Layout& layout) {
+  for (const double candela : TicksOf(layout.rings, layout.ring_gap)) {
+    if (!(candela > 0.0)) continue;
+    const PagePoint at = layout.At(candela, 0.5 * kPi);
+    svg.Text("tick halo", {at.first, at.second - 6.0}, "middle", Figure(candela));
+  }
+}
+
 void DrawPlane(Svg& svg, const Layout& layout, const IntensityTable& table, double plane,
-               std::string_view css) {
+               std::string_view css, bool filled = false) {
   std::vector<PagePoint> points;
   const double most = layout.whole ? kPi : 0.5 * kPi;
   for (int i = -kSteps / 2; i <= kSteps / 2; ++i) {
     const double out = most * 2.0 * i / kSteps;
     points.push_back(layout.At(CandelaAt(table, plane, out), out));
   }
+  if (filled) svg.Path("band", points, true);
   svg.Path(css, points);
 }
 
@@ -125,15 +136,17 @@ void DrawKey(Svg& svg, const IntensityTable& table, bool two_planes) {
                         Fixed(DegreesFromRadians(LobeWidthsAt(table, 0.1).mean), 1) + "°");
 }
 
-std::string Draw(const IntensityTable& table, std::string_view title, std::string_view id) {
-  Svg svg(std::string(id), title,
+// heading: drawn above the diagram; "" where the page has one.
+std::string Draw(const IntensityTable& table, std::string_view heading, std::string_view id) {
+  Svg svg(std::string(id), heading.empty() ? "Intensity by direction" : heading,
           "Polar diagram of luminous intensity in candela, written by lightcal");
   const Layout layout = LayoutOf(table);
   const bool two_planes = table.symmetry() != TableSymmetry::kAxial;
   DrawGrid(svg, layout);
   if (two_planes) DrawPlane(svg, layout, table, 0.5 * kPi, "second");
-  DrawPlane(svg, layout, table, 0.0, "model");
-  svg.Text("", {14.0, 18.0}, "start", title);
+  DrawPlane(svg, layout, table, 0.0, "model", true);
+  DrawRingLabels(svg, layout);
+  if (!heading.empty()) svg.Text("", {14.0, 18.0}, "start", heading);
   svg.Text("note", {kFigureWidth - 14.0, 18.0}, "end", "cd");
   DrawKey(svg, table, two_planes);
   return svg.Finish();
@@ -142,7 +155,7 @@ std::string Draw(const IntensityTable& table, std::string_view title, std::strin
 }  // namespace
 
 std::string PolarFigure(const FittedLight& light, std::string_view id) {
-  return light.distribution ? Draw(light.distribution->table, light.name, id) : "";
+  return light.distribution ? Draw(light.distribution->table, "", id) : "";
 }
 
 std::string PolarPlot(const IntensityTable& table, std::string_view title) {

@@ -10,7 +10,7 @@
 namespace lightcal::report {
 namespace {
 
-constexpr double kTickGapX = 40.0;
+constexpr double kTickGapX = 48.0;
 constexpr double kTickGapY = 26.0;
 constexpr PlotArea kArea;
 
@@ -38,15 +38,15 @@ std::vector<std::string> TickLabels(const Axis& axis, const std::vector<double>&
   return labels;
 }
 
+}  // namespace
+
+std::string Px(double value) { return ShortestText(std::round(value * 100.0) / 100.0); }
+
 std::string PathData(const std::vector<PagePoint>& points, bool closed) {
   std::string data;
   for (const auto& [x, y] : points) data += (data.empty() ? "M" : "L") + Px(x) + " " + Px(y);
   return data + (closed ? "Z" : "");
 }
-
-}  // namespace
-
-std::string Px(double value) { return ShortestText(std::round(value * 100.0) / 100.0); }
 
 const PlotArea& Svg::Area() { return kArea; }
 

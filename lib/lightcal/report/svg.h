@@ -17,6 +17,9 @@ namespace lightcal::report {
 
 using PagePoint = std::pair<double, double>;
 
+// "M1 2L3 4", and Z where the last joins the first.
+[[nodiscard]] std::string PathData(const std::vector<PagePoint>& points, bool closed);
+
 inline constexpr double kFigureWidth = 480.0;
 inline constexpr double kFigureHeight = 340.0;
 

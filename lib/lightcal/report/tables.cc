@@ -2,6 +2,7 @@
 #include "lightcal/report/tables.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/svg.h"
@@ -38,6 +39,17 @@ std::string Cell(std::string_view html, bool number = false) {
 // Illuminance with the digits a meter shows.
 std::string Illuminance(double lux) {
   return Figure(lux == 0.0 ? 0.0 : ParseNumber(RoundedText(lux, 4)).value_or(lux));
+}
+
+// 100 px for all of it.
+std::string Bar(double part) {
+  return "<span class=\"share\" style=\"width:" + Px(100.0 * part) + "px\"></span>";
+}
+
+// What rounds to nothing has no sign.
+std::string Residual(double relative) {
+  constexpr double kNothing = 5e-5;
+  return std::abs(relative) < kNothing ? "0.00\u00A0%" : SignedPercent(relative);
 }
 
 const char* StateWord(EffectState state) {
@@ -84,7 +96,7 @@ std::string FitTable(const FitDiagnostics& fit) {
 std::string ReadingTable(const std::vector<ResidualRow>& rows) {
   if (rows.empty()) return "";
   std::string html =
-      "<div class=\"block\"><h3>Readings against the model</h3><div class=\"scroll\"><table><thead>"
+      "<div class=\"block\"><h3>Readings against the model</h3><table class=\"readings\"><thead>"
       "<tr><th class=\"n\" scope=\"col\">no.</th><th class=\"n\" scope=\"col\">distance</th>"
       "<th class=\"n\" scope=\"col\">measured</th><th class=\"n\" scope=\"col\">model</th>"
       "<th class=\"n\" scope=\"col\">residual</th></tr></thead><tbody>\n";
@@ -98,33 +110,77 @@ std::string ReadingTable(const std::vector<ResidualRow>& rows) {
         Cell(row.used ? residual : "<span class=\"off\">" + residual + " rejected</span>", true) +
         "</tr>\n";
   }
-  return html + "</tbody></table></div></div>\n";
+  return html + "</tbody></table></div>\n";
+}
+
+std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows) {
+  std::string body;
+  const ParityRow* any = nullptr;
+  for (const ParityRow& row : rows) {
+    if (row.light != light) continue;
+    any = &row;
+    body += "<tr><th scope=\"row\">" + Escaped(row.engine) +
+            "</th><td class=\"n\" data-label=\"gives \">" + Illuminance(row.engine_lx) +
+            "\u00A0lx</td><td class=\"n\" data-label=\"off by \">" +
+            Residual(row.engine_lx / row.expected_lx - 1.0) + "</td><td data-label=\"law \">" +
+            Escaped(row.law) + "</td><td class=\"note\"><span " + "class=\"" +
+            (row.rendered ? "ran" : "notran") + "\">" + Escaped(row.executed) +
+            "</span></td></tr>\n";
+  }
+  if (any == nullptr) return "";
+  const std::string where = any->distance_m > 0.0
+                                ? "At " + Figure(any->distance_m) + "\u00A0m the lamp gives "
+                                : "Facing it, the lamp gives ";
+  return "<div class=\"block\"><h3>The same lux in every engine</h3><p class=\"small soft\">" +
+         where + Illuminance(any->expected_lx) +
+         "\u00A0lx without ambient light. What the numbers above give there by each engine’s own "
+         "law:</p><table class=\"stack parity\"><thead><tr><th scope=\"col\">engine</th>"
+         "<th class=\"n\" scope=\"col\">gives</th><th class=\"n\" scope=\"col\">off by</th>"
+         "<th scope=\"col\">its falloff</th><th scope=\"col\">how its exporter was "
+         "checked</th></tr></thead><tbody>\n" +
+         body + "</tbody></table></div>\n";
 }
 
 std::string BudgetTable(const std::vector<BudgetPart>& budget) {
   if (budget.empty()) return "";
   std::string html =
-      "<div class=\"block\"><h3>Where the uncertainty comes from</h3><div class=\"scroll\"><table "
-      "class=\"effects\"><thead><tr><th scope=\"col\">cause</th>"
+      "<div class=\"block\"><h3>Where the uncertainty comes from</h3><table "
+      "class=\"stack\"><thead><tr><th scope=\"col\">cause</th>"
       "<th class=\"n\" scope=\"col\">alone (1 σ)</th>"
-      "<th class=\"n\" scope=\"col\">share of u²</th><th scope=\"col\"></th>"
+      "<th class=\"n\" scope=\"col\">share of u²</th><td></td>"
       "<th scope=\"col\">what would halve it</th></tr></thead><tbody>\n";
   for (const BudgetPart& part : budget) {
     if (part.share < kLeastShareShown) continue;
     html += "<tr><th scope=\"row\">" + Words(part.name) +
             "</th><td class=\"n\" data-label=\"alone \">" + Percent(part.sd_relative) +
-            "</td><td class=\"n\" data-label=\"share \">" + Percent(part.share) +
-            "</td><td><span class=\"share\" style=\"width:" + Px(100.0 * part.share) +
-            "px\"></span></td><td class=\"note\">" + Escaped(part.halve) + "</td></tr>\n";
+            "</td><td class=\"n\" data-label=\"share \">" + Percent(part.share) + "</td><td>" +
+            Bar(part.share) + "</td><td class=\"note\">" + Escaped(part.halve) + "</td></tr>\n";
   }
-  return html + "</tbody></table></div></div>\n";
+  return html + "</tbody></table></div>\n";
+}
+
+std::string DistributionBudgetTable(const FittedLight& light) {
+  if (!light.distribution || light.distribution->budget.empty()) return "";
+  double most = 0.0;
+  for (const auto& part : light.distribution->budget) most = std::max(most, part.peak);
+  std::string html =
+      "<div class=\"block\"><h3>Where the uncertainty comes from</h3><table class=\"stack\"><thead>"
+      "<tr><th scope=\"col\">cause</th><th class=\"n\" scope=\"col\">of the peak (1 σ)</th>"
+      "<th class=\"n\" scope=\"col\">of the flux (1 σ)</th><td></td></tr></thead><tbody>\n";
+  for (const auto& part : light.distribution->budget) {
+    html += "<tr><th scope=\"row\">" + Words(part.name) +
+            "</th><td class=\"n\" data-label=\"peak \">" + Percent(part.peak) +
+            "</td><td class=\"n\" data-label=\"flux \">" + Percent(part.flux) + "</td><td>" +
+            Bar(most > 0.0 ? part.peak / most : 0.0) + "</td></tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
 }
 
 std::string EffectTable(const std::vector<EffectReport>& effects) {
   if (effects.empty()) return "";
   std::string html =
-      "<div class=\"block\"><h3>Effects considered</h3><div class=\"scroll\"><table "
-      "class=\"effects\"><thead><tr>"
+      "<div class=\"block\"><h3>Effects considered</h3><table "
+      "class=\"stack effects\"><thead><tr>"
       "<th scope=\"col\">effect</th><th scope=\"col\">state</th>"
       "<th class=\"n\" scope=\"col\">at most</th><th class=\"n\" scope=\"col\">found</th>"
       "<th class=\"n\" scope=\"col\">cost</th><th scope=\"col\">why</th></tr></thead><tbody>\n";
@@ -136,7 +192,7 @@ std::string EffectTable(const std::vector<EffectReport>& effects) {
             RoundedText(effect.cost_ns, 3) + "\u00A0ns</td><td class=\"note\">" +
             Escaped(effect.reason) + "</td></tr>\n";
   }
-  return html + "</tbody></table></div></div>\n";
+  return html + "</tbody></table></div>\n";
 }
 
 }  // namespace lightcal::report

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/records/fitted_light.h"
+#include "lightcal/report/report_extras.h"
 
 namespace lightcal::report {
 
@@ -19,8 +20,12 @@ namespace lightcal::report {
 [[nodiscard]] std::string FitTable(const FitDiagnostics& fit);
 // Every reading against the model.
 [[nodiscard]] std::string ReadingTable(const std::vector<ResidualRow>& rows);
+// What each engine makes of the light where a meter stood, and whether the engine was run.
+[[nodiscard]] std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows);
 // Where the uncertainty comes from: share of the variance, and what would halve each part.
 [[nodiscard]] std::string BudgetTable(const std::vector<BudgetPart>& budget);
+// The same of a measured distribution: standard deviations of its peak and its flux by cause.
+[[nodiscard]] std::string DistributionBudgetTable(const FittedLight& light);
 
 // The gate: what was considered, at most how large, what came of it.
 [[nodiscard]] std::string EffectTable(const std::vector<EffectReport>& effects);

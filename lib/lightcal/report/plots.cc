@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/report/plots.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "lightcal/report/color_vector_graphic.h"
+#include "lightcal/report/figures.h"
+#include "lightcal/report/gate_figure.h"
+#include "lightcal/report/luminance_figure.h"
+#include "lightcal/report/spectrum_figure.h"
+#include "lightcal/report/style.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+constexpr std::string_view kGate = "gate";
+
+// The first that belongs to the light; null where none does.
+template <class Item>
+const Item* FirstOf(const std::vector<Item>& items, const FittedLight& light) {
+  const auto found = std::ranges::find(items, light.name, &Item::light);
+  return found == items.end() ? nullptr : &*found;
+}
+
+std::string Key(std::string_view mark, std::string_view label) {
+  return "<span class=\"key\"><svg viewBox=\"0 0 22 12\" aria-hidden=\"true\">" +
+         std::string(mark) + "</svg>" + std::string(label) + "</span>";
+}
+
+std::string LineKey(std::string_view css, std::string_view label) {
+  return Key("<line class=\"" + std::string(css) + "\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>",
+             label);
+}
+
+std::string ReadingKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  const bool rejected =
+      std::ranges::any_of(light.residuals, [](const ResidualRow& row) { return !row.used; });
+  return Key("<line class=\"whisker\" x1=\"11\" y1=\"0\" x2=\"11\" y2=\"12\"/>"
+             "<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>",
+             "reading with its 95 %") +
+         (rejected ? Key("<path class=\"rejected\" d=\"M7 2L15 10M7 10L15 2\"/>", "rejected") : "");
+}
+
+std::string DistanceKeys(const FittedLight& light, const ReportExtras& extras) {
+  const std::string band =
+      Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>", "its 95 % band");
+  return ReadingKeys(light, extras) + LineKey("model", "model") +
+         (light.covariance_lnI_d0_E0 ? band : "");
+}
+
+std::string ChromaticityKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  return Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "light") +
+         (light.color.cct_K
+              ? Key("<ellipse class=\"ellipse\" cx=\"11\" cy=\"6\" rx=\"9\" ry=\"5\"/>",
+                    "its 95 % region")
+              : "") +
+         LineKey("locus", "Planckian locus") + LineKey("guide", "Duv ±0.006");
+}
+
+std::string DrawSpectrum(const FittedLight& light, const ReportExtras& extras,
+                         std::string_view id) {
+  const LightSpectrum* spectrum = FirstOf(extras.spectra, light);
+  return spectrum == nullptr ? "" : SpectrumFigure(*spectrum, id);
+}
+
+std::string SpectrumCaption(const FittedLight& light, const ReportExtras& extras) {
+  const LightSpectrum& spectrum = *FirstOf(extras.spectra, light);
+  std::string text = "<code>" + Escaped(spectrum.file) + "</code>";
+  if (spectrum.rendering) text += " · CRI Ra <b>" + Fixed(spectrum.rendering->Ra, 0) + "</b>";
+  return text;
+}
+
+std::string DrawTm30(const FittedLight& light, const ReportExtras& extras, std::string_view id) {
+  const LightSpectrum* spectrum = FirstOf(extras.spectra, light);
+  if (spectrum == nullptr || !spectrum->rendering) return "";
+  return ColorVectorFigure(spectrum->rendering->fidelity, spectrum->rendering->gamut, light.name,
+                           id);
+}
+
+std::string Tm30Keys(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
+  return LineKey("reference", "reference light") + LineKey("gamut", "this light") +
+         Key("<line class=\"shift\" x1=\"2\" y1=\"6\" x2=\"16\" y2=\"6\"/>"
+             "<circle class=\"used\" cx=\"17\" cy=\"6\" r=\"4\"/>",
+             "shift of a hue");
+}
+
+std::string PolarCaption(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
+  return "candela by the angle from the aim, which points down";
+}
+
+std::string DrawLuminance(const FittedLight& light, const ReportExtras& extras,
+                          std::string_view id) {
+  const LuminancePicture* picture = FirstOf(extras.pictures, light);
+  return picture == nullptr ? "" : LuminanceFigure(*picture, id);
+}
+
+std::string LuminanceCaption(const FittedLight& light, const ReportExtras& extras) {
+  const LuminancePicture& picture = *FirstOf(extras.pictures, light);
+  return "the picture of the " + Escaped(picture.what) + " in false colours" +
+         (picture.region ? ", framed what was measured" : "");
+}
+
+template <std::string (*kDraw)(const FittedLight&, std::string_view)>
+std::string OfLight(const FittedLight& light, const ReportExtras& /*extras*/, std::string_view id) {
+  return kDraw(light, id);
+}
+
+constexpr std::array kLightPlots = {
+    LightPlot{"distance", "Illuminance against distance", &OfLight<DistanceFigure>, &DistanceKeys},
+    LightPlot{"residuals", "Distance from the model", &OfLight<ResidualFigure>, &ReadingKeys},
+    LightPlot{"luminance", "Luminance", &DrawLuminance, &LuminanceCaption},
+    LightPlot{"polar", "Intensity by direction", &OfLight<PolarFigure>, &PolarCaption},
+    LightPlot{"chromaticity", "Chromaticity, CIE 1976 u′v′", &OfLight<ChromaticityFigure>,
+              &ChromaticityKeys},
+    LightPlot{"spectrum", "Spectrum", &DrawSpectrum, &SpectrumCaption},
+    LightPlot{"tm30", "Colour rendering, TM-30", &DrawTm30, &Tm30Keys},
+};
+
+}  // namespace
+
+std::span<const LightPlot> LightPlots() { return kLightPlots; }
+
+std::vector<std::string_view> PlotNames() {
+  std::vector<std::string_view> names;
+  for (const LightPlot& plot : kLightPlots) names.push_back(plot.name);
+  names.push_back(kGate);
+  return names;
+}
+
+std::vector<PlotFile> PlotFilesOf(std::string_view name, const LightFile& file,
+                                  const ReportExtras& extras) {
+  std::vector<PlotFile> files;
+  if (name == kGate && HasEffects(file.lights)) {
+    files.push_back({"", GatePlot(file.lights, kUsualTolerance)});
+  }
+  const auto plot = std::ranges::find(kLightPlots, name, &LightPlot::name);
+  if (plot == kLightPlots.end()) return files;
+  for (const FittedLight& light : file.lights) {
+    std::string svg = plot->draw(light, extras, name);
+    if (!svg.empty()) files.push_back({light.name, StandaloneSvg(std::move(svg))});
+  }
+  return files;
+}
+
+}  // namespace lightcal::report
