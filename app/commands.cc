@@ -14,7 +14,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
     {"run", "The main job: fit a session, write light.json, every preset and report.html",
      "  lightcal run sample_data/sessions/three_real_lights\n"
-     "  lightcal run my_lamp -o calibrated --to gltf", BuildRun},
+     "  lightcal run my_lamp -o calibrated --to gltf\n"
+     "  lightcal run sample_data/sessions -o calibrated --jobs 2 --resume --summary summary.json",
+     BuildRun},
     {"devices", "Meters and cameras found, whether they may be used, how each was verified",
      "  lightcal devices\n"
      "  lightcal devices --json", BuildDevices},
