@@ -82,6 +82,9 @@ constexpr CommandRow kCommands[] = {
     {"report", "One self-contained page: figures, plots, how sure and why, provenance",
      "  lightcal report sample_data/sessions/amaran_200x_s_bare -o report.html\n"
      "  lightcal report out/light.json -o report.html", BuildReport},
+    {"validate", "Whether files are whole: sessions, lights, presets, tapes, IES, spectra ...",
+     "  lightcal validate sample_data/sessions sample_data/photometric/sample2.ldt\n"
+     "  lightcal validate out/light.json --json", BuildValidate},
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"
