@@ -82,6 +82,11 @@ constexpr CommandRow kCommands[] = {
     {"report", "One self-contained page: figures, plots, how sure and why, provenance",
      "  lightcal report sample_data/sessions/amaran_200x_s_bare -o report.html\n"
      "  lightcal report out/light.json -o report.html", BuildReport},
+    {"diff", "Whether lamps changed between two calibrations, beyond what both are unsure of",
+     "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json\n"
+     "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json "
+     "--correlation 0.5 --json",
+     BuildDiff},
     {"validate", "Whether files are whole: sessions, lights, presets, tapes, IES, spectra ...",
      "  lightcal validate sample_data/sessions sample_data/photometric/sample2.ldt\n"
      "  lightcal validate out/light.json --json", BuildValidate},
