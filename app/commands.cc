@@ -87,6 +87,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json "
      "--correlation 0.5 --json",
      BuildDiff},
+    {"lights", "A library of fitted lights: add, search, compare on one sheet",
+     "  lightcal lights add sample_data/lights/desk_lamp_june.json\n"
+     "  lightcal lights list --cct 2500..3500 --cd 10..\n"
+     "  lightcal lights --library sample_data/lights sheet -o sheet.html", BuildLights},
     {"validate", "Whether files are whole: sessions, lights, presets, tapes, IES, spectra ...",
      "  lightcal validate sample_data/sessions sample_data/photometric/sample2.ldt\n"
      "  lightcal validate out/light.json --json", BuildValidate},

@@ -28,6 +28,7 @@ Run BuildExport(CLI::App& parser);
 Run BuildCheck(CLI::App& parser);
 Run BuildReport(CLI::App& parser);
 Run BuildDiff(CLI::App& parser);
+Run BuildLights(CLI::App& parser);
 Run BuildValidate(CLI::App& parser);
 Run BuildPhotometric(CLI::App& parser);
 Run BuildConvert(CLI::App& parser);
