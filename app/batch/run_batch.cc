@@ -193,7 +193,8 @@ std::string Counted(const std::vector<Outcome>& outcomes) {
       text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + std::string(kStatusNames[s]);
     }
   }
-  return std::to_string(outcomes.size()) + " sessions: " + text;
+  const std::string sessions = outcomes.size() == 1 ? " session: " : " sessions: ";
+  return std::to_string(outcomes.size()) + sessions + text;
 }
 
 std::optional<Error> WorstOf(const std::vector<Outcome>& outcomes) {
