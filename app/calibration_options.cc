@@ -10,6 +10,10 @@ namespace lightcal::app {
 
 void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options) {
   parser.add_option("session", options.session, "Session directory or .toml file")->required();
+  AddCalibrationSettings(parser, options);
+}
+
+void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options) {
   parser
       .add_option_function<std::string>(
           "--tol",

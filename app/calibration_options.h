@@ -26,6 +26,8 @@ struct CalibrationOptions {
 
 // Adds SESSION, --tol, --effects and --profile; `options` must outlive parsing.
 void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
+// The same without SESSION, for commands that take several.
+void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options);
 
 // What the options ask for, and CalibrateSession by it. Wrong usage: a tolerance outside 0..1.
 // Refused as AccuracyProfileFromJson.

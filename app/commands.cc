@@ -17,7 +17,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal new my_lamp --force --yes", BuildNew},
     {"run", "The main job: fit a session, write light.json, every preset and report.html",
      "  lightcal run sample_data/sessions/three_real_lights\n"
-     "  lightcal run my_lamp -o calibrated --to gltf", BuildRun},
+     "  lightcal run my_lamp -o calibrated --to gltf\n"
+     "  lightcal run sample_data/sessions -o calibrated --jobs 2 --resume --summary summary.json",
+     BuildRun},
     {"devices", "Meters and cameras found, whether they may be used, how each was verified",
      "  lightcal devices\n"
      "  lightcal devices --json", BuildDevices},
@@ -90,6 +92,18 @@ constexpr CommandRow kCommands[] = {
      "  lightcal report out/light.json -o report.html\n"
      "  lightcal report sample_data/sessions/lit_wall --plot polar=polar.svg,luminance=wall.png",
      BuildReport},
+    {"diff", "Whether lamps changed between two calibrations, beyond what both are unsure of",
+     "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json\n"
+     "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json "
+     "--correlation 0.5 --json",
+     BuildDiff},
+    {"lights", "A library of fitted lights: add, search, compare on one sheet",
+     "  lightcal lights add sample_data/lights/desk_lamp_june.json\n"
+     "  lightcal lights list --cct 2500..3500 --cd 10..\n"
+     "  lightcal lights --library sample_data/lights sheet -o sheet.html", BuildLights},
+    {"validate", "Whether files are whole: sessions, lights, presets, tapes, IES, spectra ...",
+     "  lightcal validate sample_data/sessions sample_data/photometric/sample2.ldt\n"
+     "  lightcal validate out/light.json --json", BuildValidate},
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"

@@ -81,6 +81,7 @@ Result<void> Console::RefuseIfStrict() const {
 }
 
 void PrintError(const Error& error, bool json) {
+  if (error.code.empty()) return;  // told already, see told_error.h
   if (json) {
     const nlohmann::ordered_json document = {
         {"error", {{"code", error.code}, {"subject", error.subject}, {"message", error.message}}}};

@@ -82,7 +82,23 @@ std::optional<int> WriterOfTemporary(const std::string& name) {
   return whole ? std::optional(process) : std::nullopt;
 }
 
-bool IsGone(int process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
+// Whether a process writes no more: it is not there, its end was not fetched yet (Z), or SIGKILL
+// waits for it to come back from the disk.
+bool IsOver(int process) {
+  if (::kill(process, 0) != 0 && errno == ESRCH) return true;
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  constexpr unsigned long long kKillBit = 1ULL << (SIGKILL - 1);
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("State:") && line.find_first_of("ZX", 6) != std::string::npos) return true;
+    if (!line.starts_with("SigPnd:") && !line.starts_with("ShdPnd:")) continue;
+    const std::size_t digits = line.find_first_not_of(" \t", 7);
+    unsigned long long pending = 0;
+    if (digits == std::string::npos) continue;
+    std::from_chars(line.data() + digits, line.data() + line.size(), pending, 16);
+    if ((pending & kKillBit) != 0) return true;
+  }
+  return false;
+}
 
 // What killed runs left beside these targets.
 void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
@@ -98,7 +114,7 @@ void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
     for (const auto& entry : fs::directory_iterator(directory, ignored)) {
       const std::string name = entry.path().filename().string();
       const auto process = WriterOfTemporary(name);
-      if (!process || !IsGone(*process)) continue;
+      if (!process || !IsOver(*process)) continue;
       const std::size_t ending = ("." + std::to_string(*process) + ".tmp").size();
       if (targets.contains(name.substr(1, name.size() - 1 - ending))) {
         leftovers.push_back(entry.path());
@@ -189,7 +205,7 @@ void RemoveLeftovers(const std::string& directory) {
   std::vector<fs::path> orphans;
   for (const auto& entry : fs::directory_iterator(directory, ignored)) {
     const auto process = WriterOfTemporary(entry.path().filename().string());
-    if (process && IsGone(*process)) orphans.push_back(entry.path());
+    if (process && IsOver(*process)) orphans.push_back(entry.path());
   }
   for (const fs::path& orphan : orphans) fs::remove(orphan, ignored);
 }

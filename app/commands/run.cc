@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// lightcal run: the main job. Session in; light.json, presets and report out.
+// lightcal run: the main job. Session in; light.json, presets and report out. Several sessions make
+// a batch.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "batch/find_sessions.h"
+#include "batch/run_batch.h"
+#include "batch/run_stamp.h"
 #include "calibration_options.h"
+#include "clock.h"
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal/records/session_codec.h"
 #include "output_files.h"
 #include "preset_files.h"
 #include "report_html.h"
@@ -16,13 +24,35 @@
 namespace lightcal::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
   CalibrationOptions calibration;
+  std::vector<std::string> sessions;
   std::string output;
   std::vector<std::string> targets;
   bool bare = false;
   bool force = false;
+  // Of a batch.
+  int jobs = 0;
+  bool resume = false;
+  std::string summary;
+  // Given by main to every command; a batch hands them to each session's console.
+  bool strict = false, quiet = false;
 };
+
+// What the outputs of one session were made from, where a batch keeps account of it.
+using StampSeed = std::optional<RunStamp>;
+
+OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFile& lights,
+                     const std::vector<OutputFile>& files) {
+  stamp.inputs = lights.provenance.inputs;
+  for (const OutputFile& file : files) {
+    const std::string name = fs::path(file.path).lexically_proximate(directory).generic_string();
+    stamp.outputs.push_back({name, Sha256Hex(file.contents)});
+  }
+  return {(fs::path(directory) / kRunStampFile).string(), RunStampToJson(stamp)};
+}
 
 Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::string& directory,
                                           const CalibratedSession& calibrated,
@@ -43,14 +73,15 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   return files;
 }
 
-Result<void> RunRun(const Options& options, Console& console) {
+Result<void> RunSession(const Options& options, const StampSeed& stamp, Console& console) {
   const PictureRecord pictures;
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string directory =
       options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
-  const auto files = OutputsOf(options, directory, *calibrated, pictures, console);
-  if (!files) return tl::unexpected(files.error());
+  auto files = OutputsOf(options, directory, *calibrated, pictures, console);
+  if (!files) return Propagate(std::move(files));
+  if (stamp) files->push_back(StampFile(*stamp, directory, calibrated->lights, *files));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
@@ -69,18 +100,95 @@ Result<void> RunRun(const Options& options, Console& console) {
   return {};
 }
 
+// All that decides what a session's outputs are, beside its own files.
+Result<std::string> SettingsHash(const Options& options) {
+  const CalibrationOptions& asked = options.calibration;
+  std::string text = asked.tolerance + '\n' + asked.effects + '\n';
+  for (const bool flag : {asked.tolerance_given, asked.effects_given, asked.monte_carlo,
+                          asked.full_angles, options.bare, options.strict}) {
+    text += flag ? '1' : '0';
+  }
+  if (!asked.profile.empty()) {
+    auto profile = ReadWholeFile(asked.profile);
+    if (!profile) return profile;
+    text += '\n' + Sha256Hex(*profile);
+  }
+  for (const std::string& target : options.targets) text += '\n' + target;
+  return Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
+}
+
+Result<void> RunOfBatch(const Options& options, const std::string& settings, const BatchItem& item,
+                        Console& console) {
+  const auto session_hash = NamedFilesHash(item.session);
+  if (!session_hash) return tl::unexpected(session_hash.error());
+  const std::string base = fs::path(JournalPath(item.session)).parent_path().string();
+  if (options.resume && IsUpToDate(item.directory, base, settings, *session_hash)) {
+    console.PrintJson({{"up_to_date", true}});
+    return {};
+  }
+  RemoveLeftovers(item.directory);
+  Options one = options;
+  one.calibration.session = item.session;
+  one.output = item.directory;
+  return RunSession(one, RunStamp{GeneratorName(), settings, *session_hash, {}, {}}, console);
+}
+
+Result<void> RunRun(const Options& options, Console& console) {
+  const auto sessions = FindSessions(options.sessions);
+  if (!sessions) return tl::unexpected(sessions.error());
+  const bool one_named = *sessions == options.sessions && sessions->size() == 1;
+  const bool accounted = options.resume || options.jobs > 0 || !options.summary.empty();
+  if (one_named && !accounted) {
+    Options one = options;
+    one.calibration.session = sessions->front();
+    return RunSession(one, std::nullopt, console);
+  }
+  auto items = BatchItems(*sessions, options.output, !one_named);
+  if (!items) return Propagate(std::move(items));
+  const auto settings = SettingsHash(options);
+  if (!settings) return tl::unexpected(settings.error());
+  BatchRequest request;
+  request.items = *std::move(items);
+  request.jobs = options.jobs;
+  request.summary = options.summary;
+  request.progress = !options.quiet;
+  request.strict = options.strict;
+  request.run = [&](const BatchItem& item, Console& of_item) {
+    return RunOfBatch(options, *settings, item, of_item);
+  };
+  return RunBatch(request, console);
+}
+
 }  // namespace
 
 Run BuildRun(CLI::App& parser) {
   auto options = std::make_shared<Options>();
-  AddCalibrationOptions(parser, options->calibration);
-  parser.add_option("-o,--output", options->output, "Where everything goes [SESSION/out]");
+  parser
+      .add_option("sessions", options->sessions,
+                  "Session directories or .toml files, folders of sessions, wildcards")
+      ->required();
+  AddCalibrationSettings(parser, options->calibration);
+  parser.add_option("-o,--output", options->output,
+                    "Where everything goes; of several sessions a folder for each [SESSION/out]");
   parser.add_option("--to", options->targets, "Presets to write [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
-  return [options](Console& console) { return RunRun(*options, console); };
+  parser
+      .add_option("--jobs", options->jobs,
+                  "Sessions at once, each in a process of its own [processors]")
+      ->check(CLI::Range(1, 1024));
+  parser.add_flag("--resume", options->resume,
+                  "Leave sessions alone whose inputs, settings and outputs are as a former batch "
+                  "left them");
+  parser.add_option("--summary", options->summary, "Write what became of each session")
+      ->type_name("FILE.json");
+  return [options, &parser](Console& console) {
+    options->strict = parser.count("--strict") > 0;
+    options->quiet = parser.count("--quiet") > 0;
+    return RunRun(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

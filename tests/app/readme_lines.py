@@ -53,7 +53,8 @@ def main():
         (home / "my_camera/session.toml").write_text(camera, encoding="utf-8")
         shutil.copy(ROOT / "sample_data/photometric/sample2.ldt", home / "lamp.ldt")
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
-        environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}"}
+        environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}",
+                                    "XDG_DATA_HOME": f"{home}/data"}
         lines = list(command_lines(text))
         for line in lines:
             if "out/light.json" in line:

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which sessions a person means by paths, folders of sessions and wildcards.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+
+namespace lightcal::app {
+
+// A session directory or a .toml file stands for itself, a wildcard for what matches it, any other
+// directory for every session directory below it, by name. Each session once. A path with nothing
+// of that stays as it is, for LoadSession to say what is wrong.
+// Refused: no_sessions (a wildcard that matches no session).
+[[nodiscard]] Result<std::vector<std::string>> FindSessions(const std::vector<std::string>& given);
+
+}  // namespace lightcal::app

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "batch/run_batch.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "batch/run_jobs.h"
+#include "interrupt.h"
+#include "light_input.h"
+#include "light_summary.h"
+#include "light_table.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/records/session_codec.h"
+#include "output_files.h"
+#include "told_error.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+enum class Status { kDone, kUpToDate, kRefused, kFailed, kCrashed, kNotRun };
+constexpr std::array<std::string_view, 6> kStatusWords = {"done",   "up_to_date", "refused",
+                                                          "failed", "crashed",    "not_run"};
+// As people read them.
+constexpr std::array<std::string_view, 6> kStatusNames = {"done",   "up to date", "refused",
+                                                          "failed", "crashed",    "not run"};
+
+struct Outcome {
+  Status status = Status::kNotRun;
+  std::optional<Error> error;
+  Warnings warnings;
+};
+
+std::size_t Count(const std::vector<Outcome>& outcomes, Status status) {
+  return static_cast<std::size_t>(std::ranges::count(outcomes, status, &Outcome::status));
+}
+
+std::string TextOf(const Json& json, const char* key) { return json.value(key, std::string()); }
+
+std::string LastLine(std::string_view text) {
+  text = TrimBlanks(text);
+  return std::string(text.substr(text.rfind('\n') + 1));
+}
+
+Outcome OutcomeOf(const JobResult& result) {
+  Outcome outcome;
+  if (result.signal != 0) {
+    outcome.status = Status::kCrashed;
+    const std::string said = LastLine(result.err);
+    outcome.error =
+        Error{ErrorKind::kFailed, "crashed", "",
+              "ended by signal " + std::to_string(result.signal) +
+                  (said.empty() ? "" : " (" + said + ")") + "; run it alone to see more"};
+    return outcome;
+  }
+  const Json document = Json::parse(result.out, nullptr, false);
+  const bool object = document.is_object();
+  for (const Json& warning : object ? document.value("warnings", Json::array()) : Json::array()) {
+    outcome.warnings.push_back(
+        {TextOf(warning, "code"), TextOf(warning, "subject"), TextOf(warning, "message")});
+  }
+  if (result.exit_code == 0) {
+    const bool nothing_to_do = object && document.value("up_to_date", false);
+    outcome.status = nothing_to_do ? Status::kUpToDate : Status::kDone;
+    return outcome;
+  }
+  const auto kind = static_cast<ErrorKind>(result.exit_code);
+  outcome.status = kind == ErrorKind::kRefused ? Status::kRefused : Status::kFailed;
+  if (object && document.contains("error")) {
+    const Json& error = document["error"];
+    outcome.error =
+        Error{kind, TextOf(error, "code"), TextOf(error, "subject"), TextOf(error, "message")};
+  } else {
+    outcome.error = Error{ErrorKind::kFailed, "failed", "", LastLine(result.err)};
+  }
+  return outcome;
+}
+
+// One line that is written over; nothing where nobody looks.
+class Progress {
+ public:
+  Progress(bool wanted, std::size_t count)
+      : shown_(wanted && ::isatty(STDERR_FILENO) == 1), count_(count) {}
+
+  void Show(const std::vector<Outcome>& outcomes) const {
+    if (!shown_) return;
+    const std::size_t ended = count_ - Count(outcomes, Status::kNotRun);
+    std::string line = "\r\x1b[K" + std::to_string(ended) + " of " + std::to_string(count_);
+    for (const Status status :
+         {Status::kUpToDate, Status::kRefused, Status::kFailed, Status::kCrashed}) {
+      const std::size_t n = Count(outcomes, status);
+      if (n == 0) continue;
+      line += ", " + std::to_string(n) + " " +
+              std::string(kStatusNames[static_cast<std::size_t>(status)]);
+    }
+    std::fputs(line.c_str(), stderr);
+  }
+  void Clear() const {
+    if (shown_) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  bool shown_;
+  std::size_t count_;
+};
+
+// What the session's light.json says now; nothing where it has none.
+std::vector<FittedLight> LightsOf(const BatchItem& item) {
+  auto file = LightsIn((fs::path(item.directory) / "light.json").string());
+  return file ? std::move(file->lights) : std::vector<FittedLight>{};
+}
+
+bool HasOutputs(const Outcome& outcome) {
+  return outcome.status == Status::kDone || outcome.status == Status::kUpToDate;
+}
+
+Json SessionJson(const BatchItem& item, const Outcome& outcome) {
+  Json json = {{"session", item.session},
+               {"output", item.directory},
+               {"status", kStatusWords[static_cast<std::size_t>(outcome.status)]}};
+  if (outcome.error) {
+    json["error"] = {{"code", outcome.error->code},
+                     {"subject", outcome.error->subject},
+                     {"message", outcome.error->message}};
+  }
+  if (!HasOutputs(outcome)) return json;
+  auto& lights = json["lights"] = Json::array();
+  for (const FittedLight& light : LightsOf(item)) lights.push_back(LightSummary(light));
+  return json;
+}
+
+Json Summary(const std::vector<BatchItem>& items, const std::vector<Outcome>& outcomes) {
+  Json document = {{"schema", "lightcal.batch/1"}, {"generator", GeneratorName()}};
+  auto& sessions = document["sessions"] = Json::array();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    sessions.push_back(SessionJson(items[i], outcomes[i]));
+  }
+  auto& counts = document["counts"] = Json::object();
+  for (std::size_t s = 0; s < kStatusWords.size(); ++s) {
+    counts[std::string(kStatusWords[s])] = Count(outcomes, static_cast<Status>(s));
+  }
+  return document;
+}
+
+Result<void> WriteSummary(const BatchRequest& request, const std::vector<Outcome>& outcomes) {
+  if (request.summary.empty()) return {};
+  const Json document = Summary(request.items, outcomes);
+  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return WriteOutputs({{request.summary, text}}, false);
+}
+
+std::string WhatCame(const BatchItem& item, const Outcome& outcome) {
+  if (outcome.error) {
+    const std::string& subject = outcome.error->subject;
+    return (subject.empty() ? "" : subject + ": ") + outcome.error->message;
+  }
+  std::string text;
+  for (const FittedLight& light :
+       HasOutputs(outcome) ? LightsOf(item) : std::vector<FittedLight>{}) {
+    text += (text.empty() ? "" : ", ") + light.name + " " + Headline(light);
+  }
+  return text;
+}
+
+std::string Table(const std::vector<BatchItem>& items, const std::vector<Outcome>& outcomes) {
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    rows.push_back({items[i].session,
+                    std::string(kStatusNames[static_cast<std::size_t>(outcomes[i].status)]),
+                    WhatCame(items[i], outcomes[i])});
+  }
+  return TextTable({"session", "status", "lights"}, rows);
+}
+
+// "100 sessions: 97 done, 2 refused, 1 crashed"
+std::string Counted(const std::vector<Outcome>& outcomes) {
+  std::string text;
+  for (std::size_t s = 0; s < kStatusNames.size(); ++s) {
+    const std::size_t n = Count(outcomes, static_cast<Status>(s));
+    if (n > 0) {
+      text += (text.empty() ? "" : ", ") + std::to_string(n) + " " + std::string(kStatusNames[s]);
+    }
+  }
+  const std::string sessions = outcomes.size() == 1 ? " session: " : " sessions: ";
+  return std::to_string(outcomes.size()) + sessions + text;
+}
+
+std::optional<Error> WorstOf(const std::vector<Outcome>& outcomes) {
+  const std::string counted = Counted(outcomes);
+  if (Count(outcomes, Status::kNotRun) > 0) {
+    return Error{ErrorKind::kFailed, "interrupted", "run",
+                 counted + "; the same line with --resume goes on"};
+  }
+  if (Count(outcomes, Status::kFailed) + Count(outcomes, Status::kCrashed) > 0) {
+    return Error{ErrorKind::kFailed, "sessions_failed", "run",
+                 counted + "; mend them, the same line with --resume runs only those"};
+  }
+  if (Count(outcomes, Status::kRefused) > 0) {
+    return Error{ErrorKind::kRefused, "sessions_refused", "run",
+                 counted + "; the table says what their data lack"};
+  }
+  return std::nullopt;
+}
+
+std::vector<Outcome> RunAll(const BatchRequest& request) {
+  std::vector<Outcome> outcomes(request.items.size());
+  const Progress progress(request.progress, outcomes.size());
+  bool misused = false;
+  const InterruptGuard guard;
+  JobPlan plan;
+  plan.count = static_cast<int>(request.items.size());
+  plan.at_once =
+      request.jobs > 0 ? request.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  plan.work = [&](int i) {
+    Console console(
+        {.json = true, .quiet = true, .verbose = false, .strict = request.strict, .muted = true});
+    const Result<void> done = request.run(request.items[static_cast<std::size_t>(i)], console);
+    if (done) return 0;
+    PrintError(done.error(), true);
+    return static_cast<int>(done.error().kind);
+  };
+  plan.finished = [&](int i, const JobResult& result) {
+    Outcome& outcome = outcomes[static_cast<std::size_t>(i)];
+    outcome = OutcomeOf(result);
+    misused = misused || (outcome.error && outcome.error->kind == ErrorKind::kUsage);
+    progress.Show(outcomes);
+  };
+  plan.stop = [&] { return misused || InterruptGuard::Wish().Requested(); };
+  RunJobs(plan);
+  progress.Clear();
+  return outcomes;
+}
+
+std::string StemOf(const fs::path& session) {
+  std::error_code error;
+  const bool named_toml = session.extension() == ".toml" && session.filename() != "session.toml" &&
+                          fs::is_regular_file(session, error);
+  if (named_toml) return session.stem().string();
+  const fs::path directory = fs::path(JournalPath(session.string())).parent_path();
+  return fs::weakly_canonical(directory.empty() ? "." : directory, error).filename().string();
+}
+
+}  // namespace
+
+Result<std::vector<BatchItem>> BatchItems(const std::vector<std::string>& sessions,
+                                          const std::string& output, bool apart) {
+  std::vector<BatchItem> items;
+  std::map<std::string, std::string> taken;
+  for (const std::string& session : sessions) {
+    fs::path directory = fs::path(JournalPath(session)).parent_path() / "out";
+    if (!output.empty()) directory = apart ? fs::path(output) / StemOf(session) : fs::path(output);
+    std::error_code error;
+    const std::string whole = fs::weakly_canonical(directory, error).string();
+    const auto [earlier, added] = taken.emplace(whole, session);
+    if (!added) {
+      return WrongUsage(session, "would write to " + directory.string() + ", as " +
+                                     earlier->second + " does; run them apart, each with its -o");
+    }
+    items.push_back({session, directory.string()});
+  }
+  return items;
+}
+
+Result<void> RunBatch(const BatchRequest& request, Console& console) {
+  // Before the work: the place can be written, and who looks meanwhile is told the truth.
+  if (auto written = WriteSummary(request, std::vector<Outcome>(request.items.size())); !written) {
+    return written;
+  }
+  const std::vector<Outcome> outcomes = RunAll(request);
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.error && outcome.error->kind == ErrorKind::kUsage) {
+      return tl::unexpected(*outcome.error);
+    }
+  }
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    for (Warning warning : outcomes[i].warnings) {
+      warning.subject =
+          request.items[i].session + (warning.subject.empty() ? "" : ": " + warning.subject);
+      console.Warn(warning);
+    }
+  }
+  if (auto written = WriteSummary(request, outcomes); !written) return written;
+  const Json document = Summary(request.items, outcomes);
+  console.Print(Table(request.items, outcomes) + "\n");
+  if (const auto worst = WorstOf(outcomes)) return EndTold(console, document, *worst);
+  console.Print(Counted(outcomes) + "\n");
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace lightcal::app

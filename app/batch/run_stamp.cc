@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "batch/run_stamp.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "lightcal/records/session_codec.h"
+#include "lightcal_devices/captures/bracket.h"
+#include "output_files.h"
+#include "session_files.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json FilesJson(const std::vector<InputFile>& files) {
+  Json list = Json::array();
+  for (const InputFile& file : files) {
+    list.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  }
+  return list;
+}
+
+std::string TextAt(const Json& json, const char* key) {
+  const auto it = json.is_object() ? json.find(key) : json.end();
+  return json.is_object() && it != json.end() && it->is_string() ? it->get<std::string>() : "";
+}
+
+std::vector<InputFile> FilesAt(const Json& json, const char* key) {
+  std::vector<InputFile> files;
+  if (!json.contains(key)) return files;
+  for (const Json& file : json[key])
+    files.push_back({TextAt(file, "path"), TextAt(file, "sha256")});
+  return files;
+}
+
+bool StillTheSame(const fs::path& directory, const std::vector<InputFile>& files) {
+  return std::ranges::all_of(files, [&](const InputFile& file) {
+    const auto bytes = ReadWholeFile((directory / file.path).string());
+    return bytes && Sha256Hex(*bytes) == file.sha256;
+  });
+}
+
+// Matches of the wildcards of a session's captures; one that matches nothing has none.
+std::vector<std::string> MatchedFrames(const Session& session) {
+  std::vector<std::string> frames;
+  const auto add = [&](const std::string& name) {
+    if (name.empty()) return;
+    const std::string pattern = PathInSession(session, name);
+    auto files = ExpandFiles(std::span(&pattern, 1));
+    if (files) std::ranges::move(*files, std::back_inserter(frames));
+  };
+  for (const CaptureDescription& capture : session.captures) {
+    add(capture.frames);
+    if (capture.wall) add(capture.wall->board_views);
+  }
+  return frames;
+}
+
+}  // namespace
+
+std::string RunStampToJson(const RunStamp& stamp) {
+  const Json json = {{"schema", kRunStampSchema},         {"generator", stamp.generator},
+                     {"settings_sha256", stamp.settings}, {"session_sha256", stamp.session},
+                     {"inputs", FilesJson(stamp.inputs)}, {"outputs", FilesJson(stamp.outputs)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<RunStamp> RunStampFromJson(std::string_view text, std::string_view where) {
+  const auto bad = [&](const std::string& what) {
+    return Refused("bad_run", std::string(where), what + "; delete it, and run the session again");
+  };
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return bad("is no JSON object");
+  if (TextAt(json, "schema") != kRunStampSchema) {
+    return bad("\"schema\" is not " + std::string(kRunStampSchema));
+  }
+  RunStamp stamp{TextAt(json, "generator"), TextAt(json, "settings_sha256"),
+                 TextAt(json, "session_sha256"), FilesAt(json, "inputs"), FilesAt(json, "outputs")};
+  for (const auto* key : {&stamp.generator, &stamp.settings, &stamp.session}) {
+    if (key->empty()) return bad("generator, settings_sha256 or session_sha256 is missing");
+  }
+  for (const auto* files : {&stamp.inputs, &stamp.outputs}) {
+    for (const InputFile& file : *files) {
+      if (file.path.empty() || file.sha256.empty()) return bad("a file lacks path or sha256");
+    }
+    if (files->empty()) return bad("inputs or outputs is missing");
+  }
+  return stamp;
+}
+
+Result<std::string> NamedFilesHash(const std::string& session_path) {
+  const auto loaded = LoadSession(session_path);
+  if (!loaded) return tl::unexpected(loaded.error());
+  const Session& session = loaded->session;
+  std::vector<std::string> files = session.input_files;
+  std::ranges::move(MatchedFrames(session), std::back_inserter(files));
+  std::string list;
+  for (const std::string& file : files) {
+    auto bytes = ReadWholeFile(file);
+    if (!bytes) return Propagate(std::move(bytes));
+    const fs::path relative = fs::path(file).lexically_proximate(session.directory);
+    list += relative.generic_string() + '\n' + Sha256Hex(*bytes) + '\n';
+  }
+  return Sha256Hex(list);
+}
+
+bool IsUpToDate(const std::string& directory, const std::string& session_directory,
+                const std::string& settings, const std::string& session_hash) {
+  const std::string path = (fs::path(directory) / kRunStampFile).string();
+  const auto text = ReadWholeFile(path);
+  if (!text) return false;
+  const auto stamp = RunStampFromJson(*text, path);
+  return stamp && stamp->generator == GeneratorName() && stamp->settings == settings &&
+         stamp->session == session_hash && StillTheSame(session_directory, stamp->inputs) &&
+         StillTheSame(directory, stamp->outputs);
+}
+
+}  // namespace lightcal::app

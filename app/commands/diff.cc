@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal diff: did the lamp change, or is it only the measurement?
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "commands.h"
+#include "compare/compare_lights.h"
+#include "light_input.h"
+#include "lightcal/core/numbers_text.h"
+#include "told_error.h"
+
+namespace lightcal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string a, b;
+  double correlation = 0.0;
+  bool fail_on_change = false;
+};
+
+constexpr std::array<std::string_view, 4> kChangeWords = {"same", "within_u", "changed",
+                                                          "changed_without_u"};
+constexpr std::array<std::string_view, 4> kChangeNames = {"same", "within u", "changed beyond u",
+                                                          "changed, no u known"};
+constexpr int kDigitsWithoutU = 5;
+
+std::string_view Word(const std::array<std::string_view, 4>& words, Change change) {
+  return words[static_cast<std::size_t>(change)];
+}
+
+Json UncertainJson(const Uncertain& u) {
+  Json json = {{"value", u.value}};
+  if (u.u95 > 0.0) json["u95"] = u.u95;
+  return json;
+}
+
+Json QuantityJson(const QuantityChange& change) {
+  Json json = {{"quantity", change.quantity}};
+  if (!change.unit.empty()) json["unit"] = change.unit;
+  if (change.has_values) {
+    json["old"] = UncertainJson(change.before);
+    json["new"] = UncertainJson(change.after);
+  }
+  json["difference"] = change.difference;
+  if (change.u95 > 0.0) json["u95"] = change.u95;
+  if (change.has_values && change.before.value != 0.0) {
+    json["relative"] = change.difference / change.before.value;
+  }
+  json["verdict"] = Word(kChangeWords, change.change);
+  return json;
+}
+
+Json LightJson(const LightChange& light) {
+  const char* const in = light.before && light.after ? "both" : (light.before ? "old" : "new");
+  Json json = {{"name", light.name}, {"in", in}, {"changed", light.Changed()}};
+  if (light.kind_changed) json["kind_changed"] = true;
+  json["quantities"] = Json::array();
+  for (const QuantityChange& change : light.quantities) {
+    json["quantities"].push_back(QuantityJson(change));
+  }
+  return json;
+}
+
+Json ToJson(const Options& options, const LightComparison& comparison) {
+  Json document = {{"old", options.a},
+                   {"new", options.b},
+                   {"coverage", 0.95},
+                   {"correlation", options.correlation},
+                   {"shared_inputs", comparison.shared_inputs},
+                   {"changed", comparison.Changed()},
+                   {"lights", Json::array()}};
+  for (const LightChange& light : comparison.lights) document["lights"].push_back(LightJson(light));
+  return document;
+}
+
+std::string ValueText(const Uncertain& u, const std::string& unit) {
+  if (u.u95 > 0.0) return ValueWithAbsolute(u.value, u.u95, unit);
+  return RoundedText(u.value, kDigitsWithoutU) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string DifferenceText(const QuantityChange& change) {
+  if (change.change == Change::kSame) return "0";
+  std::string text = ValueText({change.difference, change.u95, {}, {}}, change.unit);
+  if (change.has_values && change.difference > 0.0) text.insert(0, "+");
+  return text;
+}
+
+std::string RelativeText(const QuantityChange& change) {
+  const bool ratio = change.quantity != "color.duv" && change.quantity != "distance_offset_m";
+  if (!change.has_values || !ratio || change.before.value == 0.0) return "-";
+  const double percent = 100.0 * change.difference / change.before.value;
+  return (percent > 0.0 ? "+" : "") + RoundedText(percent, 2) + " %";
+}
+
+std::string Table(const LightComparison& comparison) {
+  std::vector<std::vector<std::string>> rows;
+  for (const LightChange& light : comparison.lights) {
+    if (!light.before || !light.after) {
+      rows.push_back({light.name, "-", light.before ? "there" : "-", light.after ? "there" : "-",
+                      "-", "-", light.before ? "gone" : "new"});
+    }
+    if (light.kind_changed) rows.push_back({light.name, "kind", "-", "-", "-", "-", "changed"});
+    for (const QuantityChange& change : light.quantities) {
+      const bool values = change.has_values;
+      rows.push_back({light.name, change.quantity,
+                      values ? ValueText(change.before, change.unit) : "-",
+                      values ? ValueText(change.after, change.unit) : "-", DifferenceText(change),
+                      RelativeText(change), std::string(Word(kChangeNames, change.change))});
+    }
+  }
+  return TextTable(
+      {"light", "quantity", "old (95 %)", "new (95 %)", "difference (95 %)", "relative", "verdict"},
+      rows);
+}
+
+std::string Assumption(const Options& options, const LightComparison& comparison) {
+  std::string text =
+      "u is the 95 % half width of a difference whose two errors are " +
+      (options.correlation == 0.0 ? std::string("independent")
+                                  : "correlated by " + RoundedText(options.correlation, 2)) +
+      ": of lamps that did not change, 1 quantity in 20 exceeds it.\n";
+  if (comparison.same_inputs) {
+    return text +
+           "Both were made from the same files: what differs is the program or its settings, "
+           "not the lamp.\n";
+  }
+  if (!comparison.shared_inputs.empty()) {
+    return text + std::to_string(comparison.shared_inputs.size()) +
+           " input files are the same on both sides; their errors are common, so that less would "
+           "be a change.\n";
+  }
+  if (options.correlation == 0.0) {
+    text +=
+        "One meter read both? Its gain is common, and smaller changes are real: say so with "
+        "--correlation 0.5.\n";
+  }
+  return text;
+}
+
+Result<void> RunDiff(const Options& options, Console& console) {
+  const auto a = LightsIn(options.a);
+  if (!a) return tl::unexpected(a.error());
+  const auto b = LightsIn(options.b);
+  if (!b) return tl::unexpected(b.error());
+  const LightComparison comparison = CompareLights(*a, *b, options.correlation);
+  const Json document = ToJson(options, comparison);
+  console.Print(Table(comparison) + "\n" + Assumption(options, comparison));
+  if (options.fail_on_change && comparison.Changed()) {
+    return EndTold(console, document,
+                   {ErrorKind::kFailed, "changed", options.b,
+                    "differs from " + options.a + " beyond what both are unsure of"});
+  }
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace
+
+Run BuildDiff(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  const std::string what = "light.json, STEM.preset.json, or a session that was run";
+  parser.add_option("old", options->a, what)->required();
+  parser.add_option("new", options->b, what)->required();
+  parser
+      .add_option("--correlation", options->correlation,
+                  "Of the errors of both: 0 = independent, 1 = wholly common")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  parser.add_flag("--fail-on-change", options->fail_on_change,
+                  "Exit 1 where anything changed beyond its uncertainty");
+  return [options](Console& console) { return RunDiff(*options, console); };
+}
+
+}  // namespace lightcal::app

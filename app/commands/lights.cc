@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal lights: a folder of fitted lights, to search and to look at.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "library/light_library.h"
+#include "library/light_search.h"
+#include "light_input.h"
+#include "light_summary.h"
+#include "light_table.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/light_distribution.h"
+#include "lightcal/records/light_codec.h"
+#include "lightcal/report/contact_sheet.h"
+#include "output_files.h"
+#include "picture_file.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string library;
+  SearchWords search;
+  std::vector<std::string> inputs;  // of add
+  std::string as;                   // of add
+  std::string name;                 // of show
+  std::string output, title;        // of sheet
+  bool force = false;
+};
+
+constexpr const char* kNone = "-";
+
+Result<std::string> LibraryOf(const Options& options) {
+  return options.library.empty() ? DefaultLibrary() : options.library;
+}
+
+Result<std::vector<LibraryLight>> Found(const Options& options, Console& console) {
+  const auto folder = LibraryOf(options);
+  if (!folder) return tl::unexpected(folder.error());
+  Warnings warnings;
+  auto lights = LightsInFolder(*folder, warnings);
+  console.Warn(warnings);
+  if (!lights) return lights;
+  return Search(*std::move(lights), options.search);
+}
+
+Json ToJson(const LibraryLight& entry) {
+  Json json = LightSummary(entry.light);
+  json["file"] = entry.path;
+  if (!entry.provenance.time.empty()) json["time"] = entry.provenance.time;
+  return json;
+}
+
+// "2026-05-01" of an ISO 8601 time.
+std::string DayOf(const std::string& time) { return time.substr(0, time.find('T')); }
+
+std::string Table(const std::vector<LibraryLight>& lights) {
+  std::vector<std::vector<std::string>> rows;
+  for (const LibraryLight& entry : lights) {
+    const FittedLight& light = entry.light;
+    const auto& cct = light.color.cct_K;
+    const std::string day = DayOf(entry.provenance.time);
+    rows.push_back(
+        {light.name, std::string(LightKindName(light.kind)), Headline(light),
+         light.flux_lm ? ValueWithPercent(light.flux_lm->value, light.flux_lm->u95, "lm") : kNone,
+         cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone, day.empty() ? kNone : day,
+         fs::path(entry.path).filename().string()});
+  }
+  return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "measured", "file"}, rows);
+}
+
+Result<void> List(const Options& options, Console& console) {
+  const auto lights = Found(options, console);
+  if (!lights) return tl::unexpected(lights.error());
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  Json document = {{"lights", Json::array()}};
+  for (const LibraryLight& entry : *lights) document["lights"].push_back(ToJson(entry));
+  console.Print(lights->empty() ? "no light fits\n" : Table(*lights));
+  console.PrintJson(document);
+  return {};
+}
+
+Result<void> Add(const Options& options, Console& console) {
+  const auto folder = LibraryOf(options);
+  if (!folder) return tl::unexpected(folder.error());
+  std::vector<LightFile> files;
+  std::size_t count = 0;
+  for (const std::string& input : options.inputs) {
+    auto file = LightsIn(input);
+    if (!file) return Propagate(std::move(file));
+    count += file->lights.size();
+    files.push_back(*std::move(file));
+  }
+  if (!options.as.empty()) {
+    if (count != 1) {
+      return WrongUsage(
+          "--as", "names one light, these are " + std::to_string(count) + "; add them one by one");
+    }
+    files.front().lights.front().name = options.as;
+  }
+  Json document = {{"files", Json::array()}};
+  for (const LightFile& file : files) {
+    const auto paths = AddToLibrary(file, *folder);
+    if (!paths) return tl::unexpected(paths.error());
+    for (const std::string& path : *paths) {
+      document["files"].push_back(path);
+      console.Print("wrote " + path + "\n");
+    }
+  }
+  console.PrintJson(document);
+  return {};
+}
+
+// The one light of that name; a part of a name serves where it is one light's only.
+Result<LibraryLight> OneCalled(const std::string& name, std::vector<LibraryLight> lights) {
+  std::vector<LibraryLight> exact;
+  for (const LibraryLight& entry : lights) {
+    const bool by_file = fs::path(entry.path).stem() == name || entry.path == name;
+    if (entry.light.name == name || by_file) exact.push_back(entry);
+  }
+  if (exact.empty()) {
+    SearchWords words;
+    words.name = name;
+    auto matching = Search(std::move(lights), words);
+    if (!matching) return Propagate(std::move(matching));
+    exact = *std::move(matching);
+  }
+  if (exact.size() == 1) return exact.front();
+  if (exact.empty()) {
+    return Refused("unknown_light", name, "no light is called so; lightcal lights list shows all");
+  }
+  std::string files;
+  for (const LibraryLight& entry : exact) {
+    files += (files.empty() ? "" : ", ") + fs::path(entry.path).stem().string();
+  }
+  return Refused("several_lights", name, "is the name of several; say which: " + files);
+}
+
+Result<void> Show(const Options& options, Console& console) {
+  auto lights = Found(options, console);
+  if (!lights) return Propagate(std::move(lights));
+  const auto entry = OneCalled(options.name, *std::move(lights));
+  if (!entry) return tl::unexpected(entry.error());
+  const LightFile file{{entry->light}, entry->provenance};
+  const auto json = LightFileToJson(file);
+  if (!json) return tl::unexpected(json.error());
+  console.Print(LightTable(file) + "\n" + FitTable(file) + "\n" + BudgetTable(entry->light));
+  for (const InputFile& input : entry->provenance.inputs) {
+    console.Print("from " + input.path + "\n");
+  }
+  console.Print("file " + entry->path + "\n");
+  Json document = Json::parse(*json);
+  document["file"] = entry->path;
+  console.PrintJson(document);
+  return {};
+}
+
+std::string NoteOf(const LibraryLight& entry) {
+  const std::string day = DayOf(entry.provenance.time);
+  const std::string file = fs::path(entry.path).filename().string();
+  return day.empty() ? file : day + " · " + file;
+}
+
+Result<OutputFile> SheetFile(const Options& options,
+                             const std::vector<report::SheetLight>& lights) {
+  const std::string ending = LowerAscii(fs::path(options.output).extension().string());
+  if (ending == ".html") {
+    return OutputFile{options.output, report::ContactSheetPage(lights, options.title)};
+  }
+  if (auto named = CheckPictureName("-o", options.output); !named) {
+    return WrongUsage("-o", "\"" + options.output + "\" must end in .html, .svg or .png");
+  }
+  return PictureFile(options.output, report::ContactSheetSvg(lights, options.title));
+}
+
+// A spot whose cone nobody told would be drawn as a point.
+Result<std::optional<IntensityTable>> KnownDistribution(const FittedLight& light) {
+  if (light.kind == LightKind::kSpot && !light.outer_deg) return std::nullopt;
+  return DistributionOf(light);
+}
+
+Result<void> Sheet(const Options& options, Console& console) {
+  const auto lights = Found(options, console);
+  if (!lights) return tl::unexpected(lights.error());
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (lights->empty()) {
+    return Refused("no_lights", "sheet", "no light fits; lightcal lights list shows all");
+  }
+  std::vector<report::SheetLight> tiles;
+  for (const LibraryLight& entry : *lights) {
+    auto distribution = KnownDistribution(entry.light);
+    if (!distribution) return Propagate(std::move(distribution));
+    tiles.push_back({entry.light, *std::move(distribution), NoteOf(entry)});
+  }
+  auto sheet = SheetFile(options, tiles);
+  if (!sheet) return Propagate(std::move(sheet));
+  if (auto written = WriteOutputs({*sheet}, options.force); !written) return written;
+  console.Print("wrote " + sheet->path + "\n");
+  console.PrintJson({{"files", Json::array({sheet->path})}, {"lights", tiles.size()}});
+  return {};
+}
+
+void AddSearch(CLI::App& verb, SearchWords& search) {
+  verb.add_option("--cct", search.cct, "Colour temperature: 3000..3500, 5000.. (K)")
+      ->type_name("RANGE");
+  verb.add_option("--lm", search.lm, "Flux: 500.., 100..800 (lm)")->type_name("RANGE");
+  verb.add_option("--cd", search.cd, "Intensity: 1000.. (cd)")->type_name("RANGE");
+  verb.add_option("--lx", search.lx, "Illuminance of directional lights and domes (lx)")
+      ->type_name("RANGE");
+  verb.add_option("--kind", search.kind, "point, spot, rect ...");
+  verb.add_option("--name", search.name, "Part of the name or of the file's name");
+  verb.add_option("--sort", search.sort,
+                  "name, kind, cct, lm, cd, lx or time; -cd: largest first [name]");
+}
+
+}  // namespace
+
+Run BuildLights(CLI::App& parser) {
+  auto options = std::make_shared<Options>();
+  auto run = std::make_shared<Result<void> (*)(const Options&, Console&)>(&List);
+  parser.add_option("--library", options->library,
+                    "Folder of light.json files [~/.local/share/lightcal/lights]");
+  const auto verb = [&](const char* name, const char* summary,
+                        Result<void> (*what)(const Options&, Console&)) {
+    CLI::App* const sub = parser.add_subcommand(name, summary);
+    sub->fallthrough();
+    sub->final_callback([run, what] { *run = what; });
+    return sub;
+  };
+  AddSearch(*verb("list", "The lights that fit, one a line", &List), options->search);
+  CLI::App* const add = verb("add", "Copies lights into the library", &Add);
+  add->add_option("lights", options->inputs, "light.json files, presets, sessions that were run")
+      ->required();
+  add->add_option("--as", options->as, "The name the light is to have there");
+  CLI::App* const show = verb("show", "All that is known of one light", &Show);
+  show->add_option("name", options->name, "Its name, its file's, or a part that is no other's")
+      ->required();
+  CLI::App* const sheet = verb("sheet", "A contact sheet: a tile for each light", &Sheet);
+  AddSearch(*sheet, options->search);
+  sheet->add_option("-o,--output", options->output, "sheet.html, .svg or .png")->required();
+  sheet->add_option("--title", options->title, "Heading of the sheet")
+      ->default_str("Lights")
+      ->capture_default_str();
+  sheet->add_flag("--force", options->force, "Replace a file that lightcal did not write");
+  options->title = "Lights";
+  parser.require_subcommand(0, 1);
+  return [options, run](Console& console) { return (*run)(*options, console); };
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal validate: whether files are what they should be, by the readers every command uses.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "batch/find_sessions.h"
+#include "commands.h"
+#include "told_error.h"
+#include "validate/validate_file.h"
+
+namespace lightcal::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kNone = "-";
+
+Json ToJson(const FileVerdict& verdict) {
+  Json json = {{"file", verdict.path}, {"ok", !verdict.error}};
+  if (!verdict.format.empty()) json["format"] = verdict.format;
+  if (!verdict.version.empty()) json["version"] = verdict.version;
+  if (!verdict.holds.empty()) json["holds"] = verdict.holds;
+  if (!verdict.error) return json;
+  json["error"] = {{"code", verdict.error->code},
+                   {"subject", verdict.error->subject},
+                   {"message", verdict.error->message}};
+  return json;
+}
+
+std::string Verdict(const FileVerdict& verdict) {
+  if (!verdict.error) return "ok";
+  return verdict.error->kind == ErrorKind::kRefused ? "refused" : "unreadable";
+}
+
+std::string Table(const std::vector<FileVerdict>& verdicts) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FileVerdict& verdict : verdicts) {
+    const auto or_none = [](const std::string& text) { return text.empty() ? kNone : text; };
+    rows.push_back({verdict.path, or_none(verdict.format), or_none(verdict.version),
+                    Verdict(verdict), or_none(verdict.holds)});
+  }
+  return TextTable({"file", "format", "version", "verdict", "holds"}, rows);
+}
+
+// What is wrong, below the table: one line a file.
+std::string Faults(const std::vector<FileVerdict>& verdicts) {
+  std::string text;
+  for (const FileVerdict& verdict : verdicts) {
+    if (!verdict.error) continue;
+    const std::string& subject = verdict.error->subject;
+    const bool repeats = subject.empty() || subject == verdict.path;
+    text += verdict.path + ": " + (repeats ? "" : subject + ": ") + verdict.error->message + "\n";
+  }
+  return text.empty() ? "" : "\n" + text;
+}
+
+Result<void> RunValidate(const std::vector<std::string>& paths, Console& console) {
+  std::vector<FileVerdict> verdicts;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    const bool folder = std::filesystem::is_directory(path, error);
+    const auto files =
+        folder ? FindSessions({path}) : Result<std::vector<std::string>>{std::vector{path}};
+    if (!files) return tl::unexpected(files.error());
+    for (const std::string& file : *files) verdicts.push_back(ValidateFile(file));
+  }
+  for (const FileVerdict& verdict : verdicts) {
+    for (Warning warning : verdict.warnings) {
+      const std::string name = std::filesystem::path(verdict.path).filename().string();
+      if (warning.subject.find(name) == std::string::npos) {
+        warning.subject = verdict.path + (warning.subject.empty() ? "" : ": " + warning.subject);
+      }
+      console.Warn(warning);
+    }
+  }
+  Json document = {{"files", Json::array()}};
+  for (const FileVerdict& verdict : verdicts) document["files"].push_back(ToJson(verdict));
+  console.Print(Table(verdicts) + Faults(verdicts));
+
+  const auto count = [&](const std::string& word) {
+    return std::ranges::count(verdicts, word, Verdict);
+  };
+  const auto of_all = " of " + std::to_string(verdicts.size()) + " files";
+  if (const auto n = count("unreadable"); n > 0) {
+    return EndTold(console, document,
+                   {ErrorKind::kFailed, "unreadable", "validate",
+                    std::to_string(n) + of_all + " cannot be read"});
+  }
+  if (const auto n = count("refused"); n > 0) {
+    return EndTold(console, document,
+                   {ErrorKind::kRefused, "invalid", "validate",
+                    std::to_string(n) + of_all + " refused; each says what to do"});
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) {
+    return EndTold(console, document, strict.error());
+  }
+  console.PrintJson(document);
+  return {};
+}
+
+}  // namespace
+
+Run BuildValidate(CLI::App& parser) {
+  auto paths = std::make_shared<std::vector<std::string>>();
+  parser
+      .add_option(
+          "files", *paths,
+          "Sessions (or a folder of them), readings.jsonl, meters.toml; light.json, presets, "
+          "camera, profile, capture and run files, tapes; .gltf .blender.py .three.js "
+          ".filament.json as export writes them; IES, EULUMDAT, camera sensitivities; "
+          "spectra and readings that import reads")
+      ->required();
+  return [paths](Console& console) { return RunValidate(*paths, console); };
+}
+
+}  // namespace lightcal::app

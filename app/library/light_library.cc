@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "library/light_library.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "lightcal/records/light_codec.h"
+#include "output_files.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kHashDigits = 12;
+constexpr std::size_t kLongestName = 60;
+
+// Letters, digits and what is not ASCII stay; runs of all others become one '-'.
+std::string FileNameOf(std::string_view name) {
+  std::string slug;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool keeps = byte >= 0x80U || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
+                       (c >= 'A' && c <= 'Z') || c == '_';
+    if (keeps) {
+      slug += c;
+    } else if (!slug.empty() && slug.back() != '-') {
+      slug += '-';
+    }
+  }
+  std::size_t size = std::min(slug.size(), kLongestName);
+  const auto inside_character = [&] {
+    return size < slug.size() && (static_cast<unsigned char>(slug[size]) & 0xC0U) == 0x80U;
+  };
+  while (inside_character()) --size;
+  slug.resize(size);
+  while (slug.ends_with('-')) slug.pop_back();
+  return slug.empty() ? "light" : slug;
+}
+
+std::string HashOf(const std::vector<InputFile>& inputs, const std::string& text) {
+  std::string list;
+  for (const InputFile& input : inputs) list += input.sha256 + '\n';
+  return Sha256Hex(list.empty() ? text : list).substr(0, kHashDigits);
+}
+
+bool LooksLikeLights(const std::string& text) {
+  return text.find('"' + std::string(kLightSchema) + '"') != std::string::npos;
+}
+
+}  // namespace
+
+Result<std::string> DefaultLibrary() {
+  if (const char* const data = std::getenv("XDG_DATA_HOME"); data && *data) {
+    return (fs::path(data) / "lightcal" / "lights").string();
+  }
+  if (const char* const home = std::getenv("HOME"); home && *home) {
+    return (fs::path(home) / ".local" / "share" / "lightcal" / "lights").string();
+  }
+  return Failed("no_library", "lights", "neither XDG_DATA_HOME nor HOME is set; give --library");
+}
+
+Result<std::vector<LibraryLight>> LightsInFolder(const std::string& folder, Warnings& warnings) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return Failed("not_found", folder,
+                  "no such folder; lights add light.json makes it, --library names another");
+  }
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(
+           folder, fs::directory_options::skip_permission_denied, error)) {
+    std::error_code ignored;
+    const bool json = entry.path().extension() == ".json";
+    if (json && entry.is_regular_file(ignored)) paths.push_back(entry.path().string());
+  }
+  std::ranges::sort(paths);
+  std::vector<LibraryLight> lights;
+  for (const std::string& path : paths) {
+    const auto text = ReadWholeFile(path);
+    if (!text || !LooksLikeLights(*text)) continue;
+    auto file = LightFileFromJson(*text, path);
+    if (!file) {
+      const Error& fault = file.error();
+      warnings.push_back({fault.code, fault.subject, fault.message + "; passed over"});
+      continue;
+    }
+    for (FittedLight& light : file->lights) {
+      lights.push_back({path, std::move(light), file->provenance});
+    }
+  }
+  return lights;
+}
+
+Result<std::vector<std::string>> AddToLibrary(const LightFile& file, const std::string& folder) {
+  std::vector<OutputFile> outputs;
+  std::vector<std::string> paths;
+  for (const FittedLight& light : file.lights) {
+    auto text = LightFileToJson({{light}, file.provenance});
+    if (!text) return Propagate(std::move(text));
+    const std::string name =
+        FileNameOf(light.name) + "-" + HashOf(file.provenance.inputs, *text) + ".json";
+    paths.push_back((fs::path(folder) / name).string());
+    outputs.push_back({paths.back(), *std::move(text)});
+  }
+  if (auto written = WriteOutputs(outputs, false); !written) return Propagate(std::move(written));
+  return paths;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "validate/validate_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "batch/run_stamp.h"
+#include "check/engine_light.h"
+#include "check/rig_file.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/records/accuracy_profile.h"
+#include "lightcal/records/camera_profile.h"
+#include "lightcal/records/light_codec.h"
+#include "lightcal/records/meter_calibration.h"
+#include "lightcal/records/tethered_shoot.h"
+#include "lightcal_devices/files/import_file.h"
+#include "lightcal_devices/transport/tape_codec.h"
+#include "output_files.h"
+#include "photometric_input.h"
+#include "validate/validate_session.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::uintmax_t kMostBytes = 256U << 20U;
+constexpr int kTableDigits = 4;
+
+// What a reader found in the file, in a few words.
+using Holds = Result<std::string>;
+
+Holds HeldByLight(const std::string& text, const std::string& path) {
+  const auto file = LightFileFromJson(text, path);
+  if (!file) return tl::unexpected(file.error());
+  return Counted(file->lights.size(), "light");
+}
+
+Holds HeldByPreset(const std::string& text, const std::string& path) {
+  // The reader goes by the name, which a person may have changed.
+  auto lights = LightsOfPreset("lights.preset.json", text);
+  if (!lights) {
+    Error error = std::move(lights).error();
+    error.subject = path;
+    return tl::unexpected(std::move(error));
+  }
+  const std::string count = Counted(lights->size(), "light");
+  auto rig = RigFromPreset(text, path);
+  if (rig) return count + " in a rig";
+  if (rig.error().code == "no_rig") return count + ", bare";
+  return Propagate(std::move(rig));
+}
+
+Holds HeldByCamera(const std::string& text, const std::string& path) {
+  const auto profile = CameraProfileFromJson(text, path);
+  if (!profile) return tl::unexpected(profile.error());
+  return profile->camera.empty() ? "a camera without a name" : profile->camera;
+}
+
+Holds HeldBySensitivities(const std::string& text, const std::string& path) {
+  const auto sensitivities = CameraSensitivitiesFromJson(text, path);
+  if (!sensitivities) return tl::unexpected(sensitivities.error());
+  return sensitivities->camera;
+}
+
+Holds HeldByProfile(const std::string& text, const std::string& path) {
+  const auto profile = AccuracyProfileFromJson(text, path);
+  if (!profile) return tl::unexpected(profile.error());
+  return "tolerance " + RoundedText(100.0 * profile->tolerance_relative, 2) + " %";
+}
+
+Holds HeldByCapture(const std::string& text, const std::string& path) {
+  const auto shoot = TetheredShootFromJson(text, path);
+  if (!shoot) return tl::unexpected(shoot.error());
+  return Counted(shoot->frames.size(), "frame") + (shoot->complete ? "" : ", broken off");
+}
+
+Holds HeldByTape(const std::string& text, const std::string& path) {
+  const auto tape = TapeFromText(text, path);
+  if (!tape) return tl::unexpected(tape.error());
+  return tape->driver + ", " + Counted(tape->exchanges.size(), "exchange");
+}
+
+Holds HeldByRunStamp(const std::string& text, const std::string& path) {
+  const auto stamp = RunStampFromJson(text, path);
+  if (!stamp) return tl::unexpected(stamp.error());
+  return Counted(stamp->outputs.size(), "output");
+}
+
+Holds HeldByMeters(const std::string& text, const std::string& path) {
+  const auto meters = MeterCalibrationsFromToml(text, path);
+  if (!meters) return tl::unexpected(meters.error());
+  return Counted(meters->size(), "calibration");
+}
+
+// Every JSON document that says itself which it is. A new one is one line.
+struct JsonFormat {
+  std::string_view name;
+  std::string_view schema;
+  Holds (*read)(const std::string& text, const std::string& path);
+};
+constexpr JsonFormat kJsonFormats[] = {
+    {"light", kLightSchema, HeldByLight},
+    {"preset", "lightcal.preset/1", HeldByPreset},
+    {"camera", kCameraSchema, HeldByCamera},
+    {"profile", kProfileSchema, HeldByProfile},
+    {"capture", "lightcal.capture/1", HeldByCapture},
+    {"tape", "lightcal.tape/1", HeldByTape},
+    {"run", kRunStampSchema, HeldByRunStamp},
+};
+
+// Engine files that are read back, by their endings.
+constexpr std::string_view kEngineEndings[] = {".gltf", ".blender.py", ".three.js",
+                                               ".filament.json"};
+
+Error UnknownFormat(const std::string& path, const std::string& what) {
+  return {ErrorKind::kRefused, "unknown_format", path,
+          what + "; lightcal validate --help lists what is known"};
+}
+
+void Take(Holds holds, FileVerdict& verdict) {
+  if (holds) {
+    verdict.holds = *std::move(holds);
+  } else {
+    verdict.error = std::move(holds).error();
+  }
+}
+
+// "lightcal.light/1" of the document; where its syntax is broken, of the first text that looks so.
+// A tape is one document a line.
+std::string SchemaIn(std::string_view text) {
+  const std::string_view first_line = text.substr(0, text.find('\n'));
+  for (const std::string_view part : {text, first_line}) {
+    const Json json = Json::parse(part, nullptr, false);
+    if (!json.is_object()) continue;
+    const auto schema = json.find("schema");
+    return schema != json.end() && schema->is_string() ? schema->get<std::string>() : "";
+  }
+  for (const JsonFormat& format : kJsonFormats) {
+    if (text.find('"' + std::string(format.schema) + '"') != std::string_view::npos) {
+      return std::string(format.schema);
+    }
+  }
+  return "";
+}
+
+void ValidateJson(const std::string& text, FileVerdict& verdict) {
+  const std::string schema = SchemaIn(text);
+  const std::string family = schema.substr(0, schema.find('/'));
+  for (const JsonFormat& format : kJsonFormats) {
+    if (family.empty() || format.schema.substr(0, format.schema.find('/')) != family) continue;
+    verdict.format = format.name;
+    verdict.version = schema;
+    if (schema == format.schema) {
+      Take(format.read(text, verdict.path), verdict);
+    } else {
+      verdict.error = Error{ErrorKind::kRefused, "unknown_version", verdict.path,
+                            "is " + schema + ", this program reads " + std::string(format.schema) +
+                                "; update lightcal, or write the file again with this one"};
+    }
+    return;
+  }
+  const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) {
+    verdict.error = Error{ErrorKind::kRefused, "bad_json", verdict.path,
+                          "is broken JSON and does not say what it is; copy or write it again"};
+  } else if (json.is_object() && json.contains("spectral_data")) {
+    verdict.format = "camera sensitivities";
+    Take(HeldBySensitivities(text, verdict.path), verdict);
+  } else {
+    verdict.error = UnknownFormat(
+        verdict.path, schema.empty() ? "is JSON without a \"schema\"" : "is a " + schema);
+  }
+}
+
+void ValidatePhotometric(FileVerdict& verdict) {
+  auto read = ReadPhotometricFile(verdict.path);
+  if (!read) {
+    if (verdict.format.empty()) verdict.format = "photometric";
+    verdict.error = std::move(read).error();
+    return;
+  }
+  const PhotometricHeader& header = read->file.header;
+  verdict.format = header.format == PhotometricFormat::kIes ? "IES" : "EULUMDAT";
+  verdict.version = header.version;
+  verdict.warnings = std::move(read->warnings);
+  const IntensityTable& table = read->file.table;
+  verdict.holds = RoundedText(table.Flux().value(), kTableDigits) + " lm, peak " +
+                  RoundedText(table.peak().intensity.value(), kTableDigits) + " cd";
+}
+
+void ValidateImport(FileVerdict& verdict) {
+  auto imported = ImportFile(verdict.path);
+  if (!imported) {
+    verdict.error = std::move(imported).error();
+    if (verdict.error->code != "unknown_format" && verdict.error->code != "not_text") return;
+    // EULUMDAT has no mark of its own: what reads as one is one.
+    if (ReadPhotometricFile(verdict.path)) {
+      verdict.error.reset();
+      ValidatePhotometric(verdict);
+    } else {
+      verdict.error = UnknownFormat(verdict.path, "its format is not recognised");
+    }
+    return;
+  }
+  verdict.format = imported->format;
+  verdict.warnings = std::move(imported->warnings);
+  verdict.holds = imported->spectra.empty()
+                      ? Counted(imported->readings.size(), "reading")
+                      : Counted(imported->spectra.size(),
+                                imported->spectra.size() == 1 ? "spectrum" : "spectrum column");
+}
+
+void ValidateEngineFile(const std::string& text, FileVerdict& verdict) {
+  verdict.format = "engine file";
+  const auto lights = LightsOfPreset(verdict.path, text);
+  if (lights) {
+    verdict.holds = Counted(lights->size(), "light");
+  } else {
+    verdict.error = lights.error();
+  }
+}
+
+void ValidateToml(const std::string& text, FileVerdict& verdict) {
+  const bool meters = fs::path(verdict.path).filename() == "meters.toml" ||
+                      text.find("[[calibration]]") != std::string::npos;
+  if (!meters) return ValidateSession(verdict);
+  verdict.format = "meters";
+  verdict.version = "1";
+  Take(HeldByMeters(text, verdict.path), verdict);
+}
+
+void ValidateText(const std::string& text, FileVerdict& verdict) {
+  const std::string name = LowerAscii(fs::path(verdict.path).filename().string());
+  const auto named = [&](std::string_view ending) { return name.ends_with(ending); };
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (named(".toml")) {
+    ValidateToml(text, verdict);
+  } else if (named(".jsonl")) {
+    ValidateJournal(text, verdict);
+  } else if (std::ranges::any_of(kEngineEndings, named)) {
+    ValidateEngineFile(text, verdict);
+  } else if (first != std::string::npos && text[first] == '{') {
+    ValidateJson(text, verdict);
+  } else if (named(".ies") || named(".ldt") || IsIes(text)) {
+    ValidatePhotometric(verdict);
+  } else {
+    ValidateImport(verdict);
+  }
+}
+
+}  // namespace
+
+FileVerdict ValidateFile(const std::string& path) {
+  FileVerdict verdict{path, "", "", "", {}, std::nullopt};
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    ValidateSession(verdict);
+    return verdict;
+  }
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (!error && bytes > kMostBytes) {
+    verdict.error = Error{ErrorKind::kRefused, "too_large", path,
+                          "is larger than 256 MiB, which no file lightcal validates is"};
+    return verdict;
+  }
+  const auto text = ReadWholeFile(path);
+  if (text) {
+    ValidateText(*text, verdict);
+  } else {
+    verdict.error = text.error();
+  }
+  return verdict;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal validate, driven as a shell would: whole files of every format pass, broken ones are
+// named with what and where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "lightcal/records/light_codec.h"
+#include "run_cli.h"
+#include "run_cli_json.h"
+#include "sample_lights.h"
+
+namespace lightcal::test {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+json FileIn(const std::string& path) { return LightcalJson("validate", {path})["files"][0]; }
+
+TEST(ValidateCommand, EverySampleSessionAndTapeIsWhole) {
+  const json sessions = LightcalJson("validate", {SampleData("sessions")});
+  EXPECT_GE(sessions["files"].size(), 11U);
+  std::vector<std::string> tapes;
+  for (const auto& entry : fs::directory_iterator(SampleData("tapes"))) {
+    if (entry.path().extension() == ".tape") tapes.push_back(entry.path().string());
+  }
+  const json document = LightcalJson("validate", tapes);
+  for (const json& file : document["files"]) {
+    EXPECT_EQ(file["format"], "tape") << file;
+    EXPECT_EQ(file["version"], "lightcal.tape/1") << file;
+  }
+}
+
+TEST(ValidateCommand, RecognisesWhatOthersWrote) {
+  EXPECT_EQ(FileIn(SampleData("photometric/sample2.ldt"))["format"], "EULUMDAT");
+  EXPECT_EQ(FileIn(SampleData("spectra/own/argyll_ambient_2856K_500lx.sp"))["format"], "argyll_sp");
+  EXPECT_EQ(FileIn(SampleData("lux_tables/own/typed_readings.csv"))["format"], "csv");
+  EXPECT_EQ(FileIn(SampleData("camera_sensitivities/Nikon_D700_380_780_5.json"))["format"],
+            "camera sensitivities");
+}
+
+// All that one run, one tradeoff and one calibration write.
+TEST(ValidateCommand, PassesWhatLightcalWrites) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/out";
+  ASSERT_EQ(RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out, "--jobs", "1"})
+                .exit_code,
+            0);
+  const std::string stem = out + "/three_real_lights";
+  const json document = LightcalJson(
+      "validate", {out + "/light.json", out + "/run.json", stem + ".preset.json", stem + ".gltf",
+                   stem + ".blender.py", stem + ".three.js", stem + ".filament.json",
+                   stem + "-cob_bare.ies", stem + "-cob_bare.ldt"});
+  std::vector<std::string> formats;
+  for (const json& file : document["files"]) {
+    EXPECT_TRUE(file["ok"]) << file;
+    formats.push_back(file["format"]);
+  }
+  EXPECT_THAT(formats,
+              ::testing::ElementsAre("light", "run", "preset", "engine file", "engine file",
+                                     "engine file", "engine file", "IES", "EULUMDAT"));
+  const std::string profile = folder.Write(
+      "profile.json", R"({"schema": "lightcal.profile/1", "tolerance_relative": 0.02})");
+  EXPECT_EQ(FileIn(profile)["holds"], "tolerance 2.0 %");
+}
+
+struct Fault {
+  const char* name;
+  const char* file;
+  const char* contents;
+  const char* code;
+  const char* says;
+};
+class ValidateFault : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(ValidateFault, IsNamedWithWhatAndWhere) {
+  const TempDir folder;
+  const std::string path = folder.Write(GetParam().file, GetParam().contents);
+  const CliResult result = RunLightcal({"validate", path, "--json"});
+  EXPECT_EQ(result.exit_code, 3) << result.err;
+  const json document = json::parse(result.out);
+  EXPECT_EQ(document["error"]["code"], "invalid");
+  const json& file = document["files"][0];
+  EXPECT_FALSE(file["ok"]);
+  EXPECT_EQ(file["error"]["code"], GetParam().code) << file;
+  const std::string told =
+      std::string(file["error"]["subject"]) + ": " + std::string(file["error"]["message"]);
+  EXPECT_THAT(told, HasSubstr(GetParam().says));
+  EXPECT_THAT(RunLightcal({"validate", path}).out, HasSubstr("refused"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, ValidateFault,
+    ::testing::Values(
+        Fault{"session_key", "session.toml",
+              "lightcal = 1\n[[light]]\nname = \"a\"\nkynd = \"point\"\n", "unknown_key", "kind"},
+        Fault{"light_key", "light.json",
+              R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point","flux":1}]})",
+              "unknown_key", "flux"},
+        Fault{"light_syntax", "light.json", "{\"schema\":\"lightcal.light/1\",\"lights\":[",
+              "bad_light", "light.json"},
+        Fault{"light_version", "light.json", R"({"schema":"lightcal.light/9","lights":[]})",
+              "unknown_version", "lightcal.light/1"},
+        Fault{"preset", "a.preset.json", R"({"schema":"lightcal.preset/1","lights":[{}]})",
+              "bad_preset", "a.preset.json"},
+        Fault{"profile", "p.json", R"({"schema":"lightcal.profile/1","tolerance_relative":-1})",
+              "bad_profile", "tolerance_relative"},
+        Fault{"camera", "c.json", R"({"schema":"lightcal.camera/1","width":"wide"})", "bad_camera",
+              "width"},
+        Fault{"capture", "capture.json", R"({"schema":"lightcal.capture/1","frames":3})",
+              "unknown_key", "frames"},
+        Fault{"tape", "a.tape", "{\"schema\":\"lightcal.tape/1\",\"driver\":\"x\"}\n{\"t_ms\":1}\n",
+              "bad_tape", ":2"},
+        Fault{"run", "run.json", R"({"schema":"lightcal.run/1"})", "bad_run", "missing"},
+        Fault{"journal", "readings.jsonl",
+              "{\"light\":\"a\",\"distance_m\":1,\"illuminance_lx\":5}\n{\"light\":\"a\","
+              "\"distance_m\":-1,\"illuminance_lx\":5}\n",
+              "bad_reading", "readings.jsonl:2"},
+        Fault{"meters", "meters.toml",
+              "lightcal = 1\n[[calibration]]\ndevice = \"hid_als:1\"\nfactor = 1000\n",
+              "bad_meters", "factor"},
+        Fault{"ies", "a.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 two\n", "bad_photometric", "a.ies"},
+        Fault{"other_json", "x.json", R"({"answer": 42})", "unknown_format", "schema"},
+        Fault{"other_text", "x.txt", "to whom it may concern\n", "unknown_format", "validate --help"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(ValidateCommand, ASessionIsCheckedWithItsJournalAndTheFilesItNames) {
+  const TempDir folder;
+  const std::string toml =
+      "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n[[reading]]\nlight = "
+      "\"key\"\ndistance_m = 1\nilluminance_lx = 100\n";
+  folder.Write("lamp/session.toml", toml);
+  const std::string lamp = folder.path() + "/lamp";
+  EXPECT_EQ(FileIn(lamp)["holds"], "1 light, 1 reading");
+  const std::string row = "{\"light\":\"key\",\"distance_m\":2,\"illuminance_lx\":25}\n";
+  folder.Write("lamp/readings.jsonl", row + "{\"light\":\"kye\",\"distance_m\":2,\"illumina");
+  EXPECT_EQ(FileIn(lamp)["holds"], "1 light, 2 readings");
+  EXPECT_THAT(RunLightcal({"validate", lamp}).err, HasSubstr("stops in the middle"));
+  EXPECT_EQ(RunLightcal({"validate", lamp, "--strict"}).exit_code, 3);
+  folder.Write("lamp/readings.jsonl",
+               row + "{\"light\":\"kye\",\"distance_m\":2,\"illuminance_lx\":25}\n");
+  const CliResult strange = RunLightcal({"validate", lamp + "/readings.jsonl"});
+  EXPECT_EQ(strange.exit_code, 3);
+  EXPECT_THAT(strange.out, HasSubstr("readings.jsonl:2"));
+  EXPECT_THAT(strange.out, HasSubstr("did you mean \"key\"?"));
+  folder.Write("lamp/readings.jsonl", row);
+  folder.Write("lamp/session.toml", toml + "spectrum = \"lost.csv\"\n");
+  const CliResult lost = RunLightcal({"validate", lamp});
+  EXPECT_EQ(lost.exit_code, 3);
+  EXPECT_THAT(lost.out, HasSubstr("lost.csv"));
+}
+
+TEST(ValidateCommand, AFileThatIsNotThereFailsAndTheOthersAreStillRead) {
+  const TempDir folder;
+  const std::string good = folder.Write("a.json", LightFileToJson(FileOf({WarmPoint()})).value());
+  const CliResult result = RunLightcal({"validate", folder.path() + "/none.json", good, "--json"});
+  EXPECT_EQ(result.exit_code, 1);
+  const json document = json::parse(result.out);
+  EXPECT_FALSE(document["files"][0]["ok"]);
+  EXPECT_EQ(document["files"][0]["error"]["code"], "not_found");
+  EXPECT_TRUE(document["files"][1]["ok"]);
+  EXPECT_EQ(RunLightcal({"validate"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace lightcal::test
