@@ -4,7 +4,7 @@
 
 extern "C" __attribute__((visibility("default"))) const lightcal::app::BoardFunctions*
 lightcal_board_functions() noexcept {
-  static constexpr lightcal::app::BoardFunctions kFunctions = {&lightcal::LayOutBoard,
-                                                               &lightcal::FindBoard};
+  static constexpr lightcal::app::BoardFunctions kFunctions = {
+      &lightcal::LayOutBoard, &lightcal::FindBoard, &lightcal::FindColorChart};
   return &kFunctions;
 }

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The door to OpenCV's board: what the module lightcal_board.so answers. Both sides are built
-// together.
+// The door to OpenCV's board and charts: what the module lightcal_board.so answers. Both sides are
+// built together.
 #pragma once
 
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/charuco.h"
+#include "lightcal/imaging/find_chart.h"
 
 namespace lightcal::app {
 
 struct BoardFunctions {
   decltype(&LayOutBoard) lay_out;
   decltype(&FindBoard) find;
+  decltype(&FindColorChart) find_chart;
 };
 using BoardEntry = const BoardFunctions* (*)() noexcept;
 inline constexpr const char* kBoardEntrySymbol = "lightcal_board_functions";

@@ -221,15 +221,26 @@ double Unaligned(const BracketWork& work) {
   return kLeastShiftPixels + 0.5 * std::hypot(frame.column_period, frame.row_period);
 }
 
+// Rows of which all frames together have kBandBytes of samples, in whole periods of any pattern.
+int BandRows(std::span<const Frame> frames) {
+  constexpr std::size_t kBandBytes = std::size_t{1} << 28;
+  std::size_t row_bytes = 0;
+  for (const Frame& frame : frames) {
+    row_bytes +=
+        std::visit([](const auto& view) { return view.row(0).size_bytes(); }, frame.samples);
+  }
+  const std::size_t periods = kBandBytes / std::max<std::size_t>(row_bytes * kLanes, 1);
+  return kLanes * static_cast<int>(std::clamp<std::size_t>(periods, 1, 20));
+}
+
 // The whole picture; frames that lie in scratch files are in memory by a band at a time.
 Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows& rows,
                                  const BracketWork& work, View2d<float> picture,
                                  View2d<float> sigma) {
-  constexpr int kBandRows = 20 * kLanes;  // whole periods of any pattern
   const bool in_files = std::all_of(work.frames.begin(), work.frames.end(),
                                     [](const Frame& frame) { return frame.in_file; });
   const int height = picture.height(), width = picture.width();
-  const int band = in_files && !work.alignment ? kBandRows : height;
+  const int band = in_files && !work.alignment ? BandRows(work.frames) : height;
   std::size_t clipped = 0;
   for (const Frame& frame : work.frames) LetGo(frame, 0, frame.info.height);
   for (int first = 0; first < height; first += band) {

@@ -27,12 +27,13 @@ Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
   const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
   std::vector<std::optional<Result<Frame>>> loaded(infos.size());
   ParallelFor(static_cast<int>(infos.size()), [&](int i) {
-    loaded[static_cast<std::size_t>(i)] = LoadFrame(infos[static_cast<std::size_t>(i)], store);
+    auto& frame = loaded[static_cast<std::size_t>(i)];
+    frame = LoadFrame(infos[static_cast<std::size_t>(i)], store);
+    if (*frame) LetGo(**frame, 0, (*frame)->info.height);  // before the next one needs the memory
   });
   std::vector<Frame> frames;
   for (auto& frame : loaded) {
     if (!*frame) return Propagate(std::move(*frame));
-    LetGo(**frame, 0, (*frame)->info.height);
     frames.push_back(std::move(**frame));
   }
   return frames;
@@ -94,6 +95,7 @@ Result<void> Align(MergeRequest merge, BracketWork& work) {
     merge.label_exposure.push_back(given.label_exposure[i]);
     merge.noise_in_file.push_back(given.noise_in_file[i]);
   }
+  merge.done = [&](std::size_t i) { given.done(before[i]); };
   auto planned = PlanMerge(work.signals, merge);
   if (!planned) return Propagate(std::move(planned));
   for (std::size_t i = 0; i < planned->order.size(); ++i) {
@@ -183,6 +185,9 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
     merge.noise_of_camera = !noise.empty();
     if (!noise.empty()) merge.noise_in_file = std::move(noise);
   }
+  merge.done = [&frames = work->frames](std::size_t i) {
+    LetGo(frames[i], 0, frames[i].info.height);
+  };
   auto planned = PlanMerge(work->signals, merge);
   if (!planned) return Propagate(std::move(planned));
   work->planned = std::move(*planned);

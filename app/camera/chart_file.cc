@@ -8,6 +8,7 @@
 #include <span>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/find_chart.h"
 
 namespace lightcal::app {
 namespace {
@@ -51,7 +52,10 @@ class ChartReader {
       if (!taken) return Propagate(std::move(taken));
     }
     if (chart_.patches.empty()) return Bad(1, "holds no patch");
-    if (!has_corners_) return Bad(1, "does not say where its corner patches are in the picture");
+    const bool common = chart_.columns == kChartColumns && chart_.rows == kChartRows;
+    if (!chart_.corners && !common) {
+      return Bad(1, "does not say where its corner patches are in the picture");
+    }
     return std::move(chart_);
   }
 
@@ -67,8 +71,7 @@ class ChartReader {
     if (!header_.empty()) return TakePatch(line, number);
     const auto fields = Fields(line);
     if (fields.front() == "corners") {
-      has_corners_ = true;
-      return TakeNumbers(fields, number, chart_.corners);
+      return TakeNumbers(fields, number, chart_.corners.emplace());
     }
     if (fields.front() != "lamp_xy") return TakeHeader(line, number);
     std::array<double, 2> xy{};
@@ -146,7 +149,7 @@ class ChartReader {
 
   const std::string& where_;
   std::vector<std::string> header_;
-  bool lab_ = false, has_corners_ = false;
+  bool lab_ = false;
   ChartFile chart_;
 };
 

@@ -21,15 +21,15 @@ struct ChartFilePatch {
 
 struct ChartFile {
   // Centres of the corner patches in the picture: upper left, upper right, lower right, lower left,
-  // as the chart is read.
-  std::array<double, 8> corners{};
+  // as the chart is read. Absent = a chart of 6 x 4 patches that is to be looked for.
+  std::optional<std::array<double, 8>> corners;
   std::optional<Xy> lamp;  // white of the light that lit it; absent = D50, as the references
   std::vector<ChartFilePatch> patches;
   int columns = 0, rows = 0;
 };
 
 // Comma separated; # begins a comment:
-//   corners, x, y, x, y, x, y, x, y        in pixels
+//   corners, x, y, x, y, x, y, x, y        in pixels; optional where the chart has 6 x 4 patches
 //   lamp_xy, x, y                          optional
 //   name, column, row, L, a, b             CIELAB of D50; or X, Y, Z of D50, Y = 100 for white
 //   dark skin, 1, 1, 37.5, 14.4, 14.9      one line a patch

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "board_module.h"
 #include "camera/chart_file.h"
 #include "camera/raw_region.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
@@ -32,23 +33,15 @@ Region PatchRegion(const ChartGrid& grid, int column, int row) {
           2 * half + 1};
 }
 
-}  // namespace
-
-Result<CameraColor> ColorFromChart(Session& session, const CameraFramesDescription& what,
-                                   const MergedBracket& merged) {
-  const std::string path = PathInSession(session, what.chart);
-  const auto text = ReadWholeFile(path);
-  if (!text) return tl::unexpected(text.error());
-  const auto chart = ParseChartFile(*text, what.chart);
-  if (!chart) return tl::unexpected(chart.error());
-  NoteInputFile(path, session);
-  const auto grid = ChartGrid::Make(chart->corners, chart->columns, chart->rows);
+Result<CameraColor> FitChartAt(const std::array<double, 8>& corners, const ChartFile& chart,
+                               const std::string& name, const MergedBracket& merged) {
+  const auto grid = ChartGrid::Make(corners, chart.columns, chart.rows);
   if (!grid) return tl::unexpected(grid.error());
-  const Xy lamp = chart->lamp.value_or(kD50);
+  const Xy lamp = chart.lamp.value_or(kD50);
   std::vector<ChartPatch> patches;
-  for (const ChartFilePatch& one : chart->patches) {
+  for (const ChartFilePatch& one : chart.patches) {
     const std::string place =
-        what.chart + ", column " + std::to_string(one.column) + ", row " + std::to_string(one.row);
+        name + ", column " + std::to_string(one.column) + ", row " + std::to_string(one.row);
     const auto seen =
         MeasureRawPatch(merged, PatchRegion(*grid, one.column - 1, one.row - 1), place);
     if (!seen) return tl::unexpected(seen.error());
@@ -59,8 +52,40 @@ Result<CameraColor> ColorFromChart(Session& session, const CameraFramesDescripti
     }
     patches.push_back({seen->rgb, AdaptBradford(one.xyz, kD50, lamp)});
   }
-  Xyz white = XyzFromXyAtUnitY(lamp);
+  const Xyz white = XyzFromXyAtUnitY(lamp);
   return FitChart(patches, {100.0 * white.X, 100.0, 100.0 * white.Z});
+}
+
+// Of the four ways round in which the chart may hang where it was found, the one that fits best.
+Result<CameraColor> FitChartAnyWayRound(const std::array<double, 8>& found, const ChartFile& chart,
+                                        const std::string& name, const MergedBracket& merged) {
+  std::array<double, 8> corners = found;
+  Result<CameraColor> best = FitChartAt(corners, chart, name, merged);
+  for (int quarter = 1; quarter < 4; ++quarter) {
+    std::rotate(corners.begin(), corners.begin() + 2, corners.end());
+    auto fitted = FitChartAt(corners, chart, name, merged);
+    if (fitted && (!best || *fitted->delta_e_mean < *best->delta_e_mean)) best = std::move(fitted);
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<CameraColor> ColorFromChart(Session& session, const CameraFramesDescription& what,
+                                   const MergedBracket& merged) {
+  const std::string path = PathInSession(session, what.chart);
+  const auto text = ReadWholeFile(path);
+  if (!text) return tl::unexpected(text.error());
+  const auto chart = ParseChartFile(*text, what.chart);
+  if (!chart) return tl::unexpected(chart.error());
+  NoteInputFile(path, session);
+  if (chart->corners) return FitChartAt(*chart->corners, *chart, what.chart, merged);
+  const auto opencv = BoardModule();
+  if (!opencv) return tl::unexpected(opencv.error());
+  const auto found =
+      (*opencv)->find_chart({merged.picture.data(), merged.width, merged.height, merged.channels});
+  if (!found) return tl::unexpected(found.error());
+  return FitChartAnyWayRound(*found, *chart, what.chart, merged);
 }
 
 Result<void> AddOwnColor(Session& session, const FrameInfo& info, CameraProfile& profile) {

@@ -17,7 +17,8 @@ namespace lightcal::app {
 
 // Of the chart in a picture merged by BracketMergeRequest::raw: the middle of each patch, a fifth
 // of the distance to its neighbours each way. Refused as ParseChartFile, ChartGrid::Make,
-// MeasureRawPatch, FitChart; patch_uneven.
+// MeasureRawPatch, FitChart; patch_uneven; where
+// the file does not say where the chart is, as BoardModule, FindColorChart.
 [[nodiscard]] Result<CameraColor> ColorFromChart(Session& session,
                                                  const CameraFramesDescription& what,
                                                  const MergedBracket& merged);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gate against a simulator that shares nothing with it. More scenes by LIGHTCAL_GATE_SCENES
-// (tests/bench/gate_nightly).
+// The gate and the bounce's bound against simulators that share nothing with them. More scenes and
+// rooms by LIGHTCAL_GATE_SCENES and LIGHTCAL_BOUNCE_ROOMS (tests/bench/gate_nightly).
 #include "gate_truth.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "lightcal/light/gate.h"
+#include "lightcal/light/room_bounce.h"
 
 namespace lightcal {
 namespace {
@@ -111,6 +112,62 @@ TEST(GateAgainstTruth, WhatIsLeftOffNeverBreaksTheTolerance) {
     EXPECT_LE(Quantile(tally.slack, 0.5), 5.0) << kTolerances[k];
   }
   EXPECT_GE(tallies[1].off / scenes, 3.0);
+}
+
+// A room's answer by radiosity against the bound, for even lamps, Lambertian ones and beams.
+struct RoomTally {
+  int rooms = 0;
+  int violations = 0;
+  std::vector<double> slack;     // bound / solved
+  std::vector<double> estimate;  // estimate / solved - 1
+};
+
+void JudgeRoom(std::mt19937_64& random, int kind, RoomTally& tally) {
+  const test::TruthScene truth = test::RandomTruthScene(random);
+  Scene scene = Stated(truth, 0.0);
+  test::PointLamp lamp{truth.lamp, truth.aim, 0.0};
+  if (kind == 0) scene.kind = LightKind::kPoint;
+  if (kind != 2) scene.beam.reset();
+  if (kind == 1) lamp.exponent = 1.0;
+  if (kind == 2) lamp.exponent = std::log(0.5) / std::log(std::cos(0.5 * truth.beam_rad));
+  test::Place normal{};
+  for (int k = 0; k < 3; ++k) normal[k] = (truth.lamp[k] - truth.meter[k]) / truth.distance_m;
+  ScenePose facing = scene.poses.front();
+  facing.tilt_rad = 0.0;
+  const double solved = test::IndirectIlluminance(truth.box, lamp, truth.meter, normal, {10, 120});
+  const double direct =
+      std::pow(std::cos(truth.emission_rad), lamp.exponent) / (truth.distance_m * truth.distance_m);
+  const Bounce bounce = BounceAt(scene, facing);
+  const double bound = bounce.RelativeBound(facing) * direct;
+  ++tally.rooms;
+  if (solved > bound) ++tally.violations;
+  tally.slack.push_back(bound / solved);
+  tally.estimate.push_back(bounce.Estimate() / solved - 1.0);
+}
+
+TEST(GateAgainstTruth, TheBouncesBoundHoldsAgainstRadiosity) {
+  const int rooms = CountFrom("LIGHTCAL_BOUNCE_ROOMS", 60);
+  constexpr std::array kNames = {"even lamps", "Lambertian", "beams"};
+  std::mt19937_64 random(20261122);
+  std::array<RoomTally, 3> tallies;
+  for (int i = 0; i < rooms; ++i) {
+    for (int kind = 0; kind < 3; ++kind) {
+      JudgeRoom(random, kind, tallies[static_cast<std::size_t>(kind)]);
+    }
+  }
+  int violations = 0;
+  for (std::size_t kind = 0; kind < tallies.size(); ++kind) {
+    const RoomTally& tally = tallies[kind];
+    violations += tally.violations;
+    std::printf(
+        "%-11s %d rooms: %d violations, bound/solved p50 %.2f p95 %.2f, estimate %+.0f to "
+        "%+.0f %% (p5 to p95)\n",
+        kNames[kind], tally.rooms, tally.violations, Quantile(tally.slack, 0.5),
+        Quantile(tally.slack, 0.95), 100.0 * Quantile(tally.estimate, 0.05),
+        100.0 * Quantile(tally.estimate, 0.95));
+  }
+  EXPECT_LE(violations, 0.005 * 3 * rooms);
+  EXPECT_LE(Quantile(tallies[0].slack, 0.5), 1.5);
 }
 
 }  // namespace

@@ -132,17 +132,22 @@ Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
   double mean = 0.0;
+  bool even = true;
   auto pose = scene.poses.begin();
   for (const Observation& row : observations.rows) {
     double bounce = 0.0;
     if (row.lit) {
-      if (!row.differenced) bounce = BounceAt(scene, *pose).Estimate();
+      if (!row.differenced) {
+        const Bounce found = BounceAt(scene, *pose);
+        bounce = found.Estimate();
+        even = even && found.even;
+      }
       mean += bounce / static_cast<double>(scene.poses.size());
       ++pose;
     }
     model.bounce_per_candela.push_back(bounce);
   }
-  model.considered.push_back({kBounceSigma * mean, 2.0, "room_bounce"});
+  model.considered.push_back({BounceSigma(even) * mean, 2.0, "room_bounce"});
 }
 
 void ModelEffect(const Scene& scene, const LightDescription& light,

@@ -96,7 +96,7 @@ std::optional<Warning> DifferenceOf(const Blocks& before, const Blocks& blocks,
 }  // namespace
 
 Warnings CompareFrames(const BracketMerger& merger, double tolerated_pixels,
-                       const std::function<void(std::size_t)>& done_with) {
+                       const FrameDone& done_with) {
   const std::size_t n = merger.frames().size();
   Warnings warnings;
   Blocks last;

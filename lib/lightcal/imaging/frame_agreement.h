@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 
 #include "lightcal/core/result.h"
@@ -22,6 +21,6 @@ namespace lightcal {
 inline constexpr double kLeastShiftPixels = 0.4;
 [[nodiscard]] Warnings CompareFrames(const BracketMerger& merger,
                                      double tolerated_pixels = kLeastShiftPixels,
-                                     const std::function<void(std::size_t)>& done_with = {});
+                                     const FrameDone& done_with = {});
 
 }  // namespace lightcal

@@ -152,7 +152,7 @@ std::optional<TilePattern> TileOf(View2d<const float> value, View2d<const float>
 
 }  // namespace
 
-double EstimateFixedPattern(const BracketMerger& merger) {
+double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_with) {
   MergePlan plan = merger.plan();
   plan.fixed_pattern = 0.0;
   const auto bare = BracketMerger::Make(merger.frames(), plan);
@@ -173,6 +173,7 @@ double EstimateFixedPattern(const BracketMerger& merger) {
   for (int strip = 0; strip < strips; ++strip) {
     const int first = (frame.height / rows) * strip / strips * rows;
     static_cast<void>(bare->MergeRows(first, rows, values, variances));
+    for (std::size_t k = 0; done_with && k < merger.frames().size(); ++k) done_with(k);
     for (int x = 0; x + kTile * step_x <= samples; x += kTile * step_x) {
       for (int place = 0; place < step_x * step_y; ++place) {
         const auto tile =

@@ -54,6 +54,7 @@ class BracketMerger {
 // of the merged picture: what neighbours of a colour scatter beyond their variance, as a share of
 // the signal, in the lower quartile of tiles; at most 1 %. kMiddlingFixedPattern where fewer than
 // 16 tiles are well exposed. A textured picture without flat places reads too high, never too low.
-[[nodiscard]] double EstimateFixedPattern(const BracketMerger& merger);
+[[nodiscard]] double EstimateFixedPattern(const BracketMerger& merger,
+                                          const FrameDone& done_with = {});
 
 }  // namespace lightcal

@@ -180,8 +180,8 @@ Result<ExposureRatios> RatiosOf(const SampledSignals& signals, const MergeReques
 Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequest& request) {
   if (frames.empty()) return Refused("no_frames", "merge", "no frame was given");
   PlannedMerge planned;
-  FindClipping(frames);
-  SampledSignals signals = SampleRows(frames, kSamples);
+  FindClipping(frames, request.done);
+  SampledSignals signals = SampleRows(frames, kSamples, request.done);
   const std::vector<std::size_t> kept = DropDuplicates(signals, frames, planned.warnings);
   std::vector<double> label;
   for (const std::size_t i : kept) label.push_back(request.label_exposure[i]);
@@ -225,7 +225,9 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   }
   const auto merger = BracketMerger::Make(frames, planned.plan);
   if (!merger) return tl::unexpected(merger.error());
-  planned.plan.fixed_pattern = EstimateFixedPattern(*merger);
+  planned.plan.fixed_pattern = EstimateFixedPattern(*merger, [&](std::size_t k) {
+    if (request.done) request.done(planned.order[k]);
+  });
   return planned;
 }
 

@@ -22,6 +22,7 @@ struct MergeRequest {
   std::optional<NoiseProfile> noise;                     // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files
+  FrameDone done;                // of the frames as given
 };
 
 enum class NoiseSource { kGiven, kCamera, kFile, kEstimated, kAssumed };

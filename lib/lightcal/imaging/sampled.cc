@@ -30,16 +30,18 @@ std::optional<std::size_t> BinOf(double ya, double yb, double clip, const PairSe
 
 }  // namespace
 
-SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t samples) {
+SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t samples,
+                          const FrameDone& done) {
   SampledSignals sampled;
   if (frames.empty()) return sampled;
   const std::vector<int> rows = SpreadRows(frames[0], samples);
   const std::size_t row_samples = frames[0].row_samples();
-  for (const SignalFrame& frame : frames) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
     auto& signals = sampled.frames.emplace_back(rows.size() * row_samples);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      ReadSignals(frame, rows[i], 0, std::span(signals).subspan(i * row_samples, row_samples));
+      ReadSignals(frames[k], rows[i], 0, std::span(signals).subspan(i * row_samples, row_samples));
     }
+    if (done) done(k);
   }
   sampled.clip.reserve(rows.size() * row_samples);
   for (const int y : rows) {

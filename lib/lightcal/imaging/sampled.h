@@ -27,7 +27,8 @@ struct PairClips {
 [[nodiscard]] PairClips ClipsOfPair(const SampledSignals& signals, std::size_t a, std::size_t b);
 
 // Whole rows, spread evenly; about `samples` a frame.
-[[nodiscard]] SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t samples);
+[[nodiscard]] SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t samples,
+                                        const FrameDone& done = {});
 
 // Levels are signals of the longer frame as shares of the clip, in bins of equal width of the root
 // (in which shot noise has one width): bin = floor(kLevelBins sqrt(level)).

@@ -194,10 +194,11 @@ void ReadSignals(const SignalFrame& frame, int y, std::size_t first, std::span<f
                             out.data());
 }
 
-void FindClipping(std::span<SignalFrame> frames) {
+void FindClipping(std::span<SignalFrame> frames, const FrameDone& done) {
   std::array<std::optional<float>, 4> highest;
-  for (const SignalFrame& frame : frames) {
-    const auto spikes = SpikesOf(frame);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto spikes = SpikesOf(frames[i]);
+    if (done) done(i);
     for (std::size_t c = 0; c < highest.size(); ++c) {
       if (spikes[c] && (!highest[c] || *spikes[c] > *highest[c])) highest[c] = spikes[c];
     }

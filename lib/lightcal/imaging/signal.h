@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,6 +58,9 @@ struct SignalFrame {
 [[nodiscard]] Result<SignalFrame> SignalOf(const Frame& frame,
                                            const ResponseCurves* response = nullptr);
 
+// Told the index of each frame that was gone through: its samples may leave memory.
+using FrameDone = std::function<void(std::size_t)>;
+
 // The signals of samples [first, first + out.size()) of row y; first is a multiple of kLanes.
 void ReadSignals(const SignalFrame& frame, int y, std::size_t first, std::span<float> out);
 
@@ -64,7 +68,7 @@ void ReadSignals(const SignalFrame& frame, int y, std::size_t first, std::span<f
 // of the level the file names and that level: all frames of a bracket share one sensor, so a clip
 // stays where it is from frame to frame. A spike is one value held by at least 1e-4 of the samples
 // of a channel, and by eight times as many as the mean of the values just below it.
-void FindClipping(std::span<SignalFrame> frames);
+void FindClipping(std::span<SignalFrame> frames, const FrameDone& done = {});
 
 // Rows spread evenly over the picture that hold about `samples` samples together, each with its
 // neighbour in the pattern: y, y + 1, ... y + period - 1.

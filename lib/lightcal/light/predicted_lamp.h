@@ -11,7 +11,6 @@
 
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/illuminance_map.h"
-#include "lightcal/light/room_bounce.h"
 #include "lightcal/light/wall_light.h"
 
 namespace lightcal {
@@ -66,7 +65,6 @@ class PredictedLamp {
 // Gate constants, shared by points and maps.
 inline constexpr double kOffShare = 0.5;       // of the tolerance, for what is left off
 inline constexpr double kBetweenShare = 0.25;  // for interpolating the walls' light
-inline constexpr double kBounceU95 = kZ95 * kBounceSigma;
 
 [[nodiscard]] SourceDetail DetailOf(EffectChoice finite_source, double tolerance);
 

@@ -30,6 +30,8 @@ class Pattern {
     even_ = !cone_ && exponent_ == 0.0;
   }
 
+  [[nodiscard]] bool even() const { return even_; }
+
   void AimAt(const Vec3& direction) {
     if (!aim_) aim_ = direction;
   }
@@ -83,42 +85,72 @@ struct Receiver {
   Vec3 normal;
 };
 
-// One wall's patches: coordinate `axis` fixed at `at`, normal `inward` along it.
-double FromWall(const Scene& scene, const Pattern& pattern, const Vec3& lamp,
-                const Receiver& receiver, int axis, double at, double inward) {
-  const Vec3& size = scene.room->size_m;
-  const auto patches = static_cast<std::size_t>(scene.room->bounce_patches);
-  const double height = std::abs(lamp[axis] - at);
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
+// One wall: coordinate `axis` fixed at `at`, normal `inward` along it.
+class Wall {
+ public:
+  Wall(const Pattern& pattern, const Vec3& lamp, const Receiver& receiver, int axis, double at,
+       double inward)
+      : pattern_(pattern),
+        lamp_(lamp),
+        receiver_(receiver),
+        axis_(axis),
+        at_(at),
+        inward_(inward) {}
+
+  [[nodiscard]] int u() const { return (axis_ + 1) % 3; }
+  [[nodiscard]] int v() const { return (axis_ + 2) % 3; }
+  [[nodiscard]] double height() const { return std::abs(lamp_[axis_] - at_); }
+
+  // What a patch u0..u1, v0..v1 throws back, by its middle. One that is wide for the meter's
+  // distance is halved each way, `splits` times at most.
+  [[nodiscard]] double FromPatch(double u0, double u1, double v0, double v1, int splits = 3) const {
+    constexpr double kWide = 0.7;  // side over distance
+    const double um = 0.5 * (u0 + u1), vm = 0.5 * (v0 + v1);
+    Vec3 patch{};
+    patch[axis_] = at_;
+    patch[u()] = um;
+    patch[v()] = vm;
+    const Vec3 to_patch = patch - receiver_.position;
+    const double distance = Length(to_patch);
+    if (splits > 0 && std::max(u1 - u0, v1 - v0) > kWide * distance) {
+      return FromPatch(u0, um, v0, vm, splits - 1) + FromPatch(um, u1, v0, vm, splits - 1) +
+             FromPatch(u0, um, vm, v1, splits - 1) + FromPatch(um, u1, vm, v1, splits - 1);
+    }
+    const double at_receiver = Dot(receiver_.normal, to_patch) / distance;
+    const double at_wall = -inward_ * to_patch[axis_] / distance;
+    if (at_receiver <= 0.0 || at_wall <= 0.0) return 0.0;
+    const Vec3 from_lamp = patch - lamp_;
+    const double lamp_distance = Length(from_lamp);
+    const double wall_illuminance =
+        pattern_.Toward(from_lamp) * height() / (lamp_distance * lamp_distance * lamp_distance);
+    // A patch as large as its distance acts as a disk: pi r^2 + A instead of pi r^2.
+    const double area = (u1 - u0) * (v1 - v0);
+    return wall_illuminance * area * at_receiver * at_wall / (kPi * distance * distance + area);
+  }
+
+ private:
+  const Pattern& pattern_;
+  const Vec3& lamp_;
+  const Receiver& receiver_;
+  int axis_;
+  double at_, inward_;
+};
+
+double FromWall(const RoomBox& room, const Vec3& lamp, const Wall& wall) {
+  const auto patches = static_cast<std::size_t>(room.bounce_patches);
   const auto edges = [&](int side) {
-    const double low = side == 2 ? 0.0 : -0.5 * size[side];
-    return Grade(scene.room->bounce_patches, low, low + size[side], lamp[side], height);
+    const double low = side == 2 ? 0.0 : -0.5 * room.size_m[side];
+    return Grade(room.bounce_patches, low, low + room.size_m[side], lamp[side], wall.height());
   };
-  const auto u_edges = edges(u);
-  const auto v_edges = edges(v);
+  const auto u = edges(wall.u());
+  const auto v = edges(wall.v());
   double sum = 0.0;
   for (std::size_t i = 0; i < patches; ++i) {
     for (std::size_t j = 0; j < patches; ++j) {
-      Vec3 patch{};
-      patch[axis] = at;
-      patch[u] = 0.5 * (u_edges[i] + u_edges[i + 1]);
-      patch[v] = 0.5 * (v_edges[j] + v_edges[j + 1]);
-      const double area = (u_edges[i + 1] - u_edges[i]) * (v_edges[j + 1] - v_edges[j]);
-      const Vec3 from_lamp = patch - lamp;
-      const double lamp_distance = Length(from_lamp);
-      const double wall_illuminance =
-          pattern.Toward(from_lamp) * height / (lamp_distance * lamp_distance * lamp_distance);
-      const Vec3 to_patch = patch - receiver.position;
-      const double distance = Length(to_patch);
-      const double at_receiver = Dot(receiver.normal, to_patch) / distance;
-      const double at_wall = -inward * to_patch[axis] / distance;
-      if (at_receiver <= 0.0 || at_wall <= 0.0) continue;
-      // A patch as large as its distance acts as a disk: pi r^2 + A instead of pi r^2.
-      sum += wall_illuminance * area * at_receiver * at_wall / (kPi * distance * distance + area);
+      sum += wall.FromPatch(u[i], u[i + 1], v[j], v[j + 1]);
     }
   }
-  return scene.room->reflectance * sum;
+  return room.reflectance * sum;
 }
 
 }  // namespace
@@ -136,11 +168,13 @@ Bounce BounceAt(const Scene& scene, const ScenePose& pose) {
   Pattern pattern(scene);
   pattern.AimAt(receiver.normal * -1.0);
   Bounce out;
+  out.even = pattern.even();
   out.toward = pattern.Toward(receiver.normal * -1.0);
   for (int axis = 0; axis < 3; ++axis) {
     const double low = axis == 2 ? 0.0 : -0.5 * size[axis];
-    out.first += FromWall(scene, pattern, lamp, receiver, axis, low, 1.0);
-    out.first += FromWall(scene, pattern, lamp, receiver, axis, low + size[axis], -1.0);
+    out.first += FromWall(*scene.room, lamp, Wall(pattern, lamp, receiver, axis, low, 1.0));
+    out.first +=
+        FromWall(*scene.room, lamp, Wall(pattern, lamp, receiver, axis, low + size[axis], -1.0));
   }
   const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
   const double rho = scene.room->reflectance;

@@ -168,9 +168,9 @@ class TileWork {
     const WallLight& walls = lamp_.Walls();
     out_.account.points[static_cast<std::size_t>(MapForm::kBounce)] += r.points();
     out_.account.bounce_evaluated += r.points();
-    AtEach(r, [&](const SurfacePoint& at, double, double) {
+    AtEach(r, [&, u95 = walls.u95_relative()](const SurfacePoint& at, double, double) {
       const double lux = walls.At(at);
-      return std::pair(lux, lux * kBounceU95);
+      return std::pair(lux, lux * u95);
     });
   }
 
@@ -192,7 +192,8 @@ class TileWork {
     }
     out_.account.points[static_cast<std::size_t>(MapForm::kBounceBetween)] += r.points();
     const TileOf tile(r, out_);
-    kernels::AddSmooth(tile.get(), lux.data(), {kBounceU95, kBounceU95, kBounceU95, kBounceU95});
+    const double u95 = walls.u95_relative();
+    kernels::AddSmooth(tile.get(), lux.data(), {u95, u95, u95, u95});
   }
 
   // Whether the region is larger than the field's features: the walls' light varies over the

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/core/uncertain.h"
+#include "lightcal/light/room_bounce.h"
+
 namespace lightcal {
 namespace {
 
@@ -72,7 +75,9 @@ WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail)
   const Vec3& size = room.size_m;
   const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
   const double rho = room.reflectance;
-  tail_ = rho * rho * lamp.strength * SolidAngleOf(lamp.source) / (area * (1.0 - rho));
+  const double solid_angle = SolidAngleOf(lamp.source);
+  tail_ = rho * rho * lamp.strength * solid_angle / (area * (1.0 - rho));
+  even_ = solid_angle > 4.0 * std::numbers::pi * (1.0 - 1e-9);
 }
 
 void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) {
@@ -130,10 +135,12 @@ double WallLight::First(const SurfacePoint& at) const {
   return sum;
 }
 
-double WallLight::At(const SurfacePoint& at) const { return First(Inside(at)) + 1.15 * tail_; }
+double WallLight::At(const SurfacePoint& at) const { return MeanBounce(First(Inside(at)), tail_); }
 
 double WallLight::BoundAt(const SurfacePoint& at) const {
-  return 1.2 * First(Inside(at)) + 2.0 * tail_;
+  return MostBounce(First(Inside(at)), tail_, even_);
 }
+
+double WallLight::u95_relative() const { return kZ95 * BounceSigma(even_); }
 
 }  // namespace lightcal

@@ -12,7 +12,7 @@ namespace lightcal {
 
 // First bounce: each wall is cut into patches, graded by asinh about the lamp's foot. Further
 // bounces: their mean over the room, 1.15 rho^2 Phi/(A (1 - rho)), the same everywhere
-// (room_bounce.h: the whole within -20 and +12 % in 500 random boxes).
+// (room_bounce.h says how well that holds).
 class WallLight {
  public:
   // kFine: 10 x 10 patches a wall, each lit at 2 x 2 Gauss points and shining as a Lambertian
@@ -26,8 +26,10 @@ class WallLight {
 
   // First bounce and further ones.                                                      [lx]
   [[nodiscard]] double At(const SurfacePoint& at) const;
-  // What they cannot exceed, (1.2 first + 2 tail).                                      [lx]
+  // What they cannot exceed (MostBounce).                                               [lx]
   [[nodiscard]] double BoundAt(const SurfacePoint& at) const;
+  // 95 % interval of At, relative.
+  [[nodiscard]] double u95_relative() const;
 
  private:
   struct Patch {
@@ -43,6 +45,7 @@ class WallLight {
   Detail detail_;
   std::vector<Patch> patches_;
   double tail_ = 0.0;  // rho^2 Phi/(A (1 - rho)) [lx]
+  bool even_ = true;   // the lamp shines alike in all directions
 };
 
 }  // namespace lightcal

@@ -13,8 +13,8 @@ namespace lightcal::effects {
 // Median of indirect over direct in 500 random boxes (reflectance 0.1-0.85, 0.3-3 m).
 inline constexpr double kBounceDefault = 0.25;
 
-//   bound = (1.2 E1 + 2 tail)/E_direct at its worst reading, E1 the first bounce and tail the
-//   further ones (light/room_bounce.h).
+//   bound = (1.35 E1 + 2 tail)/E_direct at its worst reading, 1.5 and 6 for a lamp with a lobe; E1
+//   the first bounce and tail the further ones (light/room_bounce.h)
 [[nodiscard]] inline EffectFinding FindRoomBounce(const Scene& scene) {
   const bool differenced = std::all_of(scene.poses.begin(), scene.poses.end(),
                                        [](const ScenePose& pose) { return pose.differenced; });
