@@ -21,6 +21,7 @@
 #include "lightcal/imaging/patches.h"
 #include "lightcal/imaging/picture_luminance.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "one_of.h"
 #include "picture_words.h"
 
 namespace lightcal::app {
@@ -153,8 +154,8 @@ Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
     if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
     return std::nullopt;
   }
-  const auto projection = ParseProjection(
-      "--projection", options.projection.empty() ? "latlong" : options.projection);
+  const auto projection =
+      ParseProjection("--projection", options.projection.empty() ? "latlong" : options.projection);
   if (!projection) return tl::unexpected(projection.error());
   view.projection = *projection;
   if (view.projection != Projection::kLatLong) {
@@ -295,12 +296,14 @@ Run BuildInspect(CLI::App& parser) {
   parser.add_option("--rect", options->rect, "only this region: x,y,width,height in pixels")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_option("--projection", options->projection,
-                    "rect, latlong, equidistant or equisolid: gives illuminance and solid angle");
+  parser
+      .add_option("--projection", options->projection,
+                  "How the picture was projected: gives illuminance and solid angle")
+      ->check(OneOf(kProjectionWords));
   parser.add_option("--fov", options->fov,
                     "full angle, across the width (rect) or the image circle (fisheyes)");
-  parser
-      .add_option("--luminance-convention", options->convention, kConventionHelp)
+  parser.add_option("--luminance-convention", options->convention, kConventionHelp)
+      ->check(OneOf(kConventionWords))
       ->capture_default_str();
   parser.add_option("--exposure,--exposures", options->exposure,
                     "of a RAW that does not say it: 1/60");

@@ -8,7 +8,9 @@
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "preset_files.h"
 #include "report_html.h"
@@ -75,6 +77,7 @@ Run BuildRun(CLI::App& parser) {
   AddCalibrationOptions(parser, options->calibration);
   parser.add_option("-o,--output", options->output, "Where everything goes [SESSION/out]");
   parser.add_option("--to", options->targets, "Presets to write [all]")
+      ->check(OneOf(NamesOf(PresetTargets())))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");
