@@ -44,6 +44,12 @@ std::string Title(const CharucoBoard& board) {
 
 }  // namespace
 
+std::vector<std::string> PaperWords() {
+  std::vector<std::string> words;
+  for (const Paper& paper : kPapers) words.emplace_back(paper.name);
+  return words;
+}
+
 Result<Paper> PaperByName(const std::string& name) {
   const auto* const found = std::ranges::find(kPapers, LowerAscii(name), &Paper::name);
   if (found != kPapers.end()) return *found;

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
@@ -15,7 +16,9 @@ struct Paper {
   std::string_view name;
   double width_mm = 0.0, height_mm = 0.0;  // landscape
 };
-// "a4" "a3" "letter".  Wrong usage: any other word.
+// "a4" "a3" "letter"
+[[nodiscard]] std::vector<std::string> PaperWords();
+// The paper of that name, in any letter case.  Wrong usage: any other word.
 [[nodiscard]] Result<Paper> PaperByName(const std::string& name);
 
 // The largest whole millimetre that lets the board fit on the paper, with 10 mm of white around it

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_words.h"
 
-#include <algorithm>
 #include <array>
 #include <string_view>
-#include <utility>
 
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/illuminants.h"
@@ -39,18 +37,13 @@ Result<Xy> ParseWhite(const std::string& option, const std::string& text) {
 }
 
 Result<RgbSpace> ParseSpace(const std::string& option, const std::string& text) {
-  constexpr std::array<std::pair<std::string_view, RgbSpace>, 5> kWords = {
-      {{"rec709", RgbSpace::kSrgb},
-       {"srgb", RgbSpace::kSrgb},
-       {"acescg", RgbSpace::kAcescg},
-       {"rec2020", RgbSpace::kRec2020},
-       {"p3", RgbSpace::kDisplayP3}}};
-  const auto found = std::find_if(kWords.begin(), kWords.end(),
-                                  [&](const auto& word) { return word.first == text; });
-  if (found == kWords.end()) {
-    return WrongUsage(option, "\"" + text + "\" is no space; rec709, acescg, rec2020 or p3");
+  constexpr std::array<RgbSpace, kSpaceWords.size()> kSpaces = {
+      RgbSpace::kSrgb, RgbSpace::kSrgb, RgbSpace::kAcescg, RgbSpace::kRec2020,
+      RgbSpace::kDisplayP3};
+  for (std::size_t i = 0; i < kSpaceWords.size(); ++i) {
+    if (kSpaceWords[i] == text) return kSpaces[i];
   }
-  return found->second;
+  return WrongUsage(option, "\"" + text + "\" is no space; rec709, acescg, rec2020 or p3");
 }
 
 Result<ColorWords> ParseColorWords(const std::string& space, const std::string& white) {

@@ -54,7 +54,7 @@ constexpr CommandRow kCommands[] = {
     {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",
      "  lightcal merge bracket/*.dng -o lum.exr --sigma sigma.exr\n"
      "  lightcal merge bracket/*.dng -o lum.exr --anchor 280,180,40,40=312\n"
-     "  lightcal merge a.png b.png c.png -o lum.exr --exposures 1/50,1/13,0.4 --f-number 8 --iso 800\n"
+     "  lightcal merge a.png b.png c.png -o street.exr --exposures 1/50,1/13,0.4 --f-number 8 --iso 800\n"
      "  lightcal merge bracket/*.dng -o rgb.exr --space acescg --white 3200K", BuildMerge},
     {"dome", "A panorama in cd/m2 by one lux reading; its sun and lamps taken out as lights",
      "  lightcal dome lobby.hdr --lux 420 --extract 3 -o lobby_dome\n"
@@ -73,16 +73,17 @@ constexpr CommandRow kCommands[] = {
     {"simulate", "The illuminance fitted lights will give, at points or over a plane",
      "  lightcal simulate sample_data/sessions/amaran_200x_s_bare --lights 5600K --position 0,0,2.5 "
      "--at 0,0,0 1,0,0\n"
-     "  lightcal simulate out/light.json --plane floor --grid 512 -o floor.png -o floor.exr\n"
+     "  lightcal simulate out/light.json --lights 5600K --position 0,0,2.5 --plane floor --grid 512 "
+     "-o floor.png -o floor.exr\n"
      "  lightcal simulate my_lamp --plane z=0.8 --size 6x4m --tol 0.5% -o desk.csv",
      BuildSimulate},
     {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
-     "  lightcal tradeoff sample_data/sessions/grey_card_exr --tol 1% -o tradeoff\n"
-     "  lightcal tradeoff sample_data/sessions/three_real_lights --budget 50ms\n"
+     "  lightcal tradeoff sample_data/sessions/three_real_lights --tol 1% -o tradeoff\n"
+     "  lightcal tradeoff my_lamp --budget 50ms\n"
      "  lightcal tradeoff my_lamp --knobs frames,pixels,solver --json", BuildTradeoff},
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
-     "  lightcal export out/light.json --bare -o presets --force", BuildExport},
+     "  lightcal export out/light.json --bare -o bare --force", BuildExport},
     {"check", "A preset against the readings, or an engine's picture of the rig against the meter",
      "  lightcal check presets/light.gltf --session sample_data/sessions/amaran_200x_s_bare\n"
      "  lightcal check --render beauty.exr --rig presets/light.preset.json --engine blender",
@@ -126,6 +127,12 @@ constexpr CommandRow kCommands[] = {
      "  lightcal reference\n"
      "  lightcal reference full moon\n"
      "  lightcal reference efficacy --json", BuildReference},
+    {"completion", "What the Tab key completes in bash, zsh or fish, as a script for that shell",
+     "  . <(lightcal completion bash)\n"
+     "  lightcal completion zsh > _lightcal\n"
+     "  lightcal completion fish > lightcal.fish", BuildCompletion},
+    {"man", "This manual, as a page for man",
+     "  lightcal man | man -l -", BuildMan},
 };
 // clang-format on
 

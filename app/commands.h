@@ -35,6 +35,8 @@ Run BuildPhotometric(CLI::App& parser);
 Run BuildConvert(CLI::App& parser);
 Run BuildExposure(CLI::App& parser);
 Run BuildReference(CLI::App& parser);
+Run BuildCompletion(CLI::App& parser);
+Run BuildMan(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
 Run BuildRead(CLI::App& parser);

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <vector>
 
+#include "command_tree.h"
 #include "commands.h"
 #include "console.h"
-#include "lightcal/core/nearest_word.h"
+#include "mistyped.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -18,39 +18,15 @@ constexpr int kExitUsage = 2;
 
 struct Parsed {
   Console::Flags flags;
-  const CommandRow* command = nullptr;
   Run run;
 };
-
-void AddCommonFlags(CLI::App& parser, Console::Flags& flags) {
-  parser.add_flag("--json", flags.json, "One JSON document on stdout");
-  parser.add_flag("--quiet,-q", flags.quiet, "No notes on stderr");
-  parser.add_flag("--verbose,-v", flags.verbose, "More on stderr");
-  parser.add_flag("--strict", flags.strict, "Warnings refuse the answer (exit 3)");
-}
 
 // The arguments say --json even when they do not parse.
 bool AsksForJson(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--json"; });
 }
 
-// A first word that is no command gets the nearest one, not a list.
-Result<void> CheckCommandWord(int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return {};
-  std::vector<std::string_view> names;
-  for (const CommandRow& row : Commands()) names.push_back(row.name);
-  if (std::ranges::find(names, std::string_view(argv[1])) != names.end()) return {};
-  const std::string nearest = NearestWord(argv[1], names);
-  const std::string hint =
-      nearest.empty() ? "see lightcal --help" : "did you mean " + nearest + "?";
-  return WrongUsage(argv[1], "no such command; " + hint);
-}
-
 int Main(int argc, char** argv) {
-  if (const auto checked = CheckCommandWord(argc, argv); !checked) {
-    PrintError(checked.error(), AsksForJson(argc, argv));
-    return kExitUsage;
-  }
   CLI::App parser(
       "Measure real lamps, bring them into renderers, and say how sure it is.\n"
       "Start with:  lightcal quick 192lx@0.5m --cct 2900K");
@@ -59,12 +35,9 @@ int Main(int argc, char** argv) {
   parser.require_subcommand(1);
   Parsed parsed;
   for (const CommandRow& row : Commands()) {
-    CLI::App* sub = parser.add_subcommand(std::string(row.name), std::string(row.summary));
-    if (!row.examples.empty()) sub->footer("Examples:\n" + std::string(row.examples));
-    AddCommonFlags(*sub, parsed.flags);
-    sub->final_callback([&parsed, &row] { parsed.command = &row; });
+    CLI::App& sub = AddCommand(parser, row, parsed.flags);
     // Only the chosen command builds its options: start-up stays the same as commands are added.
-    if (argc > 1 && row.name == argv[1]) parsed.run = row.build(*sub);
+    if (argc > 1 && row.name == argv[1]) parsed.run = row.build(sub);
   }
   try {
     parser.parse(argc, argv);
@@ -74,9 +47,7 @@ int Main(int argc, char** argv) {
     return parser.exit(e);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return parser.exit(e);
-    PrintError(
-        Error{ErrorKind::kUsage, "usage", "", std::string(e.what()) + " (see lightcal --help)"},
-        AsksForJson(argc, argv));
+    PrintError(MistypedLine(parser, e), AsksForJson(argc, argv));
     return kExitUsage;
   }
   Console console(parsed.flags);

@@ -2,7 +2,9 @@
 // What people type about pictures. `option` stands in messages.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/panorama.h"
@@ -10,7 +12,9 @@
 
 namespace lightcal::app {
 
-// "photometric" "radiometric" "radiance"
+inline constexpr std::array<std::string_view, 3> kConventionWords = {"photometric", "radiometric",
+                                                                     "radiance"};
+// One of kConventionWords.
 [[nodiscard]] Result<LuminanceConvention> ParseConvention(const std::string& option,
                                                           const std::string& word);
 // What --luminance-convention's help says.
@@ -18,7 +22,7 @@ inline constexpr const char* kConventionHelp =
     "photometric: Y of the file's primaries (Rec. 709) in cd/m², times its whiteLuminance; "
     "radiometric: Y in W/(sr m²), times 683 lm/W; radiance: 179 lm/W (.265 R + .670 G + .065 B)";
 
-// "rect" "latlong" "equidistant" "equisolid"
+// One of kProjectionWords.
 [[nodiscard]] Result<Projection> ParseProjection(const std::string& option,
                                                  const std::string& word);
 

@@ -2,9 +2,11 @@
 // Are a bracket's shutters whole numbers of a flickering lamp's periods?
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -20,7 +22,8 @@ struct LampsOnSet {
   std::optional<LampFlicker> pwm;
 };
 
-// --mains 50|60|none and --pwm HZ[,DUTY], empty = not given.
+inline constexpr std::array<std::string_view, 3> kMainsWords = {"50", "60", "none"};
+// --mains, one of kMainsWords, and --pwm HZ[,DUTY], empty = not given.
 [[nodiscard]] Result<LampsOnSet> ParseLamps(const std::string& mains, const std::string& pwm);
 
 // flicker_unsafe_shutter, once for all frames whose worst error (WorstFlickerError) is above 3 %,

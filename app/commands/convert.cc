@@ -10,13 +10,13 @@
 
 #include "commands.h"
 #include "light_value.h"
-#include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/photometry/luminous_efficacy.h"
 #include "lightcal/photometry/solid_angle.h"
 #include "lightcal/photometry/source_photometry.h"
+#include "one_of.h"
 
 namespace lightcal::app {
 namespace {
@@ -39,16 +39,10 @@ struct Answer {
 };
 
 Result<LightKind> ParseKind(const std::string& text) {
-  constexpr std::string_view kKinds = "point, spot, sphere, disk, rect, tube, directional or dome";
-  if (text.empty()) {
-    return WrongUsage("--kind", "say what shines: --kind " + std::string(kKinds));
-  }
-  const auto kind = LightKindFromName(LowerAscii(text));
-  if (kind) return *kind;
-  const std::string near = NearestWord(text, kLightKindNames);
-  return WrongUsage("--kind", "unknown kind \"" + text + "\"" +
-                                  (near.empty() ? "" : "; did you mean " + near + "?") +
-                                  " Kinds: " + std::string(kKinds));
+  if (const auto kind = LightKindFromName(text)) return *kind;
+  return WrongUsage("--kind",
+                    "say what shines: --kind point, spot, sphere, disk, rect, tube, "
+                    "directional or dome");
 }
 
 // An option's length; absent when it was not given.
@@ -98,18 +92,19 @@ Result<void> FillSizes(SourceGeometry& g, const Options& o) {
   return FillSize(g, o.size);
 }
 
+struct FalloffRow {
+  std::string_view name;
+  SpotFalloff falloff;
+  SpotFlux flux;
+};
+constexpr FalloffRow kFalloffs[] = {{"squared", SpotFalloff::kSquaredLinear, SpotFlux::kIntegral},
+                                    {"linear", SpotFalloff::kLinear, SpotFlux::kIntegral},
+                                    {"smoothstep", SpotFalloff::kSmoothstep, SpotFlux::kIntegral},
+                                    {"hard", SpotFalloff::kHard, SpotFlux::kIntegral},
+                                    {"pi", SpotFalloff::kSquaredLinear, SpotFlux::kPiConvention}};
+
 Result<void> FillFalloff(SourceGeometry& g, const std::string& text) {
-  struct Row {
-    std::string_view name;
-    SpotFalloff falloff;
-    SpotFlux flux;
-  };
-  constexpr Row kRows[] = {{"squared", SpotFalloff::kSquaredLinear, SpotFlux::kIntegral},
-                           {"linear", SpotFalloff::kLinear, SpotFlux::kIntegral},
-                           {"smoothstep", SpotFalloff::kSmoothstep, SpotFlux::kIntegral},
-                           {"hard", SpotFalloff::kHard, SpotFlux::kIntegral},
-                           {"pi", SpotFalloff::kSquaredLinear, SpotFlux::kPiConvention}};
-  for (const Row& row : kRows) {
+  for (const FalloffRow& row : kFalloffs) {
     if (row.name != text) continue;
     g.falloff = row.falloff;
     g.spot_flux = row.flux;
@@ -271,8 +266,7 @@ Run BuildConvert(CLI::App& parser) {
                   "806lm flux, 64cd intensity, 190lx or 17.8fc illuminance, 1500nits or 14fL "
                   "luminance, 60W electrical power drawn (never radiant; needs --efficacy)")
       ->required();
-  parser.add_option("--kind", o->kind,
-                    "point, spot, sphere, disk, rect, tube, directional or dome");
+  parser.add_option("--kind", o->kind, "What shines")->check(OneOfAnyCase(kLightKindNames));
   parser.add_option("--distance", o->distance,
                     "From the lamp (a sphere's or tube's middle) to a receiver that faces it on "
                     "its axis");
@@ -286,9 +280,12 @@ Run BuildConvert(CLI::App& parser) {
                     "Spot: half angle of full brightness, degrees; 0 when not given, as in glTF");
   parser.add_option("--outer", o->outer, "Spot: half angle where the light ends, degrees");
   parser.add_flag("--full-angles", o->full_angles, "--inner and --outer are full apex angles");
-  parser.add_option("--spot-falloff", o->spot_falloff,
-                    "squared (Filament, glTF), linear, smoothstep (three.js), hard, or pi: the "
-                    "convention that lumens are pi x candela whatever the cone");
+  parser
+      .add_option("--spot-falloff", o->spot_falloff,
+                  "How a spot fades: squared as in Filament and glTF, smoothstep as in three.js; "
+                  "pi: the convention that lumens are pi x candela whatever the cone")
+      ->check(OneOf(NamesOf(kFalloffs)))
+      ->capture_default_str();
   parser.add_option("--angular-diameter", o->angular_diameter,
                     "Directional: angle the disk spans, degrees (sun 0.53); gives its luminance");
   parser.add_option("--efficacy", o->efficacy,

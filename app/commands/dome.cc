@@ -19,6 +19,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/light_codec.h"
+#include "one_of.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -296,8 +297,8 @@ Run BuildDome(CLI::App& parser) {
   parser.add_option("--plate-exposure", o.plate,
                     "f/8,1/60,100: write the dome as this exposure sees it, saturating at 1 "
                     "[cd/m2]");
-  parser.add_option("--space", o.space,
-                    "RGB of the dome: rec709, acescg, rec2020, p3 [the picture's own]");
+  parser.add_option("--space", o.space, "RGB of the dome [the picture's own]")
+      ->check(OneOf(kSpaceWords));
   parser.add_option("--white", o.white,
                     "What becomes white, in the dome and its lights: 3200K, D65 or x,y [as it is]");
   parser.add_option("-o,--output", o.output, "Directory of dome.exr, light.json and dome.png")

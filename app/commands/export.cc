@@ -11,6 +11,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "preset_files.h"
 
@@ -27,14 +28,6 @@ struct Options {
   bool bare = false;
   bool force = false;
 };
-
-std::string TargetList() {
-  std::string list;
-  for (const PresetTarget& target : PresetTargets()) {
-    list += (list.empty() ? "" : ",") + std::string(target.name);
-  }
-  return list;
-}
 
 // The JSON's stem names its presets, so two inputs of one stem would write the same files.
 Result<void> CheckStems(const std::vector<std::string>& inputs) {
@@ -120,13 +113,14 @@ Run BuildExport(CLI::App& parser) {
   auto options = std::make_shared<Options>();
   parser.add_option("lights", options->inputs, "light.json files, as fit and run write them")
       ->required();
-  parser.add_option("--to", options->targets, "Targets: " + TargetList() + " [all]")
+  parser.add_option("--to", options->targets, "Presets to write [all]")
+      ->check(OneOf(NamesOf(PresetTargets())))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Directory of the presets")
       ->capture_default_str();
-  parser.add_option("--space", options->space,
-                    "Linear RGB of the colours: rec709, acescg, rec2020 or p3 [rec709]");
+  parser.add_option("--space", options->space, "Linear RGB of the colours [rec709]")
+      ->check(OneOf(kSpaceWords));
   parser.add_option("--white", options->white,
                     "What the pipeline shows as white: 3200K, D65 or x,y [no adaptation]");
   parser.add_option("--range", options->range,

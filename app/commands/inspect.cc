@@ -24,6 +24,7 @@
 #include "lightcal/imaging/picture_luminance.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "lightcal_devices/captures/masked_picture.h"
+#include "one_of.h"
 #include "picture_words.h"
 
 namespace lightcal::app {
@@ -326,11 +327,14 @@ Run BuildInspect(CLI::App& parser) {
   parser.add_option("--rect", options->rect, "only this region: x,y,width,height in pixels")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_option("--projection", options->projection,
-                    "rect, latlong, equidistant or equisolid: gives illuminance and solid angle");
+  parser
+      .add_option("--projection", options->projection,
+                  "How the picture was projected: gives illuminance and solid angle")
+      ->check(OneOf(kProjectionWords));
   parser.add_option("--fov", options->fov,
                     "full angle, across the width (rect) or the image circle (fisheyes)");
   parser.add_option("--luminance-convention", options->convention, kConventionHelp)
+      ->check(OneOf(kConventionWords))
       ->capture_default_str();
   parser.add_option("--exposure,--exposures", options->exposure,
                     "of a RAW that does not say it: 1/60");

@@ -12,6 +12,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/captures/picture.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "picture_words.h"
 #include "shutter_check.h"
@@ -116,11 +117,6 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
   LampClass lamp = LampClass::kUnknown;
   if (!options.lamp_class.empty()) {
     const auto word = std::ranges::find(kLampClassWords, options.lamp_class);
-    if (word == kLampClassWords.end()) {
-      return WrongUsage("--lamp-class", "\"" + options.lamp_class +
-                                            "\" is none of unknown, white_led, high_cri_led, "
-                                            "rgb_led, tungsten, daylight");
-    }
     lamp = static_cast<LampClass>(word - kLampClassWords.begin());
   }
   const auto factor = CameraMismatch(*profile, lamp);
@@ -134,9 +130,6 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
 Result<BracketMergeRequest> RequestOf(const Options& options) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
-  if (options.align != "auto" && options.align != "off") {
-    return WrongUsage("--align", "\"" + options.align + "\" is neither auto nor off");
-  }
   request.align = options.align == "auto";
   if (!options.anchor.empty()) {
     const auto anchor = ParseAnchor(options.anchor, options.anchor_sigma);
@@ -357,24 +350,27 @@ Run BuildMerge(CLI::App& parser) {
   parser.add_option("--camera", o.camera,
                     "Profile of the camera, by lightcal camera: its scale, noise, lens, black");
   parser.add_option("--nd", o.nd, "The filter of the profile that the frames were taken through");
-  parser.add_option("--lamp-class", o.lamp_class,
-                    "Whose light it is: white_led, high_cri_led, rgb_led, tungsten, daylight; "
-                    "corrects how the camera misreads it");
+  parser
+      .add_option("--lamp-class", o.lamp_class,
+                  "Whose light it is; corrects how the camera misreads it")
+      ->check(OneOf(kLampClassWords));
   parser.add_flag("--no-flat", o.no_flat, "Leave the profile's flat fields out");
   parser.add_option("--cos4", o.cos4,
                     "Width of the sensor, e.g. 36mm: where no flat field is known, take out what "
                     "an ideal lens loses towards the corners (a prior) [off]");
-  parser.add_option("--space", o.space,
-                    "RGB in rec709, acescg, rec2020 or p3 instead of luminance alone");
+  parser.add_option("--space", o.space, "RGB in this space instead of luminance alone")
+      ->check(OneOf(kSpaceWords));
   parser.add_option("--white", o.white,
                     "What becomes white: 3200K, D65 or x,y (luminance stays) [no adaptation]");
   parser
       .add_option("--align", o.align,
                   "auto: take back what the camera moved, by whole pixels and only on evidence; "
                   "crops to what all frames show")
+      ->check(CLI::IsMember({"auto", "off"}))
       ->capture_default_str();
-  parser.add_option("--mains", o.mains,
-                    "50, 60 or none: which lamps' flicker shutters are checked for [either]");
+  parser
+      .add_option("--mains", o.mains, "Which lamps' flicker shutters are checked for, Hz [either]")
+      ->check(OneOf(kMainsWords));
   parser.add_option("--pwm", o.pwm, "HZ[,DUTY] of a dimmed lamp, to check shutters for");
   parser.add_flag("--uncompressed", o.uncompressed, "Faster, larger files");
   parser.add_flag("--force", o.force, "Replace files that lightcal did not write");

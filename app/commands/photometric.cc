@@ -183,7 +183,8 @@ Run BuildPhotometric(CLI::App& parser) {
   auto options = std::make_shared<Options>();
   parser.add_option("file", options->file, "IES LM-63 (.ies) or EULUMDAT (.ldt); told by content")
       ->required();
-  parser.add_option("--to", options->to, "Convert: ies (LM-63-2002) or ldt (EULUMDAT)");
+  parser.add_option("--to", options->to, "Convert: LM-63-2002 or EULUMDAT")
+      ->check(CLI::IsMember({"ies", "ldt"}));
   parser.add_option("-o,--output", options->output, "Where the converted file goes");
   parser.add_option("--plot", options->plot, "Write a polar diagram, .svg or .png");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");

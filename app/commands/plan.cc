@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "picture_file.h"
 #include "session_plan.h"
@@ -119,11 +120,13 @@ Run BuildPlan(CLI::App& parser) {
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
   parser.add_option("--board", options->board, "Write the board to print here, .pdf or .svg");
-  parser.add_option("--paper", options->paper, "a4, a3 or letter")->capture_default_str();
+  parser.add_option("--paper", options->paper, "Of the board, landscape")
+      ->check(OneOfAnyCase(PaperWords()))
+      ->capture_default_str();
   parser.add_option("--square", options->square, "Side of a square, e.g. 30mm [what fits]");
   parser.add_option("--squares", options->squares, "COLUMNSxROWS [9x6]");
-  parser.add_option("--dictionary", options->dictionary,
-                    "4x4_50, 4x4_100, 5x5_100 or 6x6_250 [4x4_50]");
+  parser.add_option("--dictionary", options->dictionary, "The markers' dictionary [4x4_50]")
+      ->check(OneOf(kMarkerDictionaryWords));
   parser.add_flag("--force", options->force, "Replace a file that lightcal did not write");
   return [options](Console& console) { return RunPlan(*options, console); };
 }

@@ -2,6 +2,7 @@
 // lightcal quick: no session needed. Typed readings or a data sheet's figures become a session in
 // memory and go through the same fit.
 #include <CLI/CLI.hpp>
+#include <array>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +11,9 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "preset_files.h"
 #include "session_input.h"
@@ -77,6 +80,9 @@ Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
     return Unit(split->number);
   });
 }
+
+constexpr std::array<std::string_view, 5> kQuickKinds = {"point", "spot", "sphere", "disk",
+                                                         "directional"};
 
 Result<LightDescription> DescribeLight(const Options& options) {
   LightDescription light;
@@ -251,7 +257,8 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("readings", options->readings,
                     "What the meter showed and where: 192lx@0.5m, 17.8fc@20in ...");
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();
-  parser.add_option("--kind", options->kind, "point, spot, sphere, disk, directional [point]");
+  parser.add_option("--kind", options->kind, "What shines [point; spot with --beam]")
+      ->check(OneOf(kQuickKinds));
   parser.add_option("--cct", options->cct, "Colour temperature, e.g. 2900K");
   parser.add_option("--diameter", options->diameter, "Of a sphere or disk, e.g. 6cm");
   parser.add_option("--inner", options->inner, "Half angle where the spot starts to fall off");
@@ -264,7 +271,8 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("--watts", options->watts, "Data sheet: electrical power");
   parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m")
       ->allow_extra_args(false);
-  parser.add_option("--to", options->targets, "Also write presets: gltf,json")
+  parser.add_option("--to", options->targets, "Also write presets")
+      ->check(OneOf(NamesOf(PresetTargets())))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();

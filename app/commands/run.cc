@@ -15,8 +15,10 @@
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
+#include "one_of.h"
 #include "output_files.h"
 #include "preset_files.h"
 #include "report_html.h"
@@ -171,6 +173,7 @@ Run BuildRun(CLI::App& parser) {
   parser.add_option("-o,--output", options->output,
                     "Where everything goes; of several sessions a folder for each [SESSION/out]");
   parser.add_option("--to", options->targets, "Presets to write [all]")
+      ->check(OneOf(NamesOf(PresetTargets())))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");

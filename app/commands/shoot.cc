@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "one_of.h"
 #include "shooting/bracket_shoot.h"
 #include "shutter_check.h"
 
@@ -171,11 +172,6 @@ Result<void> RunShoot(const Options& options, Console& console) {
   return {};
 }
 
-template <class Words>
-CLI::IsMember OneOf(const Words& words) {
-  return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
-}
-
 }  // namespace
 
 Run BuildShoot(CLI::App& parser) {
@@ -190,8 +186,10 @@ Run BuildShoot(CLI::App& parser) {
                     "The middle shutter time (1/60), unless the camera stands at it");
   parser.add_option("--aperture", request.exposure.aperture, "f/8, unless as the camera stands");
   parser.add_option("--iso", request.exposure.iso, "100, unless as the camera stands");
-  parser.add_option("--mains", options->mains,
-                    "50, 60 or none: the lamp flickers with these mains; prefer whole periods");
+  parser
+      .add_option("--mains", options->mains,
+                  "The lamp flickers with these mains, Hz; prefer whole periods")
+      ->check(OneOf(kMainsWords));
   parser.add_option("--pwm", options->pwm, "HZ[,DUTY] of a dimmed lamp, likewise");
   parser.add_option(
       "--device", request.device,

@@ -125,9 +125,6 @@ Result<void> CheckOptions(const Options& options) {
   if (!options.outputs.empty() && options.plane.plane.empty()) {
     return WrongUsage("-o", "writes a map; say of which plane: --plane floor");
   }
-  if (!options.scale.empty() && options.scale != "log" && options.scale != "linear") {
-    return WrongUsage("--scale", "must be log or linear");
-  }
   return CheckMapNames(options.outputs);
 }
 
@@ -290,8 +287,8 @@ Run BuildSimulate(CLI::App& parser) {
       ->capture_default_str();
   parser.add_option("-o,--output", options->outputs, "The map: .png .svg .exr .csv")
       ->allow_extra_args(false);
-  parser.add_option("--scale", options->scale,
-                    "Of the picture's colours: log or linear [by the map]");
+  parser.add_option("--scale", options->scale, "Of the picture's colours [by the map]")
+      ->check(CLI::IsMember({"log", "linear"}));
   parser.add_option("--title", options->title, "Of the picture");
   parser.add_flag("--timing", options->timing, "Say how long it took");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");

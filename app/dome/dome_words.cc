@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "one_of.h"
 #include "picture_words.h"
 
 namespace lightcal::app {
@@ -121,13 +122,15 @@ void AddDomeWords(CLI::App& parser, DomeWords& w) {
   parser.add_option("--lux-sigma", w.lux_sigma, "The meter's 1 sigma")->capture_default_str();
   parser.add_option("--clip", w.clip,
                     "Samples from this value on are clipped, in the picture's own unit [found]");
-  parser.add_option("--luminance-convention", w.convention, kConventionHelp);
+  parser.add_option("--luminance-convention", w.convention, kConventionHelp)
+      ->check(OneOf(kConventionWords));
   parser.add_option("--north", w.north,
                     "Azimuth in degrees, right of the picture's centre, that becomes +Y [0]");
   parser
       .add_option("--projection", w.projection,
-                  "Of the pictures: latlong, equidistant, equisolid (fisheyes, looking up unless "
-                  "aimed) or rect (an ordinary lens)")
+                  "Of the pictures: a panorama, fisheyes (looking up unless aimed) or an ordinary "
+                  "lens (rect)")
+      ->check(OneOf(kProjectionWords))
       ->capture_default_str();
   parser.add_option("--fov", w.fov,
                     "Full angle in degrees: across a fisheye's circle, across a rect's width");

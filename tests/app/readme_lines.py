@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs every `lightcal` line of README.md, in order, in an empty folder, as a newcomer would.
+"""Runs every `lightcal` line of README.md, app/PICTURES.md and sample_data/README.md, in order, in an
+empty folder, as a newcomer would; and holds the figures of the README's picture to what its command
+prints.
 
     readme_lines.py LIGHTCAL_BINARY
 
 The session block is written where the lines expect it. Lines that need a meter plugged in
 (--device) are left out; everything else must exit 0.
 """
+import html
 import os
 import pathlib
 import re
@@ -16,7 +19,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-README = ROOT / "README.md"
+DOCUMENTS = [ROOT / "README.md", ROOT / "app/PICTURES.md", ROOT / "sample_data/README.md"]
+PICTURE = ROOT / "app/first_lamp.svg"
 PICTURES = ROOT / "sample_data/pictures"
 CARD = ROOT / "sample_data/sessions/grey_card_dng"
 WALL = ROOT / "sample_data/sessions/lit_wall"
@@ -33,8 +37,21 @@ def command_lines(text):
         yield line
 
 
+def picture_faults(home, environment):
+    """The picture's <desc> holds its command, every <tspan class="found"> words that it prints."""
+    drawing = PICTURE.read_text(encoding="utf-8")
+    line = html.unescape(re.search(r"<desc>(lightcal [^<]*)</desc>", drawing).group(1))
+    done = subprocess.run(["/bin/sh", "-c", line], cwd=home, env=environment, capture_output=True,
+                          text=True, timeout=60, check=False)
+    printed = " ".join(done.stdout.split())
+    figures = re.findall(r'<tspan class="found">([^<]*)</tspan>', drawing)
+    faults = [f"{PICTURE.name}: {figure} is not printed by {line}"
+              for figure in figures if html.unescape(figure) not in printed]
+    return faults if figures else [f"{PICTURE.name} shows no figure"]
+
+
 def main():
-    text = README.read_text(encoding="utf-8")
+    text = "\n".join(document.read_text(encoding="utf-8") for document in DOCUMENTS)
     session = re.search(r"```toml\n(.*?)```", text, re.S).group(1)
     failures = []
     with tempfile.TemporaryDirectory() as folder:
@@ -52,6 +69,13 @@ def main():
         camera = re.search(r"```toml\n([^`]*camera_frames.*?)```", text, re.S).group(1)
         (home / "my_camera/session.toml").write_text(camera, encoding="utf-8")
         shutil.copy(ROOT / "sample_data/photometric/sample2.ldt", home / "lamp.ldt")
+        samples = home / "sample_data"
+        samples.mkdir()
+        for sample in (ROOT / "sample_data").iterdir():
+            if sample.name != "sessions":
+                (samples / sample.name).symlink_to(sample)
+        shutil.copytree(ROOT / "sample_data/sessions", samples / "sessions",
+                        ignore=shutil.ignore_patterns("out"))
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}",
                                     "XDG_DATA_HOME": f"{home}/data"}
@@ -65,7 +89,8 @@ def main():
             )
             if done.returncode != 0:
                 failures.append(f"{line}\n  exit {done.returncode}: {done.stderr.strip()}")
-        if len(lines) < 13:
+        failures += picture_faults(home, environment)
+        if len(lines) < 50:
             failures.append(f"only {len(lines)} lines found: has the README changed its form?")
     if failures:
         sys.exit("\n".join(failures))

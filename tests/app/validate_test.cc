@@ -127,7 +127,8 @@ INSTANTIATE_TEST_SUITE_P(
               "bad_meters", "factor"},
         Fault{"ies", "a.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 two\n", "bad_photometric", "a.ies"},
         Fault{"other_json", "x.json", R"({"answer": 42})", "unknown_format", "schema"},
-        Fault{"other_text", "x.txt", "to whom it may concern\n", "unknown_format", "validate --help"}),
+        Fault{"other_text", "x.txt", "to whom it may concern\n", "unknown_format",
+              "validate --help"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 
 TEST(ValidateCommand, ASessionIsCheckedWithItsJournalAndTheFilesItNames) {

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sourced: a Debian 12 that has never seen lightcal, as a chroot. Root only. The mirror is the one
+# this machine's apt uses.
+#   make_clean_root FOLDER    FOLDER/root, new; FOLDER/base.tar is kept and reused for the base system
+#   in_root COMMAND...        runs it in there
+
+make_clean_root() {
+  local folder=$1 base=$1/base.tar mirror
+  mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' | awk '$2 == "bookworm" {print $1; exit}')
+  root=$folder/root
+  mkdir -p "$folder"
+  if [ ! -s "$base" ]; then
+    rm -rf "$folder/base"
+    debootstrap --variant=minbase bookworm "$folder/base" "$mirror" >"$folder/debootstrap.log"
+    tar -C "$folder/base" -cf "$base" .
+    rm -rf "$folder/base"
+  fi
+  rm -rf "$root"
+  mkdir -p "$root"
+  tar -C "$root" -xf "$base"
+  cp /etc/resolv.conf "$root/etc/resolv.conf"
+  # The proxy or mirror settings of this machine's apt, if it has any.
+  cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+  mount -t proc proc "$root/proc"
+  mount --bind /dev "$root/dev"
+  trap 'umount "$root/proc" "$root/dev"' EXIT
+}
+
+in_root() {
+  chroot "$root" /usr/bin/env HOME=/root TERM=dumb DEBIAN_FRONTEND=noninteractive \
+    http_proxy="${http_proxy:-}" https_proxy="${https_proxy:-}" "$@"
+}
