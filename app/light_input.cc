@@ -61,6 +61,7 @@ FittedLight LightOfPreset(const Json& json) {
   const Json& geometry = json.at("geometry");
   light.position_m = VectorAt(geometry, "position_m");
   light.aim = VectorAt(geometry, "aim");
+  light.axis = VectorAt(geometry, "axis");
   light.inner_deg = NumberAt(geometry, "inner_deg");
   light.outer_deg = NumberAt(geometry, "outer_deg");
   light.diameter_m = NumberAt(geometry, "diameter_m");
@@ -75,6 +76,7 @@ Provenance ProvenanceIn(const Json& json) {
   Provenance provenance;
   provenance.generator = json.value("generator", "");
   provenance.time = json.value("time", "");
+  provenance.devices = json.value("devices", std::vector<std::string>());
   for (const Json& file : json.value("inputs", Json::array())) {
     provenance.inputs.push_back({file.value("path", ""), file.value("sha256", "")});
   }

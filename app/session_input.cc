@@ -144,6 +144,11 @@ Result<Provenance> ProvenanceOf(const Session& session) {
     const fs::path relative = fs::path(path).lexically_proximate(session.directory);
     provenance.inputs.push_back({relative.generic_string(), Sha256Hex(*bytes)});
   }
+  for (const SessionReading& row : session.readings) {
+    const std::string& device = row.reading.device;
+    const bool new_one = std::ranges::find(provenance.devices, device) == provenance.devices.end();
+    if (!device.empty() && new_one) provenance.devices.push_back(device);
+  }
   if (const auto fixed = SourceDateIso8601()) {
     provenance.time = *fixed;
     return provenance;

@@ -141,6 +141,38 @@ TEST(RunCommand, FullAnglesOnRequestAreHalvedOnce) {
   EXPECT_NEAR(double(full["lights"][0]["cone"]["outer_deg"]), 35.0, 1e-9);
 }
 
+TEST(RunCommand, PresetsNameTheInstrumentsAndHowTheLampHangs) {
+  const TempDir dir;
+  const std::string session = dir.Write("session.toml", R"(lightcal = 1
+name = "Tube"
+[[light]]
+name = "tube"
+kind = "tube"
+position_m = [0, 0, 2]
+aim = [0, -1, 0]
+axis = [0, 0, 1]
+length_m = 1.2
+radius_m = 0.013
+)");
+  dir.Write("readings.jsonl",
+            R"({"light":"tube","distance_m":2.0,"illuminance_lx":25,"device":"sekonic:JN1-01"}
+{"light":"tube","distance_m":3.0,"illuminance_lx":11.1,"device":"sekonic:JN1-01"}
+)");
+  const json document = RunJson(dir.path(), dir.path() + "/out");
+  const json devices = {"sekonic:JN1-01"};
+  const json upright = {0.0, 0.0, 1.0};
+  EXPECT_EQ(document["provenance"]["devices"], devices);
+  EXPECT_EQ(document["lights"][0]["axis"], upright);
+  std::string preset;
+  for (const auto& entry : fs::directory_iterator(dir.path() + "/out")) {
+    if (entry.path().string().ends_with(".preset.json")) preset = ReadFile(entry.path().string());
+  }
+  const json written = json::parse(preset, nullptr, false);
+  ASSERT_TRUE(written.is_object()) << preset;
+  EXPECT_EQ(written["provenance"]["devices"], devices);
+  EXPECT_EQ(written["lights"][0]["geometry"]["axis"], upright);
+}
+
 TEST(PlanCommand, SaysTheNextReadingsWithWhatTheyLeave) {
   const std::string session = SampleData("sessions/amaran_200x_s_bare");
   const json document = LightcalJson("plan", {session, "--light", "5600K", "--steps", "2"});

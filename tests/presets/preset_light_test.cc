@@ -139,5 +139,43 @@ TEST(PresetRig, ExposureFollowsTheFormAndCardsAreSquare) {
   EXPECT_GT(Dot(normal, rig.normal), 0.0) << "counter-clockwise seen from the lamp";
 }
 
+// A tube as many short ones, each shining as the sine of the angle from its length.
+double LuxOfTube(double candela, double length_m, const Vec3& along, const Vec3& at,
+                 const Vec3& normal) {
+  constexpr int kParts = 2000;
+  double lux = 0.0;
+  for (int i = 0; i < kParts; ++i) {
+    const Vec3 to = at - along * (length_m * ((i + 0.5) / kParts - 0.5));
+    const double d = Length(to);
+    const double sine = Length(Cross(along, to)) / d;
+    lux += candela / kParts * sine * std::max(0.0, -Dot(normal, to) / d) / (d * d);
+  }
+  return lux;
+}
+
+TEST(PresetLight, ATubeAndARectHangAsTheirAxisSays) {
+  FittedLight tube = SimpleLight("tube", LightKind::kTube, 100.0);
+  tube.length_m = 1.2;
+  tube.radius_m = 0.005;
+  const Vec3 side = {1.5, 0.3, 0.4}, normal = {-1, 0, 0};
+  for (const Vec3& axis : {Vec3{0, 0, 1}, Vec3{0, 1, 0}, Vec3{0.6, 0.8, 0}}) {
+    tube.axis = axis;
+    EXPECT_NEAR(
+        IlluminanceAt(Made(tube), side, normal).value() / LuxOfTube(100.0, 1.2, axis, side, normal),
+        1.0, 0.01);
+  }
+  FittedLight rect = SimpleLight("panel", LightKind::kRect, 900.0);
+  rect.width_m = 1.0;
+  rect.height_m = 0.2;
+  rect.aim = Vec3{0, 1, 0};
+  rect.axis = Vec3{0, 0, 1};  // upright
+  const PresetLight upright = Made(rect);
+  EXPECT_NEAR(upright.axes.c0[2], 1.0, 1e-12);
+  EXPECT_NEAR(upright.axes.c90[0], -1.0, 1e-12);
+  const Vec3 above = {0, 0.3, 0.6}, beside = {0.6, 0.3, 0}, back = {0, -1, 0};
+  EXPECT_GT(IlluminanceAt(upright, above, back).value(),
+            1.5 * IlluminanceAt(upright, beside, back).value());
+}
+
 }  // namespace
 }  // namespace lightcal::test

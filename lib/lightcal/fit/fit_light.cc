@@ -50,6 +50,7 @@ FittedLight Describe(const LightDescription& light) {
   if (light.outer) out.outer_deg = DegreesFromRadians(*light.outer);
   out.position_m = light.position_m;
   out.aim = light.aim;
+  out.axis = light.axis;
   return out;
 }
 

@@ -22,4 +22,15 @@ struct LampAxes {
   return {right, Cross(right, forward), forward};
 }
 
+// C0 along `along` made square to the aim, where it is said how the lamp is turned about its aim (a
+// tube's length, a rect's width); where that leaves nothing, as above.
+[[nodiscard]] inline LampAxes AxesOfAim(const Vec3& aim, const Vec3& along) {
+  const LampAxes level = AxesOfAim(aim);
+  const Vec3 square = along - level.aim * Dot(along, level.aim);
+  const double length = Length(square);
+  if (!(length > 1e-9)) return level;
+  const Vec3 right = square * (1.0 / length);
+  return {right, Cross(right, level.aim), level.aim};
+}
+
 }  // namespace lightcal

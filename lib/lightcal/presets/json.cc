@@ -62,6 +62,7 @@ Json Geometry(const FittedLight& lamp) {
   Json json = Json::object();
   if (lamp.position_m) json["position_m"] = Array<Json>(*lamp.position_m);
   if (lamp.aim) json["aim"] = Array<Json>(*lamp.aim);
+  if (lamp.axis) json["axis"] = Array<Json>(*lamp.axis);
   Put<Json>(json, "inner_deg", lamp.inner_deg);
   Put<Json>(json, "outer_deg", lamp.outer_deg);
   Put<Json>(json, "diameter_m", lamp.diameter_m);

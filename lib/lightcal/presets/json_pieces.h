@@ -43,6 +43,7 @@ template <class Json>
 [[nodiscard]] Json ProvenanceJson(const Provenance& provenance) {
   Json json = {{"generator", provenance.generator.empty() ? "lightcal" : provenance.generator}};
   if (!provenance.time.empty()) json["time"] = provenance.time;
+  if (!provenance.devices.empty()) json["devices"] = provenance.devices;
   Json inputs = Json::array();
   for (const InputFile& file : provenance.inputs) {
     inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});

@@ -224,7 +224,11 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
   for (std::size_t i = 0; i < punctual->size(); ++i) {
     PresetLight light;
     light.punctual = std::move((*punctual)[i]);
-    light.axes = AxesOfAim(light.punctual.aim);
+    const FittedLight& lamp = file.lights[i];
+    const Vec3 along = lamp.axis.value_or(Vec3{});
+    // A tube without aim hangs as its axis says, shining to its side.
+    if (lamp.axis && !lamp.aim) light.punctual.aim = AxesOfAim(along, light.punctual.aim).c0;
+    light.axes = AxesOfAim(light.punctual.aim, along);
     ChooseForm(file.lights[i], forms, light);
     if (auto measured = Measure(file.lights[i], light); !measured) {
       return Propagate(std::move(measured));
@@ -243,7 +247,7 @@ Lux IlluminanceAt(const PresetLight& light, const Vec3& point, const Vec3& norma
   if (light.form == LightForm::kTable) return Lux(TableLux(light, to_point, normal));
   const auto model = AreaModel(light);
   if (!model) return IlluminanceAt(light.punctual, point, normal);
-  const SourceFrame frame = SourceFrame::Facing(light.aim());
+  const SourceFrame frame = SourceFrame::Facing(light.aim(), light.axes.c0);
   return Lux(light.candela *
              LuxPerCandela(*model, Receiver<double>{frame.Of(to_point), frame.Of(normal)}));
 }

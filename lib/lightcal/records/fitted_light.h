@@ -98,6 +98,7 @@ struct FittedLight {
   std::optional<Vec3> position_m;
   std::optional<Vec3> position_u95_m;  // of each coordinate; where the readings told the position
   std::optional<Vec3> aim;
+  std::optional<Vec3> axis{};  // of a tube's length or a rect's width
   std::optional<MeasuredDistribution> distribution;  // photometric
   FittedColor color;
   FitDiagnostics fit;
@@ -116,6 +117,7 @@ struct Provenance {
   std::string generator;  // "lightcal 0.1.0"
   std::vector<InputFile> inputs;
   std::string time;  // newest time found in the inputs, "" = none
+  std::vector<std::string> devices{};  // that read them, "driver:serial", each once
 };
 
 // A light.json: schema lightcal.light/1.

@@ -125,6 +125,7 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Array("position_m", light.position_m);
   archive.Array("position_u95_m", light.position_u95_m, kNotNegative);
   archive.Array("aim", light.aim);
+  archive.Array("axis", light.axis);
   archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
 }
 
