@@ -173,6 +173,38 @@ radius_m = 0.013
   EXPECT_EQ(written["lights"][0]["geometry"]["axis"], upright);
 }
 
+TEST(FitCommand, WarnsOfPlacesOutsideTheRoom) {
+  const TempDir dir;
+  const auto warned = [&](const std::string& place) {
+    const std::string session = dir.Write("session.toml", R"(lightcal = 1
+name = "Room"
+[room]
+size_m = [5, 4, 2.6]
+[[light]]
+name = "key"
+kind = "point"
+position_m = [0, 0, 2]
+[[reading]]
+light = "key"
+position_m = [1, 1, 0]
+normal = [0, 0, 1]
+illuminance_lx = 10
+[[reading]]
+light = "key"
+normal = [0, 0, 1]
+illuminance_lx = 8
+)" + ("position_m = " + place + "\n"));
+    std::string text;
+    for (const json& warning : LightcalJson("fit", {session})["warnings"]) {
+      if (warning["code"] == "outside_room") text = warning["message"];
+    }
+    return text;
+  };
+  EXPECT_EQ(warned("[-1.5, 1, 0]"), "");
+  EXPECT_NE(warned("[-1.5, 2.5, 0]").find("reading 1 (counted from 0) stands outside"),
+            std::string::npos);
+}
+
 TEST(PlanCommand, SaysTheNextReadingsWithWhatTheyLeave) {
   const std::string session = SampleData("sessions/amaran_200x_s_bare");
   const json document = LightcalJson("plan", {session, "--light", "5600K", "--steps", "2"});

@@ -281,6 +281,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
   fit::CheckTimes(session, light, warnings);
+  fit::CheckRoom(session, light, warnings);
   FittedLight out = Describe(light);
   out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {

@@ -83,6 +83,13 @@ std::string RowList(const std::vector<Strength>& sorted, std::size_t begin, std:
   return text;
 }
 
+bool IsInside(const Vec3& p, const Vec3& room_m) {
+  constexpr double kSlack = 0.01;  // metres: a meter on the floor, a lamp at the wall
+  const bool level =
+      std::abs(p[0]) <= 0.5 * room_m[0] + kSlack && std::abs(p[1]) <= 0.5 * room_m[1] + kSlack;
+  return level && p[2] >= -kSlack && p[2] <= room_m[2] + kSlack;
+}
+
 }  // namespace
 
 Result<void> CheckUnits(const Observations& observations, const std::string& light) {
@@ -159,6 +166,32 @@ Result<void> CheckFalloff(const Observations& observations, const std::string& l
              "reading"});
   }
   return {};
+}
+
+void CheckRoom(const Session& session, const LightDescription& light, Warnings& warnings) {
+  if (!session.room) return;
+  const Vec3& size = session.room->size_m;
+  std::string outside;
+  const auto add = [&](const std::string& what) {
+    outside += (outside.empty() ? "" : ", ") + what;
+  };
+  if (light.position_m && !IsInside(*light.position_m, size)) add("the lamp");
+  int index = 0;  // over the light's readings
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light.name) continue;
+    const auto& place = row.reading.position_m;
+    if (place && !IsInside(*place, size)) add("reading " + std::to_string(index));
+    ++index;
+  }
+  if (outside.empty()) return;
+  warnings.push_back(
+      {"outside_room", light.name,
+       outside + " (counted from 0) stands outside the [room], which reaches from -" +
+           RoundedText(0.5 * size[0], 3) + " to " + RoundedText(0.5 * size[0], 3) + " m in x, -" +
+           RoundedText(0.5 * size[1], 3) + " to " + RoundedText(0.5 * size[1], 3) +
+           " m in y, 0 to " + RoundedText(size[2], 3) +
+           " m in z; for its walls' light it counts as just inside: correct the positions or "
+           "size_m"});
 }
 
 }  // namespace lightcal::fit

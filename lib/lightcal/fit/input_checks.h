@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What no estimate can repair: mixed units, and light that grows with distance.
+// What no estimate can repair: mixed units, light that grows with distance, places outside the
+// room.
 #pragma once
 
 #include <string>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/observations.h"
+#include "lightcal/records/session.h"
 
 namespace lightcal::fit {
 
@@ -19,5 +21,9 @@ namespace lightcal::fit {
 // of what was read is not the lamp's direct light.
 [[nodiscard]] Result<void> CheckFalloff(const Observations& observations, const std::string& light,
                                         Warnings& warnings);
+
+// Warns of a lamp or a reading outside the [room] (outside_room): for its walls' light it counts as
+// just inside.
+void CheckRoom(const Session& session, const LightDescription& light, Warnings& warnings);
 
 }  // namespace lightcal::fit
