@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/report/light_section.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/swatch.h"
