@@ -34,6 +34,7 @@ inline LightFile FullLightFile() {
   light.position_m = Vec3{0.1, -0.2, 1.2};
   light.position_u95_m = Vec3{0.01, 1.0 / 7.0, 0.03};
   light.aim = Vec3{0.0, 0.6, -0.8};
+  light.axis = Vec3{1.0, 0.0, 0.0};
   IntensityGrid grid{GoniometerType::kC, {0.0}, {0.0, 30.0, 60.1}, {1.0 / 7.0, 900.5, 0.0}};
   light.distribution = MeasuredDistribution{
       IntensityTable::Make(std::move(grid), "sample").value(), 0.013, {{"camera", 0.01, 1e-9}}};
@@ -53,8 +54,10 @@ inline LightFile FullLightFile() {
   bare.name = "bare";
   LightFile file;
   file.lights = {light, bare};
-  file.provenance = {
-      "lightcal 0.1.0", {{"session.toml", std::string(64, 'a')}}, "2026-01-02T03:04:05Z"};
+  file.provenance = {"lightcal 0.1.0",
+                     {{"session.toml", std::string(64, 'a')}},
+                     "2026-01-02T03:04:05Z",
+                     {"sekonic:JN1-01"}};
   return file;
 }
 
