@@ -175,7 +175,7 @@ radius_m = 0.013
 
 TEST(FitCommand, WarnsOfPlacesOutsideTheRoom) {
   const TempDir dir;
-  const auto warned = [&](const std::string& place) {
+  const auto warned = [&](const std::string& place, const char* lux) {
     const std::string session = dir.Write("session.toml", R"(lightcal = 1
 name = "Room"
 [room]
@@ -192,16 +192,15 @@ illuminance_lx = 10
 [[reading]]
 light = "key"
 normal = [0, 0, 1]
-illuminance_lx = 8
-)" + ("position_m = " + place + "\n"));
+)" + ("position_m = " + place + "\nilluminance_lx = " + lux + "\n"));
     std::string text;
     for (const json& warning : LightcalJson("fit", {session})["warnings"]) {
       if (warning["code"] == "outside_room") text = warning["message"];
     }
     return text;
   };
-  EXPECT_EQ(warned("[-1.5, 1, 0]"), "");
-  EXPECT_NE(warned("[-1.5, 2.5, 0]").find("reading 1 (counted from 0) stands outside"),
+  EXPECT_EQ(warned("[-1.5, 1, 0]", "7.5"), "");
+  EXPECT_NE(warned("[-1.5, 2.5, 0]", "3.3").find("reading 1 (counted from 0) stands outside"),
             std::string::npos);
 }
 
