@@ -194,7 +194,8 @@ light = "key"
 normal = [0, 0, 1]
 )" + ("position_m = " + place + "\nilluminance_lx = " + lux + "\n"));
     std::string text;
-    for (const json& warning : LightcalJson("fit", {session})["warnings"]) {
+    const json fitted = LightcalJson("fit", {session});
+    for (const json& warning : fitted["warnings"]) {
       if (warning["code"] == "outside_room") text = warning["message"];
     }
     return text;
