@@ -194,8 +194,8 @@ light = "key"
 normal = [0, 0, 1]
 )" + ("position_m = " + place + "\nilluminance_lx = " + lux + "\n"));
     std::string text;
-    const json fitted = LightcalJson("fit", {session});
-    for (const json& warning : fitted["warnings"]) {
+    const json warnings = LightcalJson("fit", {session}).value("warnings", json::array());
+    for (const json& warning : warnings) {
       if (warning["code"] == "outside_room") text = warning["message"];
     }
     return text;
