@@ -228,8 +228,7 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
   for (const Levels& levels : wanted) {
     profiles.push_back(ProfileOf(levels, question.tolerance_relative));
   }
-  auto measured =
-      MeasureInTurn(run, profiles, {.least_runs = 7, .most_runs = 101, .seconds = 6.0}, watch);
+  auto measured = MeasureInTurn(run, profiles, question.together, watch);
   if (!measured) return Propagate(std::move(measured));
   study.usual.measured = std::move(measured->front());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -282,7 +281,7 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
       study.rows.push_back(std::move(row));
     }
   }
-  auto measured = MeasureInTurn(run, profiles, {}, watch);
+  auto measured = MeasureInTurn(run, profiles, question.alone, watch);
   if (!measured) return Propagate(std::move(measured));
   study.reference = std::move((*measured)[0]);
   if (auto sure = CheckReference(study.reference, (*measured)[1], tolerance, study); !sure) {
