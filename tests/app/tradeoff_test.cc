@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal tradeoff, driven as a shell would: what it recommends must hold.
 #include <gtest/gtest.h>
-#include <sys/types.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
@@ -20,6 +16,7 @@
 #include "lux_twin.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "terminal_dialogue.h"
 
 namespace lightcal::test {
 namespace {
@@ -171,38 +168,18 @@ TEST(TradeoffSynthetic, WithoutAReadingThereIsNoTwin) {
   EXPECT_EQ(json::parse(result.out)["error"]["code"], "no_twin");
 }
 
-// Whether a process catches SIGINT by now.
-bool CatchesCtrlC(pid_t process) {
-  std::ifstream status("/proc/" + std::to_string(process) + "/status");
-  for (std::string word; status >> word;) {
-    if (word != "SigCgt:") continue;
-    std::uint64_t mask = 0;
-    status >> std::hex >> mask;
-    return (mask >> (SIGINT - 1) & 1U) != 0;
-  }
-  return false;
-}
-
-TEST(TradeoffCommand, CtrlCStopsItAndNothingIsWritten) {
+TEST(TradeoffCommand, ItShowsHowFarItIsAndCtrlCStopsItWithNothingWritten) {
   const TempDir dir;
-  const std::string pid_file = dir.path() + "/pid", out = dir.path() + "/out";
-  auto running = std::async(std::launch::async, [&] {
-    return RunLightcal({"tradeoff", SampleData("sessions/three_real_lights"), "-o", out, "--json"},
-                       "", {}, {"/bin/sh", "-c", "echo $$ > " + pid_file + "; exec \"$@\"", "sh"});
-  });
-  pid_t process = 0;
-  while (!CatchesCtrlC(process)) {
-    ASSERT_EQ(running.wait_for(std::chrono::milliseconds(5)), std::future_status::timeout)
-        << "ended before it could be interrupted: " << running.get().err;
-    std::ifstream(pid_file) >> process;
-  }
+  const std::string out = dir.path() + "/out";
+  TerminalDialogue terminal({"tradeoff", SampleData("sessions/three_real_lights"), "-o", out});
+  ASSERT_TRUE(terminal.WaitFor("measuring each knob")) << terminal.transcript();
+  ASSERT_TRUE(terminal.WaitFor(" %")) << terminal.transcript();
   const auto pressed = std::chrono::steady_clock::now();
-  ::kill(process, SIGINT);
-  const CliResult stopped = running.get();
-  EXPECT_EQ(stopped.exit_code, 1);
-  EXPECT_EQ(json::parse(stopped.out)["error"]["code"], "interrupted");
-  EXPECT_FALSE(fs::exists(out));
+  terminal.Press('\x03');
+  EXPECT_EQ(terminal.Finish(), 1);
   EXPECT_LT(std::chrono::steady_clock::now() - pressed, std::chrono::seconds(5));
+  EXPECT_NE(terminal.transcript().find("stopped; nothing was written"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST(TradeoffCommand, AskedWrongItSaysWhatToWrite) {

@@ -254,7 +254,7 @@ void Print(const char* what, const Tally& tally) {
       "(%.1f %%), is within %.1f x of the cheapest in %d (%.1f %%): median %.2f x, p95 "
       "%.2f x, worst %.2f x; its 95 %% interval holds the twin's lamp in %d of %d\n",
       what, tally.twins, tally.refused, tally.meets, studied, Percent(tally.meets, studied),
-      kBarCost, tally.cheap, Percent(tally.cheap, studied), at(0.5), at(0.95), tally.cost.back(),
+      kBarCost, tally.cheap, Percent(tally.cheap, studied), at(0.5), at(0.95), cost.back(),
       tally.held, tally.known);
 }
 
