@@ -68,10 +68,10 @@ Twin LuxTwinIn(const TempDir& folder, std::mt19937_64& random) {
   return {folder.Write("twin.toml", twin.toml),
           {"effects", "source_model", "bounce_patches", "solver", "rejection"},
           twin.intensity_cd,
-          !twin.in_room};
+          twin.exact};
 }
 
-// A grey card with a paler rim before a black cloth, 160 x 120 pixels, three to five frames.
+// A grey card before black cloth, 160 x 120 pixels, three to five frames.
 Twin BracketTwinIn(const TempDir& folder, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const double intensity_cd = std::pow(10.0, 2.2 + 0.8 * share(random));
