@@ -80,7 +80,9 @@ constexpr CommandRow kCommands[] = {
     {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
      "  lightcal tradeoff sample_data/sessions/three_real_lights --tol 1% -o tradeoff\n"
      "  lightcal tradeoff my_lamp --budget 50ms\n"
-     "  lightcal tradeoff my_lamp --knobs frames,pixels,solver --json", BuildTradeoff},
+     "  lightcal tradeoff my_lamp --knobs frames,pixels,solver --json\n"
+     "  lightcal tradeoff my_lamp --knobs readings,rejection --synthetic",
+     BuildTradeoff},
     {"export", "Engine presets of fitted lights: lights, cards, a camera, the exposure",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --bare -o bare --force", BuildExport},

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "calibrate_measured.h"
 #include "captures/ball_capture.h"
 #include "captures/capture_readings.h"
 #include "captures/wall_capture.h"
@@ -201,9 +202,14 @@ Result<CalibratedSession> CalibrateSession(const std::string& path,
                                            const CalibrationRequest& request, Console& console) {
   auto measured = LoadMeasuredSession(path, request, console);
   if (!measured) return Propagate(std::move(measured));
+  return CalibrateMeasured(*std::move(measured), request, console);
+}
+
+Result<CalibratedSession> CalibrateMeasured(MeasuredSession measured,
+                                            const CalibrationRequest& request, Console& console) {
   CalibratedSession calibrated;
-  calibrated.session = std::move(measured->session);
-  const std::vector<BallPlacement>& placed = measured->placed;
+  calibrated.session = std::move(measured.session);
+  const std::vector<BallPlacement>& placed = measured.placed;
   auto lights = FitLights(calibrated.session, request, console);
   Lap(request, tradeoff::Stage::kFit);
   if (!lights) return Propagate(std::move(lights));

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -13,8 +15,10 @@
 #include "interrupt.h"
 #include "lightcal/core/units_text.h"
 #include "output_files.h"
-#include "preset_files.h"
+#include "tradeoff/session_runner.h"
+#include "tradeoff/session_twin.h"
 #include "tradeoff/tradeoff_answer.h"
+#include "tradeoff/truth_answer.h"
 
 namespace lightcal::app {
 namespace {
@@ -22,7 +26,7 @@ namespace {
 struct Options {
   std::string session, tolerance = "1%", budget, output;
   std::vector<std::string> knobs;
-  bool force = false;
+  bool synthetic = false, force = false;
 };
 
 Result<tradeoff::Question> QuestionOf(const Options& options) {
@@ -41,23 +45,6 @@ Result<tradeoff::Question> QuestionOf(const Options& options) {
   return question;
 }
 
-// Runs the whole job in memory: session to presets, nothing written.
-tradeoff::Runner RunnerOf(const std::string& session) {
-  return [session](const AccuracyProfile& profile) -> Result<tradeoff::Outcome> {
-    Console silent({.json = true, .quiet = true, .verbose = false, .strict = false, .muted = true});
-    StageClock clock;
-    auto calibrated =
-        CalibrateSession(session, CalibrationRequest{profile, false, false, &clock}, silent);
-    if (!calibrated) return Propagate(std::move(calibrated));
-    Warnings warnings;
-    const auto presets =
-        PresetFiles(calibrated->lights, calibrated->session.stem, {}, {}, warnings);
-    if (!presets) return tl::unexpected(presets.error());
-    clock.Lap(tradeoff::Stage::kExport);
-    return tradeoff::Outcome{tradeoff::FiguresOf(calibrated->lights), clock.seconds()};
-  };
-}
-
 // One line on a terminal that counts up, and is wiped at the end.
 class Progress {
  public:
@@ -72,23 +59,47 @@ class Progress {
     if (share < last_) ++phase_;
     last_ = share;
     if (!shown_) return;
-    std::cerr << "\r\033[K" << (phase_ == 0 ? "measuring each knob " : "measuring combinations ")
+    std::cerr << "\r\033[K" << kPhases[std::min(phase_, kPhases.size() - 1)]
               << std::lround(100.0 * share) << " %" << std::flush;
   }
 
  private:
+  static constexpr std::array kPhases = {"measuring each knob ", "measuring combinations ",
+                                         "reading the twin again "};
   bool shown_;
   double last_ = 0.0;
-  int phase_ = 0;
+  std::size_t phase_ = 0;
 };
 
-Result<tradeoff::Study> Measure(const Options& options, const tradeoff::Question& question,
-                                bool quiet) {
+// What a run of the command found; `truth` is empty without --synthetic.
+struct Measurements {
+  tradeoff::Study study;
+  std::vector<tradeoff::TruthRow> truth;
+};
+
+Result<Measurements> Measure(const Options& options, const tradeoff::Question& question,
+                             bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
-  return tradeoff::StudyTradeoff(RunnerOf(options.session), question,
-                                 {[] { return InterruptGuard::Wish().Requested(); },
-                                  [&](double share) { progress.At(share); }});
+  const tradeoff::Watch watch = {[] { return InterruptGuard::Wish().Requested(); },
+                                 [&](double share) { progress.At(share); }};
+  Measurements out;
+  SessionTwin twin;
+  if (options.synthetic) {
+    auto made = TwinOf(options.session, question.tolerance_relative);
+    if (!made) return Propagate(std::move(made));
+    twin = *std::move(made);
+  }
+  auto study = tradeoff::StudyTradeoff(
+      options.synthetic ? TwinRunner(twin) : SessionRunner(options.session), question, watch);
+  if (!study) return Propagate(std::move(study));
+  out.study = *std::move(study);
+  if (!options.synthetic) return out;
+  const std::vector<tradeoff::Named> settings = SettingsForTruth(out.study);
+  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin), twin.truth, settings, {}, watch);
+  if (!truth) return Propagate(std::move(truth));
+  out.truth = *std::move(truth);
+  return out;
 }
 
 Result<void> RunTradeoff(const Options& options, Console& console) {
@@ -99,26 +110,30 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
   usual.profile.tolerance_relative = question->tolerance_relative;
   auto calibrated = CalibrateSession(options.session, usual, console);
   if (!calibrated) return Propagate(std::move(calibrated));
-  const auto study = Measure(options, *question, console.json());
-  if (!study) return tl::unexpected(study.error());
+  const auto measured = Measure(options, *question, console.json());
+  if (!measured) return tl::unexpected(measured.error());
+  const auto& [study, truth] = *measured;
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
 
   const Session& session = calibrated->session;
   if (!options.output.empty()) {
-    auto files = TradeoffFiles(*study, question->tolerance_relative,
-                               session.name.empty() ? session.stem : session.name);
+    const std::string title = session.name.empty() ? session.stem : session.name;
+    auto files = TradeoffFiles(study, truth, question->tolerance_relative,
+                               options.synthetic ? title + " (synthetic twin)" : title);
     if (!files) return Propagate(std::move(files));
     PlaceUnder(options.output, *files);
     if (auto written = WriteOutputs(*files, options.force); !written) return written;
     for (const OutputFile& file : *files) console.Note("wrote " + file.path);
   }
-  console.Print(TradeoffTable(*study) + "\n");
-  for (const std::string& sentence : TradeoffSentences(*study)) console.Print(sentence + "\n");
+  console.Print(TradeoffTable(study, truth) + "\n");
+  for (const std::string& sentence : TradeoffSentences(study, truth)) {
+    console.Print(sentence + "\n");
+  }
   if (!options.output.empty()) {
     console.Print("next: lightcal run " + options.session + " --profile " + options.output +
                   "/profile.json\n");
   }
-  console.PrintJson(TradeoffJson(*study, question->tolerance_relative));
+  console.PrintJson(TradeoffJson(study, truth, question->tolerance_relative));
   return {};
 }
 
@@ -134,6 +149,10 @@ Run BuildTradeoff(CLI::App& parser) {
   parser.add_option("--knobs", options->knobs, "Which knobs to move [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  parser.add_flag(
+      "--synthetic", options->synthetic,
+      "On a synthetic twin: the fitted lamps, read anew with the meter's noise, so that "
+      "errors against the truth are known too");
   parser.add_option("-o,--output", options->output,
                     "Where profile.json, the figure and the page go [nothing is written]");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");

@@ -11,6 +11,7 @@
 #include "lightcal/report/text.h"
 #include "lightcal/report/work_precision.h"
 #include "picture_file.h"
+#include "truth_answer.h"
 
 namespace lightcal::app {
 namespace {
@@ -160,22 +161,32 @@ report::WorkPrecision PlotOf(const Study& study, double tolerance, const std::st
   return plot;
 }
 
-std::string HtmlTable(const std::string& heading, const std::vector<Cells>& rows) {
-  std::string html = "<table><thead><tr><th scope=\"col\">" + heading +
-                     "</th><th scope=\"col\">level</th><th scope=\"col\">time (ms)</th>"
-                     "<th scope=\"col\">against usual</th><th scope=\"col\">off by</th>"
-                     "<th scope=\"col\">label</th></tr></thead><tbody>\n";
-  for (const Cells& row : rows) {
-    html += "<tr><th scope=\"row\">" + Escaped(row.knob) + "</th>";
-    for (const std::string* cell : {&row.level, &row.time, &row.speed, &row.error, &row.label}) {
-      html += "<td>" + Escaped(*cell) + "</td>";
-    }
+// The first row is the header, the first cell of each names it.
+std::string HtmlTable(const std::vector<std::vector<std::string>>& rows) {
+  std::string html = "<table><thead><tr>";
+  for (const std::string& cell : rows.front()) {
+    html += "<th scope=\"col\">" + Escaped(cell) + "</th>";
+  }
+  html += "</tr></thead><tbody>\n";
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    html += "<tr><th scope=\"row\">" + Escaped(rows[i].front()) + "</th>";
+    for (std::size_t k = 1; k < rows[i].size(); ++k) html += "<td>" + Escaped(rows[i][k]) + "</td>";
     html += "</tr>\n";
   }
   return html + "</tbody></table>\n";
 }
 
-std::string Page(const Study& study, const std::string& title, const std::string& svg) {
+std::string HtmlTable(const std::string& heading, const std::vector<Cells>& cells) {
+  std::vector<std::vector<std::string>> rows = {
+      {heading, "level", "time (ms)", "against usual", "off by", "label"}};
+  for (const Cells& row : cells) {
+    rows.push_back({row.knob, row.level, row.time, row.speed, row.error, row.label});
+  }
+  return HtmlTable(rows);
+}
+
+std::string Page(const Study& study, const TruthRows& truth, const std::string& title,
+                 const std::string& svg) {
   std::string html =
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
       "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
@@ -186,12 +197,13 @@ std::string Page(const Study& study, const std::string& title, const std::string
       "</h1>\n<p class=\"lead\">What accuracy costs in time, measured on this session</p></header>"
       "\n<figure>" +
       svg + "</figure>\n<div class=\"block\">\n";
-  for (const std::string& sentence : TradeoffSentences(study)) {
+  for (const std::string& sentence : TradeoffSentences(study, truth)) {
     html += "<p>" + Escaped(sentence) + "</p>\n";
   }
   html += "</div>\n" + HtmlTable("knob", KnobRows(study));
   const std::vector<Cells> together = CombinationRows(study);
   if (!together.empty()) html += HtmlTable("together", together);
+  if (!truth.empty()) html += HtmlTable(TruthCells(truth));
   return html +
          "<p class=\"small soft\">Off by: the largest change of strength, "
          "colour temperature or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 "
@@ -201,7 +213,7 @@ std::string Page(const Study& study, const std::string& title, const std::string
 
 }  // namespace
 
-std::string TradeoffTable(const Study& study) {
+std::string TradeoffTable(const Study& study, const TruthRows& truth) {
   std::vector<std::vector<std::string>> rows;
   for (const Cells& row : KnobRows(study)) {
     rows.push_back({row.knob, row.level, row.time, row.speed, row.error, row.label});
@@ -211,15 +223,22 @@ std::string TradeoffTable(const Study& study) {
   for (const Cells& row : CombinationRows(study)) {
     rows.push_back({row.time, row.speed, row.error, row.label, row.level});
   }
-  if (rows.empty()) return text;
-  return text + "\n" + TextTable({"ms", "against usual", "off by", "label", "together"}, rows);
+  if (!rows.empty()) {
+    text += "\n" + TextTable({"ms", "against usual", "off by", "label", "together"}, rows);
+  }
+  if (truth.empty()) return text;
+  rows = TruthCells(truth);
+  const std::vector<std::string> header = std::move(rows.front());
+  rows.erase(rows.begin());
+  return text + "\n" + TextTable(header, rows);
 }
 
-std::vector<std::string> TradeoffSentences(const Study& study) {
+std::vector<std::string> TradeoffSentences(const Study& study, const TruthRows& truth) {
   std::vector<std::string> out = {
       "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" +
       Milliseconds(study.recommended.measured.times.total) + " ms; " +
       Effect(study.recommended, TimesFaster(study, study.recommended)) + ")."};
+  if (!truth.empty()) out.push_back(TruthSentence(truth));
   for (const SweepRow& row : study.rows) {
     const bool good = row.setting.verdict == tradeoff::Verdict::kFree ||
                       row.setting.verdict == tradeoff::Verdict::kSafe;
@@ -234,7 +253,7 @@ std::vector<std::string> TradeoffSentences(const Study& study) {
   return out;
 }
 
-ordered_json TradeoffJson(const Study& study, double tolerance_relative) {
+ordered_json TradeoffJson(const Study& study, const TruthRows& truth, double tolerance_relative) {
   ordered_json json = {
       {"tolerance_relative", tolerance_relative},
       {"allowed_relative", study.allowed_relative},
@@ -254,19 +273,20 @@ ordered_json TradeoffJson(const Study& study, double tolerance_relative) {
   for (const Setting& one : study.combinations) {
     json["combinations"].push_back(SettingJson(study, one));
   }
-  json["sentences"] = TradeoffSentences(study);
+  if (!truth.empty()) json["against_truth"] = TruthJson(truth);
+  json["sentences"] = TradeoffSentences(study, truth);
   return json;
 }
 
-Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, double tolerance_relative,
-                                              const std::string& title) {
+Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, const TruthRows& truth,
+                                              double tolerance_relative, const std::string& title) {
   auto profile = AccuracyProfileToJson(study.recommended.measured.profile);
   if (!profile) return Propagate(std::move(profile));
   ordered_json with_figures = ordered_json::parse(*profile);
   with_figures["measured"] = SettingJson(study, study.recommended);
   with_figures["measured"]["session"] = title;
   ordered_json whole = {{"generator", GeneratorName()}};
-  whole.update(TradeoffJson(study, tolerance_relative));
+  whole.update(TradeoffJson(study, truth, tolerance_relative));
   const std::string svg = report::WorkPrecisionPlot(PlotOf(study, tolerance_relative, title));
   auto png = PictureFile("tradeoff.png", svg);
   if (!png) return Propagate(std::move(png));
@@ -274,7 +294,7 @@ Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, double toleran
                                  {"profile.json", with_figures.dump(2) + "\n"},
                                  {"tradeoff.svg", svg},
                                  std::move(*png),
-                                 {"tradeoff.html", Page(study, title, svg)}};
+                                 {"tradeoff.html", Page(study, truth, title, svg)}};
 }
 
 }  // namespace lightcal::app

@@ -3,16 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 
+#include "lux_twin.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "terminal_dialogue.h"
 
 namespace lightcal::test {
 namespace {
@@ -91,45 +95,12 @@ INSTANTIATE_TEST_SUITE_P(Of, Tradeoff,
                                            Sample{"grey_card_exr", 4}),
                          [](const auto& sample) { return sample.param.session; });
 
-// A random session: 4 to 8 readings of a bulb, disk or panel, in a room or not, by a meter of 0.5
-// to 5 %.
-std::string TwinToml(std::mt19937_64& random) {
-  std::uniform_real_distribution<double> share(0.0, 1.0);
-  std::normal_distribution<double> normal;
-  const double sigma = std::pow(10.0, -2.3 + share(random));
-  const double intensity = std::pow(10.0, 1.0 + 3.0 * share(random));
-  const double offset = 0.05 * share(random) - 0.02;
-  const int kind = static_cast<int>(3.0 * share(random));
-  std::string text = "lightcal = 1\nname = \"twin\"\n";
-  const bool in_room = share(random) < 0.5;
-  if (in_room) {
-    text += "[room]\nsize_m = [6.0, 5.0, 2.8]\nreflectance = " +
-            std::to_string(0.1 + 0.6 * share(random)) + "\n";
-  }
-  text += "[[light]]\nname = \"key\"\n";
-  if (kind == 0) text += "kind = \"point\"\n";
-  if (kind == 1) text += "kind = \"disk\"\ndiameter_m = 0.2\naim = [1, 0, 0]\n";
-  if (kind == 2) text += "kind = \"rect\"\nsize_m = [0.6, 0.3]\naim = [1, 0, 0]\n";
-  text += "[[meter]]\nname = \"m\"\nsigma_relative = " + std::to_string(sigma) + "\n";
-  // In the room the meter stays inside it: 2.2 m from the lamp in its middle.
-  const int count = 4 + static_cast<int>((in_room ? 2.0 : 5.0) * share(random));
-  for (int i = 0; i < count; ++i) {
-    const double d = 0.5 * std::pow(1.45, i);
-    const double area = kind == 0 ? 0.0 : kind == 1 ? 0.01 : 0.018;
-    const double lux =
-        intensity / ((d + offset) * (d + offset) + area) * std::exp(sigma * normal(random));
-    text += "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +
-            "\nilluminance_lx = " + std::to_string(lux) + "\n";
-  }
-  return text;
-}
-
 TEST(TradeoffTwins, TheRecommendationMeetsTheTolerance) {
   std::mt19937_64 random(20261122);
   for (int i = 0; i < 20; ++i) {
     const TempDir dir;
     const std::string session = dir.path() + "/twin.toml";
-    const std::string toml = TwinToml(random);
+    const std::string toml = RandomLuxTwin(random).toml;
     SCOPED_TRACE(toml);
     std::ofstream(session) << toml;
     const json answer = LightcalJson(
@@ -150,6 +121,65 @@ TEST(TradeoffCommand, ABudgetThatNothingMeetsIsRefusedWithTheNearest) {
   const json error = json::parse(result.out)["error"];
   EXPECT_EQ(error["code"], "no_setting");
   EXPECT_NE(std::string(error["message"]).find("nearest"), std::string::npos);
+}
+
+const json& TruthOf(const json& answer, const std::string& setting) {
+  for (const json& row : answer["against_truth"]) {
+    if (row["name"] == setting) return row;
+  }
+  throw std::runtime_error("no setting " + setting);
+}
+
+// Two readings each at three places, too few to look for ambient light, by a meter of 2 % that
+// shares none of it: one of each place is 1.2 to 1.5 times as far off, as counting says.
+TEST(TradeoffSynthetic, IntervalsHoldTheTruthOfTheTwinAndFewerReadingsAreFurtherOff) {
+  const TempDir dir;
+  std::string toml =
+      "lightcal = 1\nname = \"twin\"\n[[light]]\nname = \"key\"\nkind = \"point\"\n[[meter]]\n"
+      "name = \"m\"\nsigma_relative = 0.02\ncalibration_relative = 0.0\n";
+  for (const double d : {0.5, 0.5, 1.0, 1.0, 2.0, 2.0}) {
+    toml += "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +
+            "\nilluminance_lx = " + std::to_string(500.0 / ((d + 0.02) * (d + 0.02))) + "\n";
+  }
+  const std::string out = dir.path() + "/out";
+  const json answer = LightcalJson("tradeoff", {dir.Write("six.toml", toml), "--synthetic",
+                                                "--knobs", "readings,solver,rejection", "-o", out});
+  const json &strict = TruthOf(answer, "strictest"), &half = TruthOf(answer, "readings half");
+  EXPECT_EQ(strict["replicas"], 200);
+  EXPECT_EQ(strict["refused"], 0);
+  for (const json* row : {&strict, &TruthOf(answer, "as usual")}) {
+    const double held = (*row)["intervals_that_hold_the_truth"];
+    EXPECT_NEAR(held / 200.0, 0.95, 0.04);  // 2.6 standard deviations of the count
+  }
+  EXPECT_LT(std::abs(double(strict["mean_relative"])), 0.3 * double(strict["rms_relative"]));
+  const double times = double(half["rms_relative"]) / double(strict["rms_relative"]);
+  EXPECT_GT(times, 1.2);
+  EXPECT_LT(times, 1.5);
+  EXPECT_EQ(ReadJson(out + "/tradeoff.json")["against_truth"].size(),
+            answer["against_truth"].size());
+  const std::string page = ReadFile(out + "/tradeoff.html");
+  EXPECT_NE(page.find("off truth"), std::string::npos);
+}
+
+TEST(TradeoffSynthetic, WithoutAReadingThereIsNoTwin) {
+  const CliResult result = RunLightcal(
+      {"tradeoff", SampleData("sessions/lit_wall"), "--synthetic", "--knobs", "solver", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "no_twin");
+}
+
+TEST(TradeoffCommand, ItShowsHowFarItIsAndCtrlCStopsItWithNothingWritten) {
+  const TempDir dir;
+  const std::string out = dir.path() + "/out";
+  TerminalDialogue terminal({"tradeoff", SampleData("sessions/three_real_lights"), "-o", out});
+  ASSERT_TRUE(terminal.WaitFor("measuring each knob")) << terminal.transcript();
+  ASSERT_TRUE(terminal.WaitFor(" %")) << terminal.transcript();
+  const auto pressed = std::chrono::steady_clock::now();
+  terminal.Press('\x03');
+  EXPECT_EQ(terminal.Finish(), 1);
+  EXPECT_LT(std::chrono::steady_clock::now() - pressed, std::chrono::seconds(5));
+  EXPECT_NE(terminal.transcript().find("stopped; nothing was written"), std::string::npos);
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST(TradeoffCommand, AskedWrongItSaysWhatToWrite) {

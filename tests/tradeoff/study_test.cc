@@ -90,6 +90,27 @@ TEST(Study, RecommendsTheCheapestThatMeetsTheTolerance) {
   EXPECT_TRUE(study->meter_limits);
 }
 
+// On a busy machine, where the quartiles of every setting's runs overlap, medians still part.
+TEST(Study, RunsThatScatterDoNotMakeADearSettingPassForCheap) {
+  Invented session;
+  session.pixel_error = 2e-3;  // within u/3, and further off than as usual
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> scatter(1.0, 0.5);
+  const Runner run = [&](const AccuracyProfile& p) -> Result<Outcome> {
+    Outcome out = session(p);
+    const double pictures = p.pictures.pixel_stride == 4 ? 0.0065 : 0.010;
+    out.seconds = {0.0, 0.0, pictures * std::max(0.1, scatter(random)), 0.0, 0.0};
+    return out;
+  };
+  Question question;
+  question.knobs = {"pixels"};
+  const auto study = StudyTradeoff(run, question, {});
+  ASSERT_TRUE(study);
+  const SweepRow& quarter = RowOf(*study, "pixels", "quarter");
+  ASSERT_TRUE(TimesOverlap(quarter.setting.measured.times, study->usual.measured.times));
+  EXPECT_EQ(study->recommended.measured.profile.pictures.pixel_stride, 4);
+}
+
 TEST(Study, AWideToleranceOfAPoorMeterTakesMore) {
   Invented session;
   session.sd = 0.2;

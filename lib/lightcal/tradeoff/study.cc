@@ -18,6 +18,8 @@ constexpr double kReferenceShare = 0.01;  // of the tolerance: how well referenc
 constexpr std::size_t kCombinations = 6;
 constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
 constexpr double kSeenError = 1e-9;  // relative
+// A setting whose runs overlap the cheapest's passes for as cheap, up to this much by the medians.
+constexpr double kAsCheap = 1.2;
 
 using Levels = std::vector<std::size_t>;
 
@@ -163,14 +165,15 @@ std::size_t KnobsMoved(const Setting& setting) {
   return moved;
 }
 
-// Among settings that meet the limits the cheapest; of those no slower than it the most accurate,
+// Among settings that meet the limits the cheapest; of those as cheap as it the most accurate,
 // then the one that moves the fewest knobs.
 const Setting* CheapestOf(const std::vector<const Setting*>& settings) {
   const auto cheapest = std::ranges::min_element(
       settings, {}, [](const Setting* s) { return s->measured.times.total; });
   const Setting* best = *cheapest;
   for (const Setting* one : settings) {
-    if (TimesOverlap(one->measured.times, (*cheapest)->measured.times) &&
+    const RunTimes &own = one->measured.times, &least = (*cheapest)->measured.times;
+    if (TimesOverlap(own, least) && own.total <= kAsCheap * least.total &&
         std::pair(one->error.relative, KnobsMoved(*one)) <
             std::pair(best->error.relative, KnobsMoved(*best))) {
       best = one;
@@ -228,8 +231,7 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
   for (const Levels& levels : wanted) {
     profiles.push_back(ProfileOf(levels, question.tolerance_relative));
   }
-  auto measured =
-      MeasureInTurn(run, profiles, {.least_runs = 7, .most_runs = 101, .seconds = 6.0}, watch);
+  auto measured = MeasureInTurn(run, profiles, question.together, watch);
   if (!measured) return Propagate(std::move(measured));
   study.usual.measured = std::move(measured->front());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -282,7 +284,7 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
       study.rows.push_back(std::move(row));
     }
   }
-  auto measured = MeasureInTurn(run, profiles, {}, watch);
+  auto measured = MeasureInTurn(run, profiles, question.alone, watch);
   if (!measured) return Propagate(std::move(measured));
   study.reference = std::move((*measured)[0]);
   if (auto sure = CheckReference(study.reference, (*measured)[1], tolerance, study); !sure) {

@@ -19,6 +19,8 @@ struct Question {
   double tolerance_relative = 0.01;
   std::optional<double> budget_s;
   std::vector<std::string> knobs;  // those to move; empty = all
+  TimingRules alone{};             // each knob alone
+  TimingRules together{.least_runs = 7, .most_runs = 101, .seconds = 6.0};  // combinations
 };
 
 // An error against the session's own standard uncertainty u: below u/10 nobody will ever see it,

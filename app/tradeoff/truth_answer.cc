@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "truth_answer.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::app {
+namespace {
+
+using nlohmann::ordered_json;
+using tradeoff::TruthRow;
+
+constexpr const char* kStrictest = "strictest";
+constexpr const char* kRecommended = "recommended";
+
+std::string Percent(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
+
+const TruthRow& RowOf(const std::vector<TruthRow>& rows, const std::string& name) {
+  return *std::ranges::find(rows, name, &TruthRow::name);
+}
+
+}  // namespace
+
+std::vector<tradeoff::Named> SettingsForTruth(const tradeoff::Study& study) {
+  std::vector<tradeoff::Named> out = {
+      {kStrictest, study.reference.profile},
+      {tradeoff::NameOf(study.usual.levels), study.usual.measured.profile},
+      {kRecommended, study.recommended.measured.profile}};
+  for (const tradeoff::SweepRow& row : study.rows) {
+    if (!row.in_play || row.setting.measured.refused) continue;
+    out.push_back({tradeoff::NameOf(row.setting.levels), row.setting.measured.profile});
+  }
+  return out;
+}
+
+std::vector<std::vector<std::string>> TruthCells(const std::vector<TruthRow>& rows) {
+  std::vector<std::vector<std::string>> cells = {
+      {"setting", "mean off truth", "rms off truth", "95 % interval holds it", "light"}};
+  for (const TruthRow& row : rows) {
+    if (row.replicas == 0) continue;
+    cells.push_back({row.name, Percent(row.mean), Percent(row.rms),
+                     std::to_string(row.held) + " of " + std::to_string(row.intervals), row.light});
+  }
+  return cells;
+}
+
+std::string TruthSentence(const std::vector<TruthRow>& rows) {
+  const TruthRow& strict = RowOf(rows, kStrictest);
+  const TruthRow& recommended = RowOf(rows, kRecommended);
+  return "Against the truth of a synthetic twin, read " + std::to_string(recommended.replicas) +
+         " times: the recommended setting is " + Percent(recommended.rms) + " off (the strictest " +
+         Percent(strict.rms) + "), and its 95 % interval holds the truth in " +
+         RoundedText(100.0 * recommended.held_share(), 3) + " % (" +
+         RoundedText(100.0 * strict.held_share(), 3) + " %).";
+}
+
+ordered_json TruthJson(const std::vector<TruthRow>& rows) {
+  ordered_json json = ordered_json::array();
+  for (const TruthRow& row : rows) {
+    json.push_back({{"name", row.name},
+                    {"replicas", row.replicas},
+                    {"refused", row.refused},
+                    {"light", row.light},
+                    {"mean_relative", row.mean},
+                    {"rms_relative", row.rms},
+                    {"intervals", row.intervals},
+                    {"intervals_that_hold_the_truth", row.held}});
+  }
+  return json;
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far settings stayed from a synthetic twin's truth, as people and machines read it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lightcal/tradeoff/against_truth.h"
+#include "lightcal/tradeoff/study.h"
+
+namespace lightcal::app {
+
+// The settings worth comparing with the truth: the strictest, the usual, the recommended one, and
+// every knob's level that changes time or answer.
+[[nodiscard]] std::vector<tradeoff::Named> SettingsForTruth(const tradeoff::Study& study);
+
+// A header and one row a setting: mean and rms error, how often the 95 % interval held the truth.
+[[nodiscard]] std::vector<std::vector<std::string>> TruthCells(
+    const std::vector<tradeoff::TruthRow>& rows);
+// What the recommended setting is worth against the truth, beside the strictest.
+[[nodiscard]] std::string TruthSentence(const std::vector<tradeoff::TruthRow>& rows);
+[[nodiscard]] nlohmann::ordered_json TruthJson(const std::vector<tradeoff::TruthRow>& rows);
+
+}  // namespace lightcal::app
