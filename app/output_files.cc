@@ -100,6 +100,21 @@ bool IsOver(int process) {
   return false;
 }
 
+// Temporaries in a directory whose writers are over; `wanted` is asked with the target's file name.
+template <class Wanted>
+void RemoveTemporaries(const fs::path& directory, const Wanted& wanted) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const auto process = WriterOfTemporary(name);
+    if (!process || !IsOver(*process)) continue;
+    const std::size_t ending = ("." + std::to_string(*process) + ".tmp").size();
+    if (wanted(name.substr(1, name.size() - 1 - ending))) leftovers.push_back(entry.path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
+}
+
 // What killed runs left beside these targets.
 void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
   std::map<fs::path, std::set<std::string>> names;  // by directory
@@ -108,19 +123,9 @@ void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
     names[path.has_parent_path() ? path.parent_path() : fs::path(".")].insert(
         path.filename().string());
   }
-  std::error_code ignored;
   for (const auto& [directory, targets] : names) {
-    std::vector<fs::path> leftovers;
-    for (const auto& entry : fs::directory_iterator(directory, ignored)) {
-      const std::string name = entry.path().filename().string();
-      const auto process = WriterOfTemporary(name);
-      if (!process || !IsOver(*process)) continue;
-      const std::size_t ending = ("." + std::to_string(*process) + ".tmp").size();
-      if (targets.contains(name.substr(1, name.size() - 1 - ending))) {
-        leftovers.push_back(entry.path());
-      }
-    }
-    for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
+    RemoveTemporaries(directory,
+                      [&targets](const std::string& target) { return targets.contains(target); });
   }
 }
 
@@ -201,13 +206,7 @@ Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force
 }
 
 void RemoveLeftovers(const std::string& directory) {
-  std::error_code ignored;
-  std::vector<fs::path> orphans;
-  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
-    const auto process = WriterOfTemporary(entry.path().filename().string());
-    if (process && IsOver(*process)) orphans.push_back(entry.path());
-  }
-  for (const fs::path& orphan : orphans) fs::remove(orphan, ignored);
+  RemoveTemporaries(directory, [](const std::string&) { return true; });
 }
 
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {

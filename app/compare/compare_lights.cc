@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 
 namespace lightcal::app {
@@ -100,7 +101,7 @@ class Comparer {
     if (!a.aim || !b.aim) return;
     const double cosine = Dot(*a.aim, *b.aim) / (Length(*a.aim) * Length(*b.aim));
     const double sine = Length(Cross(*a.aim, *b.aim)) / (Length(*a.aim) * Length(*b.aim));
-    const double angle_deg = std::atan2(sine, cosine) * 180.0 / std::numbers::pi;
+    const double angle_deg = DegreesFromRadians(Radians(std::atan2(sine, cosine)));
     const double u95 =
         Combined(a.aim_u95_deg.value_or(0.0), b.aim_u95_deg.value_or(0.0), correlation_);
     Distance("aim", "deg", angle_deg, u95, u95 > 0.0);
@@ -109,12 +110,8 @@ class Comparer {
   // Only where no CCT tells: xy carries no uncertainty of its own.
   void Chromaticity(const FittedColor& a, const FittedColor& b) {
     if (!a.xy || !b.xy || (a.cct_K && b.cct_K)) return;
-    const auto uv = [](const Xy& xy) {
-      const double scale = -2.0 * xy.x + 12.0 * xy.y + 3.0;  // CIE 15:2018, 8.2.1.1
-      return std::pair(4.0 * xy.x / scale, 9.0 * xy.y / scale);
-    };
-    const auto [ua, va] = uv(*a.xy);
-    const auto [ub, vb] = uv(*b.xy);
+    const auto [ua, va] = Uv1976FromXy(*a.xy);
+    const auto [ub, vb] = Uv1976FromXy(*b.xy);
     Distance("color.uv1976", "", std::hypot(ub - ua, vb - va), 0.0, false);
   }
 
