@@ -22,17 +22,29 @@ enum class SolverChoice : std::uint8_t {
 inline constexpr std::array<std::string_view, 4> kSolverWords = {"full", "quick", "loose",
                                                                  "closed_form"};
 
+// How a sample of a bracket is made of its frames.
+enum class MergeEstimator : std::uint8_t {
+  kLikelihood,  // each frame by its own noise there: maximum likelihood
+  kSums,        // signals and exposures summed: the same where shot noise rules
+  kLongest,     // the longest frame that is not clipped there, alone
+};
+inline constexpr std::array<std::string_view, 3> kMergeEstimatorWords = {"likelihood", "sums",
+                                                                         "longest"};
+
 struct EstimatorChoice {
   SolverChoice solver = SolverChoice::kQuick;
   bool reject = true;         // robust starts and rejection of readings that disagree
   bool leave_one_out = true;  // the error of predicting each reading from the others
   bool exact_source = true;   // the size of lamps near the meter; false: each a point
   int bounce_patches = 6;     // along each side of each wall of the [room]
+  int interval_samples = 0;   // draws behind the intervals (JCGM 101); 0: from the covariance
 };
 
 struct PictureChoice {
-  int frame_stride = 1;        // every n-th frame of a bracket, the shortest among them
-  int pixel_stride = 1;        // every n-th block of the colour filter pattern, both ways
+  int frame_stride = 1;         // every n-th frame of a bracket, the shortest among them
+  int pixel_stride = 1;         // one of n blocks of the colour filter pattern, both ways
+  bool average_pixels = false;  // the mean of the n x n blocks instead of the first of them
+  MergeEstimator estimator = MergeEstimator::kLikelihood;
   bool measure_ratios = true;  // exposure ratios from the pixels; false: as the files say
   bool check_frames = true;    // for flicker and what moved between the frames
 };
@@ -44,6 +56,7 @@ struct AccuracyProfile {
   CctMethod cct_method = CctMethod::kExact;
   int reading_stride = 1;         // every n-th reading of a light, in the session's order
   double spectral_step_nm = 0.0;  // spectra thinned to this step; 0 = as they were measured
+  double table_step_deg = 0.0;    // photometric tables thinned to this step; 0 = as in their files
   PictureChoice pictures{};
 };
 

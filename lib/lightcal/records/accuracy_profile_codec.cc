@@ -13,6 +13,7 @@ namespace {
 constexpr NumberRule kToleranceRule{[](double v) { return v > 0.0 && v < 1.0; },
                                     "must lie between 0 and 1: 0.01 is 1 %"};
 constexpr int kMostPatches = 64;
+constexpr int kMostSamples = 10'000'000;
 
 template <class Archive, class Estimator>
 void VisitEstimator(Archive& archive, Estimator& choice) {
@@ -21,12 +22,15 @@ void VisitEstimator(Archive& archive, Estimator& choice) {
   archive.Truth("leave_one_out", choice.leave_one_out);
   archive.Truth("exact_source", choice.exact_source);
   archive.Integer("bounce_patches", choice.bounce_patches);
+  archive.Integer("interval_samples", choice.interval_samples);
 }
 
 template <class Archive, class Pictures>
 void VisitPictures(Archive& archive, Pictures& choice) {
   archive.Integer("frame_stride", choice.frame_stride);
   archive.Integer("pixel_stride", choice.pixel_stride);
+  archive.Truth("average_pixels", choice.average_pixels);
+  archive.Word("estimator", choice.estimator, kMergeEstimatorWords);
   archive.Truth("measure_ratios", choice.measure_ratios);
   archive.Truth("check_frames", choice.check_frames);
 }
@@ -39,20 +43,22 @@ void VisitProfile(Archive& archive, Profile& profile) {
   archive.Word("cct_method", profile.cct_method, kCctMethodWords);
   archive.Integer("reading_stride", profile.reading_stride);
   archive.Number("spectral_step_nm", profile.spectral_step_nm, kNotNegative);
+  archive.Number("table_step_deg", profile.table_step_deg, kNotNegative);
   archive.Group("pictures", [&](auto& a) { VisitPictures(a, profile.pictures); });
 }
 
 void CheckCounts(FieldReader& reader, const AccuracyProfile& profile) {
-  const auto check = [&](std::string_view key, int value, int most) {
-    if (value >= 1 && value <= most) return;
+  const auto check = [&](std::string_view key, int value, int least, int most) {
+    if (value >= least && value <= most) return;
     reader.Fail("bad_profile", key,
-                std::string(key) + " = " + std::to_string(value) + ": must lie between 1 and " +
-                    std::to_string(most));
+                std::string(key) + " = " + std::to_string(value) + ": must lie between " +
+                    std::to_string(least) + " and " + std::to_string(most));
   };
-  check("bounce_patches", profile.estimator.bounce_patches, kMostPatches);
-  check("reading_stride", profile.reading_stride, 1 << 20);
-  check("frame_stride", profile.pictures.frame_stride, 1 << 10);
-  check("pixel_stride", profile.pictures.pixel_stride, 1 << 10);
+  check("bounce_patches", profile.estimator.bounce_patches, 1, kMostPatches);
+  check("interval_samples", profile.estimator.interval_samples, 0, kMostSamples);
+  check("reading_stride", profile.reading_stride, 1, 1 << 20);
+  check("frame_stride", profile.pictures.frame_stride, 1, 1 << 10);
+  check("pixel_stride", profile.pictures.pixel_stride, 1, 1 << 10);
 }
 
 }  // namespace
