@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/thin_table.h"
 #include "photometric_input.h"
 #include "session_files.h"
 #include "session_names.h"
@@ -34,7 +35,7 @@ tl::unexpected<Error> Several(const std::string& light, const std::vector<std::s
 
 }  // namespace
 
-Result<void> ResolveDistributions(Session& session, Warnings& warnings) {
+Result<void> ResolveDistributions(double step_deg, Session& session, Warnings& warnings) {
   for (LightDescription& light : session.lights) {
     if (light.kind != LightKind::kPhotometric) continue;
     std::vector<std::string> paths = ImportedFor(session, light.name);
@@ -47,6 +48,8 @@ Result<void> ResolveDistributions(Session& session, Warnings& warnings) {
     if (!read) return Propagate(std::move(read));
     warnings.insert(warnings.end(), read->warnings.begin(), read->warnings.end());
     auto table = AboutItsAim(std::move(read->file.table));
+    if (!table) return Propagate(std::move(table));
+    if (step_deg > 0.0) table = ThinnedTable(*table, step_deg);
     if (!table) return Propagate(std::move(table));
     if (!light.flux) light.flux = table->Flux();
     light.distribution = *std::move(table);

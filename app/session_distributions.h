@@ -14,9 +14,11 @@ namespace lightcal::app {
 // Fills the distribution of every photometric light: from its `distribution` file, else from
 // captures/<light>.ies or .ldt, where `import` puts it. The table becomes type C about the lamp's
 // own aim; its flux stands for the data sheet's where the session gives none. A light without a
-// file stays as it is. Files read are noted as inputs. Fails: as ReadPhotometricFile. Refused:
+// file stays as it is. Tables are thinned to `step_deg` where it is above 0 (thin_table.h). Files
+// read are noted as inputs. Fails: as ReadPhotometricFile. Refused:
 // several_distributions.
-[[nodiscard]] Result<void> ResolveDistributions(Session& session, Warnings& warnings);
+[[nodiscard]] Result<void> ResolveDistributions(double step_deg, Session& session,
+                                                Warnings& warnings);
 
 // Whether a file's name ends as photometric files do: .ies, .ldt.
 [[nodiscard]] bool IsPhotometricName(const std::string& path);

@@ -80,9 +80,9 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, double step_
   return {};
 }
 
-Result<void> AddDistributions(Session& session, Console& console) {
+Result<void> AddDistributions(double step_deg, Session& session, Console& console) {
   Warnings warnings;
-  auto added = ResolveDistributions(session, warnings);
+  auto added = ResolveDistributions(step_deg, session, warnings);
   console.Warn(warnings);
   return added;
 }
@@ -187,7 +187,7 @@ Result<MeasuredSession> LoadMeasuredSession(const std::string& path,
       return Propagate(std::move(resolved));
     }
   }
-  if (auto tables = AddDistributions(session, console); !tables) {
+  if (auto tables = AddDistributions(profile.table_step_deg, session, console); !tables) {
     return Propagate(std::move(tables));
   }
   Lap(request, tradeoff::Stage::kSpectra);

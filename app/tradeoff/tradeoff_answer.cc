@@ -32,10 +32,11 @@ std::string Milliseconds(double seconds) { return RoundedText(1e3 * seconds, 3);
 // "0.02 % in the strength of key", "0.4 mired in the colour temperature of key".
 std::string Moved(const tradeoff::SettingError& error) {
   std::string size = Percent(error.relative);
-  if (error.quantity == "colour temperature") {
+  if (error.quantity == tradeoff::kColorTemperature) {
     size = RoundedText(tradeoff::kMiredPerUnit * error.relative, 2) + " mired";
   }
-  if (error.quantity == "Duv") size = RoundedText(tradeoff::kDuvPerUnit * error.relative, 2);
+  if (error.quantity == tradeoff::kDuv)
+    size = RoundedText(tradeoff::kDuvPerUnit * error.relative, 2);
   return "the " + std::string(error.quantity) + " of " + error.light + " by " + size;
 }
 
@@ -205,7 +206,7 @@ std::string Page(const Study& study, const TruthRows& truth, const std::string& 
   if (!together.empty()) html += HtmlTable("together", together);
   if (!truth.empty()) html += HtmlTable(TruthCells(truth));
   return html +
-         "<p class=\"small soft\">Off by: the largest change of strength, "
+         "<p class=\"small soft\">Off by: the largest change of strength, its 95 % interval, flux, "
          "colour temperature or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 "
          "of Duv. Free: below a tenth of your standard uncertainty u; safe: up to a third.</p>\n"
          "</main>\n</body>\n</html>\n";
@@ -249,6 +250,10 @@ std::vector<std::string> TradeoffSentences(const Study& study, const TruthRows& 
   if (study.meter_limits) {
     out.push_back("Your readings are the limit: a third of their u is " +
                   Percent(study.allowed_relative) + "; working finer than that buys nothing.");
+    for (const tradeoff::LightFigures& light : study.reference.lights) {
+      if (light.limit.empty()) continue;
+      out.push_back("What limits " + light.name + ": " + light.limit + ".");
+    }
   }
   return out;
 }

@@ -47,7 +47,7 @@ TEST(MonteCarlo, AgreesWithTheCovarianceWhereTheModelIsNearlyLinear) {
   const auto sampled = SampleEstimate(input, {.digits = 1, .largest_blocks = 30});
   ASSERT_TRUE(linear && sampled);
   EXPECT_TRUE(sampled->stable);
-  EXPECT_EQ(sampled->samples % kSamplesPerBlock, 0);
+  EXPECT_EQ(sampled->samples % SamplingRule{}.block, 0);
   for (const Parameter k : {kLnIntensity, kDistanceOffset}) {
     const double sd = std::sqrt((*linear)[k * kParameters + k]);
     const SampledParameter& p = sampled->parameters[k];
@@ -103,6 +103,27 @@ TEST(MonteCarlo, AmbientLightStaysAboveNothing) {
   ASSERT_TRUE(sampled.has_value());
   EXPECT_GE(sampled->parameters[kAmbient].low, 0.0);
   EXPECT_GT(sampled->parameters[kAmbient].high, 0.0);
+}
+
+TEST(MonteCarlo, AsManyDrawsAsAskedForTellAnIntervalToTheirRoot) {
+  const Estimation estimation = Readings({0.35, 0.7, 1.4, 2.8}, 0.005, 0.0);
+  const UncertaintyInput input = InputOf(estimation);
+  const auto linear = EstimateCovariance(input);
+  ASSERT_TRUE(linear);
+  const double half = kZ95 * std::sqrt((*linear)[0]);
+  for (const int samples : {1, 1000, 10000, 25000, 100000}) {
+    const auto sampled = SampleEstimate(input, JustSamples(samples));
+    ASSERT_TRUE(sampled) << samples;
+    EXPECT_GE(sampled->samples, samples);
+    EXPECT_LE(sampled->samples, samples + 10);
+    if (samples == 1) continue;
+    // A quantile at 2.5 % of N normal draws scatters by 2.67 sd/sqrt(N); half the distance between
+    // two of them by 0.96 of half the interval / sqrt(N). Four of these, and how far the model is
+    // from linear.
+    const SampledParameter& ln = sampled->parameters[kLnIntensity];
+    EXPECT_NEAR(0.5 * (ln.high - ln.low) / half, 1.0, 4.0 * 0.96 / std::sqrt(samples) + 0.003)
+        << samples;
+  }
 }
 
 TEST(MonteCarlo, OnRequestItsIntervalReplacesTheLinearOne) {

@@ -19,6 +19,8 @@ struct Invented {
   double auto_error = 2e-4;   // effects = auto
   double pixel_error = 4e-4;  // a quarter of the pixels
   double check_error = 0.0;   // of the independent reference
+  double draws_error = 0.0;   // of the interval, relative, by 1000 draws
+  double check_draws_error = 0.0;
   std::mt19937_64 random{1};
 
   Outcome operator()(const AccuracyProfile& p) {
@@ -32,6 +34,8 @@ struct Invented {
     if (p.effects == "auto") light.ln_strength += auto_error;
     if (p.pictures.pixel_stride == 4) light.ln_strength -= pixel_error;
     if (p.estimator.bounce_patches == 64) light.ln_strength += check_error;
+    if (p.estimator.interval_samples == 1000) light.sd_ln *= 1.0 + draws_error;
+    if (p.estimator.interval_samples == 50000) light.sd_ln *= 1.0 + check_draws_error;
     light.mired = 300.0 + (p.cct_method == CctMethod::kMcCamy ? 2.0 : 0.0);
     light.sd_mired = 3.0;
     out.lights = {light};
@@ -60,7 +64,7 @@ TEST(Study, LabelsByTheSessionsOwnUncertainty) {
   Invented session;
   const auto study = StudyTradeoff(RunnerOf(session), {}, {});
   ASSERT_TRUE(study) << study.error().message;
-  EXPECT_EQ(study->rows.size(), 25U);
+  EXPECT_EQ(study->rows.size(), 31U);
   const SweepRow& none = RowOf(*study, "effects", "none");
   EXPECT_EQ(none.setting.verdict, Verdict::kCosts);
   EXPECT_NEAR(none.setting.error.relative, 0.03, 1e-12);
@@ -145,6 +149,50 @@ TEST(Study, ReferencesThatDisagreeAreNone) {
   Question wider;
   wider.tolerance_relative = 0.03;
   EXPECT_TRUE(StudyTradeoff(RunnerOf(session), wider, {}));
+}
+
+TEST(Study, AnIntervalIsHeldAgainstItsOwnWidth) {
+  Invented session;
+  session.draws_error = 0.05;
+  const auto study = StudyTradeoff(RunnerOf(session), {}, {});
+  ASSERT_TRUE(study) << study.error().message;
+  const Setting& few = RowOf(*study, "intervals", "1000 draws").setting;
+  EXPECT_EQ(few.error.quantity, "95 % interval");
+  EXPECT_NEAR(few.error.relative, 0.05 * 1.96 * 0.02, 1e-5);
+  EXPECT_NEAR(few.error.over_u, 0.05, 1e-9);
+  EXPECT_EQ(few.verdict, Verdict::kFree);
+  session.draws_error = -0.4;
+  const auto narrow = StudyTradeoff(RunnerOf(session), {}, {});
+  ASSERT_TRUE(narrow);
+  EXPECT_EQ(RowOf(*narrow, "intervals", "1000 draws").setting.verdict, Verdict::kCosts);
+}
+
+TEST(Study, DrawsThatDisagreeAboutAnIntervalAreNoReference) {
+  Invented session;
+  session.check_draws_error = 0.015;
+  EXPECT_TRUE(StudyTradeoff(RunnerOf(session), {}, {}));
+  session.check_draws_error = 0.025;
+  const auto study = StudyTradeoff(RunnerOf(session), {}, {});
+  ASSERT_FALSE(study);
+  EXPECT_EQ(study.error().code, "no_reference");
+  EXPECT_NE(study.error().message.find("95 % interval"), std::string::npos);
+}
+
+TEST(Study, ARefusalNamesWhatLimits) {
+  Invented session;
+  const Runner run = [&](const AccuracyProfile& p) -> Result<Outcome> {
+    Outcome out = session(p);
+    out.lights.front().limit = "readings (90 % of the variance)";
+    return out;
+  };
+  Question question;
+  question.budget_s = 0.001;
+  const auto refused = StudyTradeoff(run, question, {});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("the time goes into pictures"), std::string::npos)
+      << refused.error().message;
+  EXPECT_NE(refused.error().message.find("key comes mostly from readings (90 %"), std::string::npos)
+      << refused.error().message;
 }
 
 TEST(Study, OnlyTheKnobsAskedForMove) {

@@ -272,7 +272,8 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
 }  // namespace
 
 Result<LightEstimate> EstimateLight(const Observations& observations, const ForwardModel& model,
-                                    const std::string& light, bool monte_carlo) {
+                                    const std::string& light,
+                                    const std::optional<SamplingRule>& sampling) {
   Prepared prepared = Prepare(observations, model);
   if (prepared.lit_rows == 0) {
     return Refused("no_valid_readings", light,
@@ -315,8 +316,8 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   input.row_scale = BirgeRatio(estimate->kept, estimate->theta, out.diagnostics.degrees_of_freedom);
   if (input.row_scale > 1.0) covariance = EstimateCovariance(input);
   if (!covariance) return Propagate(std::move(covariance));
-  if (monte_carlo) {
-    Result<SampledEstimate> sampled = SampleEstimate(input);
+  if (sampling) {
+    Result<SampledEstimate> sampled = SampleEstimate(input, *sampling);
     if (!sampled) return Propagate(std::move(sampled));
     out.sampled = *sampled;
   }

@@ -54,6 +54,6 @@ struct LightEstimate {
 [[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
                                                   const ForwardModel& model,
                                                   const std::string& light,
-                                                  bool monte_carlo = false);
+                                                  const std::optional<SamplingRule>& sampling = {});
 
 }  // namespace lightcal::fit

@@ -108,6 +108,14 @@ Uncertain Within(double value, double low, double high) {
   return {value, 0.5 * (high - low), low, high};
 }
 
+std::optional<fit::SamplingRule> SamplingOf(const FitSettings& settings) {
+  if (settings.monte_carlo) return fit::SamplingRule{};
+  if (settings.estimator.interval_samples > 0) {
+    return fit::JustSamples(settings.estimator.interval_samples);
+  }
+  return std::nullopt;
+}
+
 std::string SayOfSampling(const fit::LightEstimate& estimate, const std::string& light) {
   if (!estimate.sampled) {
     return light +
@@ -255,7 +263,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   }
   Append(warnings, std::move(location->estimate.warnings));
   AddCalibration(LargestCalibration(seen), location->estimate);
-  if (settings.monte_carlo) {
+  if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }
   FillParameters(location->estimate, true, out);
@@ -333,8 +341,9 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   const LightDescription seen = beam ? fit::WithBeam(light, *beam) : light;
   Result<fit::ForwardPlan> plan = fit::PlanForward(session, seen, *observations, settings);
   if (!plan) return Propagate(std::move(plan));
+  const std::optional<fit::SamplingRule> sampling = SamplingOf(settings);
   Result<fit::LightEstimate> estimate =
-      fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
+      fit::EstimateLight(*observations, plan->model, light.name, beam ? std::nullopt : sampling);
   if (!estimate) return Propagate(std::move(estimate));
   Result<std::optional<fit::ForwardPlan>> again =
       fit::PlanAfterFit(*plan, seen, *observations, settings, *estimate);
@@ -342,11 +351,11 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (*again) {
     plan = **std::move(again);
     estimate =
-        fit::EstimateLight(*observations, plan->model, light.name, settings.monte_carlo && !beam);
+        fit::EstimateLight(*observations, plan->model, light.name, beam ? std::nullopt : sampling);
     if (!estimate) return Propagate(std::move(estimate));
   }
   if (auto known = CheckKnown(*estimate, light.name); !known) return Propagate(std::move(known));
-  if (settings.monte_carlo) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
+  if (sampling) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
     estimate->covariance[0] += beam->ln_intensity_extra_variance;

@@ -13,7 +13,7 @@ namespace {
 constexpr int kFigures = 4;  // mean, sd, low, high
 constexpr int kFewestBlocks = 2;
 constexpr double kTail = 0.025;
-constexpr std::size_t kMostFailures = kSamplesPerBlock / 100;
+constexpr std::size_t kSamplesAFailure = 100;  // at least, for each draw without an optimum
 
 using Figures = std::array<double, kFigures>;
 
@@ -135,11 +135,12 @@ bool IsStable(const std::vector<Figures>& blocks, int digits) {
   return true;
 }
 
-Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& input, Draws& draws) {
+Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& input,
+                                                     std::size_t count, Draws& draws) {
   std::array<std::vector<double>, kParameters> samples;
-  for (auto& one : samples) one.reserve(kSamplesPerBlock);
+  for (auto& one : samples) one.reserve(count);
   std::size_t failures = 0;
-  while (samples.front().size() < kSamplesPerBlock) {
+  while (samples.front().size() < count) {
     Theta start = input.theta;
     const Estimation& drawn = draws.Next(start);
     std::optional<Theta> theta = SolveCoarsely(drawn, start);
@@ -148,7 +149,7 @@ Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& inp
       if (full) theta = *full;
     }
     if (!theta) {
-      if (++failures > kMostFailures) {
+      if (++failures * kSamplesAFailure > count) {
         return Failed("no_convergence", "fit", "too many samples of the readings have no optimum");
       }
       continue;
@@ -162,6 +163,12 @@ Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& inp
 
 }  // namespace
 
+SamplingRule JustSamples(int samples) {
+  const SamplingRule usual;
+  const int blocks = (samples + usual.block - 1) / usual.block;
+  return {usual.digits, blocks, (samples + blocks - 1) / blocks, true};
+}
+
 Result<SampledEstimate> SampleEstimate(const UncertaintyInput& input, const SamplingRule& rule) {
   if (auto determined = EstimateCovariance(input); !determined) {
     return Propagate(std::move(determined));
@@ -169,15 +176,16 @@ Result<SampledEstimate> SampleEstimate(const UncertaintyInput& input, const Samp
   Draws draws(input);
   std::array<std::vector<Figures>, kParameters> blocks;
   SampledEstimate out;
-  for (int block = 0; block < rule.largest_blocks && !out.stable; ++block) {
-    const auto figures = SampleBlock(input, draws);
+  for (int block = 0; block < rule.largest_blocks; ++block) {
+    if (out.stable && !rule.all_blocks) break;
+    const auto figures = SampleBlock(input, static_cast<std::size_t>(rule.block), draws);
     if (!figures) return tl::unexpected(figures.error());
     out.stable = block + 1 >= kFewestBlocks;
     for (int k = 0; k < kParameters; ++k) {
       blocks[k].push_back((*figures)[k]);
       out.stable = out.stable && IsStable(blocks[k], rule.digits);
     }
-    out.samples += kSamplesPerBlock;
+    out.samples += rule.block;
   }
   for (int k = 0; k < kParameters; ++k) {
     out.parameters[k] = {SpreadOf(blocks[k], 0).mean, SpreadOf(blocks[k], 1).mean,

@@ -25,13 +25,16 @@ struct SampledEstimate {
 struct SamplingRule {
   int digits = 2;           // significant digits of each standard deviation that must stand
   int largest_blocks = 30;  // 1: one block and no question of digits
+  int block = 10000;        // samples of each
+  bool all_blocks = false;  // draw them all, stable or not
 };
 
-inline constexpr int kSamplesPerBlock = 10000;
+// At least `samples` draws, in as few blocks of at most 10 000 as hold them. samples >= 1.
+[[nodiscard]] SamplingRule JustSamples(int samples);
 
 // Draws what was measured from its distribution (each reading's own error, each instrument's
 // calibration, the considered influences and the priors, normal in the rows' own forms), finds the
-// optimum of each draw by TinySolver from the linear prediction, in blocks of 10 000 until twice
+// optimum of each draw by TinySolver from the linear prediction, in blocks until twice
 // the standard deviation of the mean over blocks of mean, sd, low and high stays below half the
 // last digit asked for, for every free parameter (adaptive procedure of JCGM 101:2008, 7.9). Seeded
 // by the rows themselves. Refused: underdetermined. Fails: no_convergence (more than one draw in a

@@ -22,8 +22,8 @@ struct Knob {
 
 [[nodiscard]] std::span<const Knob> Knobs();
 
-// The profile whose every knob stands at its strictest, and its independent check: another solver
-// and another quadrature of the walls, which must come to the same answer.
+// The profile whose every knob stands at its strictest, and its independent check: another solver,
+// another quadrature of the walls and other draws, which must come to the same answer.
 [[nodiscard]] AccuracyProfile StrictProfile(double tolerance_relative);
 [[nodiscard]] AccuracyProfile StrictCheckProfile(double tolerance_relative);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 
 namespace lightcal::tradeoff {
@@ -26,6 +27,14 @@ LightFigures FiguresOfLight(const FittedLight& light) {
     out.ln_strength = std::log(strength->value);
     out.sd_ln = strength->u95 / (kZ95 * strength->value);
   }
+  if (light.distribution && light.flux_lm && light.flux_lm->value > 0.0) {
+    out.ln_flux = std::log(light.flux_lm->value);
+  }
+  if (!light.budget.empty()) {
+    const BudgetPart& part = light.budget.front();
+    out.limit = part.name + " (" + RoundedText(100.0 * part.share, 2) + " % of the variance)" +
+                (part.halve.empty() ? "" : "; what halves it: " + part.halve);
+  }
   if (const auto& cct = light.color.cct_K) {
     out.mired = 1e6 / cct->value;
     out.sd_mired = 1e6 * cct->u95 / (kZ95 * cct->value * cct->value);
@@ -42,16 +51,22 @@ void Compare(const LightFigures& reference, const LightFigures* other,
   const auto add = [&](std::string_view quantity, double relative, double sd) {
     out.push_back({reference.name, quantity, relative, std::max(sd, kLeastSd)});
   };
-  add("strength", other != nullptr ? other->ln_strength - reference.ln_strength : kLost,
+  add(kStrength, other != nullptr ? other->ln_strength - reference.ln_strength : kLost,
       reference.sd_ln);
+  add(kInterval, other != nullptr ? kZ95 * (other->sd_ln - reference.sd_ln) : kLost,
+      kZ95 * reference.sd_ln);
+  if (reference.ln_flux) {
+    const bool there = other != nullptr && other->ln_flux.has_value();
+    add(kFlux, there ? *other->ln_flux - *reference.ln_flux : kLost, reference.sd_ln);
+  }
   if (reference.mired) {
     const bool there = other != nullptr && other->mired.has_value();
-    add("colour temperature", there ? (*other->mired - *reference.mired) / kMiredPerUnit : kLost,
+    add(kColorTemperature, there ? (*other->mired - *reference.mired) / kMiredPerUnit : kLost,
         reference.sd_mired.value_or(0.0) / kMiredPerUnit);
   }
   if (reference.duv) {
     const bool there = other != nullptr && other->duv.has_value();
-    add("Duv", there ? (*other->duv - *reference.duv) / kDuvPerUnit : kLost,
+    add(kDuv, there ? (*other->duv - *reference.duv) / kDuvPerUnit : kLost,
         reference.sd_duv.value_or(0.0) / kDuvPerUnit);
   }
 }

@@ -29,6 +29,8 @@ struct LightFigures {
   double sd_ln = 0.0;
   std::optional<double> mired, sd_mired;
   std::optional<double> duv, sd_duv;
+  std::optional<double> ln_flux{};  // where a table of intensities makes it more than the strength
+  std::string limit{};  // what its uncertainty mostly comes from, and what would halve it
 };
 
 struct Outcome {
@@ -45,10 +47,16 @@ using Runner = std::function<Result<Outcome>(const AccuracyProfile&)>;
 // about what the eye just sees in a picture.
 struct Difference {
   std::string light;
-  std::string_view quantity;  // "strength" "colour temperature" "Duv"
+  std::string_view quantity;  // of the kQuantity words below
   double relative = 0.0;      // signed
-  double sd = 0.0;            // standard uncertainty of the reference there, the same measure
+  double sd = 0.0;            // what a change is held against: the reference's own uncertainty
 };
+inline constexpr std::string_view kStrength = "strength";
+// Half its width, relative to the strength; held against itself.
+inline constexpr std::string_view kInterval = "95 % interval";
+inline constexpr std::string_view kFlux = "flux";
+inline constexpr std::string_view kColorTemperature = "colour temperature";
+inline constexpr std::string_view kDuv = "Duv";
 inline constexpr double kMiredPerUnit = 100.0;
 inline constexpr double kDuvPerUnit = 0.1;
 

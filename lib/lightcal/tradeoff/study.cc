@@ -2,6 +2,7 @@
 #include "lightcal/tradeoff/study.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,7 +15,11 @@
 namespace lightcal::tradeoff {
 namespace {
 
-constexpr double kReferenceShare = 0.01;  // of the tolerance: how well reference and check agree
+// How well reference and check agree: a share of the tolerance; of an interval, whose draws tell it
+// to 0.3 %, a share of its own width.
+constexpr double kReferenceShare = 0.01;
+constexpr double kIntervalShare = 0.02;
+constexpr TimingRules kOnce{.least_runs = 1, .most_runs = 2, .seconds = 0.0};
 constexpr std::size_t kCombinations = 6;
 constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
 constexpr double kSeenError = 1e-9;  // relative
@@ -61,7 +66,17 @@ Result<std::vector<bool>> KnobsToMove(const std::vector<std::string>& names) {
 Result<void> CheckReference(const Measured& reference, const Measured& check, double tolerance,
                             Study& study) {
   if (check.refused) return tl::unexpected(*check.refused);
-  const SettingError apart = ErrorOf(DifferencesFrom(reference.lights, check.lights));
+  std::vector<Difference> values = DifferencesFrom(reference.lights, check.lights);
+  for (const Difference& d : values) {
+    if (d.quantity != kInterval || std::abs(d.relative) <= kIntervalShare * d.sd) continue;
+    return Refused("no_reference", d.light,
+                   "two sets of draws put its 95 % interval at widths " +
+                       PercentText(std::abs(d.relative) / d.sd) +
+                       " apart: its tails are too long to judge settings by; more readings, or "
+                       "a stated size and offset, shorten them");
+  }
+  std::erase_if(values, [](const Difference& d) { return d.quantity == kInterval; });
+  const SettingError apart = ErrorOf(values);
   study.self_difference = apart.relative;
   if (apart.relative <= kReferenceShare * tolerance) return {};
   return Refused("no_reference", "tradeoff",
@@ -80,8 +95,7 @@ std::vector<double> LimitsOf(const Study& study, double tolerance, double* least
     const double by_u = kSafeShare * d.sd;
     limits.push_back(std::max(kSeenError, std::min(tolerance, by_u)));
     *least = std::min(*least, limits.back());
-    if (d.quantity == "strength" && by_u >= tolerance) continue;
-    if (d.quantity == "strength") *by_meter = true;
+    if (d.quantity == kStrength && by_u < tolerance) *by_meter = true;
   }
   return limits;
 }
@@ -182,6 +196,19 @@ const Setting* CheapestOf(const std::vector<const Setting*>& settings) {
   return best;
 }
 
+// Where its time goes, and what its worst light's uncertainty comes from.
+std::string LimitText(const Setting& setting) {
+  const StageSeconds& stages = setting.measured.times.median;
+  const auto longest = std::ranges::max_element(stages);
+  std::string text = "; most of the time goes into " +
+                     std::string(kStageWords[static_cast<std::size_t>(longest - stages.begin())]) +
+                     " (" + MillisecondsText(*longest) + ")";
+  const auto& lights = setting.measured.lights;
+  const auto light = std::ranges::find(lights, setting.error.light, &LightFigures::name);
+  if (light == lights.end() || light->limit.empty()) return text;
+  return text + ", and the uncertainty of " + light->name + " comes mostly from " + light->limit;
+}
+
 Result<void> Recommend(const Question& question, const std::vector<double>& limits, Study& study) {
   std::vector<const Setting*> all = AllSettings(study);
   std::erase_if(all, [](const Setting* s) { return s->measured.refused.has_value(); });
@@ -216,7 +243,7 @@ Result<void> Recommend(const Question& question, const std::vector<double>& limi
                      "; the nearest (" + NameOf(nearest->levels) + ") takes " +
                      MillisecondsText(nearest->measured.times.total) + " and is " +
                      PercentText(nearest->error.relative) + " off in the " +
-                     WhereText(nearest->error));
+                     WhereText(nearest->error) + LimitText(*nearest));
 }
 
 Result<void> MeasureCombinations(const Runner& run, const Question& question,
@@ -271,8 +298,14 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
   const double tolerance = question.tolerance_relative;
   Study study;
   study.usual.levels = UsualLevels();
-  std::vector<AccuracyProfile> profiles = {StrictProfile(tolerance), StrictCheckProfile(tolerance),
-                                           ProfileOf(study.usual.levels, tolerance)};
+  const std::array references = {StrictProfile(tolerance), StrictCheckProfile(tolerance)};
+  auto reference = MeasureInTurn(run, references, kOnce, {watch.stopped});
+  if (!reference) return Propagate(std::move(reference));
+  study.reference = std::move((*reference)[0]);
+  if (auto sure = CheckReference(study.reference, (*reference)[1], tolerance, study); !sure) {
+    return Propagate(std::move(sure));
+  }
+  std::vector<AccuracyProfile> profiles = {ProfileOf(study.usual.levels, tolerance)};
   for (std::size_t k = 0; k < Knobs().size(); ++k) {
     for (std::size_t level = 0; (*moved)[k] && level < Knobs()[k].levels.size(); ++level) {
       if (level == Knobs()[k].usual) continue;
@@ -286,15 +319,10 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
   }
   auto measured = MeasureInTurn(run, profiles, question.alone, watch);
   if (!measured) return Propagate(std::move(measured));
-  study.reference = std::move((*measured)[0]);
-  if (auto sure = CheckReference(study.reference, (*measured)[1], tolerance, study); !sure) {
-    return Propagate(std::move(sure));
-  }
-  study.usual.measured = std::move((*measured)[2]);
-  if (study.usual.measured.refused) return tl::unexpected(*study.usual.measured.refused);
+  study.usual.measured = std::move(measured->front());
   Judge(study, study.usual);
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
-    study.rows[i].setting.measured = std::move((*measured)[3 + i]);
+    study.rows[i].setting.measured = std::move((*measured)[1 + i]);
     FillRow(study, study.rows[i]);
   }
   const std::vector<double> limits =
