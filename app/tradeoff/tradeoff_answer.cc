@@ -2,6 +2,7 @@
 #include "tradeoff_answer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -23,6 +24,7 @@ using tradeoff::Study;
 using tradeoff::SweepRow;
 
 constexpr double kSeenError = 1e-9;
+constexpr double kSeenChangeOfU = 5e-4;  // of u
 
 std::string Percent(double relative) {
   return relative < kSeenError ? "none" : RoundedText(100.0 * relative, 2) + " %";
@@ -60,6 +62,14 @@ double TimesFaster(const Study& study, const Setting& setting) {
   return tradeoff::TimesOverlap(usual, own) ? 1.0 : usual.total / own.total;
 }
 
+// "0.02 %", "none, u -3 %".
+std::string OffBy(const Setting& setting) {
+  std::string text = Percent(setting.error.relative);
+  if (std::abs(setting.u_change) < kSeenChangeOfU) return text;
+  return text + ", u " + (setting.u_change > 0.0 ? "+" : "") +
+         RoundedText(100.0 * setting.u_change, 2) + " %";
+}
+
 struct Cells {
   std::string knob, level, time, speed, error, label;
 };
@@ -69,12 +79,8 @@ Cells CellsOf(std::string knob, std::string level, const Setting& setting, doubl
     return {std::move(knob),     std::move(level), "", "", setting.measured.refused->code,
             VerdictWord(setting)};
   }
-  return {std::move(knob),
-          std::move(level),
-          Milliseconds(setting.measured.times.total),
-          Speed(times_faster),
-          Percent(setting.error.relative),
-          VerdictWord(setting)};
+  return {std::move(knob),     std::move(level), Milliseconds(setting.measured.times.total),
+          Speed(times_faster), OffBy(setting),   VerdictWord(setting)};
 }
 
 // The usual setting, then every knob's every level.
@@ -103,11 +109,15 @@ std::string Share(double over_u) {
 }
 
 std::string Effect(const Setting& setting, double times_faster) {
-  const std::string moved =
-      setting.error.relative < kSeenError
-          ? "changes nothing"
-          : "moves " + Moved(setting.error) + ", " + Share(setting.error.over_u);
-  return Speed(times_faster) + ", " + moved + ": " + VerdictWord(setting);
+  const bool moves = setting.error.relative >= kSeenError;
+  const bool widens = std::abs(setting.u_change) >= kSeenChangeOfU;
+  std::string what = moves ? "moves " + Moved(setting.error) : "";
+  if (widens) {
+    what += (moves ? " and u by " : "moves your u by ") + RoundedText(100.0 * setting.u_change, 2) +
+            " %";
+  }
+  what = moves || widens ? what + ", " + Share(setting.error.over_u) : "changes nothing";
+  return Speed(times_faster) + ", " + what + ": " + VerdictWord(setting);
 }
 
 ordered_json TimesJson(const tradeoff::RunTimes& times) {
@@ -132,6 +142,7 @@ ordered_json SettingJson(const Study& study, const Setting& setting) {
   json["times_faster"] = TimesFaster(study, setting);
   json["error_relative"] = setting.error.relative;
   json["error_over_u"] = setting.error.over_u;
+  json["u_change_relative"] = setting.u_change;
   if (!setting.error.light.empty()) {
     json["error_in"] = {{"light", setting.error.light}, {"quantity", setting.error.quantity}};
   }
@@ -206,9 +217,10 @@ std::string Page(const Study& study, const TruthRows& truth, const std::string& 
   if (!together.empty()) html += HtmlTable("together", together);
   if (!truth.empty()) html += HtmlTable(TruthCells(truth));
   return html +
-         "<p class=\"small soft\">Off by: the largest change of strength, its 95 % interval, flux, "
-         "colour temperature or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 "
-         "of Duv. Free: below a tenth of your standard uncertainty u; safe: up to a third.</p>\n"
+         "<p class=\"small soft\">Off by: the largest change of strength, flux, colour temperature "
+         "or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 of Duv; and what "
+         "becomes of your standard uncertainty u. Free: below a tenth of u; safe: up to a "
+         "third.</p>\n"
          "</main>\n</body>\n</html>\n";
 }
 

@@ -14,6 +14,8 @@ using tradeoff::TruthRow;
 
 constexpr const char* kStrictest = "strictest";
 constexpr const char* kRecommended = "recommended";
+// Behind an interval of each of hundreds of replicas: tells a width to 3 %, what counts to less.
+constexpr int kDraws = 1000;
 
 std::string Percent(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
 
@@ -30,7 +32,12 @@ std::vector<tradeoff::Named> SettingsForTruth(const tradeoff::Study& study) {
       {kRecommended, study.recommended.measured.profile}};
   for (const tradeoff::SweepRow& row : study.rows) {
     if (!row.in_play || row.setting.measured.refused) continue;
+    if (row.setting.measured.profile.estimator.interval_samples > kDraws) continue;
     out.push_back({tradeoff::NameOf(row.setting.levels), row.setting.measured.profile});
+  }
+  for (tradeoff::Named& one : out) {
+    int& draws = one.profile.estimator.interval_samples;
+    draws = std::min(draws, kDraws);
   }
   return out;
 }

@@ -157,14 +157,17 @@ TEST(Study, AnIntervalIsHeldAgainstItsOwnWidth) {
   const auto study = StudyTradeoff(RunnerOf(session), {}, {});
   ASSERT_TRUE(study) << study.error().message;
   const Setting& few = RowOf(*study, "intervals", "1000 draws").setting;
-  EXPECT_EQ(few.error.quantity, "95 % interval");
-  EXPECT_NEAR(few.error.relative, 0.05 * 1.96 * 0.02, 1e-5);
+  EXPECT_NEAR(few.error.relative, 2e-4, 1e-12) << "of the value, as usual";
+  EXPECT_NEAR(few.u_change, 0.05, 1e-9);
   EXPECT_NEAR(few.error.over_u, 0.05, 1e-9);
   EXPECT_EQ(few.verdict, Verdict::kFree);
   session.draws_error = -0.4;
   const auto narrow = StudyTradeoff(RunnerOf(session), {}, {});
   ASSERT_TRUE(narrow);
-  EXPECT_EQ(RowOf(*narrow, "intervals", "1000 draws").setting.verdict, Verdict::kCosts);
+  const SweepRow& row = RowOf(*narrow, "intervals", "1000 draws");
+  EXPECT_EQ(row.setting.verdict, Verdict::kCosts);
+  EXPECT_NEAR(row.setting.u_change, -0.4, 1e-9);
+  EXPECT_TRUE(row.in_play);
 }
 
 TEST(Study, DrawsThatDisagreeAboutAnIntervalAreNoReference) {
@@ -175,7 +178,8 @@ TEST(Study, DrawsThatDisagreeAboutAnIntervalAreNoReference) {
   const auto study = StudyTradeoff(RunnerOf(session), {}, {});
   ASSERT_FALSE(study);
   EXPECT_EQ(study.error().code, "no_reference");
-  EXPECT_NE(study.error().message.find("95 % interval"), std::string::npos);
+  EXPECT_NE(study.error().message.find("95 % interval at widths 2.5 %"), std::string::npos)
+      << study.error().message;
 }
 
 TEST(Study, ARefusalNamesWhatLimits) {

@@ -94,7 +94,8 @@ SettingError ErrorOf(const std::vector<Difference>& differences) {
   for (const Difference& d : differences) {
     const double size = std::abs(d.relative);
     error.over_u = std::max(error.over_u, size / d.sd);
-    if (size < error.relative || (size == 0.0 && !error.light.empty())) continue;
+    if (d.quantity == kInterval || size < error.relative || (size == 0.0 && !error.light.empty()))
+      continue;
     error.relative = size;
     error.quantity = d.quantity;
     error.light = d.light;

@@ -66,8 +66,8 @@ inline constexpr double kDuvPerUnit = 0.1;
                                                       const std::vector<LightFigures>& other);
 
 struct SettingError {
-  double relative = 0.0;      // the largest of the differences
-  double over_u = 0.0;        // the largest of difference / standard uncertainty
+  double relative = 0.0;      // the largest of the differences but intervals'
+  double over_u = 0.0;        // the largest of all differences / standard uncertainty
   std::string_view quantity;  // where the largest is
   std::string light;
 };

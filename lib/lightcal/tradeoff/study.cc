@@ -23,6 +23,7 @@ constexpr TimingRules kOnce{.least_runs = 1, .most_runs = 2, .seconds = 0.0};
 constexpr std::size_t kCombinations = 6;
 constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
 constexpr double kSeenError = 1e-9;  // relative
+constexpr double kSeenShareOfU = 1e-6;
 // A setting whose runs overlap the cheapest's passes for as cheap, up to this much by the medians.
 constexpr double kAsCheap = 1.2;
 
@@ -63,20 +64,27 @@ Result<std::vector<bool>> KnobsToMove(const std::vector<std::string>& names) {
   return moved;
 }
 
+// The largest change of an interval's width, relative to itself; signed.
+double LargestChangeOfU(const std::vector<Difference>& differences) {
+  double largest = 0.0;
+  for (const Difference& d : differences) {
+    const double change = d.quantity == kInterval ? d.relative / d.sd : 0.0;
+    if (std::abs(change) > std::abs(largest)) largest = change;
+  }
+  return largest;
+}
+
 Result<void> CheckReference(const Measured& reference, const Measured& check, double tolerance,
                             Study& study) {
   if (check.refused) return tl::unexpected(*check.refused);
-  std::vector<Difference> values = DifferencesFrom(reference.lights, check.lights);
-  for (const Difference& d : values) {
-    if (d.quantity != kInterval || std::abs(d.relative) <= kIntervalShare * d.sd) continue;
-    return Refused("no_reference", d.light,
-                   "two sets of draws put its 95 % interval at widths " +
-                       PercentText(std::abs(d.relative) / d.sd) +
-                       " apart: its tails are too long to judge settings by; more readings, or "
-                       "a stated size and offset, shorten them");
+  const auto differences = DifferencesFrom(reference.lights, check.lights);
+  if (const double apart = std::abs(LargestChangeOfU(differences)); apart > kIntervalShare) {
+    return Refused("no_reference", "tradeoff",
+                   "two sets of draws put a 95 % interval at widths " + PercentText(apart) +
+                       " apart: its tails are too long to judge settings by; more readings "
+                       "shorten them");
   }
-  std::erase_if(values, [](const Difference& d) { return d.quantity == kInterval; });
-  const SettingError apart = ErrorOf(values);
+  const SettingError apart = ErrorOf(differences);
   study.self_difference = apart.relative;
   if (apart.relative <= kReferenceShare * tolerance) return {};
   return Refused("no_reference", "tradeoff",
@@ -93,6 +101,10 @@ std::vector<double> LimitsOf(const Study& study, double tolerance, double* least
   *least = tolerance;
   for (const Difference& d : DifferencesFrom(study.reference.lights, study.reference.lights)) {
     const double by_u = kSafeShare * d.sd;
+    if (d.quantity == kInterval) {  // the tolerance is one of values
+      limits.push_back(std::max(kSeenError, by_u));
+      continue;
+    }
     limits.push_back(std::max(kSeenError, std::min(tolerance, by_u)));
     *least = std::min(*least, limits.back());
     if (d.quantity == kStrength && by_u < tolerance) *by_meter = true;
@@ -102,7 +114,9 @@ std::vector<double> LimitsOf(const Study& study, double tolerance, double* least
 
 void Judge(const Study& study, Setting& setting) {
   if (setting.measured.refused) return;
-  setting.error = ErrorOf(DifferencesFrom(study.reference.lights, setting.measured.lights));
+  const auto differences = DifferencesFrom(study.reference.lights, setting.measured.lights);
+  setting.error = ErrorOf(differences);
+  setting.u_change = LargestChangeOfU(differences);
   setting.verdict = setting.error.over_u < kFreeShare    ? Verdict::kFree
                     : setting.error.over_u <= kSafeShare ? Verdict::kSafe
                                                          : Verdict::kCosts;
@@ -142,10 +156,10 @@ void FillRow(const Study& study, SweepRow& row) {
     row.in_play = true;
     return;
   }
-  const double moved =
-      ErrorOf(DifferencesFrom(study.usual.measured.lights, row.setting.measured.lights)).relative;
+  const SettingError moved =
+      ErrorOf(DifferencesFrom(study.usual.measured.lights, row.setting.measured.lights));
   row.saves_s = SavedSeconds(study, row);
-  row.in_play = row.saves_s != 0.0 || moved > kSeenError;
+  row.in_play = row.saves_s != 0.0 || moved.relative > kSeenError || moved.over_u > kSeenShareOfU;
   const double usual = study.usual.measured.times.total;
   row.times_faster = usual / (usual - row.saves_s);
 }
@@ -215,14 +229,18 @@ Result<void> Recommend(const Question& question, const std::vector<double>& limi
   std::vector<const Setting*> fit;
   for (const Setting* one : all) {
     const bool in_time = !question.budget_s || one->measured.times.total <= *question.budget_s;
-    const bool good = question.budget_s ? one->error.relative <= question.tolerance_relative
+    const bool good = question.budget_s ? one->error.relative <= question.tolerance_relative &&
+                                              std::abs(one->u_change) <= kSafeShare
                                         : Meets(*one, study, limits);
     if (in_time && good) fit.push_back(one);
   }
   if (!fit.empty()) {
     study.recommended = question.budget_s
-                            ? **std::ranges::min_element(
-                                  fit, {}, [](const Setting* s) { return s->error.relative; })
+                            ? **std::ranges::min_element(fit, {},
+                                                         [](const Setting* s) {
+                                                           return std::pair(s->error.relative,
+                                                                            std::abs(s->u_change));
+                                                         })
                             : *CheapestOf(fit);
     return {};
   }
@@ -263,7 +281,7 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
   study.usual.measured = std::move(measured->front());
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] == study.usual.levels) continue;
-    Setting setting{wanted[i], std::move((*measured)[i + 1]), {}, Verdict::kNoAnswer};
+    Setting setting{wanted[i], std::move((*measured)[i + 1]), {}, Verdict::kNoAnswer, 0.0};
     Judge(study, setting);
     study.combinations.push_back(std::move(setting));
   }

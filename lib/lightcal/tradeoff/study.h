@@ -36,13 +36,15 @@ struct Setting {
   Measured measured;
   SettingError error;  // against the reference
   Verdict verdict = Verdict::kNoAnswer;
+  // Of the light whose standard uncertainty u changes most: how much, relative to u itself.
+  double u_change = 0.0;
 };
 
 // One knob moved from the usual profile.
 struct SweepRow {
   std::size_t knob = 0;
   Setting setting;
-  bool in_play = false;     // it changes the answer, or the time beyond the spread of the runs
+  bool in_play = false;     // it changes an answer or interval, or the time beyond the runs' spread
   double saves_s = 0.0;     // in the knob's stage; 0 where the runs overlap there
   double times_faster = 1;  // the whole run, by that, than the usual profile
 };
