@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "lightcal/presets/json_pieces.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
@@ -77,9 +78,7 @@ Provenance ProvenanceIn(const Json& json) {
   provenance.generator = json.value("generator", "");
   provenance.time = json.value("time", "");
   provenance.devices = json.value("devices", std::vector<std::string>());
-  for (const Json& file : json.value("inputs", Json::array())) {
-    provenance.inputs.push_back({file.value("path", ""), file.value("sha256", "")});
-  }
+  provenance.inputs = json_pieces::FilesAt(json, "inputs");
   return provenance;
 }
 

@@ -197,6 +197,44 @@ std::string Counted(const std::vector<Outcome>& outcomes) {
   return std::to_string(outcomes.size()) + sessions + text;
 }
 
+// "lamps/a: 3 warnings: row_rejected 2, prior_conflict"
+std::string WarningCounts(const std::string& session, const Warnings& warnings) {
+  std::map<std::string, int> counts;
+  for (const Warning& warning : warnings) ++counts[warning.code];
+  std::string codes;
+  for (const auto& [code, count] : counts) {
+    codes += (codes.empty() ? "" : ", ") + code + (count > 1 ? " " + std::to_string(count) : "");
+  }
+  return session + ": " + std::to_string(warnings.size()) +
+         (warnings.size() == 1 ? " warning: " : " warnings: ") + codes;
+}
+
+// On stderr a line a session, or with --verbose, or one session alone, every warning in full. Of
+// all of them the console that gives the answer: in JSON they stand in full always.
+Console Warned(const BatchRequest& request, const std::vector<Outcome>& outcomes,
+               const Console& console) {
+  const bool in_full = console.verbose() || outcomes.size() == 1;
+  Console answer({.json = console.json(),
+                  .quiet = false,
+                  .verbose = false,
+                  .strict = false,
+                  .muted = !in_full});
+  bool shortened = false;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const std::string& session = request.items[i].session;
+    for (Warning warning : outcomes[i].warnings) {
+      warning.subject = session + (warning.subject.empty() ? "" : ": " + warning.subject);
+      answer.Warn(warning);
+    }
+    if (in_full || outcomes[i].warnings.empty()) continue;
+    shortened = true;
+    std::fputs(("lightcal: " + WarningCounts(session, outcomes[i].warnings) + "\n").c_str(),
+               stderr);
+  }
+  if (shortened) std::fputs("lightcal: --verbose says the warnings in full\n", stderr);
+  return answer;
+}
+
 std::optional<Error> WorstOf(const std::vector<Outcome>& outcomes) {
   const std::string counted = Counted(outcomes);
   if (Count(outcomes, Status::kNotRun) > 0) {
@@ -273,7 +311,7 @@ Result<std::vector<BatchItem>> BatchItems(const std::vector<std::string>& sessio
   return items;
 }
 
-Result<void> RunBatch(const BatchRequest& request, Console& console) {
+Result<void> RunBatch(const BatchRequest& request, const Console& console) {
   // Before the work: the place can be written, and who looks meanwhile is told the truth.
   if (auto written = WriteSummary(request, std::vector<Outcome>(request.items.size())); !written) {
     return written;
@@ -284,19 +322,13 @@ Result<void> RunBatch(const BatchRequest& request, Console& console) {
       return tl::unexpected(*outcome.error);
     }
   }
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    for (Warning warning : outcomes[i].warnings) {
-      warning.subject =
-          request.items[i].session + (warning.subject.empty() ? "" : ": " + warning.subject);
-      console.Warn(warning);
-    }
-  }
+  Console answer = Warned(request, outcomes, console);
   if (auto written = WriteSummary(request, outcomes); !written) return written;
   const Json document = Summary(request.items, outcomes);
-  console.Print(Table(request.items, outcomes) + "\n");
-  if (const auto worst = WorstOf(outcomes)) return EndTold(console, document, *worst);
-  console.Print(Counted(outcomes) + "\n");
-  console.PrintJson(document);
+  answer.Print(Table(request.items, outcomes) + "\n");
+  if (const auto worst = WorstOf(outcomes)) return EndTold(answer, document, *worst);
+  answer.Print(Counted(outcomes) + "\n");
+  answer.PrintJson(document);
   return {};
 }
 

@@ -35,9 +35,11 @@ struct BatchRequest {
 };
 
 // Runs them all, whatever becomes of the others, and prints one table or document
-// (lightcal.batch/1). The first Ctrl-C starts no more sessions and waits for those that run.
-// Ends as the worst of them: 1 where a session failed, crashed or was not run, else 3 where one was
-// refused. Wrong usage that a session's run finds is the whole batch's.
-[[nodiscard]] Result<void> RunBatch(const BatchRequest& request, Console& console);
+// (lightcal.batch/1). Of several sessions stderr has how many warnings each gave, of which codes;
+// with --verbose, of one session, and in the document each in full. The first Ctrl-C starts no more
+// sessions and waits for those that run. Ends as the worst of them: 1 where a session failed,
+// crashed or was not run, else 3 where one was refused. Wrong usage that a session's run finds is
+// the whole batch's.
+[[nodiscard]] Result<void> RunBatch(const BatchRequest& request, const Console& console);
 
 }  // namespace lightcal::app

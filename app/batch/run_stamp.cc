@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "lightcal/presets/json_pieces.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
@@ -17,27 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-Json FilesJson(const std::vector<InputFile>& files) {
-  Json list = Json::array();
-  for (const InputFile& file : files) {
-    list.push_back({{"path", file.path}, {"sha256", file.sha256}});
-  }
-  return list;
-}
-
-std::string TextAt(const Json& json, const char* key) {
-  const auto it = json.is_object() ? json.find(key) : json.end();
-  return json.is_object() && it != json.end() && it->is_string() ? it->get<std::string>() : "";
-}
-
-std::vector<InputFile> FilesAt(const Json& json, const char* key) {
-  std::vector<InputFile> files;
-  if (!json.contains(key)) return files;
-  for (const Json& file : json[key])
-    files.push_back({TextAt(file, "path"), TextAt(file, "sha256")});
-  return files;
-}
+using json_pieces::FilesAt;
+using json_pieces::TextAt;
 
 bool StillTheSame(const fs::path& directory, const std::vector<InputFile>& files) {
   return std::ranges::all_of(files, [&](const InputFile& file) {
@@ -65,9 +47,12 @@ std::vector<std::string> MatchedFrames(const Session& session) {
 }  // namespace
 
 std::string RunStampToJson(const RunStamp& stamp) {
-  const Json json = {{"schema", kRunStampSchema},         {"generator", stamp.generator},
-                     {"settings_sha256", stamp.settings}, {"session_sha256", stamp.session},
-                     {"inputs", FilesJson(stamp.inputs)}, {"outputs", FilesJson(stamp.outputs)}};
+  const Json json = {{"schema", kRunStampSchema},
+                     {"generator", stamp.generator},
+                     {"settings_sha256", stamp.settings},
+                     {"session_sha256", stamp.session},
+                     {"inputs", json_pieces::FilesJson<Json>(stamp.inputs)},
+                     {"outputs", json_pieces::FilesJson<Json>(stamp.outputs)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -5,17 +5,12 @@
 #include <cmath>
 #include <string>
 
+#include "srgb.h"
+
 namespace lightcal::app {
 namespace {
 
 constexpr double kNearTop = 0.998;  // of the top code: saturated
-
-double LinearFromSrgb(double v) {
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-double SrgbSlope(double v) {
-  return v <= 0.04045 ? 1.0 / 12.92 : 2.4 / 1.055 * std::pow((v + 0.055) / 1.055, 1.4);
-}
 
 struct Place {
   double x = 0.0, y = 0.0;
@@ -56,7 +51,7 @@ struct Sampler {
         picture.samples);
   }
   [[nodiscard]] bool encoded() const { return picture.info.meaning == SampleMeaning::kEncoded; }
-  [[nodiscard]] double Linear(double raw) const { return encoded() ? LinearFromSrgb(raw) : raw; }
+  [[nodiscard]] double Linear(double raw) const { return encoded() ? SrgbDecoded(raw) : raw; }
 };
 
 Sampler SamplerOf(const Frame& picture) {
@@ -101,7 +96,7 @@ CardPixels MeanOver(const Sampler& sampler, const std::array<Place, 4>& quad, in
     card.rgb[c] /= count;
     if (!sampler.encoded()) continue;
     card.clipped[c] = card.raw[c] > kNearTop;
-    card.step[c] = SrgbSlope(card.raw[c]) / sampler.top;
+    card.step[c] = SrgbDecodedSlope(card.raw[c]) / sampler.top;
   }
   if (count > 0.0 && card.rgb[1] > 0.0) {
     const double variance = squares / count - card.rgb[1] * card.rgb[1];

@@ -7,6 +7,7 @@
 
 #include "check/read_scenes.h"
 #include "lightcal/core/numbers_text.h"
+#include "srgb.h"
 
 namespace lightcal::app {
 namespace {
@@ -23,6 +24,9 @@ struct Section {
     const auto numbers = NumbersIn(it->second);
     if (numbers.size() != 1) throw std::runtime_error(name + ": " + key + " is no number");
     return numbers.front();
+  }
+  [[nodiscard]] double Positive(const std::string& key, double by_default) const {
+    return Above0(name + ": " + key, Number(key, by_default));
   }
 };
 
@@ -65,14 +69,12 @@ std::vector<Section> SectionsOf(const std::string& text) {
   return sections;
 }
 
-double Decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-
 Vec3 LinearColor(const Section& section, const char* key) {
   const auto it = section.values.find(key);
   if (it == section.values.end()) return {1.0, 1.0, 1.0};
   const auto c = NumbersIn(it->second);
   if (c.size() != 4) throw std::runtime_error(section.name + ": " + key + " is no Color");
-  return {Decoded(c[0]), Decoded(c[1]), Decoded(c[2])};
+  return {SrgbDecoded(c[0]), SrgbDecoded(c[1]), SrgbDecoded(c[2])};
 }
 
 // What light_temperature does to a colour: the black body's, its largest component 1. Kim et al.,
@@ -129,8 +131,9 @@ EngineLight FromNode(const Section& node) {
   Place(node, light);
   const Vec3 color = LinearColor(node, "light_color");
   const Vec3 tint = TintOf(node.Number("light_temperature", 6500.0));
-  const double scale = node.Number("light_energy", 1.0) *
-                       LumaOf({color[0] * tint[0], color[1] * tint[1], color[2] * tint[2]});
+  const double scale =
+      node.Number("light_energy", 1.0) *
+      Rec709Luminance(Vec3{color[0] * tint[0], color[1] * tint[1], color[2] * tint[2]});
   if (node.type == "DirectionalLight3D") {
     light.kind = EngineLightKind::kSun;
     light.emitted = node.Number("light_intensity_lux", 100000.0) * scale;
@@ -149,7 +152,7 @@ EngineLight FromNode(const Section& node) {
   light.range_m = node.Number("spot_range", 5.0);
   light.decay = node.Number("spot_attenuation", 1.0);
   light.outer_rad = node.Number("spot_angle", 45.0) * kPi / 180.0;
-  light.cone_power = 1.0 / node.Number("spot_angle_attenuation", 1.0);
+  light.cone_power = 1.0 / node.Positive("spot_angle_attenuation", 1.0);
   return light;
 }
 
@@ -158,8 +161,9 @@ double ExposureIn(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     if (section.type != "CameraAttributesPhysical") continue;
     const double n = section.Number("exposure_aperture", 16.0);
-    return section.Number("exposure_sensitivity", 100.0) / 100.0 /
-           section.Number("exposure_shutter_speed", 100.0) / (1.2 * n * n);
+    return section.Positive("exposure_sensitivity", 100.0) / 100.0 /
+           section.Positive("exposure_shutter_speed", 100.0) /
+           Above0(section.name + ": exposure_aperture", 1.2 * n * n);
   }
   return 0.0;
 }
@@ -182,7 +186,7 @@ std::vector<EngineLight> LightsOfGodotScene(const std::string& text) {
       const double nits_per_unit =
           exposure > 0.0 ? 1.0 / exposure : section.Number("background_intensity", 30000.0);
       dome.emitted = section.Number("background_energy_multiplier", 1.0) * nits_per_unit *
-                     LumaOf(LinearColor(section, "background_color"));
+                     Rec709Luminance(LinearColor(section, "background_color"));
       lights.push_back(dome);
     }
   }

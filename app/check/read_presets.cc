@@ -10,6 +10,7 @@
 #include "check/engine_light.h"
 #include "check/read_scenes.h"
 #include "output_files.h"
+#include "srgb.h"
 
 namespace lightcal::app {
 namespace {
@@ -20,7 +21,7 @@ constexpr double kPi = 3.14159265358979323846;
 Vec3 Vec(const Json& v) {
   return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
 }
-double Luma(const Json& rgb) { return LumaOf(Vec(rgb)); }
+double Luma(const Json& rgb) { return Rec709Luminance(Vec(rgb)); }
 Vec3 Negative(const Vec3& v) { return {-v[0], -v[1], -v[2]}; }
 
 double OffsetIn(const Json& extras) {
@@ -304,6 +305,7 @@ Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const s
   try {
     auto lights = Read(path, text);
     if (lights.empty()) return Refused("bad_preset", path, "holds no light");
+    RequireFinite(lights);
     return lights;
   } catch (const std::exception& error) {
     return Refused("bad_preset", path,

@@ -2,7 +2,9 @@
 #include "check/read_scenes.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +20,27 @@ void TakeTable(EngineLight& light, const std::string& photometric) {
   if (light.name.empty()) light.name = read->file.header.luminaire;
 }
 
+void RequireFinite(const std::vector<EngineLight>& lights) {
+  const auto finite = [](const Vec3& v) {
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+  };
+  for (const EngineLight& light : lights) {
+    const std::array numbers = {light.emitted, light.inner_rad,  light.outer_rad,
+                                light.decay,   light.cone_power, light.range_m,
+                                light.width_m, light.height_m,   light.offset_m};
+    if (std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); }) &&
+        finite(light.position_m) && finite(light.aim) && finite(light.x) && finite(light.y)) {
+      continue;
+    }
+    throw std::runtime_error(light.name + ": its numbers lead beyond all numbers");
+  }
+}
+
+double Above0(const std::string& what, double value) {
+  if (!(value > 0.0)) throw std::runtime_error(what + " is not above 0");
+  return value;
+}
+
 std::vector<double> NumbersIn(std::string_view text) {
   std::vector<double> numbers;
   const char* at = text.data();
@@ -29,7 +52,8 @@ std::vector<double> NumbersIn(std::string_view text) {
     double value = 0.0;
     if (!in_word && (digit || *at == '-' || *at == '.')) {
       const auto [next, error] = std::from_chars(at, end, value);
-      if (error == std::errc()) numbers.push_back(value);
+      // "-inf" and "-nan" are words.
+      if (error == std::errc() && std::isfinite(value)) numbers.push_back(value);
       at = std::max(next, at + 1);
       continue;
     }

@@ -27,14 +27,15 @@ using FileText = std::function<std::string(const std::string& name)>;
 // where the light has none.
 void TakeTable(EngineLight& light, const std::string& photometric);
 
-// Luminance of linear Rec. 709.
-[[nodiscard]] inline double LumaOf(const Vec3& rgb) {
-  return 0.2126390 * rgb[0] + 0.7151687 * rgb[1] + 0.0721923 * rgb[2];
-}
 // Y up to Z up.
 [[nodiscard]] inline Vec3 Stood(const Vec3& v) { return {v[0], -v[2], v[1]}; }
 
-// All numbers in "Color(1, .5, 0, 1)" or "( (1, 0), (0, 1) )", or one alone.
+// Throws where a light has a NaN or infinity.
+void RequireFinite(const std::vector<EngineLight>& lights);
+// The value; throws where it is not above 0, naming `what`.
+[[nodiscard]] double Above0(const std::string& what, double value);
+
+// All finite numbers in "Color(1, .5, 0, 1)" or "( (1, 0), (0, 1) )", or one alone.
 [[nodiscard]] std::vector<double> NumbersIn(std::string_view text);
 
 }  // namespace lightcal::app

@@ -8,6 +8,7 @@
 
 #include "check/read_scenes.h"
 #include "lightcal/core/numbers_text.h"
+#include "srgb.h"
 
 namespace lightcal::app {
 namespace {
@@ -81,14 +82,15 @@ double LuminanceOf(const Prim& prim) {
   if (const std::string& color = prim.Text("inputs:color"); !color.empty()) {
     const auto c = NumbersIn(color);
     if (c.size() != 3) throw std::runtime_error(prim.name + ": inputs:color has not three numbers");
-    value *= LumaOf({c[0], c[1], c[2]});
+    value *= Rec709Luminance(c);
   }
   return value;
 }
 
 // Over the area where the light's power is normalised by it.
 double Nits(const Prim& prim, double area_m2) {
-  return LuminanceOf(prim) / (prim.On("inputs:normalize") ? area_m2 : 1.0);
+  if (!prim.On("inputs:normalize")) return LuminanceOf(prim);
+  return LuminanceOf(prim) / Above0(prim.name + ": its area", area_m2);
 }
 
 void Place(const Prim& prim, EngineLight& light) {

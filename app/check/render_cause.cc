@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "srgb.h"
+
 namespace lightcal::app {
 namespace {
 
@@ -14,12 +16,8 @@ constexpr double kAsItShould = 0.02;   // |ln| of a factor that is nobody's mist
 constexpr double kSameFactor = 0.025;  // |ln| between what is seen and what a mistake does
 constexpr double kSameTint = 0.03;     // largest difference of max-normalised components
 constexpr double kCurveShows = 0.08;   // |ln| of the cards' ratio over what it should be
-constexpr std::array<double, 3> kWeights = {0.212639, 0.715169, 0.072192};
 using Rgb3 = std::array<double, 3>;
 
-double Luminance(const Rgb3& c) {
-  return kWeights[0] * c[0] + kWeights[1] * c[1] + kWeights[2] * c[2];
-}
 Rgb3 MaxNormalised(const Rgb3& c) {
   const double top = std::max({c[0], c[1], c[2], 1e-30});
   return {c[0] / top, c[1] / top, c[2] / top};
@@ -30,10 +28,6 @@ bool SameTint(const Rgb3& a, const Rgb3& b) {
   return worst < kSameTint;
 }
 Rgb3 Mapped(const Rgb3& c, double (*map)(double)) { return {map(c[0]), map(c[1]), map(c[2])}; }
-double Decoded(double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); }
-double Encoded(double v) {
-  return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-}
 
 // A white card of reflectance 1, by least squares over the cards that are not clipped.
 std::optional<Rgb3> PerfectWhite(const CheckedRig& rig, const std::array<CardPixels, 2>& cards) {
@@ -68,7 +62,7 @@ double LuminanceInTint(const CheckedRig& rig, const std::array<CardPixels, 2>& c
       below += weight * expected * expected;
     }
   }
-  return below > 0.0 ? above / below * Luminance(tint) : 0.0;
+  return below > 0.0 ? above / below * Rec709Luminance(tint) : 0.0;
 }
 
 double ScaleOf(const CheckedRig& rig, PixelUnit unit) {
@@ -103,8 +97,8 @@ std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardP
                        "the file holds linear samples where sRGB codes belong; "
                        "save an EXR, or switch the view transform to sRGB/Standard"};
   }
-  const double srgb =
-      std::log(Encoded(rig.cards[0].reflectance) / Encoded(rig.cards[1].reflectance) / want);
+  const double srgb = std::log(SrgbEncoded(rig.cards[0].reflectance) /
+                               SrgbEncoded(rig.cards[1].reflectance) / want);
   if (std::abs(worst - srgb) < kCurveShows) {
     return RenderCause{"encoded_twice",
                        "the samples are sRGB encoded once too often; save linear "
@@ -120,8 +114,8 @@ std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardP
 std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
   const Rgb3 want = lamp.color;
   if (SameTint(tint, want)) return std::nullopt;
-  const Rgb3 decoded = Mapped(want, &Decoded);
-  const Rgb3 encoded = Mapped(want, &Encoded);
+  const Rgb3 decoded = Mapped(want, &SrgbDecoded);
+  const Rgb3 encoded = Mapped(want, &SrgbEncoded);
   if (SameTint(tint, MaxNormalised({1.0, 1.0, 1.0}))) {
     return RenderCause{"color_missing",
                        "the cards are white though the lamp is not: its colour was "
@@ -132,13 +126,13 @@ std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
     return RenderCause{"color_read_as_srgb",
                        "the lamp's linear colour was read as sRGB codes: too "
                        "saturated; set it in linear (three.js: setRGB(.., LinearSRGBColorSpace))",
-                       Luminance(decoded) / lamp.color_luminance};
+                       Rec709Luminance(decoded) / lamp.color_luminance};
   }
   if (SameTint(tint, MaxNormalised(encoded))) {
     return RenderCause{"color_encoded_twice",
                        "the lamp's colour was written as sRGB codes where "
                        "linear values belong: too pale",
-                       Luminance(encoded) / lamp.color_luminance};
+                       Rec709Luminance(encoded) / lamp.color_luminance};
   }
   return RenderCause{"other_color",
                      "the cards have another tint than the lamp: its colour, the "
@@ -262,9 +256,9 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
   RenderVerdict verdict;
   const double lux_per_pixel = kPi / ScaleOf(rig, unit);
   verdict.expected_lx = (rig.cards[0].expected_lx + rig.cards[1].expected_lx) / 2.0;
-  verdict.lux = Luminance(*white) * lux_per_pixel;
+  verdict.lux = Rec709Luminance(*white) * lux_per_pixel;
   for (std::size_t i = 0; i < 2; ++i) {
-    verdict.card_lx[i] = Luminance(cards[i].rgb) / rig.cards[i].reflectance * lux_per_pixel;
+    verdict.card_lx[i] = Rec709Luminance(cards[i].rgb) / rig.cards[i].reflectance * lux_per_pixel;
   }
   if (!(verdict.lux > 0.0) || cards[1].raw[1] < 2.0 * cards[1].step[1]) {
     return Refused("too_dark", picture,

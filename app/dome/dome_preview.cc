@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "picture_file.h"
 #include "raster_png.h"
+#include "srgb.h"
 
 namespace lightcal::app {
 namespace {
@@ -57,11 +58,10 @@ double Exposure(const std::vector<float>& nits) {
   return count > 0.0 ? kMiddleGrey / std::exp(sum / count) : 1.0;
 }
 
-// IEC 61966-2-1, of a value that rolls off towards 1.
+// The code of a value that rolls off towards 1.
 std::uint8_t Shown(double linear) {
   const double v = 1.0 - std::exp(-std::max(0.0, linear));
-  const double code = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * code));
+  return static_cast<std::uint8_t>(std::lround(255.0 * SrgbEncoded(v)));
 }
 
 std::string PictureOf(const Dome& dome) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "lightcal/core/numbers_text.h"
@@ -14,6 +13,7 @@
 #include "lightcal/presets/godot_temperature.h"
 #include "lightcal/presets/rig.h"
 #include "lightcal/report/light_curve.h"
+#include "srgb.h"
 
 namespace lightcal::app {
 namespace {
@@ -59,21 +59,19 @@ std::optional<Place> PlaceOf(const FittedLight& lamp) {
 
 // ---- what a file's numbers mean ----
 
-double Luma(std::span<const double> rgb) {
-  return 0.2126390 * rgb[0] + 0.7151687 * rgb[1] + 0.0721923 * rgb[2];
-}
-double Decoded(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 // Luminance of an sRGB-encoded colour whose white is `white`.
 double DecodedLuma(const DerivedField& color, double white) {
   const std::vector<double>& c = color.values;
-  return Luma(std::vector{Decoded(c[0] / white), Decoded(c[1] / white), Decoded(c[2] / white)});
+  return Rec709Luminance(
+      Vec3{SrgbDecoded(c[0] / white), SrgbDecoded(c[1] / white), SrgbDecoded(c[2] / white)});
 }
 
 // The same multiplied by what Godot makes of the light's temperature.
 double LumaUnder(double kelvin, const DerivedField& color) {
   const Rgb tint = GodotTemperatureColor(kelvin);
   const std::vector<double>& c = color.values;
-  return Luma(std::vector{Decoded(c[0]) * tint.r, Decoded(c[1]) * tint.g, Decoded(c[2]) * tint.b});
+  return Rec709Luminance(
+      Vec3{SrgbDecoded(c[0]) * tint.r, SrgbDecoded(c[1]) * tint.g, SrgbDecoded(c[2]) * tint.b});
 }
 
 // A light as its engine has it: cd on the axis, or lux of one at infinity.
@@ -127,7 +125,7 @@ Emission OfUnreal(const DerivedLight& light, const Place& place) {
 }
 
 Emission OfUnity(const DerivedLight& light) {
-  const double emitted = Value(light, "intensity") * Luma(light.Find("color")->values);
+  const double emitted = Value(light, "intensity") * Rec709Luminance(light.Find("color")->values);
   Emission out;
   if (light.type == "Directional") {
     out.lux = emitted;
@@ -165,7 +163,7 @@ Emission OfGodot(const DerivedLight& light) {
 }
 
 Emission OfUsd(const DerivedLight& light, const FittedLight& lamp, const Place& place) {
-  const double emitted = Value(light, "intensity") * Luma(light.Find("color")->values);
+  const double emitted = Value(light, "intensity") * Rec709Luminance(light.Find("color")->values);
   Emission out;
   if (light.type == "DistantLight") {
     out.lux = emitted;
@@ -199,7 +197,7 @@ Emission OfPathTracer(const DerivedLight& light, LightKind kind, double emitted)
 double MitsubaEmits(const DerivedLight& light) {
   for (const char* name : {"intensity", "irradiance", "radiance"}) {
     if (const DerivedField* field = light.Find(name)) {
-      return Luma(field->values) / Value(light, "pre_exposure");
+      return Rec709Luminance(field->values) / Value(light, "pre_exposure");
     }
   }
   return 0.0;
@@ -208,7 +206,7 @@ double MitsubaEmits(const DerivedLight& light) {
 double PbrtEmits(const DerivedLight& light) {
   const double scale =
       light.Find("scale") != nullptr ? Value(light, "scale") : Value(light, "illuminance");
-  return scale * Luma(light.Find("rgb")->values);
+  return scale * Rec709Luminance(light.Find("rgb")->values);
 }
 
 Emission EmissionOf(std::string_view target, const DerivedLight& light, const FittedLight& lamp,

@@ -26,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The lamp of a published data sheet, its lux a little different in every copy.
 std::string SessionText(int copy) {
@@ -221,6 +222,27 @@ TEST_F(Batch, OneThatIsRefusedDoesNotStopTheOthers) {
   const json written = json::parse(ReadFile(summary));
   EXPECT_EQ(written["sessions"], document["sessions"]);
   EXPECT_FALSE(fs::exists(lamps + "/c/out"));
+}
+
+TEST_F(Batch, WarningsAreCountedBySessionAndSaidInFullWhenAskedFor) {
+  // A journal whose last line is torn.
+  folder.Write("lamps/b/readings.jsonl", "{\"light\": \"key\", ");
+  const CliResult brief = RunLightcal({"run", lamps, "--to", "gltf", "--json"});
+  const CliResult full = RunLightcal({"run", lamps, "--to", "gltf", "--json", "--verbose"});
+  const CliResult alone = RunLightcal({"run", lamps + "/b", "--to", "gltf", "--jobs", "1"});
+  ASSERT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_EQ(brief.out, full.out);
+  const json warnings = json::parse(brief.out)["warnings"];
+  const auto of_b = static_cast<std::size_t>(std::ranges::count_if(warnings, [&](const json& w) {
+    return std::string(w["subject"]).starts_with(lamps + "/b");
+  }));
+  const std::string code = warnings.back()["code"], message = warnings.back()["message"];
+  EXPECT_THAT(brief.err, HasSubstr(lamps + "/b: " + std::to_string(of_b) + " warning"));
+  EXPECT_THAT(brief.err, HasSubstr(code));
+  EXPECT_THAT(brief.err, Not(HasSubstr(message)));
+  EXPECT_THAT(brief.err, HasSubstr("--verbose"));
+  EXPECT_THAT(full.err, HasSubstr(message));
+  EXPECT_THAT(alone.err, HasSubstr(message));
 }
 
 TEST_F(Batch, OneThatFailsWeighsMoreThanOneRefused) {

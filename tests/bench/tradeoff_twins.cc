@@ -2,13 +2,10 @@
 // Does what `tradeoff` recommends hold? Synthetic twins: lux sessions as those of the suite, and a
 // few tiny brackets. Of each, five knobs: the study, then every combination of them measured.
 //   lightcal_tradeoff_twins [LUX_SESSIONS [BRACKETS [SEED [ONLY]]]]
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <random>
 #include <string>
 #include <utility>
@@ -19,6 +16,7 @@
 #include "run_cli.h"
 #include "synthetic_dng.h"
 #include "tradeoff/session_runner.h"
+#include "twin_judge.h"
 
 namespace lightcal::test {
 namespace {
@@ -26,35 +24,8 @@ namespace {
 constexpr double kTolerance = 0.02;
 constexpr double kBarCost = 1.5;       // times the cheapest
 constexpr std::size_t kFinalists = 8;  // of the brute force, measured again beside the study's
-constexpr tradeoff::TimingRules kShort{.least_runs = 7, .most_runs = 9, .seconds = 0.2};
 constexpr tradeoff::TimingRules kScan{.least_runs = 2, .most_runs = 2, .seconds = 0.1};
 constexpr tradeoff::TimingRules kFinal{.least_runs = 11, .most_runs = 11, .seconds = 0.1};
-
-// Of this process and those it has waited for.
-double ProcessorSeconds() {
-  rusage children{};
-  ::getrusage(RUSAGE_CHILDREN, &children);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC + seconds(children.ru_utime) +
-         seconds(children.ru_stime);
-}
-
-// Stages in processor time, so that what else the machine does is left out of both the study and
-// the brute force.
-tradeoff::Runner InProcessorTime(const tradeoff::Runner& run) {
-  return [run](const AccuracyProfile& profile) -> Result<tradeoff::Outcome> {
-    const double start = ProcessorSeconds();
-    auto outcome = run(profile);
-    const double spent = ProcessorSeconds() - start;
-    if (!outcome) return outcome;
-    double total = 0.0;
-    for (const double stage : outcome->seconds) total += stage;
-    for (double& stage : outcome->seconds) stage *= total > 0.0 ? spent / total : 1.0;
-    return outcome;
-  };
-}
 
 struct Twin {
   std::string session;  // path
@@ -138,30 +109,6 @@ std::vector<Combination> EveryCombination(const Twin& twin) {
   return all;
 }
 
-// Written by hand: what the strictest profile is.
-AccuracyProfile Strict() {
-  AccuracyProfile profile;
-  profile.tolerance_relative = kTolerance;
-  profile.effects = "all";
-  profile.estimator.solver = SolverChoice::kFull;
-  profile.estimator.bounce_patches = 48;
-  return profile;
-}
-
-// By hand too: whether every figure lies within the tolerance and a third of its own u.
-bool Holds(const tradeoff::LightFigures& truth, const tradeoff::LightFigures& got) {
-  const auto within = [](double off, double sd) {
-    return std::abs(off) <= std::max(1e-9, std::min(kTolerance, sd / 3.0)) + 1e-12;
-  };
-  if (!within(got.ln_strength - truth.ln_strength, truth.sd_ln)) return false;
-  if (truth.mired && (!got.mired || !within((*got.mired - *truth.mired) / 100.0,
-                                            truth.sd_mired.value_or(0.0) / 100.0))) {
-    return false;
-  }
-  return !truth.duv ||
-         (got.duv && within((*got.duv - *truth.duv) / 0.1, truth.sd_duv.value_or(0.0) / 0.1));
-}
-
 struct Tally {
   int twins = 0, refused = 0, meets = 0, cheap = 0, known = 0, held = 0;
   std::vector<double> cost;  // recommended over cheapest
@@ -173,14 +120,16 @@ double Percent(int part, int whole) { return whole > 0 ? 100.0 * part / whole : 
 std::vector<Combination> Finalists(const tradeoff::Runner& run, const Twin& twin,
                                    const tradeoff::LightFigures& strict) {
   std::vector<Combination> all = EveryCombination(twin);
-  std::vector<AccuracyProfile> profiles = {Strict()};  // the first may not refuse
+  // The first may not refuse.
+  std::vector<AccuracyProfile> profiles = {StrictestByHand(kTolerance)};
   for (const Combination& one : all) profiles.push_back(one.profile);
   const auto scanned = tradeoff::MeasureInTurn(run, profiles, kScan, {});
   if (!scanned) return {};
   std::vector<std::pair<double, std::size_t>> good;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const tradeoff::Measured& one = (*scanned)[i + 1];
-    if (!one.refused && Holds(strict, one.lights.front())) good.emplace_back(one.times.total, i);
+    if (one.refused || !Holds(strict, one.lights.front(), kTolerance)) continue;
+    good.emplace_back(one.times.total, i);
   }
   std::ranges::sort(good);
   std::vector<Combination> best;
@@ -196,9 +145,9 @@ void Judge(const Twin& twin, int number, Tally& tally) {
   tradeoff::Question question;
   question.tolerance_relative = kTolerance;
   question.knobs = twin.knobs;
-  question.alone = question.together = kShort;
+  question.alone = question.together = kFewRuns;
   const auto study = tradeoff::StudyTradeoff(run, question, {});
-  const auto strict = run(Strict());
+  const auto strict = run(StrictestByHand(kTolerance));
   if (!study || !strict) {
     ++tally.refused;
     const Error& error = study ? strict.error() : study.error();
@@ -208,7 +157,7 @@ void Judge(const Twin& twin, int number, Tally& tally) {
   const tradeoff::LightFigures truth = strict->lights.front();
   const AccuracyProfile& recommended = study->recommended.measured.profile;
   const auto again = run(recommended);
-  const bool meets = again && Holds(truth, again->lights.front());
+  const bool meets = again && Holds(truth, again->lights.front(), kTolerance);
   std::vector<Combination> last = Finalists(run, twin, truth);
   last.insert(last.begin(), {study->recommended.levels, recommended});
   std::vector<AccuracyProfile> profiles;

@@ -90,19 +90,65 @@ TEST(HardCaseG, G07InAndOnAGlobeItIsPiTimesItsLuminance) {
   }
 }
 
-TEST(HardCaseG, G08ARectWithoutWidthIsALineOrRefused) {
-  const Receiver<double> at = Before(2.0, 0.3);
-  const double point = LuxPerCandela(RectSource{0.0, 0.0}, at);
-  for (const RectSource& thin : {RectSource{0.0, 0.3}, RectSource{0.3, 0.0}}) {
-    const double e = LuxPerCandela(thin, at);
-    EXPECT_TRUE(std::isfinite(e) && e >= 0.0);
-    EXPECT_NEAR(e / point, 1.0, 0.05);
+// Lux per candela of a line of light by its pieces: cos cos/r^2 over its length.
+double LineByPieces(double length, const Receiver<double>& at) {
+  constexpr int kPieces = 20000;
+  double sum = 0.0;
+  for (int i = 0; i < kPieces; ++i) {
+    const double x = length * ((i + 0.5) / kPieces - 0.5);
+    const Vec3 to = {x - at.position[0], -at.position[1], -at.position[2]};
+    const double d2 = Dot(to, to);
+    sum += std::max(0.0, Dot(to, at.normal)) * at.position[2] / (d2 * d2);
   }
-  EXPECT_TRUE(std::isfinite(LuxPerCandela(RectSource{1e-12, 0.3}, at)));
+  return sum / kPieces;
+}
+
+TEST(HardCaseG, G08ARectWithoutWidthIsALine) {
+  for (const double d : {0.05, 0.4, 2.0, 300.0}) {
+    for (const double tilt : {0.0, 0.3, 1.5}) {
+      const Receiver<double> at = Before(d, tilt, 0.1);
+      const double truth = LineByPieces(0.6, at);
+      EXPECT_NEAR(LuxPerCandela(RectSource{0.3, 0.0}, at) / truth, 1.0, 1e-6) << d << " " << tilt;
+      EXPECT_NEAR(LuxPerCandela(RectSource{0.3, 1e-7}, at) / truth, 1.0, 1e-6) << d << " " << tilt;
+    }
+    const Receiver<double> along_y{{0.0, 0.1, d}, {0.0, 0.0, -1.0}};
+    EXPECT_NEAR(LuxPerCandela(RectSource{0.0, 0.3}, along_y) /
+                    LineByPieces(0.6, {{0.1, 0.0, d}, {0.0, 0.0, -1.0}}),
+                1.0, 1e-6);
+  }
+  const Receiver<double> at = Before(2.0, 0.3);
+  EXPECT_DOUBLE_EQ(LuxPerCandela(RectSource{0.0, 0.0}, at), std::cos(0.3) / 4.0);
+}
+
+TEST(HardCaseG, G08ALineGivesLuxOfItsCandelaAndNothingOfALuminance) {
   for (const char* size : {"0x60cm", "60x0cm"}) {
+    const Answer answer =
+        Ask({"convert", "500cd", "--kind", "rect", "--size", size, "--distance", "40cm"});
+    ExpectAnswered(answer);
+    EXPECT_NEAR(answer.document.value("illuminance_lx", -1.0),
+                500.0 * LineByPieces(0.6, Before(0.4)), 1e-3);
+    EXPECT_FALSE(answer.document.contains("luminance_nits"));
     ExpectRefused(Ask({"convert", "1000nits", "--kind", "rect", "--size", size}), "not_positive");
   }
-  ExpectRefused(KeySession("rect", "size_m = [0, 0.5]").At(2, 400).Run(), "bad_session");
+  ExpectRefused(Ask({"convert", "500cd", "--kind", "rect", "--size", "0x0m"}), "not_positive");
+}
+
+TEST(HardCaseG, G08ASessionMayHoldALine) {
+  for (const char* size : {"[0, 0.6]", "[0.6, 0]"}) {
+    KeySession session("rect", "size_m = " + std::string(size));
+    for (const double d : {0.3, 0.6, 1.2}) session.At(d, 100.0 * LineByPieces(0.6, Before(d)));
+    const Answer answer = session.Run();
+    ExpectWarned(answer, "substituted");  // no engine has a lamp without area
+    EXPECT_NEAR(Value(answer, "intensity_cd"), 100.0, 0.05);
+    EXPECT_NEAR(Value(answer, "flux_lm"), 100.0 * kPi, 0.16);
+    EXPECT_FALSE(Lamp(answer).contains("luminance_nits"));
+    const Answer lit = Ask({"simulate", session.path() + "/out/light.json", "--position",
+                            "key=0,0,0", "--at", "0,0,-0.3", "--effects", "all"});
+    ExpectAnswered(lit);
+    EXPECT_NEAR(lit.document["points"][0]["illuminance_lx"]["value"].get<double>(),
+                Value(answer, "intensity_cd") * LineByPieces(0.6, Before(0.3)), 0.5);
+  }
+  ExpectRefused(KeySession("rect", "size_m = [0, 0]").At(2, 400).Run(), "bad_session");
 }
 
 TEST(HardCaseG, G09TouchedEveryFlatSourceIsAWallOfLight) {

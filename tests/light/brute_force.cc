@@ -186,6 +186,22 @@ Real BruteRect(Real half_width, Real half_height, const BruteReceiver& at) {
                       at);
 }
 
+Real BruteLine(Real half_length, const BruteReceiver& at) {
+  const Real3& p = at.position;
+  const Real3& n = at.normal;
+  const auto above = [&](Real x) { return (x - p[0]) * n[0] - p[1] * n[1] - p[2] * n[2]; };
+  const auto kernel = [&](Real x) {
+    const Real r2 = (x - p[0]) * (x - p[0]) + p[1] * p[1] + p[2] * p[2];
+    return above(x) * p[2] / (r2 * r2);
+  };
+  Real from = -half_length, to = half_length;
+  if (above(from) <= 0 && above(to) <= 0) return 0;
+  const Real horizon = n[0] != 0 ? p[0] + (p[1] * n[1] + p[2] * n[2]) / n[0] : 0;
+  if (above(from) <= 0) from = horizon;
+  if (above(to) <= 0) to = horizon;
+  return Graded(kernel, from, to, p[0], std::hypot(p[1], p[2]));
+}
+
 Real BruteDisk(Real radius, const BruteReceiver& at) {
   const Real3& p = at.position;
   const Real3& n = at.normal;

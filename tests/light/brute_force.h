@@ -21,6 +21,8 @@ struct BruteReceiver {
 // int of the kernel over the source [lx per cd/m^2].
 [[nodiscard]] Real BrutePolygon(std::vector<std::array<Real, 2>> corners, const BruteReceiver& at);
 [[nodiscard]] Real BruteRect(Real half_width, Real half_height, const BruteReceiver& at);
+// A line along x, of one strength per metre [lx per cd/m^2 and metre of width].
+[[nodiscard]] Real BruteLine(Real half_length, const BruteReceiver& at);
 [[nodiscard]] Real BruteDisk(Real radius, const BruteReceiver& at);
 [[nodiscard]] Real BruteSphere(Real radius, const BruteReceiver& at);
 // Mantle of a cylinder about x.

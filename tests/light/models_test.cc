@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 
 #include "brute_force.h"
 #include "lightcal/light/models/disk_source.h"
@@ -86,6 +87,23 @@ TEST(Models, ARectangleIsItsIntegralEverywhere) {
     const Real truth = test::BruteRect(rect.half_width, rect.half_height, Wide(at)) / area;
     const double d2 = Dot(at.position, at.position);
     ExpectClose(LuxPerCandela(rect, at), truth, 1.0 / std::max(d2, area), at, "rect");
+  }
+}
+
+TEST(Models, ARectangleWithoutWidthIsALinesIntegralEverywhere) {
+  Scenes scenes(11);
+  for (int i = 0; i < kScenes; ++i) {
+    Vec3 direction = scenes.Direction();
+    direction[2] = std::abs(direction[2]);
+    Receiver<double> at{direction * scenes.LogUniform(1e-3, 1e6), {}};
+    at.normal = scenes.Normal(at.position, 1.0);
+    const Real truth = test::BruteLine(1.0, Wide(at)) / 2;
+    // Beside it a line gives the more the nearer, as 1/distance.
+    const double whole = 1.0 / std::max(Dot(at.position, at.position), 1e-6);
+    ExpectClose(LuxPerCandela(RectSource{1.0, 0.0}, at), truth, whole, at, "along x");
+    std::swap(at.position[0], at.position[1]);
+    std::swap(at.normal[0], at.normal[1]);
+    ExpectClose(LuxPerCandela(RectSource{0.0, 1.0}, at), truth, whole, at, "along y");
   }
 }
 

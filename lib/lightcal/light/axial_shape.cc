@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/light/axial_shape.h"
 
+#include <algorithm>
+
 namespace lightcal {
 
 AxialShape AxialShapeOf(LightKind kind, const SourceSize& size) {
@@ -8,7 +10,13 @@ AxialShape AxialShapeOf(LightKind kind, const SourceSize& size) {
     return {AxialShape::Outline::kDisk, 0.5 * size.diameter->value(), 0.0};
   }
   if (kind == LightKind::kRect && size.width && size.height) {
-    return {AxialShape::Outline::kRect, 0.5 * size.width->value(), 0.5 * size.height->value()};
+    const double width = size.width->value();
+    const double height = size.height->value();
+    // All length: its axis is a thin tube's.
+    if (!(width > 0.0) || !(height > 0.0)) {
+      return {AxialShape::Outline::kTube, 0.5 * std::max(width, height), 0.0};
+    }
+    return {AxialShape::Outline::kRect, 0.5 * width, 0.5 * height};
   }
   if (kind == LightKind::kTube && size.length) {
     return {AxialShape::Outline::kTube, 0.5 * size.length->value(), 0.0};

@@ -62,7 +62,8 @@ struct SourceSize {
   std::optional<Metres> width, height;   // rect
   std::optional<Metres> length, radius;  // tube
 };
-// The outline of a kind of that size in metres; kPoint for kinds without one or of unknown size.
+// The outline of a kind of that size in metres; kPoint for kinds without one or of unknown size,
+// kTube for a rect with one side of 0.
 [[nodiscard]] AxialShape AxialShapeOf(LightKind kind, const SourceSize& size);
 
 }  // namespace lightcal

@@ -24,6 +24,13 @@ double LuxPerNitOfRect(Metres width, Metres height, Metres distance) {
   return 2.0 * (a / to_a * std::atan(b / to_a) + b / to_b * std::atan(a / to_b));
 }
 
+double LuxPerCandelaOfLine(Metres length, Metres distance) {
+  const double d = distance.value();
+  const double t = length.value() / 2.0;
+  const double to_end = std::hypot(t, d);
+  return 0.5 * (1.0 / to_end / to_end + std::atan(t / d) / t / d);
+}
+
 double LuxPerNitOfTube(Metres length, Metres radius, Metres distance) {
   const double h = distance / radius;
   const double l = length / (2.0 * radius);

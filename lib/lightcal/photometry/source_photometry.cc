@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/photometry/source_photometry.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -84,7 +85,24 @@ Result<PerUnit> Round(const SourceGeometry& g) {
   return unit;
 }
 
+// The side of a rect that is all length.
+std::optional<Metres> LengthOfLine(const SourceGeometry& g) {
+  if (!g.width || !g.height || (*g.width == Metres(0.0)) == (*g.height == Metres(0.0))) {
+    return std::nullopt;
+  }
+  return std::max(*g.width, *g.height);
+}
+
+Result<PerUnit> Line(Metres side, const SourceGeometry& g) {
+  const auto length = Need(side, "width or height", g.kind);
+  if (!length) return tl::unexpected(length.error());
+  PerUnit unit{pi, 1.0, std::nullopt, std::nullopt};
+  if (g.distance) unit.illuminance = LuxPerCandelaOfLine(*length, *g.distance);
+  return unit;
+}
+
 Result<PerUnit> Rect(const SourceGeometry& g) {
+  if (const auto line = LengthOfLine(g)) return Line(*line, g);
   const auto width = Need(g.width, "width", g.kind);
   if (!width) return tl::unexpected(width.error());
   const auto height = Need(g.height, "height", g.kind);
@@ -171,6 +189,12 @@ std::optional<double> Amount(const PerUnit& unit, SourceQuantity quantity) {
 
 // Why this kind cannot be converted from that quantity, and what would help.
 Error NoSuchQuantity(const SourceGeometry& g, SourceQuantity given) {
+  if (g.kind == LightKind::kRect && given != SourceQuantity::kIlluminance) {
+    return Refused("not_positive", "width or height",
+                   "a rect with a side of 0 has no area to have a luminance; give its flux, "
+                   "intensity or illuminance")
+        .value();
+  }
   const std::string kind(LightKindName(g.kind));
   std::string message = "a " + kind + " light has no " + std::string(QuantityName(given));
   if (given == SourceQuantity::kIlluminance) {

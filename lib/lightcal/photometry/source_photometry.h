@@ -38,6 +38,7 @@ enum class SourceQuantity { kFlux, kIntensity, kLuminance, kExitance, kIlluminan
 //   sphere       4 pi             1/(pi R^2)       1/d^2 exactly
 //   disk         pi               1/(pi R^2)       1/(d^2 + R^2)
 //   rect         pi               1/(w h)          LuxPerNitOfRect/(w h)
+//    of one side 0  pi            -                LuxPerCandelaOfLine
 //   tube         pi^2             1/(2 R l)        LuxPerNitOfTube/(2 R l)     mantle only, square
 //   on directional  -                L = E/(pi sin^2 a), a the angular radius     E at any distance
 //   dome         -                L = E/pi                                     E at any distance

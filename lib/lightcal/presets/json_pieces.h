@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of JSON that several exporters write. Json is nlohmann::ordered_json, which only the .cc
-// files of this room may name.
+// Pieces of JSON that several exporters write, and the app too. Json is nlohmann::ordered_json or
+// nlohmann::json, which only .cc files may name.
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/uncertain.h"
@@ -39,16 +40,37 @@ void Put(Json& object, const char* key, const std::optional<double>& value) {
   if (value) object[key] = *value == 0.0 ? 0.0 : *value;
 }
 
+// [{"path": ..., "sha256": ...}, ...]
+template <class Json>
+[[nodiscard]] Json FilesJson(const std::vector<InputFile>& files) {
+  Json list = Json::array();
+  for (const InputFile& file : files) {
+    list.push_back({{"path", file.path}, {"sha256", file.sha256}});
+  }
+  return list;
+}
+// The text at a key; empty where there is none.
+template <class Json>
+[[nodiscard]] std::string TextAt(const Json& json, const char* key) {
+  const auto it = json.find(key);
+  return it != json.end() && it->is_string() ? it->template get<std::string>() : std::string();
+}
+// FilesJson read back from under a key; what a file lacks is empty.
+template <class Json>
+[[nodiscard]] std::vector<InputFile> FilesAt(const Json& json, const char* key) {
+  std::vector<InputFile> files;
+  const auto it = json.find(key);
+  if (it == json.end() || !it->is_array()) return files;
+  for (const Json& file : *it) files.push_back({TextAt(file, "path"), TextAt(file, "sha256")});
+  return files;
+}
+
 template <class Json>
 [[nodiscard]] Json ProvenanceJson(const Provenance& provenance) {
   Json json = {{"generator", provenance.generator.empty() ? "lightcal" : provenance.generator}};
   if (!provenance.time.empty()) json["time"] = provenance.time;
   if (!provenance.devices.empty()) json["devices"] = provenance.devices;
-  Json inputs = Json::array();
-  for (const InputFile& file : provenance.inputs) {
-    inputs.push_back({{"path", file.path}, {"sha256", file.sha256}});
-  }
-  json["inputs"] = std::move(inputs);
+  json["inputs"] = FilesJson<Json>(provenance.inputs);
   return json;
 }
 

@@ -120,7 +120,10 @@ class SessionReader {
     light.axis = UnitVector(reader, "axis", light.axis);
     reader.Number("diameter_m", light.diameter, kPositive);
     std::optional<std::array<double, 2>> size;
-    reader.Array("size_m", size, kPositive);
+    reader.Array("size_m", size, kNotNegative);
+    if (size && (*size)[0] == 0.0 && (*size)[1] == 0.0) {
+      reader.Fail("size_m", "size_m = [0, 0] is no rect; one side of 0 makes it a line");
+    }
     if (size) {
       light.width = Metres((*size)[0]);
       light.height = Metres((*size)[1]);

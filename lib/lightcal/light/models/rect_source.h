@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "lightcal/light/models/line_integral.h"
 #include "lightcal/light/models/point_source.h"
 #include "lightcal/light/models/polygon_source.h"
 
@@ -24,6 +25,21 @@ template <class T>
   const T d2 = Dot(at.position, at.position);
   if (!(toward > Scalar<T>(0)) || !(at.position[2] > Scalar<T>(0))) return T(0);
   return toward * at.position[2] / (d2 * d2);
+}
+
+// E/I of a rectangle that is all length: a line of half length `half` along axis 0 (x) or 1 (y).
+//   1/(2 half) int (n.v) h/|v|^4 dt
+template <class T>
+[[nodiscard]] T FlatLineLuxPerCandela(Scalar<T> half, int axis, const Receiver<T>& at) {
+  using S = Scalar<T>;
+  const T along = at.position[axis];
+  const T across = at.position[1 - axis];
+  const T h = at.position[2];
+  const T n0 = -(across * at.normal[1 - axis] + h * at.normal[2]);
+  return h *
+         LineIntegral(n0, T(at.normal[axis]), T(across * across + h * h), T(-half - along),
+                      T(half - along), T(S(2) * half)) /
+         (S(2) * half);
 }
 
 // Mean of cr cs/r^2 over N x N Gauss-Legendre points. Holds while all of the rectangle stands above
@@ -71,7 +87,8 @@ template <class T>
 
 // Axial intensity I = L w h, 0 behind the plane z = 0.                                   [lx/cd]
 // Lambert's contour (polygon_source.h) within 8 half diagonals of the centre, Gauss-Legendre
-// beyond, where it is both cheaper and exact to rounding. A side of 0 makes it a flat point.
+// beyond, where it is both cheaper and exact to rounding. A side of 0 makes it a line, two a flat
+// point.
 // Relative error below 1e-10 for d/half diagonal from 1e-3 to 1e6; in a sliver of it that the
 // horizon leaves, 1e-15 of what the whole would give.
 template <class T>
@@ -80,7 +97,9 @@ template <class T>
   if (!(at.position[2] > S(0))) return T(0);
   const S a = static_cast<S>(source.half_width);
   const S b = static_cast<S>(source.half_height);
-  if (!(a > S(0)) || !(b > S(0))) return models::FlatPointLuxPerCandela(at);
+  if (!(a > S(0)) && !(b > S(0))) return models::FlatPointLuxPerCandela(at);
+  if (!(a > S(0))) return models::FlatLineLuxPerCandela(b, 1, at);
+  if (!(b > S(0))) return models::FlatLineLuxPerCandela(a, 0, at);
   const T d2 = Dot(at.position, at.position);
   const S size2 = a * a + b * b;
   if (d2 > S(64) * size2 && models::LowestOfRect(source, at) > S(0)) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the test and the bench of `tradeoff` judge its recommendations by, written without the
+// study's own code.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "lightcal/records/accuracy_profile.h"
+#include "lightcal/tradeoff/outcome.h"
+#include "lightcal/tradeoff/timing.h"
+
+namespace lightcal::test {
+
+// As often as a recommendation needs, not as often as a table for people deserves.
+inline constexpr tradeoff::TimingRules kFewRuns{.least_runs = 7, .most_runs = 9, .seconds = 0.2};
+
+// Of this process and those it has waited for.
+inline double ProcessorSeconds() {
+  rusage children{};
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC + seconds(children.ru_utime) +
+         seconds(children.ru_stime);
+}
+
+// Stages in processor time, so that what else the machine does is left out.
+inline tradeoff::Runner InProcessorTime(const tradeoff::Runner& run) {
+  return [run](const AccuracyProfile& profile) -> Result<tradeoff::Outcome> {
+    const double start = ProcessorSeconds();
+    auto outcome = run(profile);
+    const double spent = ProcessorSeconds() - start;
+    if (!outcome) return outcome;
+    double total = 0.0;
+    for (const double stage : outcome->seconds) total += stage;
+    for (double& stage : outcome->seconds) stage *= total > 0.0 ? spent / total : 1.0;
+    return outcome;
+  };
+}
+
+// What the strictest profile is.
+inline AccuracyProfile StrictestByHand(double tolerance) {
+  AccuracyProfile profile;
+  profile.tolerance_relative = tolerance;
+  profile.effects = "all";
+  profile.estimator.solver = SolverChoice::kFull;
+  profile.estimator.bounce_patches = 48;
+  return profile;
+}
+
+// Whether every figure lies within the tolerance and a third of its own u.
+inline bool Holds(const tradeoff::LightFigures& truth, const tradeoff::LightFigures& got,
+                  double tolerance) {
+  const auto within = [tolerance](double off, double sd) {
+    return std::abs(off) <= std::max(1e-9, std::min(tolerance, sd / 3.0)) + 1e-12;
+  };
+  if (!within(got.ln_strength - truth.ln_strength, truth.sd_ln)) return false;
+  if (truth.mired && (!got.mired || !within((*got.mired - *truth.mired) / 100.0,
+                                            truth.sd_mired.value_or(0.0) / 100.0))) {
+    return false;
+  }
+  return !truth.duv ||
+         (got.duv && within((*got.duv - *truth.duv) / 0.1, truth.sd_duv.value_or(0.0) / 0.1));
+}
+
+}  // namespace lightcal::test
