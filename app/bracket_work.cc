@@ -118,16 +118,19 @@ Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
   return CosineFourthFlat(half_diagonal, *info.focal_length, info.exposure.f_number.value_or(1.0));
 }
 
-Result<void> SetCorrections(const BracketMergeRequest& request, BracketWork& work) {
+// `whole`: a frame as it was taken, not made smaller.
+Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo& whole,
+                            BracketWork& work) {
   std::vector<FrameInfo> infos;
   for (const std::size_t i : work.planned.order) infos.push_back(work.frames[i].info);
   const int x = work.alignment ? work.alignment->x : 0, y = work.alignment ? work.alignment->y : 0;
-  work.corrections = SampleCorrections(infos.front().width, infos.front().height, x, y);
+  work.corrections = SampleCorrections(whole.width, whole.height, x, y);
   if (request.camera) {
     auto corrections = CorrectionsOf(*request.camera, infos, work.planned.plan, x, y);
     if (!corrections) return Propagate(std::move(corrections));
     work.corrections = std::move(*corrections);
   }
+  work.corrections.SetThinning(work.thinning);
   if (!request.cosine_fourth || work.corrections.flat()) return {};
   const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
   if (!flat) return tl::unexpected(flat.error());
@@ -159,7 +162,10 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
   if (!frames) return Propagate(std::move(frames));
   auto work = std::make_unique<BracketWork>();
   work->frames = std::move(*frames);
-  for (Frame& frame : work->frames) frame = ThinFrame(frame, request.work.pixel_stride);
+  work->thinning = ThinningOf(work->frames.front().info, request.work);
+  if (!work->thinning.averaged) {
+    for (Frame& frame : work->frames) frame = ThinFrame(frame, work->thinning);
+  }
   work->color = std::move(*color);
   MergeRequest merge;
   merge.label_exposure = *labels;
@@ -185,6 +191,14 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
     merge.noise_of_camera = !noise.empty();
     if (!noise.empty()) merge.noise_in_file = std::move(noise);
   }
+  if (work->thinning.averaged) {
+    FindClipping(work->signals);
+    ParallelFor(static_cast<int>(work->frames.size()), [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      AverageFrame(work->thinning, work->frames[at], work->signals[at]);
+    });
+    merge.samples_averaged = work->thinning.n;
+  }
   merge.done = [&frames = work->frames](std::size_t i) {
     LetGo(frames[i], 0, frames[i].info.height);
   };
@@ -196,8 +210,10 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
     if (auto aligned = Align(std::move(merge), *work); !aligned)
       return Propagate(std::move(aligned));
   }
+  work->planned.plan.estimator = request.work.estimator;
   Append(work->planned.warnings, warnings);
-  if (auto set = SetCorrections(request, *work); !set) return Propagate(std::move(set));
+  if (auto set = SetCorrections(request, bracket.frames.front(), *work); !set)
+    return Propagate(std::move(set));
   return work;
 }
 

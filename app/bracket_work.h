@@ -14,11 +14,13 @@
 #include "lightcal/imaging/sample_corrections.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
 #include "lightcal/imaging/signal.h"
+#include "lightcal/imaging/thin_frame.h"
 
 namespace lightcal::app {
 
 struct BracketWork {
-  std::vector<Frame> frames;
+  std::vector<Frame> frames;  // as they are merged: made smaller where asked
+  Thinning thinning;
   ResponseCurves response;
   std::vector<SignalFrame> signals;
   PlannedMerge planned;

@@ -32,13 +32,17 @@ std::optional<BlackAt> BlackOf(const CameraUse& use, const FrameInfo& info) {
   return BlackFor(use.profile->darks, *exposure.iso, *exposure.time);
 }
 
-// What black's error does to X where every frame counts: sum s t / sum t^2 with weights t^2.
+// What black's error does to X in the dark, where every frame counts: sum v s / sum v t, s the
+// error and v what the estimator gives signals there.
 double BlackSd(const CameraUse& use, std::span<const FrameInfo> infos, const MergePlan& plan) {
   double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < infos.size(); ++i) {
     const auto black = BlackOf(use, infos[i]);
-    sum += plan.exposure[i] * (black ? black->sigma : 0.0);
-    weights += plan.exposure[i] * plan.exposure[i];
+    double weight = plan.exposure[i];
+    if (plan.estimator == MergeEstimator::kSums) weight = 1.0;
+    if (plan.estimator == MergeEstimator::kLongest) weight = i + 1 == infos.size() ? 1.0 : 0.0;
+    sum += weight * (black ? black->sigma : 0.0);
+    weights += weight * plan.exposure[i];
   }
   return sum / weights;
 }

@@ -92,7 +92,7 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
   if (!color) return AtCapture(capture, color.error());
   const auto stated = RegionOfCapture(capture, info);
   if (!stated) return AtCapture(capture, stated.error());
-  const Region card = ThinRegion(*stated, capture.work.pixel_stride);
+  const Region card = ThinRegion(*stated, ThinningOf(info, capture.work));
   BracketMergeRequest request = RequestOf(capture, card, color->has_colour);
   if (auto used = UseCameraOfCapture(session, capture, request); !used) {
     return AtCapture(capture, used.error());

@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/source_luminance.h"
+#include "lightcal/imaging/thin_frame.h"
 #include "picture_record.h"
 
 namespace lightcal::app {
@@ -92,11 +93,36 @@ void SettleSize(const SourceLuminance& source, const CaptureDescription& capture
   }
 }
 
+// What of the field of view is left in a picture made smaller, which ends with a whole block.
+Radians FieldOfViewLeft(const CaptureDescription& capture, Projection projection,
+                        const FrameInfo& info, const Thinning& thinning) {
+  const double full = capture.field_of_view.value_or(Radians(0.0)).value();
+  const auto share = [&](int thinned, int whole) {
+    return static_cast<double>(thinned) * thinning.n / whole;
+  };
+  const double circle =
+      share(std::min(thinning.width, thinning.height), std::min(info.width, info.height));
+  switch (projection) {
+    case Projection::kRectilinear:
+      return Radians(2.0 * std::atan(share(thinning.width, info.width) * std::tan(0.5 * full)));
+    case Projection::kEquidistant:
+      return Radians(circle * full);
+    case Projection::kEquisolid:
+      return Radians(4.0 * std::asin(circle * std::sin(0.25 * full)));
+    case Projection::kLatLong:
+      break;
+  }
+  return Radians(full);
+}
+
 Result<SourceLuminance> MeasureIn(const MergedBracket& merged, const CaptureDescription& capture,
-                                  const Region& region) {
-  const auto angles =
-      PixelSolidAngles::Create({capture.projection.value_or(Projection::kRectilinear), merged.width,
-                                merged.height, capture.field_of_view.value_or(Radians(0.0))});
+                                  const FrameInfo& info, const Region& region) {
+  const Projection projection = capture.projection.value_or(Projection::kRectilinear);
+  const Thinning thinning = ThinningOf(info, capture.work);
+  const auto angles = PixelSolidAngles::Create(
+      {projection, merged.width, merged.height,
+       thinning.n == 1 ? capture.field_of_view.value_or(Radians(0.0))
+                       : FieldOfViewLeft(capture, projection, info, thinning)});
   if (!angles) return tl::unexpected(angles.error());
   const std::vector<float> nits = LuminanceOf(merged);
   return MeasureSource({nits.data(), merged.width, merged.height},
@@ -118,9 +144,11 @@ Result<CaptureReading> ReadSource(Session& session, const CaptureDescription& ca
     if (!inside) return AtCapture(capture, inside.error());
     region = *inside;
   }
+  region = ThinRegion(region, ThinningOf(info, capture.work));
   BracketMergeRequest request;
   if (color->has_colour) request.space = RgbSpace::kSrgb;
   request.want_sigma = true;
+  request.work = capture.work;
   if (auto used = UseCameraOfCapture(session, capture, request); !used) {
     return AtCapture(capture, used.error());
   }
@@ -131,7 +159,7 @@ Result<CaptureReading> ReadSource(Session& session, const CaptureDescription& ca
     // A clipped lamp is refused; what else is clipped here does not count.
     if (warning.code != "clipped") warnings.push_back(warning);
   }
-  const auto source = MeasureIn(*merged, capture, region);
+  const auto source = MeasureIn(*merged, capture, info, region);
   if (!source) return AtCapture(capture, source.error());
   const Xyz seen = ColorOfFace(*merged, *source, region);
   const auto corrected = LuminanceOfLamp(session, capture, info, *color, seen);

@@ -49,7 +49,7 @@ Result<GreyPicture> PoseGrey(Session& session, const CaptureDescription& capture
   const std::string path = PathInSession(session, name);
   auto grey = ReadGrey(path);
   if (!grey) return grey;
-  if (grey->width != frames.nits.width || grey->height != frames.nits.height) {
+  if (grey->width != frames.whole_width || grey->height != frames.whole_height) {
     return Refused("mixed_size", path,
                    "the picture of the board and the frames differ in size; one camera must take "
                    "both, from one place");
@@ -61,7 +61,7 @@ Result<GreyPicture> PoseGrey(Session& session, const CaptureDescription& capture
 // Further views of the board; one where it cannot be found is left out and named.
 Result<std::vector<std::vector<BoardCorner>>> FurtherViews(Session& session,
                                                            const CaptureDescription& capture,
-                                                           const GreyPicture& first,
+                                                           const WallPicture& first,
                                                            Warnings& warnings) {
   std::vector<std::vector<BoardCorner>> views;
   if (capture.wall->board_views.empty()) return views;
@@ -71,7 +71,7 @@ Result<std::vector<std::vector<BoardCorner>>> FurtherViews(Session& session,
   for (const std::string& file : *files) {
     const auto grey = ReadGrey(file);
     if (!grey) return tl::unexpected(grey.error());
-    if (grey->width != first.width || grey->height != first.height) {
+    if (grey->width != first.whole_width || grey->height != first.whole_height) {
       return Refused("mixed_size", file,
                      "the views of the board must be as large as the frames, by the same lens");
     }
@@ -87,6 +87,31 @@ Result<std::vector<std::vector<BoardCorner>>> FurtherViews(Session& session,
   return views;
 }
 
+// Places in a picture made smaller as places in the whole one.
+void Enlarge(const Thinning& thinning, std::vector<BoardCorner>& corners) {
+  for (BoardCorner& corner : corners) {
+    corner.pixel = {thinning.n * (corner.pixel[0] - thinning.ThinX(0.0)),
+                    thinning.n * (corner.pixel[1] - thinning.ThinY(0.0))};
+  }
+}
+
+// The camera of the whole picture as one of the picture made smaller.
+SolvedCamera CameraOfSmaller(SolvedCamera camera, const Thinning& thinning) {
+  const double size = 1.0 / thinning.n;
+  camera.parameters[kLnFocal] += std::log(size);
+  camera.parameters[kCentreX] = thinning.ThinX(camera.parameters[kCentreX]);
+  camera.parameters[kCentreY] = thinning.ThinY(camera.parameters[kCentreY]);
+  for (const int centre : {kCentreX, kCentreY}) {
+    for (int other = 0; other < kCameraParameters; ++other) {
+      camera.covariance[static_cast<std::size_t>(centre * kCameraParameters + other)] *= size;
+      camera.covariance[static_cast<std::size_t>(other * kCameraParameters + centre)] *= size;
+    }
+  }
+  camera.rms_px *= size;
+  camera.sigma_px *= size;
+  return camera;
+}
+
 Result<Wall> ReadWall(Session& session, const CaptureDescription& capture, Warnings& warnings) {
   auto picture = ReadWallPicture(session, capture, warnings);
   if (!picture) return Propagate(std::move(picture));
@@ -95,17 +120,20 @@ Result<Wall> ReadWall(Session& session, const CaptureDescription& capture, Warni
   if (!grey) return tl::unexpected(grey.error());
   auto corners = CornersIn(*grey, *capture.wall);
   if (!corners) return Propagate(std::move(corners));
-  const auto further = FurtherViews(session, capture, *grey, warnings);
+  // In the camera's own pixels, as those of further views.
+  if (capture.wall->board_frame.empty()) Enlarge(picture->thinning, *corners);
+  const auto further = FurtherViews(session, capture, *picture, warnings);
   if (!further) return tl::unexpected(further.error());
   std::vector<std::vector<BoardCorner>> views = {*std::move(corners)};
   views.insert(views.end(), further->begin(), further->end());
   std::optional<double> focal_px;
   if (grey->focal_length && capture.wall->sensor_width) {
-    focal_px = *grey->focal_length / *capture.wall->sensor_width * grey->width;
+    focal_px = *grey->focal_length / *capture.wall->sensor_width * picture->whole_width;
   }
-  auto camera = SolveCamera(views, grey->width, grey->height, focal_px);
+  auto camera = SolveCamera(views, picture->whole_width, picture->whole_height, focal_px);
   if (!camera) return Propagate(std::move(camera));
-  return Wall{*std::move(picture), *std::move(camera)};
+  const SolvedCamera thinned = CameraOfSmaller(*camera, picture->thinning);
+  return Wall{*std::move(picture), thinned};
 }
 
 WallModel ModelOf(const LightDescription& light, const CaptureDescription& capture,
@@ -142,11 +170,19 @@ std::vector<DistributionShift> ShiftsOf(const WallDescription& description, cons
   return shifts;
 }
 
-WallSelection SelectionOf(const CaptureDescription& capture) {
+WallSelection SelectionOf(const CaptureDescription& capture, const Thinning& thinning) {
   WallSelection selection;
-  const auto region = [](const std::array<int, 4>& r) { return Region{r[0], r[1], r[2], r[3]}; };
+  const auto region = [&](const std::array<int, 4>& r) {
+    return ThinRegion({r[0], r[1], r[2], r[3]}, thinning);
+  };
   if (capture.rect) selection.wall = region(*capture.rect);
-  for (const auto& mask : capture.wall->masks) selection.masks.push_back(region(mask));
+  // All that a mask touches: a block more on each side.
+  const int more = thinning.n == 1 ? 0 : thinning.n * std::max(thinning.columns, thinning.rows);
+  for (const auto& mask : capture.wall->masks) {
+    const int x = std::max(0, mask[0] - more), y = std::max(0, mask[1] - more);
+    selection.masks.push_back(
+        region({x, y, mask[0] + mask[2] + more - x, mask[1] + mask[3] + more - y}));
+  }
   selection.board_hangs = capture.wall->board_frame.empty();
   return selection;
 }
@@ -238,9 +274,9 @@ Result<FittedLight> MeasureWall(Session& session, const CaptureDescription& capt
   const auto wall = ReadWall(session, capture, warnings);
   if (!wall) return AtCapture(capture, wall.error());
   const WallModel model = ModelOf(light, capture, *wall);
-  const auto blocks =
-      BlocksOfWall(wall->picture.nits.view(), wall->picture.sigma_view(), SelectionOf(capture),
-                   WallCamera(model.camera), capture.wall->board);
+  const auto blocks = BlocksOfWall(wall->picture.nits.view(), wall->picture.sigma_view(),
+                                   SelectionOf(capture, wall->picture.thinning),
+                                   WallCamera(model.camera), capture.wall->board);
   if (!blocks) return AtCapture(capture, blocks.error());
   DistributionData data;
   data.light = light.name;

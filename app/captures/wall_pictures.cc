@@ -80,6 +80,8 @@ Result<WallPicture> FromAbsolutePicture(Session& session, const CaptureDescripti
   NoteInputFile(info.file, session);
   WallPicture out;
   out.nits = {luminance->width, luminance->height, std::move(luminance->nits), info.focal_length};
+  out.whole_width = info.width;
+  out.whole_height = info.height;
   out.scale_sd = StatedScaleSd(info);
   out.scale_source = "picture";
   out.camera = info.camera;
@@ -130,9 +132,11 @@ Result<WallPicture> FromBracket(Session& session, const CaptureDescription& capt
   if (!color) return tl::unexpected(color.error());
   BracketMergeRequest request;
   request.want_sigma = true;
+  request.work = capture.work;
+  const Thinning thinning = ThinningOf(info, capture.work);
   if (color->has_colour) request.space = RgbSpace::kSrgb;
   if (capture.anchor_illuminance) {
-    const Region spot = AnchorRegion(capture);
+    const Region spot = ThinRegion(AnchorRegion(capture), thinning);
     request.anchor = SpotReading{spot.x,
                                  spot.y,
                                  spot.width,
@@ -154,6 +158,9 @@ Result<WallPicture> FromBracket(Session& session, const CaptureDescription& capt
   const double factor = request.anchor ? 1.0 : lamp->nits / seen.Y;
   WallPicture out;
   out.nits = {merged->width, merged->height, LuminanceOf(*merged, factor), info.focal_length};
+  out.thinning = thinning;
+  out.whole_width = info.width;
+  out.whole_height = info.height;
   out.sigma = std::move(merged->sigma);
   for (float& sigma : out.sigma) sigma *= static_cast<float>(factor);
   out.scale_sd = std::hypot(merged->scale_u95_relative / kZ95, request.anchor ? 0.0 : lamp->sigma);

@@ -10,6 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
+#include "lightcal/imaging/thin_frame.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {
@@ -29,6 +30,8 @@ struct GreyPicture {
 
 struct WallPicture {
   GreyPicture nits;
+  Thinning thinning{};                    // which made it of the camera's picture,
+  int whole_width = 0, whole_height = 0;  // which has this size
   std::vector<float> sigma;  // 1 standard deviation of each pixel; empty where the file has none
   double scale_sd = 0.0;     // relative, common to all pixels, reflectance left out
   std::string scale_source;  // "picture" "anchor" "iso_prior" ...
@@ -44,9 +47,9 @@ struct WallPicture {
 
 // The wall in cd/m^2. One linear picture with a white luminance, as `lightcal merge` writes it, is
 // taken as it is, its scale as sure as it says (5 % where it does not); everything else is merged
-// as a bracket and corrected for the lamp like a card. anchor_illuminance_lx at wall.anchor_rect
-// sets the scale of both.
-// Refused: as OpenBracket, MergeBracket, LuminanceOfPicture, LuminanceOfLamp, bad_region.
+// as a bracket, at the size the capture's work asks for, and corrected for the lamp like a card.
+// anchor_illuminance_lx at wall.anchor_rect sets the scale of both. Refused: as OpenBracket,
+// MergeBracket, LuminanceOfPicture, LuminanceOfLamp, bad_region.
 [[nodiscard]] Result<WallPicture> ReadWallPicture(Session& session,
                                                   const CaptureDescription& capture,
                                                   Warnings& warnings);

@@ -11,9 +11,9 @@
 namespace lightcal {
 namespace {
 
-constexpr double kLargestFixedPattern = 0.01;
-constexpr int kTile = 16;    // samples of one place of the pattern, each way
-constexpr int kStrips = 12;  // of rows, spread over the picture
+constexpr double kLargestFixedPattern = 2.0;  // of the usual one
+constexpr int kTile = 16;                     // samples of one place of the pattern, each way
+constexpr int kStrips = 12;                   // of rows, spread over the picture
 constexpr std::size_t kLeastTiles = 16;
 constexpr double kTileSpread = 0.12;   // relative standard deviation of a tile's scatter
 constexpr double kQuartile = 0.6745;   // standard deviations from the median to a quartile
@@ -38,12 +38,13 @@ std::vector<kernels::FrameConstants> ConstantsOf(const MergePlan& plan) {
   return constants;
 }
 
-std::vector<kernels::Lanes> LimitsOf(const SignalFrame& frame, double usable) {
+// A share of the clip, for each lane of each row of the pattern.
+std::vector<kernels::Lanes> LimitsOf(const SignalFrame& frame, double share) {
   std::vector<kernels::Lanes> limits;
   for (const auto& channels : frame.channel) {
     auto& lanes = limits.emplace_back();
     for (std::size_t i = 0; i < lanes.size(); ++i) {
-      lanes[i] = static_cast<float>(usable) * frame.clip[static_cast<std::size_t>(channels[i])];
+      lanes[i] = static_cast<float>(share) * frame.clip[static_cast<std::size_t>(channels[i])];
     }
   }
   return limits;
@@ -89,6 +90,7 @@ std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
                                      View2d<float> variance) const {
   const auto constants = ConstantsOf(plan_);
   const auto limits = LimitsOf(frames_[0], plan_.usable);
+  const auto clips = LimitsOf(frames_[0], 1.0);
   std::vector<float> signals(frames_.size() * kernels::kBlock);
   std::vector<float> precisions(signals.size());
   std::array<float, kernels::kBlock> used{};
@@ -108,7 +110,9 @@ std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
                            .precisions = precisions.data(),
                            .count = samples,
                            .limit = &limits[phase],
-                           .fixed_pattern2 = pattern * pattern},
+                           .clip = &clips[phase],
+                           .fixed_pattern2 = pattern * pattern,
+                           .estimator = plan_.estimator},
                           {.value = value.row(i).data() + x,
                            .variance = variance.row(i).data() + x,
                            .used = used.data()});
@@ -156,7 +160,8 @@ double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_w
   MergePlan plan = merger.plan();
   plan.fixed_pattern = 0.0;
   const auto bare = BracketMerger::Make(merger.frames(), plan);
-  if (!bare) return kMiddlingFixedPattern;
+  const double usual = merger.plan().fixed_pattern;
+  if (!bare) return usual;
   const SignalFrame& frame = merger.frames()[0];
   // Columns after which a sample of the same place comes again: 2 for Bayer, 3 for RGB.
   const int step_x =
@@ -182,10 +187,10 @@ double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_w
       }
     }
   }
-  if (upper.size() < kLeastTiles) return kMiddlingFixedPattern;
+  if (upper.size() < kLeastTiles) return usual;
   const auto quartile = upper.begin() + static_cast<std::ptrdiff_t>(upper.size() / 4);
   std::nth_element(upper.begin(), quartile, upper.end());
-  return std::min(kLargestFixedPattern, std::sqrt(std::max(0.0, *quartile)));
+  return std::min(kLargestFixedPattern * usual, std::sqrt(std::max(0.0, *quartile)));
 }
 
 }  // namespace lightcal

@@ -26,6 +26,12 @@ double MeanOf(std::span<const NoiseProfile> planes, double NoiseProfile::* membe
   return sum / static_cast<double>(planes.size());
 }
 
+// Of the mean of n x n samples, whose own is given.
+NoiseProfile NoiseOfMean(const NoiseProfile& noise, int n) {
+  const double count = static_cast<double>(n) * n;
+  return {noise.scale / count, noise.offset / count};
+}
+
 std::optional<std::vector<NoiseProfile>> NoiseInFiles(const MergeRequest& request,
                                                       std::span<const std::size_t> order) {
   if (request.noise_in_file.size() != order.size()) return std::nullopt;
@@ -33,7 +39,9 @@ std::optional<std::vector<NoiseProfile>> NoiseInFiles(const MergeRequest& reques
   for (const std::size_t i : order) {
     const auto& planes = request.noise_in_file[i];
     if (planes.empty()) return std::nullopt;
-    noise.push_back({MeanOf(planes, &NoiseProfile::scale), MeanOf(planes, &NoiseProfile::offset)});
+    noise.push_back(
+        NoiseOfMean({MeanOf(planes, &NoiseProfile::scale), MeanOf(planes, &NoiseProfile::offset)},
+                    request.samples_averaged));
     if (!(noise.back().scale >= 0.0) || !(noise.back().offset > 0.0)) return std::nullopt;
   }
   return noise;
@@ -49,7 +57,7 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   const std::size_t n = frames.size();
   if (request.noise) {
     planned.noise_source = NoiseSource::kGiven;
-    planned.plan.noise.assign(n, *request.noise);
+    planned.plan.noise.assign(n, NoiseOfMean(*request.noise, request.samples_averaged));
     return {};
   }
   const auto estimate = EstimateNoise(signals, planned.plan.exposure);
@@ -70,7 +78,8 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
     return {};
   }
   planned.noise_source = NoiseSource::kEstimated;
-  planned.plan.noise.assign(n, estimate.value_or(kMiddlingNoise));
+  planned.plan.noise.assign(
+      n, estimate.value_or(NoiseOfMean(kMiddlingNoise, request.samples_averaged)));
   if (estimate) return {};
   if (n == 1) {
     return Refused("one_frame", frames[0].name,
@@ -210,6 +219,7 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   const auto joined = std::count(planned.measured.begin(), planned.measured.end(), true);
   planned.gauge_sd = kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1)));
   planned.plan.usable = ratios->linear_to;
+  planned.plan.fixed_pattern /= request.samples_averaged;
   for (const auto& frame : signals.frames) {
     planned.usable_share.push_back(1.0 - ShareAbove(frame, signals.clip, planned.plan.usable));
   }

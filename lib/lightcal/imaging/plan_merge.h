@@ -22,7 +22,10 @@ struct MergeRequest {
   std::optional<NoiseProfile> noise;                     // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files
-  FrameDone done;                // of the frames as given
+  // Samples are means of n x n (AverageFrame): what is known of noise and pixels above, or assumed,
+  // is of single ones.
+  int samples_averaged = 1;
+  FrameDone done;  // of the frames as given
 };
 
 enum class NoiseSource { kGiven, kCamera, kFile, kEstimated, kAssumed };

@@ -23,6 +23,24 @@ void SampleCorrections::AddHotPixels(std::span<const int> hot_pixels) {
   hot_.erase(std::unique(hot_.begin(), hot_.end()), hot_.end());
 }
 
+void SampleCorrections::SetThinning(const Thinning& thinning) {
+  thinning_ = thinning;
+  // The smaller picture's column (row) that holds one of the whole picture; absent if left out.
+  const auto shown = [&](int at, int period) -> std::optional<int> {
+    const int block = at / period;
+    if (!thinning.averaged && block % thinning.n != 0) return std::nullopt;
+    return block / thinning.n * period + at % period;
+  };
+  std::vector<std::pair<int, int>> kept;
+  for (const auto& [y, x] : hot_) {
+    const auto thin_y = shown(y, thinning.rows), thin_x = shown(x, thinning.columns);
+    if (thin_y && thin_x) kept.emplace_back(*thin_y, *thin_x);
+  }
+  hot_ = std::move(kept);
+  std::ranges::sort(hot_);
+  hot_.erase(std::unique(hot_.begin(), hot_.end()), hot_.end());
+}
+
 void SampleCorrections::Apply(const SignalFrame& frame, int y, float* value,
                               float* variance) const {
   if (!hot_.empty()) ReplaceHot(frame, y, value, variance);
@@ -72,8 +90,9 @@ void SampleCorrections::Flatten(const SignalFrame& frame, int y, float* value,
   const auto sigma2 = static_cast<float>(flat_->sigma_relative * flat_->sigma_relative);
   const std::size_t samples = frame.row_samples();
   for (std::size_t i = 0; i < samples; ++i) {
-    const auto x = static_cast<double>(i / static_cast<std::size_t>(frame.channels));
-    const FlatPlace place = FlatPlaceOf(x + x_ + 0.5, y + y_ + 0.5, whole_width_, whole_height_);
+    const int x = static_cast<int>(i / static_cast<std::size_t>(frame.channels));
+    const FlatPlace place = FlatPlaceOf(thinning_.WholeX(x) + x_, thinning_.WholeY(y) + y_,
+                                        whole_width_, whole_height_);
     const auto color = static_cast<std::size_t>(channel[i % kLanes]);
     const auto gain = static_cast<float>(1.0 / LightThrough(*flat_, color, place));
     value[i] *= gain;

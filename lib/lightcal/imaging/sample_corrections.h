@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightcal/imaging/signal.h"
+#include "lightcal/imaging/thin_frame.h"
 #include "lightcal/records/camera_profile.h"
 
 namespace lightcal {
@@ -33,6 +34,10 @@ class SampleCorrections {
   // Var that of the mean and a quarter of their difference squared.
   void AddHotPixels(std::span<const int> hot_pixels);
 
+  // For pictures made smaller: hot pixels that they do not show go, a mean with a hot pixel among
+  // its samples counts as one. After AddHotPixels.
+  void SetThinning(const Thinning& thinning);
+
   [[nodiscard]] bool empty() const { return !flat_ && black_sd_ == 0.0 && hot_.empty(); }
   [[nodiscard]] std::size_t hot_pixels() const { return hot_.size(); }
   [[nodiscard]] double black_sd() const { return black_sd_; }
@@ -51,6 +56,7 @@ class SampleCorrections {
   FlatSource flat_source_ = FlatSource::kMeasured;
   double black_sd_ = 0.0;
   std::vector<std::pair<int, int>> hot_;  // y, x; sorted
+  Thinning thinning_{};
 };
 
 }  // namespace lightcal

@@ -11,7 +11,6 @@ namespace {
 constexpr double kGateSigmas = 4.0;
 constexpr double kOrdinary = 0.999;  // of the samples, where no clip is known
 constexpr float kAboveOrdinary = 1.5F;
-constexpr float kClippedFrom = 0.98F;  // of the clip: such a sample compares with nothing
 
 // The level bin of two samples of one place; absent near the clip.
 std::optional<std::size_t> BinOf(double ya, double yb, double clip, const PairSetting& setting) {

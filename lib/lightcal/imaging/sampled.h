@@ -12,6 +12,9 @@
 
 namespace lightcal {
 
+// Share of the clip from which a sample compares with nothing: sensors clip with some noise.
+inline constexpr float kClippedFrom = 0.98F;
+
 struct SampledSignals {
   std::vector<std::vector<float>> frames;  // the same samples of every frame
   std::vector<float> clip;                 // of each sample

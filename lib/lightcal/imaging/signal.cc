@@ -46,18 +46,6 @@ std::pair<int, int> PeriodOf(const Periodic2d<T>& pattern) {
   return pattern.values.empty() ? std::pair{1, 1} : std::pair{pattern.width, pattern.height};
 }
 
-// Columns and rows after which everything about a sample repeats.
-std::pair<int, int> PixelPeriod(const FrameInfo& info) {
-  auto [columns, rows] =
-      info.meaning == SampleMeaning::kMosaic ? PeriodOf(info.cfa) : std::pair{1, 1};
-  if (info.levels && info.meaning != SampleMeaning::kLinear) {
-    const auto [black_columns, black_rows] = PeriodOf(info.levels->black);
-    columns = std::lcm(columns, black_columns);
-    rows = std::lcm(rows, black_rows);
-  }
-  return {columns, rows};
-}
-
 bool HasResponse(const ResponseCurves* response, int channels) {
   if (response == nullptr) return false;
   for (int c = 0; c < channels; ++c) {
@@ -132,6 +120,17 @@ std::array<std::optional<float>, 4> SpikesOf(const SignalFrame& frame) {
 }
 
 }  // namespace
+
+std::pair<int, int> PixelPeriod(const FrameInfo& info) {
+  auto [columns, rows] =
+      info.meaning == SampleMeaning::kMosaic ? PeriodOf(info.cfa) : std::pair{1, 1};
+  if (info.levels && info.meaning != SampleMeaning::kLinear) {
+    const auto [black_columns, black_rows] = PeriodOf(info.levels->black);
+    columns = std::lcm(columns, black_columns);
+    rows = std::lcm(rows, black_rows);
+  }
+  return {columns, rows};
+}
 
 Result<SignalFrame> SignalOf(const Frame& frame, const ResponseCurves* response) {
   const FrameInfo& info = frame.info;

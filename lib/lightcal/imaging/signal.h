@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -49,6 +50,9 @@ struct SignalFrame {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   }
 };
+
+// Columns and rows after which everything about a sample repeats: its filter, its black.
+[[nodiscard]] std::pair<int, int> PixelPeriod(const FrameInfo& info);
 
 // What the samples of a frame mean, on the scale above. `response` serves encoded frames and must
 // outlive the result.

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "lightcal/imaging/signal.h"
+#include "lightcal/records/accuracy_profile.h"
 
 namespace lightcal::kernels {
 
@@ -39,7 +40,9 @@ struct BlockIn {
   float* precisions;     // scratch of the same size
   std::size_t count;     // of samples, at most kBlock
   const Lanes* limit;    // signal up to which a sensor is believed, per lane
+  const Lanes* clip;     // signal from which a sample says nothing but that, per lane
   float fixed_pattern2;  // p^2
+  MergeEstimator estimator;
 };
 struct BlockOut {
   float* value;     // X

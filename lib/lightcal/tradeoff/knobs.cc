@@ -22,11 +22,12 @@ constexpr std::array<Words, 4> kIntervals = {"100000 draws", "10000 draws", "100
 constexpr std::array kDraws = {100000, 10000, 1000, 0};
 constexpr std::array<Words, 4> kTables = {"as in the file", "2.5 deg", "5 deg", "10 deg"};
 constexpr std::array kTableStepsDeg = {0.0, 2.5, 5.0, 10.0};
-constexpr std::array<Words, 3> kSizes = {"full", "half", "quarter"};
-constexpr std::array kStrides = {1, 2, 4};
+constexpr std::array<Words, 5> kSizes = {"full", "half averaged", "half", "quarter averaged",
+                                         "quarter"};
+constexpr std::array kStrides = {1, 2, 2, 4, 4};
 constexpr std::array<Words, 2> kRatios = {"measured", "labels"};
 
-constexpr std::array<Knob, 15> kKnobs = {{
+constexpr std::array<Knob, 16> kKnobs = {{
     {"effects", "which effects the gate lets in", Stage::kFit, kEffects, 1,
      [](AccuracyProfile& p, std::size_t i) { p.effects = kEffects[i]; }},
     {"source_model", "the size of the lamp near the meter", Stage::kFit, kSources, 0,
@@ -51,8 +52,17 @@ constexpr std::array<Knob, 15> kKnobs = {{
      [](AccuracyProfile& p, std::size_t i) { p.cct_method = static_cast<CctMethod>(i); }},
     {"frames", "frames of a bracket", Stage::kPictures, kParts, 0,
      [](AccuracyProfile& p, std::size_t i) { p.pictures.frame_stride = static_cast<int>(i) + 1; }},
-    {"pixels", "size at which pictures are merged, by leaving out", Stage::kPictures, kSizes, 0,
-     [](AccuracyProfile& p, std::size_t i) { p.pictures.pixel_stride = kStrides[i]; }},
+    {"pixels", "size at which pictures are merged, by averaging or by leaving out",
+     Stage::kPictures, kSizes, 0,
+     [](AccuracyProfile& p, std::size_t i) {
+       p.pictures.pixel_stride = kStrides[i];
+       p.pictures.average_pixels = i % 2 == 1;
+     }},
+    {"merge_estimator", "how a sample is made of its frames", Stage::kPictures,
+     kMergeEstimatorWords, 0,
+     [](AccuracyProfile& p, std::size_t i) {
+       p.pictures.estimator = static_cast<MergeEstimator>(i);
+     }},
     {"exposure_ratios", "exposures relative to each other", Stage::kPictures, kRatios, 0,
      [](AccuracyProfile& p, std::size_t i) { p.pictures.measure_ratios = i == 0; }},
     {"frame_checks", "looking for flicker and for what moved", Stage::kPictures, kSwitch, 0,
