@@ -30,7 +30,9 @@ struct WorkPrecision {
 };
 
 // A whole SVG file: error in percent against milliseconds, both logarithmic. Settings without any
-// error of 1e-6 or more stand on the lower edge. At least one point.
+// error of 1e-6 or more stand on the lower edge. Names do not overlap: those of the best line, the
+// usual and the recommended setting stand near or at the end of a line, others where there is room.
+// At least one point.
 [[nodiscard]] std::string WorkPrecisionPlot(const WorkPrecision& study);
 
 }  // namespace lightcal::report
