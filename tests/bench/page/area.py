@@ -76,10 +76,11 @@ def blender_task(bench, meters, truth):
 def made(bench):
     figure = measure.Figure(
         key="area", title="Illuminance from a rectangular light",
-        x_label="time of one illuminance", y_label="worst relative error",
+        x_label="processor time of one illuminance", y_label="worst relative error",
         what="A rectangle of 1.6 x 1.2 m seen whole from 1.1 to 100 half diagonals, meters turned "
-             "any way; truth: Lambert's contour integral in 80 bit numbers. Blender's time is a "
-             "render of 16 pixels and mostly setting up. Radiance (rtrace) is not in Debian 12.",
+             "any way; truth: Lambert's contour integral in 80 bit numbers. Blender renders "
+             "16 pixels with each number of samples, and spends most of its time on setting up. "
+             "Radiance (rtrace) is not in Debian 12.",
         baseline=("lightcal exact", "contour or quadrature"))
     meters = scenes(64 if bench.quick else 512)
     truth = [float(lux_per_candela(p, n)) for p, n in meters]
@@ -111,8 +112,8 @@ def made(bench):
         f"most {measure.off(ladder.error)}")
     sampled = figure.row("plain Monte Carlo (GSL)", "1024 samples")
     if sampled:
-        figure.sentence += (f"; sampling is the wrong knob: 1024 samples cost "
-                            f"{measure.times(sampled.median / ladder.median)} that and are wrong by "
-                            f"up to {measure.off(sampled.error)}")
+        ratio = measure.times(sampled.median / ladder.median)
+        figure.sentence += (f"; sampling is the wrong knob: 1024 samples cost {ratio} that and are "
+                            f"wrong by up to {measure.off(sampled.error)}")
     figure.sentence += "."
     return figure

@@ -77,7 +77,7 @@ rows = []
 for samples in jobs["samples"]:
     scene.cycles.samples = samples
     lux_per_candela(*jobs["meters"][0])
-    start = time.perf_counter()
+    start = time.process_time()
     answers = [lux_per_candela(*meter) for meter in jobs["meters"]]
-    rows.append([samples, (time.perf_counter() - start) / len(answers), answers])
+    rows.append([samples, (time.process_time() - start) / len(answers), answers])
 json.dump(rows, open(out_path, "w", encoding="utf-8"))

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Figure: correlated colour temperature of a chromaticity."""
 import csv
+import os
 import pathlib
+import re
 
 import numpy
 
@@ -69,13 +71,55 @@ def colors(count):
     return (3 * u / d).astype(float), (2 * v / d).astype(float)
 
 
+def argyll_file(path, power):
+    """A spectrum as ArgyllCMS reads it: six decimals, no exponent."""
+    nm = range(360, 831)
+    path.write_text(
+        "SPECT   \n\nORIGINATOR \"page\"\nSPECTRAL_BANDS \"471\"\n"
+        "SPECTRAL_START_NM \"360.000000\"\nSPECTRAL_END_NM \"830.000000\"\n"
+        "SPECTRAL_NORM \"100.000000\"\nNUMBER_OF_FIELDS 471\nBEGIN_DATA_FORMAT\n"
+        + " ".join(f"SPEC_{k}" for k in nm) + "\nEND_DATA_FORMAT\nNUMBER_OF_SETS 1\nBEGIN_DATA\n"
+        + " ".join(f"{p:.6f}" for p in power) + "\nEND_DATA\n")
+
+
+def argyll_task(bench):
+    """specplot takes spectra: black bodies tinted green or magenta, all in one call."""
+    random = numpy.random.default_rng(7)
+    locus = Locus()
+    tint = numpy.exp(-((locus.metres * 1e9 - 545) / 40) ** 2)
+    files, powers = [], []
+    for i in range(16):
+        kelvins = 1e6 / random.uniform(50, 500)
+        power = locus.metres ** -5 / numpy.expm1(C2 / (locus.metres * kelvins))
+        power *= 1 + random.uniform(-0.08, 0.08) * tint
+        powers.append(numpy.round((100 * power / power.max()).astype(float), 6))
+        files.append(bench.work / f"{i}.sp")
+        argyll_file(files[-1], powers[-1])
+    xyz = numpy.array(powers, numpy.longdouble) @ locus.cmf
+    truth = nearest_kelvins(*(xyz[:, :2] / xyz.sum(axis=1, keepdims=True)).T)
+
+    def task():
+        before = os.times()
+        printed = measure.run(["specplot", "-s", *files])
+        after = os.times()
+        spent = after.children_user + after.children_system
+        seconds = (spent - before.children_user - before.children_system) / len(files)
+        answers = [float(x) for x in re.findall(r"CCT = ([0-9.]+)", printed)]
+        errors = sorted(float(e) for e in abs(numpy.array(answers) / truth - 1))
+        yield measure.Row("ArgyllCMS specplot", "", measure.PUBLIC, [seconds], errors[-1],
+                          errors[len(errors) // 2])
+    return task
+
+
 def made(bench):
     figure = measure.Figure(
         key="cct", title="Colour temperature of a chromaticity",
-        x_label="time of one colour", y_label="worst relative error",
+        x_label="processor time of one colour", y_label="worst relative error",
         what="2000 to 20 000 K, |Duv| up to 0.02; truth: the nearest point of the Planckian locus "
              "(CIE 1931, 1 nm, c2 = 1.4388e-2 m K) by brute force in 80 bit numbers. Robertson's "
-             "and Ohno's methods are written here from their papers; LittleCMS is called.",
+             "and Ohno's methods are written here from their papers, LittleCMS is called; "
+             "ArgyllCMS takes spectra (tinted black bodies), prints six decimals, and also works "
+             "out CRI and TLCI.",
         baseline=("lightcal", "side by side"))
     x, y = colors(64 if bench.quick else 1000)
     truth = nearest_kelvins(x, y).astype(float)
@@ -90,6 +134,11 @@ def made(bench):
         figure.versions.append(measure.version_of("liblcms2-dev", "LittleCMS"))
     else:
         figure.missing.append("LittleCMS")
+    if not bench.own_only and measure.is_there("specplot"):
+        tasks.append(argyll_task(bench))
+        figure.versions.append(measure.version_of("argyll", "ArgyllCMS"))
+    else:
+        figure.missing.append("ArgyllCMS")
     measure.measure(figure, tasks, bench.rounds)
     one, mccamy = figure.row("lightcal", "one by one"), figure.row("McCamy")
     robertson = figure.row("LittleCMS") or figure.row("Robertson")

@@ -122,7 +122,7 @@ def draw(figure, path):
     axes.set_xscale("log")
     axes.set_yscale("log")
     least = min(e for row in figure.rows for e in (row.error, row.usual) if e > 0)
-    shown = lambda error: error if error > 0 else least / 10  # noqa: E731  (no error: the lower edge)
+    shown = lambda error: error if error > 0 else least / 10  # noqa: E731  (none: the lower edge)
     times = [q for row in figure.rows for q in row.quartiles]
     errors = [shown(e) for row in figure.rows for e in (row.error, row.usual) if math.isfinite(e)]
     axes.set_xlim(limits(times, 0.06, 0.1))
@@ -170,7 +170,8 @@ def draw(figure, path):
         lines += [(at(q[0], y), at(q[1], y)) for q, (_, y) in
                   zip((row.quartiles for row in finite), points)]
         one_setting = len(finite) == 1 or not finite[0].setting
-        wishes.append((method, size(method, NAME_PX), pixels[:1] + pixels[-1:] + pixels[1:-1], True))
+        ends_first = pixels[:1] + pixels[-1:] + pixels[1:-1]
+        wishes.append((method, size(method, NAME_PX), ends_first, True))
         if not one_setting:
             wishes += [(row.setting, size(row.setting, SETTING_PX), [pixel], False)
                        for row, pixel in zip(finite, pixels)]
@@ -180,7 +181,7 @@ def draw(figure, path):
     inverse = axes.transData.inverted().transform
     for label in labels:
         if label.leader:
-            axes.plot(*zip(*(inverse(p) for p in label.leader)), color=SOFT, linewidth=0.7, zorder=2)
+            axes.plot(*zip(*map(inverse, label.leader)), color=SOFT, linewidth=0.7, zorder=2)
         axes.text(*inverse((label.x, label.y)), label.text, zorder=6,
                   fontsize=NAME_PX if label.must else SETTING_PX, va="bottom",
                   color=COLORS[kinds[label.text]] if label.must else SOFT,

@@ -100,10 +100,10 @@ def by_scipy(problem, draws):
 def made(bench):
     figure = measure.Figure(
         key="intervals", title="The uncertainty of an intensity",
-        x_label="time of one uncertainty", y_label="worst relative error of u(ln I)",
-        what="Intensity and distance offset from six rough readings of 8 % and a prior; truth: draws "
-             "of JCGM 101 with their linear part put in exactly. lightcal's covariance is the "
-             "inverse of J^T J; uncertainties differentiates the whole fit by finite differences.",
+        x_label="processor time of one uncertainty", y_label="worst relative error of u(ln I)",
+        what="Intensity and distance offset from six rough readings of 8 % and a prior; truth: "
+             "draws of JCGM 101 with their linear part put in exactly. lightcal's covariance is "
+             "the inverse of J^T J; uncertainties differentiates the whole fit numerically.",
         baseline=("lightcal covariance", "linear"))
     rows = list(problems(2 if bench.quick else 4))
     random = numpy.random.default_rng(19)
@@ -146,7 +146,7 @@ def made(bench):
         f"{measure.duration(drawn.median)}")
     loop = figure.row("scipy, draw by draw", "1000 draws")
     if loop:
-        figure.sentence += (f", where a thousand draws by scipy take {measure.duration(loop.median)}"
-                            f" for {measure.off(loop.error)}")
+        figure.sentence += (f", where a thousand draws by scipy take "
+                            f"{measure.duration(loop.median)} for {measure.off(loop.error)}")
     figure.sentence += "."
     return figure

@@ -17,7 +17,8 @@ OWN, PUBLISHED, PUBLIC = "lightcal", "published method", "public tool"
 
 @dataclasses.dataclass
 class Row:
-    """One setting of one method: times of its rounds, how far its answers lie from the truth."""
+    """One setting of one method: processor time of its rounds, how far its answers lie from the
+    truth."""
     method: str
     setting: str
     kind: str
@@ -124,9 +125,9 @@ def function_task(method, setting, kind, answer, truth, relative=True):
     """A task that times answer(i) for every truth[i]; one call before the clock starts."""
     def task():
         answer(0)
-        start = time.perf_counter()
+        start = time.process_time()
         answers = [answer(i) for i in range(len(truth))]
-        seconds = (time.perf_counter() - start) / len(truth)
+        seconds = (time.process_time() - start) / len(truth)
         errors = sorted(abs(a - t) / (abs(t) if relative else 1.0)
                         for a, t in zip(answers, truth))
         yield Row(method, setting, kind, [seconds], float(errors[-1]),

@@ -22,7 +22,7 @@ KNOBS = {
 
 
 def side_by_side():
-    """merge_side_by_side as a module: it knows how to call everybody and to read what they write."""
+    """merge_side_by_side as a module: it knows how to call everybody and to read their files."""
     path = str(pathlib.Path(__file__).parents[1] / "merge_side_by_side")
     loader = importlib.machinery.SourceFileLoader("merge_side_by_side", path)
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
@@ -48,7 +48,7 @@ def knob_task(bench, tool, name, truth):
                *map(str, frames)]
 
     def task():
-        seconds = tool.timed(command)[0]
+        seconds = tool.timed(command)[1]
         size = bench.width // stride_px, bench.height // stride_px
         pixels = numpy.fromfile(picture, numpy.float32).reshape(size[::-1])
         yield measure.Row("lightcal's knobs", name, measure.OWN, [seconds],
@@ -60,7 +60,7 @@ def program_task(tool, bench, name, kind, truth):
     command, read = tool.programs(bench.build, bench.work)[name]
 
     def task():
-        seconds = tool.timed(command)[0]
+        seconds = tool.timed(command)[1]
         picture, mosaic = read(bench.width, bench.height)
         yield measure.Row(name, "", kind, [seconds],
                           *errors_of(tool.patch_means(picture, mosaic), truth))
@@ -72,7 +72,7 @@ def made(bench):
     bench.width, bench.height = (768, 512) if bench.quick else (6000, 4000)
     figure = measure.Figure(
         key="merge", title="Merging a bracket of seven frames",
-        x_label="time from files to file", y_label="span of 48 patches' errors",
+        x_label="processor time from files to file", y_label="span of 48 patches' errors",
         what=f"A synthetic bracket of {bench.width} x {bench.height} pixels, 2 EV apart, shutters "
              "off by 3 %, a 1 % knee, unequal pixels, row noise; whole processes, files in memory; "
              "truth: the luminances that made it; each program's scale is set on one patch. "
@@ -99,9 +99,9 @@ def made(bench):
     measure.measure(figure, tasks, 2 if bench.quick else 3)
     base, half = figure.base(), figure.row("lightcal's knobs", "half size")
     figure.sentence = (
-        f"Merge at half size where patches are what you read: {measure.times(base.median / half.median)} "
-        f"faster, and the patches span {measure.off(half.error)} instead of "
-        f"{measure.off(base.error)}")
+        f"Merge at half size where patches are what you read: "
+        f"{measure.times(base.median / half.median)} faster, and the patches span "
+        f"{measure.off(half.error)} instead of {measure.off(base.error)}")
     rival = figure.row("HDRMerge")
     if rival:
         figure.sentence += (f"; HDRMerge takes {measure.times(rival.median / base.median)} "

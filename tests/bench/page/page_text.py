@@ -8,13 +8,14 @@ import sys
 import measure
 
 TITLE = "# What speed costs\n"
-BEGIN = "<!-- From here tests/bench/standing_page writes: what you put in is lost at its next run. -->"
+BEGIN = "<!-- tests/bench/standing_page writes from here; its next run writes it anew. -->"
 END = "<!-- To here. What follows is written by hand and stays. -->"
-HEAD = """Error against time of what lightcal does, beside public tools, all measured in turns (A B A B).
-Down and to the left is better. A mark is the median time at the worst error; the bar across spans the
-quartiles of the times, the thin line down reaches the median error (none: the lower edge). Blue and
-filled is lightcal, orange and open public tools, grey methods written here as they were published.
-Compare the ratios: the seconds are this machine's. One command writes this part of the page:
+HEAD = """Error against time of what lightcal does beside public tools, measured in turns (A B A B).
+Down and to the left is better. A mark is the median processor time (all cores added, so that what
+else the machine does is left out) at the worst error; the bar across spans the quartiles of the
+times, the thin line down reaches the median error (none: the lower edge). Blue and filled is
+lightcal, orange and open public tools, grey methods written here as they were published. Compare
+the ratios: the seconds are this machine's. One command writes this part:
 
 ```sh
 tests/bench/standing_page                 # root: installs what it compares with, builds, measures
@@ -59,11 +60,16 @@ def section(figure):
             f"{' Beside it: ' + beside + '.' if beside else ''}{left_out}\n")
 
 
-def write(figures, path):
-    """Puts the measured part into a page, or makes a page of it alone."""
-    part = "\n".join([BEGIN, "", HEAD, machine() + ".\n", *(section(f) for f in figures), END])
+def by_hand(path):
+    """What stands before and after the measured part of a page that may not be there yet."""
     text = path.read_text(encoding="utf-8") if path.exists() else f"{TITLE}\n{BEGIN}\n{END}\n"
     if text.count(BEGIN) != 1 or text.count(END) != 1:
         sys.exit(f"{path}: the marks of the measured part are not there; put back\n{BEGIN}\n{END}")
     before, rest = text.split(BEGIN)
-    path.write_text(before + part + rest.split(END)[1], encoding="utf-8")
+    return before, rest.split(END)[1]
+
+
+def write(figures, path):
+    before, after = by_hand(path)
+    part = "\n".join([BEGIN, "", HEAD, machine() + ".\n", *(section(f) for f in figures), END])
+    path.write_text(before + part + after, encoding="utf-8")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The quick page of lightcal's own methods is whole, leaves what was written by hand, draws the same
-bytes again, lets no name lie on another, and is not written where a bench fails.
+"""The quick page of lightcal's own methods is whole, leaves what was written by hand, draws the
+same bytes again, lets no name lie on another, and is not written where a bench fails.
 
     quick_page_test.py BUILD
 """
@@ -40,7 +40,7 @@ def check_page(folder):
            and "old" not in text.splitlines(), "what was written by hand did not stay")
     for key in FIGURES:
         figure = measure.load(folder / f"figures/{key}.json")
-        demand(f"## {figure.title}\n" in text and figure.sentence in text, f"{key}: not in the page")
+        demand(f"## {figure.title}\n" in text and figure.sentence in text, f"{key}: not there")
         demand(f"figures/{key}.svg" in text, f"{key}: its picture is not shown")
         for row in figure.rows:
             demand(row.kind != measure.PUBLIC, f"{key}: {row.method} was measured")

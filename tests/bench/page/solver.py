@@ -73,7 +73,7 @@ def scipy_tasks(all_problems):
 def made(bench):
     figure = measure.Figure(
         key="solver", title="The optimum of a fit, six readings",
-        x_label="time of one fit", y_label="worst error of ln I",
+        x_label="processor time of one fit", y_label="worst error of ln I",
         what="Intensity, distance offset and ambient light from six readings of 1.4 % and two "
              "priors; every solver gets the same start, cost, derivatives and data; truth: "
              "Gauss-Newton in 80 bit numbers to a step of 1e-17.",
