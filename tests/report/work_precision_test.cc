@@ -102,6 +102,17 @@ TEST(WorkPrecision, ACombinationIsNamedByItsFirstKnob) {
   EXPECT_TRUE(Names(study).contains("effects none + 3 more"));
 }
 
+TEST(WorkPrecision, ATimeOutsideItsQuartilesIsInTheFrame) {
+  WorkPrecision study = Study(0, 1e-3, 1e-2);
+  study.points.push_back({"rejection none", 0.2e-3, 1e-3, 2e-3, 1e-3});
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(WorkPrecisionPlot(study).c_str()));
+  for (const auto& found : document.select_nodes("//circle")) {
+    const double x = found.node().attribute("cx").as_double();
+    EXPECT_TRUE(x > 84.0 && x < 468.0) << found.node().child("title").text().get();
+  }
+}
+
 TEST(WorkPrecision, TheSameStudyDrawsTheSameBytes) {
   EXPECT_EQ(WorkPrecisionPlot(Study(30, 1e-6, 1e-1)), WorkPrecisionPlot(Study(30, 1e-6, 1e-1)));
 }

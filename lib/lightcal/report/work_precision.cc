@@ -22,8 +22,8 @@ double Shown(double error) { return std::max(kLeastError_percent, 100.0 * error)
 Axis TimeAxis(const WorkPrecision& study) {
   double low = study.points.front().low, high = study.points.front().high;
   for (const WorkPoint& point : study.points) {
-    low = std::min(low, point.low);
-    high = std::max(high, point.high);
+    low = std::min({low, point.low, point.seconds});
+    high = std::max({high, point.high, point.seconds});
   }
   low = std::max(low, 1e-7);
   const double margin = std::max(1.15, std::pow(std::max(1.0, high / low), 0.06));
@@ -117,12 +117,21 @@ class Drawing {
     for (const PlacedLabel& label : labels) {
       if (label.leader) svg_.Line("leader", wishes[label.wish].point, *label.leader);
     }
+    for (const LimitName& limit : limits_) {
+      svg_.Text("note halo", limit.at, limit.ends_there ? "end" : "start", limit.text);
+    }
     for (const PlacedLabel& label : labels) {
       svg_.Text("note halo", label.text_at, "start", wishes[label.wish].text);
     }
   }
 
  private:
+  struct LimitName {
+    std::string text;
+    PagePoint at;
+    bool ends_there = true;
+  };
+
   [[nodiscard]] PagePoint At(const WorkPoint& point) const {
     return {x_.At(kMilliseconds * point.seconds), y_.At(Shown(point.error))};
   }
@@ -136,7 +145,7 @@ class Drawing {
         std::string(name) + " " + Figure(std::round(1e5 * relative) / 1e3) + " %";
     const double width = NoteWidth(text);
     const double left = at_right ? area.right - 4.0 - width : area.left + 4.0;
-    svg_.Text("note", {at_right ? left + width : left, at - 5.0}, at_right ? "end" : "start", text);
+    limits_.push_back({text, {at_right ? left + width : left, at - 5.0}, at_right});
     ground_.taken.push_back({left, at - kNoteLine, left + width, at - 1.0});
   }
 
@@ -153,6 +162,7 @@ class Drawing {
   const WorkPrecision& study_;
   Axis x_, y_;
   LabelGround ground_;
+  std::vector<LimitName> limits_;
 };
 
 }  // namespace

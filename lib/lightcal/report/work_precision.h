@@ -12,8 +12,8 @@ namespace lightcal::report {
 
 enum class WorkPointKind : std::uint8_t { kSetting, kUsual, kRecommended };
 
-// One setting. Times in seconds: the median of its runs and their quartiles. error: relative,
-// against the reference.
+// One setting. Times in seconds: the median of its runs and their quartiles; what a knob is
+// credited with may lie outside them. error: relative, against the reference.
 struct WorkPoint {
   std::string name;
   double seconds = 0.0, low = 0.0, high = 0.0;
