@@ -12,8 +12,8 @@ namespace lightcal::report {
 
 enum class WorkPointKind : std::uint8_t { kSetting, kUsual, kRecommended };
 
-// One setting. Times in seconds: the median of its runs and their quartiles. error: relative,
-// against the reference.
+// One setting. Times in seconds: the median of its runs and their quartiles; what a knob is
+// credited with may lie outside them. error: relative, against the reference.
 struct WorkPoint {
   std::string name;
   double seconds = 0.0, low = 0.0, high = 0.0;
@@ -30,7 +30,9 @@ struct WorkPrecision {
 };
 
 // A whole SVG file: error in percent against milliseconds, both logarithmic. Settings without any
-// error of 1e-6 or more stand on the lower edge. At least one point.
+// error of 1e-6 or more stand on the lower edge. Names do not overlap: those of the best line, the
+// usual and the recommended setting stand near or at the end of a line, others where there is room.
+// At least one point.
 [[nodiscard]] std::string WorkPrecisionPlot(const WorkPrecision& study);
 
 }  // namespace lightcal::report
