@@ -2,9 +2,11 @@
 // Where the names of a figure's points stand so that none lies on another.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/report/svg.h"

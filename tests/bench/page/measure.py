@@ -180,7 +180,8 @@ def off(error):
     """"2e-5", "0.4 %", "12 %"."""
     if error == 0:
         return "0"
-    return two_digits(float(f"{error:.1g}")) if error < 1e-4 else f"{two_digits(100 * error)} %"
+    rounded = float(f"{error:.1g}")
+    return two_digits(rounded) if rounded < 1e-4 else f"{two_digits(100 * error)} %"
 
 
 def duration(seconds):

@@ -19,6 +19,7 @@ sys.path.insert(0, str(HERE))
 import diagram  # noqa: E402
 import measure  # noqa: E402
 import page_text  # noqa: E402
+import place_names  # noqa: E402
 
 HAND = f"# Title\n\n{page_text.BEGIN}\nold\n{page_text.END}\n\nby hand\n"
 FIGURES = ("merge", "cct", "area", "solver", "intervals", "whole_run")
@@ -31,7 +32,7 @@ def demand(condition, text):
 
 def check_names(labels, key):
     for a, b in itertools.combinations(labels, 2):
-        demand(not diagram.overlap(a.box, b.box), f"{key}: {a.text} lies on {b.text}")
+        demand(not place_names.overlap(a.box, b.box), f"{key}: {a.text} lies on {b.text}")
 
 
 def check_page(folder):

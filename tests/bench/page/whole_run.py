@@ -107,7 +107,7 @@ def made(bench):
         f"leaving out the effects moves a lamp by {measure.off(without.error)}")
     hand = figure.row("numpy and scipy by hand")
     if hand:
-        figure.sentence += (f", a script by hand takes {measure.times(hand.median / base.median)} "
+        figure.sentence += (f"; a script by hand takes {measure.times(hand.median / base.median)} "
                             f"the time and is off by {measure.off(hand.error)}")
     figure.sentence += "."
     return figure
