@@ -292,6 +292,7 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   merged.scale_source = ScaleSourceOf(request);
   merged.gauge_sd = (*work)->planned.gauge_sd;
   merged.corrections = (*work)->corrections;
+  merged.masked_pixels = (*work)->masked.empty() ? 0 : merged.corrections.hot_pixels();
   merged.scale_u95_relative = kZ95 * scale->sd_relative;
   merged.plan = merger->plan();
   merged.noise_source = (*work)->planned.noise_source;

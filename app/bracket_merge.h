@@ -65,7 +65,8 @@ struct MergedBracket {
   std::string scale_source;    // "iso_prior" "anchor" "camera"
   double scale_u95_relative = 0.0;
   double gauge_sd = 0.0;          // what labels leave open about all exposures together, relative
-  SampleCorrections corrections;  // by the camera's profile
+  SampleCorrections corrections;  // by the camera's profile, and of masked pixels
+  std::size_t masked_pixels = 0;  // that hold no number in some frame
   double clipped_fraction = 0.0;  // of the samples, in every frame
   MergePlan plan;
   NoiseSource noise_source = NoiseSource::kEstimated;

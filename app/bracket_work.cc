@@ -10,6 +10,7 @@
 #include "lightcal/imaging/flat_field.h"
 #include "lightcal/imaging/merge_bracket.h"
 #include "lightcal/imaging/thin_frame.h"
+#include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal::app {
@@ -17,7 +18,9 @@ namespace {
 
 constexpr std::size_t kScratchFrom = std::size_t{1} << 29;  // bytes of samples
 
-Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
+// Frames into work.frames, and which of their pixels hold no number.
+Result<void> LoadFrames(const std::vector<FrameInfo>& infos, BracketWork& work,
+                        Warnings& warnings) {
   std::size_t bytes = 0;
   for (const FrameInfo& info : infos) {
     const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
@@ -25,18 +28,24 @@ Result<std::vector<Frame>> LoadFrames(const std::vector<FrameInfo>& infos) {
              static_cast<std::size_t>(info.channels);
   }
   const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
-  std::vector<std::optional<Result<Frame>>> loaded(infos.size());
+  std::vector<std::optional<Result<MaskedPicture>>> loaded(infos.size());
   ParallelFor(static_cast<int>(infos.size()), [&](int i) {
-    auto& frame = loaded[static_cast<std::size_t>(i)];
-    frame = LoadFrame(infos[static_cast<std::size_t>(i)], store);
-    if (*frame) LetGo(**frame, 0, (*frame)->info.height);  // before the next one needs the memory
+    auto& picture = loaded[static_cast<std::size_t>(i)];
+    picture = LoadMaskedFrame(infos[static_cast<std::size_t>(i)], store);
+    if (!*picture) return;
+    const Frame& frame = (*picture)->frame;
+    LetGo(frame, 0, frame.info.height);  // before the next one needs the memory
   });
-  std::vector<Frame> frames;
-  for (auto& frame : loaded) {
-    if (!*frame) return Propagate(std::move(*frame));
-    frames.push_back(std::move(**frame));
+  for (auto& picture : loaded) {
+    if (!*picture) return Propagate(std::move(*picture));
+    if (!(*picture)->masked.empty()) warnings.push_back(WarningOfMasked(**picture));
+    Frame& frame = work.frames.emplace_back(std::move((*picture)->frame));
+    for (const std::size_t pixel : (*picture)->masked) {
+      work.masked.push_back(static_cast<int>(pixel) % frame.info.width);
+      work.masked.push_back(static_cast<int>(pixel) / frame.info.width);
+    }
   }
-  return frames;
+  return {};
 }
 
 tl::unexpected<Error> NoExposure(const std::string& file, const std::string& what,
@@ -130,6 +139,7 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
     if (!corrections) return Propagate(std::move(corrections));
     work.corrections = std::move(*corrections);
   }
+  work.corrections.AddHotPixels(work.masked);
   work.corrections.SetThinning(work.thinning);
   if (!request.cosine_fourth || work.corrections.flat()) return {};
   const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
@@ -158,10 +168,10 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
         "holds no colour, or nobody knows its camera's; leave --space out for luminance");
   }
   Append(color->warnings, warnings);
-  auto frames = LoadFrames(bracket.frames);
-  if (!frames) return Propagate(std::move(frames));
   auto work = std::make_unique<BracketWork>();
-  work->frames = std::move(*frames);
+  if (auto loaded = LoadFrames(bracket.frames, *work, warnings); !loaded) {
+    return Propagate(std::move(loaded));
+  }
   work->thinning = ThinningOf(work->frames.front().info, request.work);
   if (!work->thinning.averaged) {
     for (Frame& frame : work->frames) frame = ThinFrame(frame, work->thinning);

@@ -26,6 +26,7 @@ struct BracketWork {
   PlannedMerge planned;
   std::optional<FrameAlignment> alignment;
   PictureColor color;
+  std::vector<int> masked;  // x, y, x, y, ... of the whole picture: no number in some frame
   SampleCorrections corrections;
 };
 

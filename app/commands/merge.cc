@@ -251,7 +251,9 @@ nlohmann::ordered_json ToJson(const MergedBracket& merged) {
     document["crop"] = {crop->x, crop->y, crop->width, crop->height};
   }
   const SampleCorrections& corrections = merged.corrections;
-  if (!corrections.empty()) {
+  if (merged.masked_pixels > 0) document["masked_pixels"] = merged.masked_pixels;
+  if (corrections.flat() || corrections.black_sd() > 0.0 ||
+      corrections.hot_pixels() > merged.masked_pixels) {
     auto& camera =
         document["camera"] = {{"hot_pixels", corrections.hot_pixels()},
                               {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};

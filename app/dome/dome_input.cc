@@ -10,7 +10,7 @@
 #include "dome/dome_views.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/sensor_to_xyz.h"
-#include "lightcal_devices/captures/bracket.h"
+#include "lightcal_devices/captures/masked_picture.h"
 
 namespace lightcal::app {
 namespace {
@@ -66,8 +66,9 @@ std::vector<float> ScaledSamples(View2d<const float> samples, double nits_per_un
 
 // One file in its own projection.
 Result<DomeInput> ReadPicture(const std::string& file, const DomeInputRequest& request) {
-  auto frame = ReadFrame(file);
-  if (!frame) return Propagate(std::move(frame));
+  auto picture = ReadMaskedFrame(file);
+  if (!picture) return Propagate(std::move(picture));
+  Frame* const frame = &picture->frame;
   const auto convention = request.convention.value_or(LuminanceConvention::kPhotometric);
   auto luminance = LuminanceOfPicture(*frame, convention);
   if (!luminance) return Propagate(std::move(luminance));
@@ -79,6 +80,7 @@ Result<DomeInput> ReadPicture(const std::string& file, const DomeInputRequest& r
   DomeInput input;
   input.files = {file};
   input.warnings = frame->info.warnings;
+  if (!picture->masked.empty()) input.warnings.push_back(WarningOfMasked(*picture));
   for (const Warning& warning : luminance->warnings) {
     if (request.convention && warning.code == "relative_scale") continue;  // the person has said
     input.warnings.push_back(warning);
@@ -88,7 +90,11 @@ Result<DomeInput> ReadPicture(const std::string& file, const DomeInputRequest& r
   if (convention == LuminanceConvention::kPhotometric) TakeOwnScale(frame->info, input);
   input.has_colour = frame->info.channels == 3;
   input.primaries = frame->info.chromaticities;
-  if (request.clip) input.clipped = ClippedFrom(samples, *request.clip);
+  if (request.clip) {
+    input.clipped = ClippedFrom(samples, *request.clip);
+  } else if (frame->info.levels) {
+    input.clipped = ClippedFrom(samples, frame->info.levels->maximum);
+  }
 
   Dome& dome = input.dome;
   dome.width = luminance->width;

@@ -16,6 +16,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/picture.h"
 
 namespace lightcal {
@@ -245,14 +246,41 @@ Result<Bracket> OpenBracket(std::span<const std::string> patterns,
   return bracket;
 }
 
+namespace {
+
+// The bracket's exposure for a frame read anew.
+Result<void> TakeExposure(const FrameInfo& info, Frame& frame) {
+  if (frame.info.width != info.width || frame.info.height != info.height) {
+    return Failed("file_changed", info.file, "the file changed while it was read; try again");
+  }
+  frame.info.exposure = info.exposure;
+  return {};
+}
+
+}  // namespace
+
 Result<Frame> LoadFrame(const FrameInfo& info, SampleStore store) {
   auto frame = ReadFrame(info.file, store);
   if (!frame) return frame;
-  if (frame->info.width != info.width || frame->info.height != info.height) {
-    return Failed("file_changed", info.file, "the file changed while it was read; try again");
-  }
-  frame->info.exposure = info.exposure;
+  if (auto taken = TakeExposure(info, *frame); !taken) return Propagate(std::move(taken));
   return frame;
+}
+
+Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store) {
+  auto picture = ReadMaskedFrame(info.file, store);
+  if (!picture) return picture;
+  if (auto taken = TakeExposure(info, picture->frame); !taken) return Propagate(std::move(taken));
+  return picture;
+}
+
+Result<MaskedPicture> ReadMaskedFrame(const std::string& path, SampleStore store) {
+  if (!LooksLikeRaw(path)) {
+    auto picture = ReadMaskedPicture(path, store);
+    if (picture || picture.error().code != "unknown_format") return picture;
+  }
+  auto frame = ReadFrame(path, store);
+  if (!frame) return Propagate(std::move(frame));
+  return MaskedPicture{std::move(*frame), {}};
 }
 
 Result<FrameInfo> ReadFrameInfo(const std::string& path) {

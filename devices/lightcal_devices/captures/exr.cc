@@ -20,6 +20,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -31,6 +32,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kMostSamples = 1 << 29;
+constexpr float kMostHalf = 65504.0F;
 constexpr std::string_view kOurPrefix = "lightcal:";
 
 Xy XyOf(const Imath::V2f& v) { return {v.x, v.y}; }
@@ -180,10 +182,13 @@ struct Floats {
   float* data = nullptr;
 };
 
+std::size_t SamplesOf(const FrameInfo& info) {
+  return static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
+         static_cast<std::size_t>(info.channels);
+}
+
 Result<Floats> Room(const FrameInfo& info, SampleStore store) {
-  const std::size_t samples = static_cast<std::size_t>(info.width) *
-                              static_cast<std::size_t>(info.height) *
-                              static_cast<std::size_t>(info.channels);
+  const std::size_t samples = SamplesOf(info);
   if (store == SampleStore::kMemory) {
     // Not cleared: what a damaged file promises but does not hold costs no memory.
     auto memory = std::make_shared_for_overwrite<float[]>(samples);
@@ -206,6 +211,34 @@ void ReadPlain(Imf::InputFile& file, const Chosen& chosen, const FrameInfo& info
   }
   file.setFrameBuffer(buffer);
   file.readPixels(window.min.y, window.max.y);
+}
+
+// The most that half floats hold stands for all that is more, as does infinity: such samples are
+// clipped.
+void FindHalfClip(const Imf::ChannelList& channels, const Chosen& chosen, FrameInfo& info,
+                  std::span<float> samples) {
+  const bool half =
+      chosen.luminance_chroma ||
+      std::any_of(chosen.names.begin(), chosen.names.end(),
+                  [&](const std::string& name) { return channels[name].type == Imf::HALF; });
+  if (!half) return;
+  std::size_t clipped = 0;
+  for (float& sample : samples) {
+    if (!(sample >= kMostHalf)) continue;
+    sample = std::isinf(sample) ? kMostHalf : sample;
+    ++clipped;
+  }
+  if (clipped == 0) return;
+  SensorLevels levels;
+  levels.black.values = {0.0F};
+  levels.white.fill(kMostHalf);
+  levels.maximum = kMostHalf;
+  info.levels = levels;
+  info.warnings.push_back(
+      {"clipped", info.file,
+       std::to_string(clipped) +
+           " samples hold the most that a half float can, 65504, or more: there the picture is "
+           "a lower bound; write it with 32-bit floats"});
 }
 
 // OpenEXR's own reconstruction of chroma.
@@ -262,6 +295,7 @@ Result<Frame> ReadExr(const std::string& path, SampleStore store) {
         } else {
           ReadPlain(file, chosen, info, room->data);
         }
+        FindHalfClip(file.header().channels(), chosen, info, {room->data, SamplesOf(info)});
         const View2d<const float> view(room->data, info.width, info.height, info.channels);
         return Frame{std::move(info), view, std::move(room->owner),
                      store == SampleStore::kScratchFile};

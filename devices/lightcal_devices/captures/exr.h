@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenEXR files, read through OpenEXR itself: OpenImageIO refuses luminance/chroma files, and costs
-// 0.2 s where OpenEXR costs 1 ms. The functions mean what picture.h says.
+// 0.2 s where OpenEXR costs 1 ms. The functions mean what picture.h says; a half float's infinity
+// comes as 65504, the most it holds, and a picture that holds that names it as its levels' maximum.
 #pragma once
 
 #include <string>

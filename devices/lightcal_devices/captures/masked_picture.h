@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture some of whose pixels hold no light: for who measures regions of it and can do without.
+// A picture some of whose pixels hold no light: for who can do without them, and says so.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,24 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
+#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 
 struct MaskedPicture {
-  Frame frame;                      // samples of masked pixels are 0
+  // Masked pixels hold the mean of the nearest ones to both sides in their row that are not; 0 in a
+  // row that has none.
+  Frame frame;
   std::vector<std::size_t> masked;  // ascending, y * width + x: NaN, infinite or beyond 1e30
 };
-// As ReadPicture (picture.h), but for bad_samples.
-[[nodiscard]] Result<MaskedPicture> ReadMaskedPicture(const std::string& path);
+// As ReadPicture (picture.h), ReadFrame and LoadFrame (bracket.h), but for bad_samples.
+[[nodiscard]] Result<MaskedPicture> ReadMaskedPicture(const std::string& path,
+                                                      SampleStore store = SampleStore::kMemory);
+[[nodiscard]] Result<MaskedPicture> ReadMaskedFrame(const std::string& path,
+                                                    SampleStore store = SampleStore::kMemory);
+[[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store);
+
+// bad_samples: how many pixels are masked, which is the first, and that their neighbours stand in.
+[[nodiscard]] Warning WarningOfMasked(const MaskedPicture& picture);
 
 }  // namespace lightcal

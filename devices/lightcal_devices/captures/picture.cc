@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/exr.h"
@@ -159,6 +161,27 @@ Result<Frame> Kept(std::vector<Sample> samples, FrameInfo info, SampleStore stor
   return Frame{std::move(info), view, std::move(owner)};
 }
 
+// Masked pixels from their neighbours in the row.
+void Fill(std::vector<float>& samples, std::size_t width, std::size_t channels,
+          std::span<const std::size_t> masked) {
+  const auto is_masked = [&](std::size_t pixel) {
+    return std::ranges::binary_search(masked, pixel);
+  };
+  for (const std::size_t pixel : masked) {
+    const std::size_t begin = pixel / width * width, end = begin + width;
+    std::size_t left = pixel, right = pixel;
+    while (left > begin && is_masked(left)) --left;
+    while (right + 1 < end && is_masked(right)) ++right;
+    if (is_masked(left)) left = right;
+    if (is_masked(right)) right = left;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const bool none = is_masked(left);
+      samples[pixel * channels + c] =
+          none ? 0.0F : 0.5F * (samples[left * channels + c] + samples[right * channels + c]);
+    }
+  }
+}
+
 Result<Frame> FrameOf(OiioPicture picture, FrameInfo info, SampleStore store) {
   if (!picture.is_float) return Kept(std::move(picture.codes), std::move(info), store);
   return Kept(std::move(picture.floats), std::move(info), store);
@@ -220,8 +243,20 @@ Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
   return frame;
 }
 
-Result<MaskedPicture> ReadMaskedPicture(const std::string& path) {
-  auto frame = ReadUnchecked(path, SampleStore::kMemory);
+Warning WarningOfMasked(const MaskedPicture& picture) {
+  const FrameInfo& info = picture.frame.info;
+  const std::size_t count = picture.masked.size();
+  const auto width = static_cast<std::size_t>(info.width);
+  const std::size_t first = picture.masked.empty() ? 0 : picture.masked.front();
+  return {"bad_samples", info.file,
+          std::to_string(count) + (count == 1 ? " pixel that holds" : " pixels that hold") +
+              " no number (not finite, or beyond 1e30), the first at " +
+              std::to_string(first % width) + "," + std::to_string(first / width) +
+              ": the nearest ones to both sides stand in"};
+}
+
+Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore store) {
+  auto frame = ReadUnchecked(path, store);
   if (!frame) return Propagate(std::move(frame));
   const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
   if (floats == nullptr || CheckSamples(*floats, path)) return MaskedPicture{std::move(*frame), {}};
@@ -234,11 +269,10 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path) {
   }
   for (std::size_t i = 0; i < samples.size(); i += channels) {
     const std::span<float> pixel = std::span(samples).subspan(i, channels);
-    if (std::none_of(pixel.begin(), pixel.end(), IsBadSample)) continue;
-    std::fill(pixel.begin(), pixel.end(), 0.0F);
-    masked.push_back(i / channels);
+    if (std::any_of(pixel.begin(), pixel.end(), IsBadSample)) masked.push_back(i / channels);
   }
-  auto whole = Kept(std::move(samples), std::move(frame->info), SampleStore::kMemory);
+  Fill(samples, static_cast<std::size_t>(floats->width()), channels, masked);
+  auto whole = Kept(std::move(samples), std::move(frame->info), store);
   if (!whole) return Propagate(std::move(whole));
   return MaskedPicture{std::move(*whole), std::move(masked)};
 }

@@ -78,7 +78,8 @@ void SampleCorrections::ReplaceHot(const SignalFrame& frame, int y, float* value
       const float var_a = variance[left.value_or(right.value_or(at))];
       const float var_b = variance[right.value_or(left.value_or(at))];
       value[at] = 0.5F * (a + b);
-      variance[at] = 0.25F * (var_a + var_b + (a - b) * (a - b));
+      const bool both = left && right;  // on the edge one stands alone, and nothing tells the slope
+      variance[at] = both ? 0.25F * (var_a + var_b + (a - b) * (a - b)) : 2.0F * var_a;
     }
   }
 }

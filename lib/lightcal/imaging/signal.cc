@@ -175,7 +175,13 @@ Result<SignalFrame> SignalOf(const Frame& frame, const ResponseCurves* response)
       channel[static_cast<std::size_t>(lane)] = place.channel;
     }
   }
-  if (info.meaning == SampleMeaning::kLinear) signal.clip.fill(kNoClipping);
+  if (info.meaning == SampleMeaning::kLinear) {
+    // Levels of a linear picture: it holds the most that its encoding can.
+    const auto most = info.levels
+                          ? info.levels->maximum / static_cast<float>(info.radiance_exposure)
+                          : kNoClipping;
+    signal.clip.fill(most);
+  }
   return signal;
 }
 
@@ -195,6 +201,10 @@ void ReadSignals(const SignalFrame& frame, int y, std::size_t first, std::span<f
 
 void FindClipping(std::span<SignalFrame> frames, const FrameDone& done) {
   std::array<std::optional<float>, 4> highest;
+  std::array<float, 4> known = frames.empty() ? std::array<float, 4>{} : frames[0].clip;
+  for (const SignalFrame& frame : frames) {
+    for (std::size_t c = 0; c < known.size(); ++c) known[c] = std::min(known[c], frame.clip[c]);
+  }
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const auto spikes = SpikesOf(frames[i]);
     if (done) done(i);
@@ -204,6 +214,7 @@ void FindClipping(std::span<SignalFrame> frames, const FrameDone& done) {
   }
   for (SignalFrame& frame : frames) {
     for (std::size_t c = 0; c < highest.size(); ++c) {
+      if (frame.clip[c] > kClipUnknownFrom) frame.clip[c] = known[c];
       const bool plausible = highest[c] && (frame.clip[c] > kClipUnknownFrom ||
                                             *highest[c] > kLowestClip * frame.clip[c]);
       if (plausible) frame.clip[c] = std::min(frame.clip[c], *highest[c]);
