@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
 #include <string>
 
 #include "lightcal/records/session_codec.h"
@@ -51,7 +52,7 @@ TEST(CameraProfile, AProfileAndSensitivitiesAreToldApartByTheirSchema) {
 
 TEST(CameraProfile, ANumberThatIsNotFiniteIsNotWritten) {
   CameraProfile profile = CameraProfileFromJson(EveryKey(), "camera.json").value();
-  profile.noise.front().noise.scale = 0.0 / 0.0;
+  profile.noise.front().noise.scale = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(CameraProfileToJson(profile).error().code, "not_finite");
 }
 

@@ -30,6 +30,7 @@ std::optional<Xyz> Solve(const Matrix3& m, const std::array<double, 3>& neutral)
   };
   std::array<double, 3> c{};
   const double whole = determinant(m);
+  if (whole == 0.0) return std::nullopt;
   for (std::size_t column = 0; column < 3; ++column) {
     Matrix3 replaced = m;
     for (std::size_t row = 0; row < 3; ++row) replaced[row][column] = neutral[row];

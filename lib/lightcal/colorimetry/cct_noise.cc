@@ -4,11 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace lightcal {
 
 double SignalToNoise(const Xyz& color, const XyzNoise& noise) {
-  return std::hypot(color.X, color.Y, color.Z) / std::hypot(noise.X, noise.Y, noise.Z);
+  const double size = std::hypot(noise.X, noise.Y, noise.Z);
+  if (size == 0.0) return std::numeric_limits<double>::infinity();
+  return std::hypot(color.X, color.Y, color.Z) / size;
 }
 
 XyCovariance XyCovarianceFrom(const Xyz& color, const XyzNoise& noise) {

@@ -23,7 +23,7 @@ struct XyzNoise {
   return {color.X * share, color.Y * share, color.Z * share};
 }
 
-// |XYZ| / |noise|: 1/s for a relative noise s on each.
+// |XYZ| / |noise|: 1/s for a relative noise s on each; infinite without noise.
 [[nodiscard]] double SignalToNoise(const Xyz& color, const XyzNoise& noise);
 
 // Covariance of (x, y) to first order: with S = X + Y + Z,

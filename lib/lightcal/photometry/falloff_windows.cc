@@ -28,7 +28,7 @@ double FilamentFalloff(Metres d, Metres r) {
 double UnityHdrpFalloff(Metres d, Metres r, bool range_attenuation) {
   const double window = RangeWindow(d, r);
   const double kept = range_attenuation ? Square(window) : (window > 0.0 ? 1.0 : 0.0);
-  return kept * Square(std::min(1.0 / std::abs(d.value()), 100.0));
+  return kept * Square(1.0 / std::max(std::abs(d.value()), 0.01));
 }
 
 double ThreeJsFalloff(Metres d, Metres r, double decay) {
