@@ -45,12 +45,9 @@ fit::UncertaintyInput Solved(const fit::Estimation& estimation) {
   return input;
 }
 
-// Blocks of ten thousand draws, no question of digits.
-void PrintDraws(const Rows& rows, const std::vector<fit::Estimation>& all, int blocks) {
-  const std::string draws = std::to_string(blocks * fit::kSamplesPerBlock);
-  rows.PrintEach("lightcal draws", draws + " draws", [&](std::size_t i) {
-    const auto sampled =
-        fit::SampleEstimate(Solved(all[i]), {.digits = 9, .largest_blocks = blocks});
+void PrintDraws(const Rows& rows, const std::vector<fit::Estimation>& all, int draws) {
+  rows.PrintEach("lightcal draws", std::to_string(draws) + " draws", [&](std::size_t i) {
+    const auto sampled = fit::SampleEstimate(Solved(all[i]), fit::JustSamples(draws));
     return sampled ? sampled->parameters[fit::kLnIntensity].sd : kNone;
   });
 }
@@ -64,11 +61,11 @@ void OwnIntervals(const std::vector<Numbers>& table) {
     const auto covariance = fit::EstimateCovariance(Solved(all[i]));
     return covariance ? std::sqrt((*covariance)[0]) : kNone;
   });
-  for (const int blocks : {1, 10}) PrintDraws(rows, all, blocks);
+  for (const int draws : {10'000, 100'000}) PrintDraws(rows, all, draws);
 }
 
 void OwnMillionDraws(const std::vector<Numbers>& table) {
-  PrintDraws(Rows(table, ErrorScale::kRelative), EstimationsOf(table), 100);
+  PrintDraws(Rows(table, ErrorScale::kRelative), EstimationsOf(table), 1'000'000);
 }
 
 }  // namespace page
