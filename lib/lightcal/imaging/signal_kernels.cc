@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #if defined(__x86_64__)
 #define LIGHTCAL_EVERY_CPU \
@@ -11,8 +12,20 @@
 #define LIGHTCAL_EVERY_CPU
 #endif
 
+// Of the loop that follows: what one pointer writes no other one reads. GCC gives up on vectorising
+// where it would have to check more than ten pairs of pointers.
+#if defined(__GNUC__) && !defined(__clang__)
+#define LIGHTCAL_INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define LIGHTCAL_INDEPENDENT
+#endif
+
 namespace lightcal::kernels {
 namespace {
+
+// Below every signal. Loops choose between two numbers and never branch: a branch is not
+// vectorised.
+constexpr float kNever = -std::numeric_limits<float>::infinity();
 
 // Chi-square of n degrees of freedom beyond which frames contradict each other: five standard
 // deviations above its mean.
@@ -50,15 +63,15 @@ void SignalFromFloats(const float* in, std::size_t count, const Lanes& black, co
 
 namespace {
 
-// A block's numbers between the passes.
+// A block's numbers between the passes, each of kBlock samples.
 struct Scratch {
   float* sum;
   float* predicted;  // X
   float* weights;    // sum of t^2/Var
   float* degrees;    // frames that count, less one
   float* noise;      // Var of sum
-  const float* limit;
-  const float* clip;
+  float* limit;
+  float* clip;
 };
 
 // Pass 1, X from frames 0..i for the last i whose predicted signal t_i X is believed. X_i =
@@ -68,103 +81,141 @@ struct Scratch {
 LIGHTCAL_EVERY_CPU
 void Predict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   const std::size_t count = in.count;
+  float* sum = scratch.sum;
+  float* predicted = scratch.predicted;
+  float* used = out.used;
+  const float* limit = scratch.limit;
+  const float* clip = scratch.clip;
+  LIGHTCAL_INDEPENDENT
   for (std::size_t i = 0; i < count; ++i) {
-    scratch.sum[i] = 0.0F;
-    out.used[i] = -1.0F;
-    scratch.predicted[i] = in.signals[i] / in.frames[0].exposure;
+    sum[i] = 0.0F;
+    used[i] = -1.0F;
+    predicted[i] = in.signals[i] / in.frames[0].exposure;
   }
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float index = static_cast<float>(k);
+    LIGHTCAL_INDEPENDENT
     for (std::size_t i = 0; i < count; ++i) {
-      scratch.sum[i] += frame.poisson_weight * y[i];
-      const float x = scratch.sum[i] * frame.prefix_reciprocal;
-      const bool believed = x * frame.exposure < scratch.limit[i] && y[i] < scratch.clip[i];
-      scratch.predicted[i] = believed ? x : scratch.predicted[i];
-      out.used[i] = believed ? index : out.used[i];
+      sum[i] += frame.poisson_weight * y[i];
+      const float x = sum[i] * frame.prefix_reciprocal;
+      // Both at once: how far below its limit the one that is farthest above it lies.
+      const float above = std::max(x * frame.exposure - limit[i], y[i] - clip[i]);
+      const bool believed = above < 0.0F;
+      predicted[i] = believed ? x : predicted[i];
+      used[i] = believed ? index : used[i];
     }
   }
 }
 
-// Whether frame `index` counts for a sample whose predicted signal in it is tX.
-inline bool Counts(float index, float used, float predicted_signal, float floor) {
-  return index <= used && (predicted_signal >= floor || used == index);
+// 1 where frame `index` counts for a sample whose predicted signal in it is tX, else 0.
+inline float Counts(float index, float used, float predicted_signal, float floor) {
+  const float least = used == index ? kNever : floor;
+  const float seen = predicted_signal >= least ? 1.0F : 0.0F;
+  return index <= used ? seen : 0.0F;
 }
 
 // Pass 2: weights from the predicted signal, not from the noisy sample.
 LIGHTCAL_EVERY_CPU
 void Weigh(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   const std::size_t count = in.count;
+  float* sum = scratch.sum;
+  float* weights = scratch.weights;
+  float* degrees = scratch.degrees;
+  float* value = out.value;
+  const float* predicted = scratch.predicted;
+  const float* used = out.used;
+  LIGHTCAL_INDEPENDENT
   for (std::size_t i = 0; i < count; ++i) {
-    scratch.sum[i] = 0.0F;
-    scratch.weights[i] = 0.0F;
-    scratch.degrees[i] = -1.0F;
+    sum[i] = 0.0F;
+    weights[i] = 0.0F;
+    degrees[i] = -1.0F;
   }
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     float* precision = in.precisions + k * kBlock;
     const float index = static_cast<float>(k);
+    LIGHTCAL_INDEPENDENT
     for (std::size_t i = 0; i < count; ++i) {
-      const float x = scratch.predicted[i] > 0.0F ? scratch.predicted[i] : 0.0F;
+      const float x = std::max(predicted[i], 0.0F);
       const float inverse = 1.0F / (frame.shot * x + frame.read);
-      const bool counts = Counts(index, out.used[i], x * frame.exposure, frame.floor);
-      precision[i] = counts ? inverse : 0.0F;
-      scratch.degrees[i] += counts ? 1.0F : 0.0F;
+      const float counts = Counts(index, used[i], x * frame.exposure, frame.floor);
+      precision[i] = counts * inverse;
+      degrees[i] += counts;
       const float weight = precision[i] * frame.exposure;
-      scratch.sum[i] += weight * y[i];
-      scratch.weights[i] += weight * frame.exposure;
+      sum[i] += weight * y[i];
+      weights[i] += weight * frame.exposure;
     }
   }
+  LIGHTCAL_INDEPENDENT
   for (std::size_t i = 0; i < count; ++i) {
-    const bool clipped = out.used[i] < 0.0F;
-    out.value[i] = clipped ? scratch.predicted[i] : scratch.sum[i] / scratch.weights[i];
+    // Clipped samples have neither sum nor weights.
+    const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
+    value[i] = (sum[i] + clipped * predicted[i]) / (weights[i] + clipped);
   }
 }
 
 // Pass 3: chi-square of the frames about their mean, into scratch.sum.
 LIGHTCAL_EVERY_CPU
 void Contradict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
-  for (std::size_t i = 0; i < in.count; ++i) scratch.sum[i] = 0.0F;
+  float* sum = scratch.sum;
+  const float* value = out.value;
+  for (std::size_t i = 0; i < in.count; ++i) sum[i] = 0.0F;
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float* precision = in.precisions + k * kBlock;
+    LIGHTCAL_INDEPENDENT
     for (std::size_t i = 0; i < in.count; ++i) {
-      const float residual = y[i] - frame.exposure * out.value[i];
-      scratch.sum[i] += precision[i] * residual * residual;
+      const float residual = y[i] - frame.exposure * value[i];
+      sum[i] += precision[i] * residual * residual;
     }
   }
 }
 
 LIGHTCAL_EVERY_CPU
 void Vary(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  const float* chi2 = scratch.sum;
+  const float* weights = scratch.weights;
+  const float* degrees = scratch.degrees;
+  const float* value = out.value;
+  const float* used = out.used;
+  float* variance = out.variance;
+  const float pattern2 = in.fixed_pattern2;
+  LIGHTCAL_INDEPENDENT
   for (std::size_t i = 0; i < in.count; ++i) {
-    const bool clipped = out.used[i] < 0.0F;
-    const float n = scratch.degrees[i] > 1.0F ? scratch.degrees[i] : 1.0F;
-    const float chi2 = scratch.sum[i];
-    const float widening = chi2 > ContradictionAt(n) ? chi2 / n : 1.0F;
-    const float square = out.value[i] * out.value[i];
-    const float noise = clipped ? square : widening / scratch.weights[i];
-    out.variance[i] = noise + in.fixed_pattern2 * square;
+    const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
+    const float n = std::max(degrees[i], 1.0F);
+    const float share = chi2[i] / n;
+    const float widening = chi2[i] > ContradictionAt(n) ? share : 1.0F;
+    const float square = value[i] * value[i];
+    const float noise = widening / (weights[i] + clipped);
+    variance[i] = (used[i] < 0.0F ? square : noise) + pattern2 * square;
   }
 }
 
 // sum c y, sum c t and sum c^2 Var y of the frames that count.
 LIGHTCAL_EVERY_CPU
 void AddUp(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  float* sum = scratch.sum;
+  float* weights = scratch.weights;
+  float* noise = scratch.noise;
+  const float* predicted = scratch.predicted;
+  const float* used = out.used;
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float index = static_cast<float>(k);
+    LIGHTCAL_INDEPENDENT
     for (std::size_t i = 0; i < in.count; ++i) {
-      const float x = scratch.predicted[i] > 0.0F ? scratch.predicted[i] : 0.0F;
-      const bool counts = Counts(index, out.used[i], x * frame.exposure, frame.floor);
-      const float weight = counts ? frame.poisson_weight : 0.0F;
-      scratch.sum[i] += weight * y[i];
-      scratch.weights[i] += weight * frame.exposure;
-      scratch.noise[i] += weight * weight * (frame.shot * x + frame.read);
+      const float x = std::max(predicted[i], 0.0F);
+      const float counts = Counts(index, used[i], x * frame.exposure, frame.floor);
+      const float weight = counts * frame.poisson_weight;
+      sum[i] += weight * y[i];
+      weights[i] += weight * frame.exposure;
+      noise[i] += weight * weight * (frame.shot * x + frame.read);
     }
   }
 }
@@ -172,16 +223,21 @@ void AddUp(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
 // The same of the one frame that out.used names.
 LIGHTCAL_EVERY_CPU
 void TakeLongest(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  float* sum = scratch.sum;
+  float* weights = scratch.weights;
+  float* noise = scratch.noise;
+  const float* predicted = scratch.predicted;
+  const float* used = out.used;
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
     const float index = static_cast<float>(k);
+    LIGHTCAL_INDEPENDENT
     for (std::size_t i = 0; i < in.count; ++i) {
-      const float x = scratch.predicted[i] > 0.0F ? scratch.predicted[i] : 0.0F;
-      const bool taken = index == out.used[i];
-      scratch.sum[i] = taken ? y[i] : scratch.sum[i];
-      scratch.weights[i] = taken ? frame.exposure : scratch.weights[i];
-      scratch.noise[i] = taken ? frame.shot * x + frame.read : scratch.noise[i];
+      const float taken = index == used[i] ? 1.0F : 0.0F;
+      sum[i] += taken * y[i];
+      weights[i] += taken * frame.exposure;
+      noise[i] += taken * (frame.shot * std::max(predicted[i], 0.0F) + frame.read);
     }
   }
 }
@@ -189,13 +245,22 @@ void TakeLongest(const BlockIn& in, const BlockOut& out, const Scratch& scratch)
 // X and its variance from what AddUp or TakeLongest left.
 LIGHTCAL_EVERY_CPU
 void Divide(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  const float* sum = scratch.sum;
+  const float* weights = scratch.weights;
+  const float* noise = scratch.noise;
+  const float* predicted = scratch.predicted;
+  const float* used = out.used;
+  float* value = out.value;
+  float* variance = out.variance;
+  const float pattern2 = in.fixed_pattern2;
+  LIGHTCAL_INDEPENDENT
   for (std::size_t i = 0; i < in.count; ++i) {
-    const bool clipped = out.used[i] < 0.0F;
-    const float value = clipped ? scratch.predicted[i] : scratch.sum[i] / scratch.weights[i];
-    const float noise =
-        clipped ? value * value : scratch.noise[i] / (scratch.weights[i] * scratch.weights[i]);
-    out.value[i] = value;
-    out.variance[i] = noise + in.fixed_pattern2 * value * value;
+    // Clipped samples have neither sum nor weights nor noise.
+    const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
+    const float weight = weights[i] + clipped;
+    const float x = (sum[i] + clipped * predicted[i]) / weight;
+    value[i] = x;
+    variance[i] = noise[i] / (weight * weight) + (clipped + pattern2) * x * x;
   }
 }
 
