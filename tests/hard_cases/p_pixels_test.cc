@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "half_exr.h"
 #include "hard_case.h"
 #include "merge_brackets.h"
 #include "plain_exr.h"
@@ -299,36 +300,6 @@ TEST(HardCaseP, P09TheSunBesideMoonlightFitsTheFileAndItsHalfFormIsWarned) {
                "fp16_overflow");
 }
 
-// A half float's bits of a value of at most 11 bits.
-std::uint16_t HalfOf(float value) {
-  if (std::isinf(value)) return 0x7C00;
-  if (value == 0.0F) return 0;
-  int exponent = 0;
-  const float mantissa = std::frexp(value, &exponent);  // 0.5 to 1
-  const auto bits = static_cast<int>(std::lround(mantissa * 2048.0F)) - 1024;
-  return static_cast<std::uint16_t>((exponent + 14) * 1024 + bits);
-}
-
-// EncodeExr's picture with half floats.
-std::string HalfExr(const std::vector<float>& samples) {
-  std::string bytes = EncodeExr(kWide, kHigh, samples);
-  bytes.resize(bytes.size() - kHigh * (8 + 8 + 4 * kWide));
-  const std::string channel = std::string("Y\0", 2) + BytesOf(std::int32_t{2});
-  bytes.replace(bytes.find(channel), channel.size(),
-                std::string("Y\0", 2) + BytesOf(std::int32_t{1}));
-  const std::size_t first = bytes.size() + 8 * kHigh;
-  for (std::size_t y = 0; y < kHigh; ++y) {
-    bytes += BytesOf(static_cast<std::uint64_t>(first + y * (8 + 2 * kWide)));
-  }
-  for (int y = 0; y < kHigh; ++y) {
-    bytes += BytesOf(std::int32_t{y}, std::int32_t{2 * kWide});
-    for (int x = 0; x < kWide; ++x) {
-      bytes += BytesOf(HalfOf(samples[static_cast<std::size_t>(y * kWide + x)]));
-    }
-  }
-  return bytes;
-}
-
 // A room of 1000 to 2000, a lamp of ten times 65504, in the units of the longer of two frames.
 Words HalfFrames(const TempDir& folder, double shorter) {
   std::mt19937 random(5);
@@ -344,7 +315,7 @@ Words HalfFrames(const TempDir& folder, double shorter) {
                                         : static_cast<float>(noisy));
     }
     const std::string name = "half_" + std::to_string(words.size()) + ".exr";
-    words.push_back(folder.Write(name, HalfExr(samples)));
+    words.push_back(folder.Write(name, EncodeHalfExr(kWide, kHigh, samples)));
   }
   return words;
 }
