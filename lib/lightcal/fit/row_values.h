@@ -26,8 +26,9 @@ void FillRowValues(const Observation& o, std::size_t i, const ForwardModel& mode
   if (!o.differenced && i < model.bounce_per_candela.size()) {
     row.bounce = model.bounce_per_candela[i] * length_m * length_m;
   }
+  if (!(o.measured_lx > 0.0)) return;
   const double relative = o.sigma_lx / o.measured_lx;
-  if (o.measured_lx > 0.0 && relative < kLinearBeyondSigma) {
+  if (relative < kLinearBeyondSigma) {
     row.form = o.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
     row.sigma = relative;
   }

@@ -16,13 +16,20 @@ bool CarriesIntensity(const ReadingRow& row, double ambient) {
          row.measured > row.ambient_gain * ambient;
 }
 
+// What a row that carries intensity asks for; infinite where the lamp, moved by d0, shines past it.
+double LnIntensityOf(const ReadingRow& row, double d0, double ambient) {
+  const double per_candela = LuxPerCandela(row, d0);
+  if (per_candela == 0.0) return std::numeric_limits<double>::infinity();
+  return std::log((row.measured - row.ambient_gain * ambient) / per_candela);
+}
+
 double MeanLnIntensity(const Estimation& estimation, double d0, double ambient) {
   double sum = 0.0;
   double weights = 0.0;
   for (const ReadingRow& row : estimation.rows) {
     if (!CarriesIntensity(row, ambient)) continue;
     const double weight = 1.0 / (row.sigma * row.sigma);
-    sum += weight * std::log((row.measured - row.ambient_gain * ambient) / LuxPerCandela(row, d0));
+    sum += weight * LnIntensityOf(row, d0, ambient);
     weights += weight;
   }
   return weights > 0.0 ? sum / weights : 0.0;
@@ -193,8 +200,7 @@ std::optional<double> MedianLnIntensity(const Estimation& estimation, double d0,
   values.reserve(estimation.rows.size());
   for (const ReadingRow& row : estimation.rows) {
     if (!CarriesIntensity(row, ambient)) continue;
-    const double direct = row.measured - row.ambient_gain * ambient;
-    values.push_back({std::log(direct / LuxPerCandela(row, d0)), 1.0 / row.sigma});
+    values.push_back({LnIntensityOf(row, d0, ambient), 1.0 / row.sigma});
   }
   if (values.empty()) return std::nullopt;
   return WeightedMedian(values);
