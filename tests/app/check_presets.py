@@ -215,7 +215,15 @@ def main():
                            ("b.tscn", "nothing"), ("c.usda", "#usda 1.0\n"), ("d.usda", "PXR-USDC"),
                            ("e.usda", "#usda 1.0\nmetersPerUnit = 1\nupAxis = \"Z\"\n"
                                       "def SphereLight \"x\"\n{\n"
-                                      "asset inputs:shaping:ies:file = @../lamp.ies@\n}\n")):
+                                      "asset inputs:shaping:ies:file = @../lamp.ies@\n}\n"),
+                           # What would divide by nothing, or pass all numbers.
+                           ("f.tscn", "[gd_scene format=3]\n[node name=\"x\" type=\"SpotLight3D\"]\n"
+                                      "spot_angle_attenuation = 0\n"),
+                           ("g.usda", "#usda 1.0\nmetersPerUnit = 1\nupAxis = \"Z\"\n"
+                                      "def SphereLight \"x\"\n{\nbool inputs:normalize = true\n"
+                                      "float inputs:radius = 0\n}\n"),
+                           ("h.tscn", "[gd_scene format=3]\n[node name=\"x\" type=\"OmniLight3D\"]\n"
+                                      "light_energy = 1e308\nlight_intensity_lumens = 1e308\n")):
             path = pathlib.Path(folder) / name
             path.write_text(text)
             done = lightcal("check", path, "--session", session)

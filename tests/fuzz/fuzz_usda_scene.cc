@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A .usda that `check` takes gives lights of finite numbers; any other is refused in words. The IES
+// file that it may name is the door of fuzz_ies.
+#include <exception>
+#include <stdexcept>
+
+#include "check/read_scenes.h"
+#include "require.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto no_file = [](const std::string& name) -> std::string {
+    throw std::runtime_error(name + " is not there");
+  };
+  try {
+    lightcal::app::RequireFinite(
+        lightcal::app::LightsOfUsda(std::string(lightcal::fuzz::TextOf(data, size)), no_file));
+  } catch (const std::exception&) {
+    // Refused: LightsOfPreset says so, with what the reader says of a name from the file.
+    return 0;
+  }
+  return 0;
+}
