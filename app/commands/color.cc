@@ -133,7 +133,8 @@ Result<TypedColor> ColorTyped(const Options& options) {
   }
   auto xy = options.xy.empty() ? XyOfTemperature(options) : TypedXy(options);
   if (!xy) return Propagate(std::move(xy));
-  return TypedColor{*xy, XyzFromXyAtUnitY(*xy)};
+  // Without y it has no XYZ, and AnswerFor refuses it.
+  return TypedColor{*xy, xy->y == 0.0 ? Xyz{} : XyzFromXyAtUnitY(*xy)};
 }
 
 std::string PlotOf(const ColorAnswer& answer) {

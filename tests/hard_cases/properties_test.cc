@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -277,7 +278,7 @@ RC_GTEST_PROP(RoundTrip, OfColours, ()) {
 RC_GTEST_PROP(RoundTrip, OfTemperatureAndDuv, ()) {
   const double mired = Between(0.0, 999.0);
   const double duv = Between(-0.0499, 0.0499);
-  const Kelvin temperature(1e6 / mired);
+  const Kelvin temperature(mired > 0.0 ? 1e6 / mired : std::numeric_limits<double>::infinity());
   const CctResult found = CctFromXy(XyFromCct(temperature, duv));
   // Far below the locus of cold lamps its centre of curvature is near: other points are nearer.
   RC_PRE(found.valid() && std::abs(found.duv - duv) < 1e-3);

@@ -29,7 +29,7 @@ struct SamplingRule {
   bool all_blocks = false;  // draw them all, stable or not
 };
 
-// At least `samples` draws, in as few blocks of at most 10 000 as hold them. samples >= 1.
+// At least `samples` draws, in as few blocks of at most 10 000 as hold them. samples >= 2.
 [[nodiscard]] SamplingRule JustSamples(int samples);
 
 // Draws what was measured from its distribution (each reading's own error, each instrument's

@@ -41,7 +41,8 @@ struct Geometry {
 Geometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
   const Vec3 to_lamp = lamp - meter;
   const double distance = Length(to_lamp);
-  const double cosine = Dot(to_lamp, normal) / (distance * Length(normal));
+  const double lengths = distance * Length(normal);
+  const double cosine = lengths > 0.0 ? Dot(to_lamp, normal) / lengths : 0.0;
   return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
 }
 

@@ -215,7 +215,7 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
     if (effect.name == "distance_offset") {
       const double ratio = d / (d + estimate.theta[kDistanceOffset]);
       part = ratio * ratio - 1.0;
-    } else if (effect.name == "ambient") {
+    } else if (effect.name == "ambient" && row.raw_lx > 0.0) {
       part = estimate.theta[kAmbient] / row.raw_lx;
     } else if (effect.name == "finite_source") {
       part = row.off_axis ? SizeOffAxis(row) : AxialShapeFactor(model.shape, d) - 1.0;

@@ -148,9 +148,10 @@ std::optional<TilePattern> TileOf(View2d<const float> value, View2d<const float>
     }
   }
   mean /= count;
+  if (!(mean > 0.0)) return std::nullopt;
   scatter /= count * mean * mean;
   expected /= count * mean * mean;
-  if (!(mean > 0.0) || !(expected < kWellExposed * kWellExposed)) return std::nullopt;
+  if (!(expected < kWellExposed * kWellExposed)) return std::nullopt;
   return TilePattern{scatter - expected, kTileSpread * scatter};
 }
 

@@ -51,6 +51,7 @@ void PredictedLamp::FindHotSpots() {
       HotSpot foot{from, std::max(kLeastSize, std::abs(wall - from[axis]))};
       foot.position_m[axis] = wall;
       hot_spots_.push_back(foot);
+      if (aim[axis] == 0.0) continue;  // along the wall
       const double along = (wall - from[axis]) / aim[axis];
       if (along > 0.0) to_wall = std::min(to_wall, along);
     }

@@ -16,8 +16,8 @@ namespace lightcal {
 //   2 [ (a/A) atan(b/A) + (b/B) atan(a/B) ]
 // Source: Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-4, four times.
 [[nodiscard]] double LuxPerNitOfRect(Metres width, Metres height, Metres distance);
-// A rectangle's limit as its other side goes to 0, per candela of axial intensity [lx/cd], t half its
-// length:
+// A rectangle's limit as its other side goes to 0, per candela of axial intensity [lx/cd], t half
+// its length:
 //   1/2 [ 1/(d^2 + t^2) + atan(t/d)/(t d) ]
 [[nodiscard]] double LuxPerCandelaOfLine(Metres length, Metres distance);
 // A cylinder's mantle (ends dark) of radius R and length l, seen square on from distance d > R

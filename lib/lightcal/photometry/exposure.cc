@@ -2,6 +2,7 @@
 #include "lightcal/photometry/exposure.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace lightcal {
@@ -40,6 +41,7 @@ LuxSeconds SaturatingExposure(double iso) { return {kSaturationLuxSeconds / iso}
 
 Nits MaximumLuminance(const CameraSettings& camera, double q) {
   const double per_nit = SensorExposure(Nits(1.0), camera, q).value;
+  if (!(per_nit > 0.0)) return Nits(std::numeric_limits<double>::infinity());
   return Nits(SaturatingExposure(camera.iso).value / per_nit);
 }
 

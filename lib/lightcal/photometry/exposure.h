@@ -61,7 +61,7 @@ struct LuxSeconds {
 // The luminance that just saturates, and the factor that maps it to 1:
 //   L_max = 78/(q S) N^2/t        exposure = 1/L_max
 // With S = 100 and q = 0.65 this is 1.2 2^EV100, the only case in which the seed's
-// 2^EV100 78/(q S) holds: it counts S twice.
+// 2^EV100 78/(q S) holds: it counts S twice. Infinite where no light reaches the sensor.
 [[nodiscard]] Nits MaximumLuminance(const CameraSettings& camera, double q = kIsoLensConstant);
 [[nodiscard]] double ExposureScale(const CameraSettings& camera, double q = kIsoLensConstant);
 

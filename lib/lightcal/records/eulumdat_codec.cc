@@ -399,8 +399,9 @@ Result<std::string> EulumdatText(const PhotometricFile& file) {
   double printed_flux = 0.0;
   for (const LampSet& set : lamps)
     printed_flux += records::NumberEitherWay(Number(set.flux.value())).value_or(0.0);
-  const double candela_to_printed = 1000.0 / printed_flux;
-  if (!std::isfinite(candela_to_printed * file.table.peak().intensity.value())) {
+  const double candela_to_printed = printed_flux > 0.0 ? 1000.0 / printed_flux : 0.0;
+  if (!(candela_to_printed > 0.0) ||
+      !std::isfinite(candela_to_printed * file.table.peak().intensity.value())) {
     return Refused("bad_table", header.luminaire,
                    "its luminous flux is no number of lumens that EULUMDAT can print, and its "
                    "candela are per 1000 of them");

@@ -19,7 +19,7 @@ namespace {
 // to 0.3 %, a share of its own width.
 constexpr double kReferenceShare = 0.01;
 constexpr double kIntervalShare = 0.02;
-constexpr TimingRules kOnce{.least_runs = 1, .most_runs = 2, .seconds = 0.0};
+constexpr TimingRules kOnce{.least_runs = 1, .most_runs = 2, .seconds = 1e-6};
 constexpr std::size_t kCombinations = 6;
 constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
 constexpr double kSeenError = 1e-9;  // relative
