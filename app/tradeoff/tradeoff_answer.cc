@@ -24,7 +24,7 @@ using tradeoff::Study;
 using tradeoff::SweepRow;
 
 constexpr double kSeenError = 1e-9;
-constexpr double kSeenChangeOfU = 5e-4;  // of u
+constexpr double kSeenChangeOfU = 0.01;  // of u: the strictest setting draws it to half of that
 
 std::string Percent(double relative) {
   return relative < kSeenError ? "none" : RoundedText(100.0 * relative, 2) + " %";
