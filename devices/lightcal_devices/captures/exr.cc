@@ -61,7 +61,8 @@ std::optional<double> NumberOf(const Imf::Header& header, const char* name) {
     number = real->value();
   } else if (const auto* whole = header.findTypedAttribute<Imf::IntAttribute>(name)) {
     number = whole->value();
-  } else if (const auto* ratio = header.findTypedAttribute<Imf::RationalAttribute>(name)) {
+  } else if (const auto* ratio = header.findTypedAttribute<Imf::RationalAttribute>(name);
+             ratio != nullptr && ratio->value().d != 0) {
     number = static_cast<double>(ratio->value());
   }
   return std::isfinite(number) ? std::optional(number) : std::nullopt;
