@@ -88,16 +88,10 @@ def made(bench):
     tasks = [measure.program_task([bench.program("lightcal_page_own"), "area", table],
                                   lambda _: measure.OWN)]
     gsl = None if bench.own_only else bench.program("lightcal_page_gsl_area")
-    if gsl:
+    if figure.takes(gsl, ("libgsl-dev", "GSL")):
         tasks.append(measure.program_task([gsl, table], lambda _: measure.PUBLIC))
-        figure.versions.append(measure.version_of("libgsl-dev", "GSL"))
-    else:
-        figure.missing.append("GSL")
-    if not bench.own_only and bench.python_has("scipy"):
+    if figure.takes(not bench.own_only and bench.python_has("scipy"), measure.SCIPY):
         tasks += scipy_tasks(meters[:16], truth[:16])
-        figure.versions.append(measure.version_of("python3-scipy", "scipy"))
-    else:
-        figure.missing.append("scipy")
     if not bench.own_only and not bench.quick and measure.is_there("blender"):
         tasks.append(blender_task(bench, meters[:8], truth[:8]))
         figure.versions.append(measure.version_of("blender"))

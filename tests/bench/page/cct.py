@@ -129,16 +129,10 @@ def made(bench):
         [bench.program("lightcal_page_own"), "cct", table],
         lambda method: measure.OWN if method in own else measure.PUBLISHED)]
     public = None if bench.own_only else bench.program("lightcal_page_lcms")
-    if public:
+    if figure.takes(public, ("liblcms2-dev", "LittleCMS")):
         tasks.append(measure.program_task([public, table], lambda _: measure.PUBLIC))
-        figure.versions.append(measure.version_of("liblcms2-dev", "LittleCMS"))
-    else:
-        figure.missing.append("LittleCMS")
-    if not bench.own_only and measure.is_there("specplot"):
+    if figure.takes(not bench.own_only and measure.is_there("specplot"), ("argyll", "ArgyllCMS")):
         tasks.append(argyll_task(bench))
-        figure.versions.append(measure.version_of("argyll", "ArgyllCMS"))
-    else:
-        figure.missing.append("ArgyllCMS")
     measure.measure(figure, tasks, bench.rounds)
     one, mccamy = figure.row("lightcal", "one by one"), figure.row("McCamy")
     robertson = figure.row("LittleCMS") or figure.row("Robertson")

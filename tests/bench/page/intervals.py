@@ -124,20 +124,15 @@ def made(bench):
                 "numpy, all draws at once", f"{draws} draws", measure.PUBLIC,
                 lambda i, n=draws: sampled_u(rows[i], n, numpy.random.default_rng((n, i)), False),
                 truth))
-    if not bench.own_only and bench.python_has("scipy"):
+    if figure.takes(not bench.own_only and bench.python_has("scipy"), measure.SCIPY):
         tasks += [measure.function_task("scipy, draw by draw", f"{n} draws", measure.PUBLIC,
                                         lambda i, n=n: by_scipy(
                                             rows[i], n, numpy.random.default_rng((n, i))), truth)
                   for n in ((100,) if bench.quick else (100, 1000))]
-        figure.versions.append(measure.version_of("python3-scipy", "scipy"))
-    else:
-        figure.missing.append("scipy")
-    if not bench.own_only and bench.python_has("uncertainties"):
+    if figure.takes(not bench.own_only and bench.python_has("uncertainties"),
+                    ("python3-uncertainties", "uncertainties")):
         tasks.append(measure.function_task("python3-uncertainties", "linear", measure.PUBLIC,
                                            lambda i: by_uncertainties(rows[i]), truth))
-        figure.versions.append(measure.version_of("python3-uncertainties", "uncertainties"))
-    else:
-        figure.missing.append("uncertainties")
     measure.measure(figure, tasks, 3)
     base, drawn = figure.base(), figure.row("lightcal draws", "100000 draws")
     figure.sentence = (

@@ -13,6 +13,7 @@ import sys
 import time
 
 OWN, PUBLISHED, PUBLIC = "lightcal", "published method", "public tool"
+SCIPY = ("python3-scipy", "scipy")  # package, name
 
 
 @dataclasses.dataclass
@@ -60,6 +61,16 @@ class Figure:
 
     def base(self):
         return self.row(*self.baseline)
+
+    def takes(self, there, *tools):
+        """Whether public tools take part: (package, name) of each is said with its version, or as
+        missing."""
+        for package, name in tools:
+            if there:
+                self.versions.append(version_of(package, name))
+            else:
+                self.missing.append(name)
+        return there
 
 
 def save(figure, path):

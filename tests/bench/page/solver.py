@@ -85,18 +85,11 @@ def made(bench):
     tasks = [measure.program_task([bench.program("lightcal_page_own"), "solver", table],
                                   lambda _: measure.OWN)]
     public = None if bench.own_only else bench.program("lightcal_page_solvers")
-    if public:
+    if figure.takes(public, ("libgsl-dev", "GSL"), ("libeigen3-dev", "Eigen"),
+                    ("libcminpack-dev", "cminpack")):
         tasks.append(measure.program_task([public, table], lambda _: measure.PUBLIC))
-        figure.versions += [measure.version_of("libgsl-dev", "GSL"),
-                            measure.version_of("libeigen3-dev", "Eigen"),
-                            measure.version_of("libcminpack-dev", "cminpack")]
-    else:
-        figure.missing += ["GSL", "Eigen", "cminpack"]
-    if not bench.own_only and bench.python_has("scipy"):
+    if figure.takes(not bench.own_only and bench.python_has("scipy"), measure.SCIPY):
         tasks += scipy_tasks(rows[:32])
-        figure.versions.append(measure.version_of("python3-scipy", "scipy"))
-    else:
-        figure.missing.append("scipy")
     measure.measure(figure, tasks, bench.rounds)
     base, full = figure.base(), figure.row("lightcal", "full")
     figure.sentence = (

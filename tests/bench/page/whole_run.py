@@ -92,11 +92,8 @@ def made(bench):
                           float(off[-1]), float(off[len(off) // 2]))
 
     tasks = [own(name) for name in PROFILES]
-    if not bench.own_only and bench.python_has("scipy"):
+    if figure.takes(not bench.own_only and bench.python_has("scipy"), measure.SCIPY):
         tasks.append(by_hand)
-        figure.versions.append(measure.version_of("python3-scipy", "scipy"))
-    else:
-        figure.missing.append("scipy")
     measure.measure(figure, tasks, bench.rounds if bench.quick else 15)
     base, without = figure.base(), figure.row("lightcal run", "no effects")
     least = min(row.median for row in figure.rows if row.kind == measure.OWN)
