@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/charuco.h"
-#include "lightcal/imaging/find_chart.h"
+#include "lightcal/imaging/camera/find_chart.h"
+#include "lightcal/imaging/scene/charuco.h"
 
 namespace lightcal::app {
 

@@ -9,9 +9,9 @@
 #include "camera/camera_use.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
-#include "lightcal/imaging/align_frames.h"
-#include "lightcal/imaging/patches.h"
-#include "lightcal/imaging/plan_merge.h"
+#include "lightcal/imaging/bracket/align_frames.h"
+#include "lightcal/imaging/bracket/plan_merge.h"
+#include "lightcal/imaging/scene/patches.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal_devices/captures/bracket.h"
 

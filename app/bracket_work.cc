@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "lightcal/core/parallel.h"
-#include "lightcal/imaging/flat_field.h"
-#include "lightcal/imaging/merge_bracket.h"
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/merge_bracket.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/camera/flat_field.h"
 #include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/sample_store.h"
 

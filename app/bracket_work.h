@@ -8,13 +8,13 @@
 
 #include "bracket_merge.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/align_frames.h"
-#include "lightcal/imaging/plan_merge.h"
-#include "lightcal/imaging/response.h"
-#include "lightcal/imaging/sample_corrections.h"
-#include "lightcal/imaging/sensor_to_xyz.h"
-#include "lightcal/imaging/signal.h"
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/align_frames.h"
+#include "lightcal/imaging/bracket/plan_merge.h"
+#include "lightcal/imaging/bracket/response.h"
+#include "lightcal/imaging/bracket/sample_corrections.h"
+#include "lightcal/imaging/bracket/signal.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
 
 namespace lightcal::app {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/panorama.h"
-#include "lightcal/imaging/picture_luminance.h"
+#include "lightcal/imaging/panorama/panorama.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/fit/plan_readings.h"
+#include "lightcal/fit/plan/plan_readings.h"
 #include "session_input.h"
 #include "session_names.h"
 

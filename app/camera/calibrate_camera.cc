@@ -13,10 +13,10 @@
 #include "camera/raw_region.h"
 #include "camera/scale_readings.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/camera_scale.h"
-#include "lightcal/imaging/dark_frame.h"
-#include "lightcal/imaging/flat_field.h"
-#include "lightcal/imaging/noise.h"
+#include "lightcal/imaging/bracket/noise.h"
+#include "lightcal/imaging/camera/camera_scale.h"
+#include "lightcal/imaging/camera/dark_frame.h"
+#include "lightcal/imaging/camera/flat_field.h"
 #include "session_files.h"
 
 namespace lightcal::app {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "lightcal/imaging/camera_scale.h"
-#include "lightcal/imaging/dark_frame.h"
-#include "lightcal/imaging/flat_field.h"
+#include "lightcal/imaging/camera/camera_scale.h"
+#include "lightcal/imaging/camera/dark_frame.h"
+#include "lightcal/imaging/camera/flat_field.h"
 #include "output_files.h"
 
 namespace lightcal::app {

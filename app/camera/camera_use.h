@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/plan_merge.h"
-#include "lightcal/imaging/sample_corrections.h"
-#include "lightcal/imaging/sensor_to_xyz.h"
-#include "lightcal/imaging/signal.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/bracket/plan_merge.h"
+#include "lightcal/imaging/bracket/sample_corrections.h"
+#include "lightcal/imaging/bracket/signal.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/records/camera_profile.h"
 
 namespace lightcal::app {

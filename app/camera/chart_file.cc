@@ -8,7 +8,7 @@
 #include <span>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/find_chart.h"
+#include "lightcal/imaging/camera/find_chart.h"
 
 namespace lightcal::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "camera/chart_file.h"
 #include "camera/raw_region.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
-#include "lightcal/imaging/color_chart.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/color_chart.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "output_files.h"
 #include "session_files.h"
 

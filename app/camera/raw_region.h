@@ -7,7 +7,7 @@
 
 #include "bracket_merge.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/patches.h"
+#include "lightcal/imaging/scene/patches.h"
 
 namespace lightcal::app {
 

@@ -10,7 +10,7 @@
 #include "camera/raw_region.h"
 #include "lightcal/core/matrix3.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/panorama.h"
+#include "lightcal/imaging/panorama/panorama.h"
 #include "session_files.h"
 
 namespace lightcal::app {

@@ -4,8 +4,8 @@
 
 #include "bracket_merge.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/camera_scale.h"
-#include "lightcal/imaging/patches.h"
+#include "lightcal/imaging/camera/camera_scale.h"
+#include "lightcal/imaging/scene/patches.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {

@@ -10,8 +10,8 @@
 #include "capture_reading.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/highlight.h"
-#include "lightcal/imaging/mirror_ball.h"
+#include "lightcal/imaging/scene/highlight.h"
+#include "lightcal/imaging/scene/mirror_ball.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "session_files.h"
 

@@ -7,7 +7,7 @@
 
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "output_files.h"
 #include "session_files.h"
 

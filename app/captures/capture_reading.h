@@ -6,7 +6,7 @@
 
 #include "bracket_merge.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/patches.h"
+#include "lightcal/imaging/scene/patches.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {

@@ -9,7 +9,7 @@
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
 #include "picture_record.h"
 
 namespace lightcal::app {

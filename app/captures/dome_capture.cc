@@ -6,7 +6,7 @@
 
 #include "dome/dome_work.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "picture_record.h"
 #include "session_files.h"

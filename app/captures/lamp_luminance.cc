@@ -6,7 +6,7 @@
 
 #include "camera/camera_use.h"
 #include "capture_reading.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "session_files.h"
 
 namespace lightcal::app {

@@ -6,7 +6,7 @@
 
 #include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {

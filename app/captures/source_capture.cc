@@ -9,8 +9,8 @@
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/source_luminance.h"
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/scene/source_luminance.h"
 #include "picture_record.h"
 
 namespace lightcal::app {

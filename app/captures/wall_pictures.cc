@@ -13,9 +13,9 @@
 #include "lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/patches.h"
-#include "lightcal/imaging/picture_luminance.h"
-#include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
+#include "lightcal/imaging/scene/patches.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 #include "session_files.h"
 
 namespace lightcal::app {

@@ -10,7 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {

@@ -9,7 +9,7 @@
 
 #include "dome/dome_views.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/imaging/sensor_to_xyz.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal_devices/captures/masked_picture.h"
 
 namespace lightcal::app {

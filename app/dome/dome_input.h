@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/aimed_picture.h"
-#include "lightcal/imaging/dome_lights.h"
-#include "lightcal/imaging/panorama.h"
-#include "lightcal/imaging/picture_luminance.h"
+#include "lightcal/imaging/panorama/aimed_picture.h"
+#include "lightcal/imaging/panorama/dome_lights.h"
+#include "lightcal/imaging/panorama/panorama.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal::app {
 

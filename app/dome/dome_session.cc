@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/photometry/area_illuminance.h"
 
 namespace lightcal::app {

@@ -8,8 +8,8 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/imaging/compose_dome.h"
-#include "lightcal/imaging/view_scales.h"
+#include "lightcal/imaging/panorama/compose_dome.h"
+#include "lightcal/imaging/panorama/view_scales.h"
 
 namespace lightcal::app {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "dome/dome_input.h"
 #include "lightcal/core/result.h"
-#include "lightcal/imaging/dome_lights.h"
-#include "lightcal/imaging/dome_scale.h"
+#include "lightcal/imaging/panorama/dome_lights.h"
+#include "lightcal/imaging/panorama/dome_scale.h"
 
 namespace lightcal::app {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/fit/plan_readings.h"
+#include "lightcal/fit/plan/plan_readings.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {

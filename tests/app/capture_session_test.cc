@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/records/camera_sensitivities.h"
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"

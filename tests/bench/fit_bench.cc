@@ -7,9 +7,9 @@
 
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/monte_carlo.h"
-#include "lightcal/fit/solve.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/monte_carlo.h"
+#include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "lightcal/fit/costs/normal_prior_cost.h"
-#include "lightcal/fit/solve.h"
+#include "lightcal/fit/model/costs/normal_prior_cost.h"
+#include "lightcal/fit/model/solve.h"
 
 namespace lightcal::fit {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/fit/fit_color.h"
+#include "lightcal/fit/colour/fit_color.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "lamp_twin.h"
 #include "lightcal/fit/estimate_light.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace lightcal {
 namespace {

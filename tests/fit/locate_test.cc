@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp's position from lux readings around it.
-#include "lightcal/fit/locate.h"
+#include "lightcal/fit/locate/locate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <string>
 
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/placed_starts.h"
+#include "lightcal/fit/locate/placed_starts.h"
 #include "located_twin.h"
 
 namespace lightcal {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sampling agrees with the covariance where that is right, and with the truth where it is not.
-#include "lightcal/fit/monte_carlo.h"
+#include "lightcal/fit/model/monte_carlo.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "lamp_twin.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The uncertainty a plan promises is the one that its reading brings.
-#include "lightcal/fit/plan_readings.h"
+#include "lightcal/fit/plan/plan_readings.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "lightcal/fit/solve.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blunders among the readings (rows F06-F08 of the hard inputs).
-#include "lightcal/fit/robust.h"
+#include "lightcal/fit/model/robust.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

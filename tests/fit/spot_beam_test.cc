@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A spot's intensity, cone and aim from twelve meters on the floor.
-#include "lightcal/fit/spot_beam.h"
+#include "lightcal/fit/beam/spot_beam.h"
 
 #include <gtest/gtest.h>
 

@@ -12,10 +12,10 @@
 
 #include "hard_case.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/prepare.h"
-#include "lightcal/fit/solve.h"
-#include "lightcal/fit/starts.h"
-#include "lightcal/fit/uncertainty.h"
+#include "lightcal/fit/model/prepare.h"
+#include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/model/starts.h"
+#include "lightcal/fit/model/uncertainty.h"
 #include "lightcal/photometry/lamp_flicker.h"
 #include "synthetic_dng.h"
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lightcal/imaging/merge_bracket.h"
+#include "lightcal/imaging/bracket/merge_bracket.h"
 
 namespace lightcal {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/imaging/exposure_ratios.h"
+#include "lightcal/imaging/bracket/exposure_ratios.h"
 
 #include <gtest/gtest.h>
 

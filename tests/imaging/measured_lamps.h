@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "lightcal/colorimetry/spectrum.h"
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/records/camera_sensitivities.h"
 
 namespace lightcal::test {

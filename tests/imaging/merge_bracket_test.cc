@@ -2,7 +2,7 @@
 // A bracket's merged samples against scenes of known luminance: bias, noise, intervals. The
 // simulator (synthetic_camera) shares no code with the estimator and adds pixels of unequal gain, a
 // knee of 1 % and noise of whole rows.
-#include "lightcal/imaging/merge_bracket.h"
+#include "lightcal/imaging/bracket/merge_bracket.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "lightcal/imaging/plan_merge.h"
+#include "lightcal/imaging/bracket/plan_merge.h"
 #include "simulated_bracket.h"
 
 namespace lightcal::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/imaging/panorama.h"
+#include "lightcal/imaging/panorama/panorama.h"
 
 #include <gtest/gtest.h>
 

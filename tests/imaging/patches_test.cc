@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/imaging/patches.h"
+#include "lightcal/imaging/scene/patches.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-#include "lightcal/imaging/picture_luminance.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/imaging/response.h"
+#include "lightcal/imaging/bracket/response.h"
 
 #include <gtest/gtest.h>
 

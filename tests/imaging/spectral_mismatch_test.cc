@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/imaging/spectral_mismatch.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

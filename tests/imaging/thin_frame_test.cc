@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures made smaller: means are the means of the codes, half of a lamp is clipped, sigma is what
 // brackets scatter, and places stay where they are.
-#include "lightcal/imaging/thin_frame.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "lightcal/imaging/sample_corrections.h"
+#include "lightcal/imaging/bracket/sample_corrections.h"
 #include "merge_truth.h"
 
 namespace lightcal {

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "lightcal/fit/fit_distribution.h"
-#include "lightcal/imaging/board_camera.h"
-#include "lightcal/imaging/charuco.h"
-#include "lightcal/imaging/wall_samples.h"
+#include "lightcal/fit/distribution/fit_distribution.h"
+#include "lightcal/imaging/scene/board_camera.h"
+#include "lightcal/imaging/scene/charuco.h"
+#include "lightcal/imaging/scene/wall_samples.h"
 #include "synthetic_wall.h"
 
 namespace lightcal::test {

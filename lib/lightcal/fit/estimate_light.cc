@@ -8,9 +8,9 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
-#include "lightcal/fit/prepare.h"
-#include "lightcal/fit/robust.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/prepare.h"
+#include "lightcal/fit/model/robust.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
 namespace {

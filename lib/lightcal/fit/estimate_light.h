@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/fit/budget.h"
-#include "lightcal/fit/monte_carlo.h"
-#include "lightcal/fit/observations.h"
-#include "lightcal/fit/uncertainty.h"
+#include "lightcal/fit/model/budget.h"
+#include "lightcal/fit/model/monte_carlo.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/model/uncertainty.h"
 #include "lightcal/light/axial_shape.h"
 #include "lightcal/records/fitted_light.h"
 

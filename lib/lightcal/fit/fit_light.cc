@@ -8,16 +8,16 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/fit/data_sheet.h"
+#include "lightcal/fit/beam/spot_beam.h"
+#include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/estimate_light.h"
-#include "lightcal/fit/fit_color.h"
-#include "lightcal/fit/input_checks.h"
-#include "lightcal/fit/locate.h"
-#include "lightcal/fit/observations.h"
-#include "lightcal/fit/off_axis.h"
-#include "lightcal/fit/plan_forward.h"
-#include "lightcal/fit/reading_times.h"
-#include "lightcal/fit/spot_beam.h"
+#include "lightcal/fit/locate/locate.h"
+#include "lightcal/fit/model/data_sheet.h"
+#include "lightcal/fit/model/input_checks.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/model/off_axis.h"
+#include "lightcal/fit/model/reading_times.h"
+#include "lightcal/fit/plan/plan_forward.h"
 #include "lightcal/photometry/source_photometry.h"
 
 namespace lightcal {

@@ -4,8 +4,8 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/reading_model.h"
-#include "lightcal/fit/solve.h"
+#include "lightcal/fit/model/reading_model.h"
+#include "lightcal/fit/model/solve.h"
 
 namespace lightcal {
 namespace {

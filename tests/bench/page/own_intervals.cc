@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "lightcal/fit/monte_carlo.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/monte_carlo.h"
+#include "lightcal/fit/model/starts.h"
 #include "own.h"
 
 namespace page {

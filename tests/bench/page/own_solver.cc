@@ -4,8 +4,8 @@
 #include <limits>
 #include <vector>
 
-#include "lightcal/fit/solve.h"
-#include "lightcal/fit/starts.h"
+#include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/model/starts.h"
 #include "own.h"
 #include "solver_problem.h"
 

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/locate/locate.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/fit/locate/locate_refusals.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kLargestCondition = 1000.0;
+constexpr double kDistinct = 30.0;         // squared Mahalanobis distance of another minimum
+constexpr double kLargestVagueness = 0.5;  // u95 of the position over the nearest distance
+constexpr double kOutlier = 4.685;
+
+Eigen::Matrix3d PositionBlock(const PlacedCovariance& covariance) {
+  Eigen::Matrix3d block;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      block(i, j) = covariance[(kPlacedX + i) * kPlacedParameters + kPlacedX + j];
+    }
+  }
+  return block;
+}
+
+// The best solution and others that are allowed and lie apart from it beyond its own interval.
+std::vector<PlacedTheta> Distinct(const std::vector<PlacedSolution>& solutions,
+                                  const PlacedCovariance& covariance) {
+  std::vector<PlacedTheta> out;
+  const Eigen::LDLT<Eigen::Matrix3d> block(PositionBlock(covariance));
+  const Vec3 best = LampOf(solutions.front().theta);
+  for (const PlacedSolution& s : solutions) {
+    if (s.chi_squared > solutions.front().chi_squared + kAllowedChiSquared) break;
+    const Vec3 d = LampOf(s.theta) - best;
+    const Eigen::Vector3d apart(d[0], d[1], d[2]);
+    if (out.empty() || apart.dot(block.solve(apart)) > kDistinct) out.push_back(s.theta);
+  }
+  return out;
+}
+
+// ---- one reading that spoils the others ----
+
+struct Kept {
+  PlacedProblem problem;
+  std::vector<PlacedSolution> solutions;
+  std::vector<int> rejected;  // rows of the problem as given
+};
+
+int FreeParameters(const PlacedEstimation& estimation) {
+  return 4 + (estimation.ambient.free ? 1 : 0) + (estimation.offset.free ? 1 : 0);
+}
+
+int DegreesOfFreedom(const PlacedEstimation& estimation) {
+  const auto rows = std::ranges::count_if(estimation.rows, [](const PlacedRow& row) {
+    return row.form != ReadingRow::Form::kCensored;
+  });
+  return static_cast<int>(rows) - FreeParameters(estimation) +
+         (estimation.ambient.prior_sd > 0.0 ? 1 : 0) + (estimation.offset.free ? 1 : 0);
+}
+
+PlacedProblem Without(const PlacedProblem& problem, std::size_t row) {
+  PlacedProblem out = problem;
+  const auto at = static_cast<std::ptrdiff_t>(row);
+  out.estimation.rows.erase(out.estimation.rows.begin() + at);
+  out.observation.erase(out.observation.begin() + at);
+  --out.lit;
+  return out;
+}
+
+// The row whose leaving explains the rest best, where it lies beyond kOutlier of what they say.
+bool RejectOne(Kept& kept) {
+  const PlacedEstimation& all = kept.problem.estimation;
+  if (DegreesOfFreedom(all) < 2 ||
+      kept.solutions.front().chi_squared < ChiSquared95(DegreesOfFreedom(all))) {
+    return false;
+  }
+  std::optional<Kept> best;
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    if (!(all.rows[i].direct_gain > 0.0)) continue;
+    Kept rest{Without(kept.problem, i), {}, kept.rejected};
+    rest.solutions = SearchPlace(rest.problem);
+    if (rest.solutions.empty()) continue;
+    const PlacedEstimation one{{all.rows[i]}, all.aim, {}, {}};
+    const double off = std::abs(PlacedResiduals(one, rest.solutions.front().theta).front());
+    const double chi_squared = rest.solutions.front().chi_squared;
+    const int dof = DegreesOfFreedom(rest.problem.estimation);
+    if (!(off > kOutlier) || chi_squared > ChiSquared95(dof)) continue;
+    if (best && best->solutions.front().chi_squared <= chi_squared) continue;
+    rest.rejected.push_back(kept.problem.observation[i]);
+    best = std::move(rest);
+  }
+  if (!best) return false;
+  kept = std::move(*best);
+  return true;
+}
+
+// ---- the answer ----
+
+void FillResiduals(const Observations& observations, const PlacedProblem& all, const Kept& kept,
+                   LightEstimate& out) {
+  const PlacedTheta& theta = kept.solutions.front().theta;
+  for (std::size_t i = 0; i < all.estimation.rows.size(); ++i) {
+    const PlacedRow& row = all.estimation.rows[i];
+    const Observation& o = observations.rows[static_cast<std::size_t>(all.observation[i])];
+    double predicted = 0.0;
+    if (!o.lit ||
+        !PlacedIlluminance(row, all.estimation.aim, theta[kPlacedLnIntensity], &theta[kPlacedX],
+                           theta[kPlacedAmbient], theta[kPlacedOffset], &predicted)) {
+      continue;
+    }
+    predicted *= all.frame.lux;
+    ResidualRow residual;
+    residual.index = o.index;
+    residual.distance_m =
+        row.position ? Length(*row.position - LampOf(theta)) * all.frame.length_m : o.distance_m;
+    residual.measured_lx = o.measured_lx;
+    residual.predicted_lx = predicted;
+    residual.relative = o.measured_lx / predicted - 1.0;
+    residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
+    residual.used = std::ranges::find(kept.rejected, all.observation[i]) == kept.rejected.end();
+    out.residuals.push_back(residual);
+  }
+}
+
+void FillDiagnostics(const Observations& observations, const Kept& kept, double condition,
+                     const PlacedCovariance& covariance, FitDiagnostics& d) {
+  const PlacedEstimation& estimation = kept.problem.estimation;
+  d.readings = observations.readings;
+  d.used = static_cast<int>(estimation.rows.size() + observations.shadow_used.size());
+  d.rejected = observations.rejected;
+  for (const int row : kept.rejected) {
+    d.rejected.push_back(observations.rows[static_cast<std::size_t>(row)].index);
+  }
+  std::ranges::sort(d.rejected);
+  d.condition = condition;
+  d.learned = {"intensity", "position"};
+  constexpr double kLearned = 0.8;  // as in estimate_light.cc
+  const double ambient_sd =
+      std::sqrt(covariance[kPlacedAmbient * kPlacedParameters + kPlacedAmbient]);
+  const bool told =
+      estimation.ambient.free &&
+      (!(estimation.ambient.prior_sd > 0.0) || ambient_sd < kLearned * estimation.ambient.prior_sd);
+  (told ? d.learned : d.prior).emplace_back("ambient");
+  d.degrees_of_freedom = std::max(0, DegreesOfFreedom(estimation));
+  if (d.degrees_of_freedom < 1) return;
+  const std::vector<double> residuals = PlacedResiduals(estimation, kept.solutions.front().theta);
+  double chi_squared = 0.0;
+  double ln_squared = 0.0;
+  int log_rows = 0;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    chi_squared += residuals[i] * residuals[i];
+    if (estimation.rows[i].form != ReadingRow::Form::kLog) continue;
+    ln_squared += std::pow(residuals[i] * estimation.rows[i].sigma, 2.0);
+    ++log_rows;
+  }
+  d.chi2_dof = chi_squared / d.degrees_of_freedom;
+  if (log_rows > 0) d.rms_relative = std::sqrt(ln_squared / log_rows);
+}
+
+void WarnOfRows(const Observations& observations, const Kept& kept, const std::string& light,
+                LightEstimate& out) {
+  for (const int row : kept.rejected) {
+    const Observation& o = observations.rows[static_cast<std::size_t>(row)];
+    out.warnings.push_back({"row_rejected", light,
+                            "reading " + std::to_string(o.index) + " (" +
+                                RoundedText(o.measured_lx, 4) +
+                                " lx) contradicts the place on which all others agree; it carries "
+                                "nothing: read again there, and check its position"});
+  }
+  const FitDiagnostics& d = out.diagnostics;
+  if (d.chi2_dof && *d.chi2_dof * d.degrees_of_freedom > ChiSquared95(d.degrees_of_freedom)) {
+    out.warnings.push_back({"suspicious_reading", light,
+                            "the readings scatter more about the position found than their sigma "
+                            "explains; the interval is widened: check the positions, the normals "
+                            "and light from elsewhere"});
+  }
+}
+
+// From the frame's units to cd, m, lx.
+void FillEstimate(const PlacedFrame& frame, const PlacedTheta& theta,
+                  const PlacedCovariance& covariance, LampLocation& out) {
+  out.position_m = frame.origin + LampOf(theta) * frame.length_m;
+  const double square = frame.length_m * frame.length_m;
+  const Eigen::Matrix3d block = PositionBlock(covariance);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) out.covariance_m2[i * 3 + j] = block(i, j) * square;
+  }
+  LightEstimate& estimate = out.estimate;
+  estimate.theta = {theta[kPlacedLnIntensity] + std::log(frame.lux * square), 0.0,
+                    theta[kPlacedAmbient] * frame.lux};
+  const auto entry = [&](int i, int j) { return covariance[i * kPlacedParameters + j]; };
+  const auto at = [&](int i, int j) -> double& { return estimate.covariance[i * kParameters + j]; };
+  at(kLnIntensity, kLnIntensity) = entry(kPlacedLnIntensity, kPlacedLnIntensity);
+  at(kLnIntensity, kAmbient) = at(kAmbient, kLnIntensity) =
+      entry(kPlacedLnIntensity, kPlacedAmbient) * frame.lux;
+  at(kAmbient, kAmbient) = entry(kPlacedAmbient, kPlacedAmbient) * frame.lux * frame.lux;
+}
+
+Result<void> CheckKind(const Observations& observations, const LightDescription& light) {
+  const bool flat = light.kind == LightKind::kDisk || light.kind == LightKind::kRect;
+  if (!flat && light.kind != LightKind::kPoint && light.kind != LightKind::kSphere) {
+    return Refused("position_unknown", light.name,
+                   "readings give position_m, but the lamp has none, and the position of a " +
+                       std::string(LightKindName(light.kind)) +
+                       " cannot be told from them: its beam has a shape of its own. Add position_m "
+                       "to its [[light]], or give distance_m in each reading");
+  }
+  if (flat && !light.aim) {
+    return Refused("aim_unknown", light.name,
+                   "a flat lamp's position can be found from readings around it when its aim is "
+                   "known: add aim = [x, y, z] (a ceiling panel: [0, 0, -1]) or its position_m");
+  }
+  const auto lit = [](const Observation& o) { return o.lit; };
+  if (std::ranges::none_of(observations.rows, lit)) {
+    return Refused("no_valid_readings", light.name,
+                   "no reading of the lamp is left; measure illuminance facing it");
+  }
+  if (std::ranges::none_of(observations.rows,
+                           [](const Observation& o) { return o.lit && !o.over_range; })) {
+    return Refused("over_range", light.name,
+                   "every reading was beyond the meter's range: measure from farther away");
+  }
+  return {};
+}
+
+bool HasDistanceRow(const PlacedEstimation& estimation) {
+  return std::ranges::any_of(
+      estimation.rows, [](const PlacedRow& row) { return row.direct_gain > 0.0 && !row.position; });
+}
+
+double NearestMeter(const PlacedEstimation& estimation, const Vec3& lamp) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PlacedRow& row : estimation.rows) {
+    if (row.position && row.direct_gain > 0.0) {
+      nearest = std::min(nearest, Length(*row.position - lamp));
+    }
+  }
+  return nearest;
+}
+
+bool TooVague(const PlacedEstimation& estimation, const PlacedTheta& theta,
+              const PlacedCovariance& covariance) {
+  const double variance =
+      PositionBlock(covariance).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return !(kZ95 * std::sqrt(variance) <
+           kLargestVagueness * NearestMeter(estimation, LampOf(theta)));
+}
+
+// What few readings say of ambient light may be too little beside a position: it is 0 then.
+void HoldAmbientIfVague(Kept& kept) {
+  ParameterRule& ambient = kept.problem.estimation.ambient;
+  if (!ambient.free || kept.problem.ambient_told || kept.solutions.empty()) return;
+  const PlacedTheta& theta = kept.solutions.front().theta;
+  const PlacedEstimation& estimation = kept.problem.estimation;
+  const auto covariance = EstimatePlacedCovariance(estimation, theta, {});
+  if (covariance && !TooVague(estimation, theta, *covariance) &&
+      PlacedCondition(estimation, theta) <= kLargestCondition) {
+    return;
+  }
+  ambient = {};
+  kept.solutions = SearchPlace(kept.problem);
+}
+
+}  // namespace
+
+bool NeedsLocating(const Observations& observations, const LightDescription& light) {
+  return !light.position_m && HasDistanceLaw(light.kind) &&
+         std::ranges::any_of(observations.rows, IsPlaced);
+}
+
+Result<LampLocation> LocateLamp(const Observations& observations, const LightDescription& light,
+                                const ForwardModel& model, const LampLocation* near) {
+  if (auto kind = CheckKind(observations, light); !kind) return Propagate(std::move(kind));
+  PlacedProblem all = PlacedProblemOf(observations, light, model);
+  if (near != nullptr) {
+    all.near = (near->position_m - all.frame.origin) * (1.0 / all.frame.length_m);
+  }
+  Kept kept{all, SearchPlace(all), {}};
+  HoldAmbientIfVague(kept);
+  if (kept.solutions.empty()) {
+    return Refused("no_position", light.name,
+                   "no place of the lamp explains these readings: check that each normal points "
+                   "to the side of the meter that sees the lamp");
+  }
+  if (all.lit < kFewestPlacedReadings)
+    return RefuseLayout(kept.problem, kept.solutions, light.name);
+  while (RejectOne(kept)) {
+  }
+  const PlacedEstimation& estimation = kept.problem.estimation;
+  const PlacedTheta theta = kept.solutions.front().theta;
+  const double condition = PlacedCondition(estimation, theta);
+  const bool circle_alone = OnOneCircleExactly(kept.problem) && !HasDistanceRow(estimation);
+  if (circle_alone || !(condition <= kLargestCondition)) {
+    return RefuseLayout(kept.problem, kept.solutions, light.name);
+  }
+  PlacedUncertainty uncertainty;
+  uncertainty.considered = model.considered;
+  for (Consider& influence : uncertainty.considered) {
+    influence.relative *= std::pow(kept.problem.frame.length_m, influence.distance_power);
+  }
+  auto covariance = EstimatePlacedCovariance(estimation, theta, uncertainty);
+  if (!covariance) return RefuseLayout(kept.problem, kept.solutions, light.name);
+  const auto apart = Distinct(kept.solutions, *covariance);
+  if (apart.size() > 1) return RefuseMirror(kept.problem, apart, light.name);
+
+  LampLocation out;
+  FillDiagnostics(observations, kept, condition, *covariance, out.estimate.diagnostics);
+  WarnOfRows(observations, kept, light.name, out.estimate);
+  const FitDiagnostics& d = out.estimate.diagnostics;
+  if (d.chi2_dof && *d.chi2_dof * d.degrees_of_freedom > ChiSquared95(d.degrees_of_freedom)) {
+    uncertainty.row_scale = std::sqrt(*d.chi2_dof);
+    covariance = EstimatePlacedCovariance(estimation, theta, uncertainty);
+    if (!covariance) return Propagate(std::move(covariance));
+  }
+  if (TooVague(estimation, theta, *covariance)) {
+    return RefuseLayout(kept.problem, kept.solutions, light.name);
+  }
+  out.estimate.variance_parts = VarianceParts(
+      "readings_and_place", uncertainty.considered, [&](const std::vector<Consider>& considered) {
+        const auto some = EstimatePlacedCovariance(
+            estimation, theta, {uncertainty.row_scale, uncertainty.position_sd, considered});
+        return some ? (*some)[kPlacedLnIntensity * (kPlacedParameters + 1)] : -1.0;
+      });
+  out.estimate.ambient_free = estimation.ambient.free;
+  FillResiduals(observations, all, kept, out.estimate);
+  FillEstimate(kept.problem.frame, theta, *covariance, out);
+  return out;
+}
+
+Observations PlaceObservations(Observations observations, const Vec3& lamp_m) {
+  for (Observation& o : observations.rows) {
+    if (!IsPlaced(o)) continue;
+    const Vec3 to_lamp = lamp_m - *o.position_m;
+    o.distance_m = Length(to_lamp);
+    if (o.normal && o.distance_m > 0.0) {
+      o.tilt_rad = std::acos(std::clamp(Dot(to_lamp, *o.normal) / o.distance_m, -1.0, 1.0));
+    }
+  }
+  return observations;
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/locate/locate_refusals.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/locate/placed_starts.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr std::size_t kMostFamily = 6;
+
+// One of each cluster of solutions that the readings allow, where a lamp of a room may be.
+std::vector<PlacedTheta> FamilyOf(const std::vector<PlacedSolution>& solutions) {
+  constexpr double kNearest = 0.3;  // in extents of the layout
+  constexpr double kFarthest = 5.0;
+  std::vector<PlacedTheta> out;
+  for (const PlacedSolution& s : solutions) {
+    if (s.chi_squared > solutions.front().chi_squared + kAllowedChiSquared) break;
+    const bool known = std::ranges::any_of(
+        out, [&](const PlacedTheta& other) { return AtOnePlace(s.theta, other); });
+    if (!known) out.push_back(s.theta);
+    if (out.size() == kMostFamily) break;
+  }
+  std::vector<PlacedTheta> usual;
+  std::ranges::copy_if(out, std::back_inserter(usual), [](const PlacedTheta& theta) {
+    const double distance = Length(LampOf(theta));
+    return distance > kNearest && distance < kFarthest;
+  });
+  return usual.empty() ? out : usual;
+}
+
+// In whole millimetres.
+std::string PointText(const Vec3& p) {
+  const auto text = [](double x) { return ShortestText(std::round(1000.0 * x) / 1000.0); };
+  return "[" + text(p[0]) + ", " + text(p[1]) + ", " + text(p[2]) + "]";
+}
+
+std::string CureText(const PlacedProblem& problem, const std::vector<PlacedTheta>& solutions,
+                     bool separate) {
+  const auto place = BestPlacement(problem.estimation, solutions, separate, problem.frame);
+  if (!place) return "add a reading well away from the others, or give the lamp's position_m";
+  return "add a reading at position_m = " + PointText(place->position) +
+         (place->normal ? ", normal = " + PointText(*place->normal) : " facing the lamp") +
+         (problem.lit + 1 < kFewestPlacedReadings
+              ? " first"
+              : ": it would bring the lamp's position to about +-" +
+                    RoundedText(place->lamp_u95_m, 2) + " m");
+}
+
+// Whether all meters of one normal stand on one circle or one line.
+struct Circle {
+  bool exact = false;
+  bool line = false;
+};
+std::optional<Circle> OnOneCircle(const PlacedProblem& problem) {
+  const auto plane = CommonPlaneOf(problem.estimation.rows);
+  if (!plane) return std::nullopt;
+  std::vector<Eigen::Vector2d> points;
+  for (const PlacedRow& row : problem.estimation.rows) {
+    if (!row.position || !(row.direct_gain > 0.0)) continue;
+    const Vec3 p = *row.position - plane->origin;
+    points.emplace_back(Dot(p, plane->across), Dot(p, plane->along));
+  }
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd a(n, 4);  // alpha |p|^2 + beta x + gamma y + delta = 0, of unit length
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)];
+    a.row(i) << p.squaredNorm(), p.x(), p.y(), 1.0;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeFullV);
+  const Eigen::Vector4d worst = svd.matrixV().col(3);
+  double off = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) off = std::max(off, std::abs(a.row(i).dot(worst)));
+  constexpr double kNearly = 0.03;
+  if (n >= 4 && off > kNearly) return std::nullopt;
+  return Circle{off < 1e-6, std::abs(worst[0]) < 1e-6};
+}
+
+}  // namespace
+
+bool OnOneCircleExactly(const PlacedProblem& problem) {
+  const auto circle = OnOneCircle(problem);
+  return circle && circle->exact;
+}
+
+tl::unexpected<Error> RefuseLayout(const PlacedProblem& problem,
+                                   const std::vector<PlacedSolution>& solutions,
+                                   const std::string& light) {
+  const std::string cure = CureText(problem, FamilyOf(solutions), false);
+  if (problem.lit < kFewestPlacedReadings) {
+    return Refused("position_unknown", light,
+                   "readings give position_m, but the lamp has none, and it takes four readings, "
+                   "not all on one circle, to find it (here " +
+                       std::to_string(problem.lit) + "): " + cure +
+                       "; or add position_m to its [[light]], or give distance_m in each reading");
+  }
+  if (const auto circle = OnOneCircle(problem)) {
+    return Refused("cocircular", light,
+                   std::string("the meters stood on one ") + (circle->line ? "line" : "circle") +
+                       (circle->exact ? "" : ", nearly") +
+                       ", which leaves the lamp's height and strength open: " + cure);
+  }
+  return Refused("underdetermined", light,
+                 "these places tell next to nothing of the lamp's position: " + cure);
+}
+
+tl::unexpected<Error> RefuseMirror(const PlacedProblem& problem,
+                                   const std::vector<PlacedTheta>& apart,
+                                   const std::string& light) {
+  const auto at = [&](const PlacedTheta& theta) {
+    return PointText(problem.frame.origin + LampOf(theta) * problem.frame.length_m);
+  };
+  return Refused("mirror_ambiguous", light,
+                 "a lamp at " + at(apart[0]) + " explains these readings as well as one at " +
+                     at(apart[1]) + "; nothing tells which: " + CureText(problem, apart, true));
+}
+
+}  // namespace lightcal::fit

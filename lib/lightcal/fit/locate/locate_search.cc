@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/locate/locate_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/fit/locate/placed_starts.h"
+#include "lightcal/fit/model/row_values.h"
+#include "lightcal/light/effects/detector_size.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr int kReadingsForAmbient = 6;
+
+PlacedFrame FrameOf(const Observations& observations) {
+  std::vector<PlacedRow> rows;
+  double ln_lux = 0.0;
+  int count = 0;
+  for (const Observation& o : observations.rows) {
+    if (!o.lit) continue;
+    PlacedRow row;
+    if (IsPlaced(o)) row.position = o.position_m;
+    rows.push_back(row);
+    if (!(o.measured_lx > 0.0)) continue;
+    ln_lux += std::log(o.measured_lx);
+    ++count;
+  }
+  const Layout layout = LayoutOf(rows);
+  return {layout.middle, layout.extent, count > 0 ? std::exp(ln_lux / count) : 1.0};
+}
+
+PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardModel& model,
+                const PlacedFrame& frame) {
+  const Observation& o = observations.rows[i];
+  PlacedRow row;
+  FillRowValues(o, i, model, frame.length_m, frame.lux, row);
+  row.direct_gain = o.lit ? 1.0 : 0.0;
+  if (!o.lit) return row;
+  if (IsPlaced(o)) row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
+  row.normal = o.normal;
+  row.distance = o.distance_m / frame.length_m;
+  if (!o.normal) row.direct_gain = std::cos(o.tilt_rad);
+  if (model.head_radius_m > 0.0) {
+    row.direct_gain *= effects::DetectorFactor(model.head_radius_m, o.distance_m);
+  }
+  return row;
+}
+
+void SetRules(const ForwardModel& model, PlacedProblem& problem) {
+  double dimmest = std::numeric_limits<double>::infinity();
+  double shortest = std::numeric_limits<double>::infinity();
+  double off = 0.0;
+  int offs = 0;
+  for (const PlacedRow& row : problem.estimation.rows) {
+    if (row.direct_gain > 0.0) {
+      if (!row.position) shortest = std::min(shortest, row.distance);
+      if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
+        dimmest = std::min(dimmest, row.measured);
+      }
+      continue;
+    }
+    off += row.measured;
+    ++offs;
+  }
+  problem.ambient_told = offs > 0;
+  if (problem.ambient_told) {
+    problem.estimation.ambient.free = true;
+    problem.ambient_start = std::max(0.0, off / offs);
+  } else if (model.fit_ambient && problem.lit >= kReadingsForAmbient && std::isfinite(dimmest)) {
+    problem.estimation.ambient = {true, 0.0, dimmest};
+  }
+  if (model.fit_offset && std::isfinite(shortest)) {
+    problem.estimation.offset = {true, 0.0, kOffsetPriorRelative * shortest};
+  }
+}
+
+std::vector<PlacedTheta> StartsOf(const PlacedProblem& problem) {
+  std::vector<PlacedTheta> starts;
+  if (problem.near) {
+    if (auto start = PlacedStartAt(problem.estimation, *problem.near, problem.ambient_start)) {
+      starts.push_back(*start);
+    }
+    return starts;
+  }
+  if (auto linear = LinearPlacedStart(problem.estimation, problem.ambient_start)) {
+    starts.push_back(*linear);
+  }
+  for (const PlacedTheta& start : ScanPlacedStarts(problem.estimation, problem.ambient_start)) {
+    starts.push_back(start);
+  }
+  return starts;
+}
+
+std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
+                                      const std::vector<PlacedTheta>& starts) {
+  std::vector<PlacedSolution> out;
+  for (const PlacedTheta& start : starts) {
+    const auto theta = SolvePlaced(estimation, start);
+    if (!theta) continue;
+    const double chi_squared = PlacedChiSquared(estimation, *theta);
+    if (std::isfinite(chi_squared)) out.push_back({*theta, chi_squared});
+  }
+  std::ranges::sort(out, [](const PlacedSolution& a, const PlacedSolution& b) {
+    return a.chi_squared < b.chi_squared;
+  });
+  return out;
+}
+
+}  // namespace
+
+PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescription& light,
+                              const ForwardModel& model) {
+  PlacedProblem out;
+  out.frame = FrameOf(observations);
+  if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) {
+    out.estimation.aim = light.aim;
+  }
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    if (!observations.rows[i].lit && !model.fit_ambient) continue;
+    out.estimation.rows.push_back(RowOf(observations, i, model, out.frame));
+    out.observation.push_back(static_cast<int>(i));
+    if (observations.rows[i].lit) ++out.lit;
+  }
+  SetRules(model, out);
+  return out;
+}
+
+bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b) {
+  return Length(LampOf(a) - LampOf(b)) < 0.05 * Length(LampOf(a));
+}
+
+std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem) {
+  PlacedEstimation held = problem.estimation;
+  held.ambient.free = false;
+  const std::vector<PlacedSolution> first = SolveFrom(held, StartsOf(problem));
+  if (!problem.estimation.ambient.free || first.empty()) return first;
+  const double hopeless = 10.0 * first.front().chi_squared + 100.0;
+  std::vector<PlacedTheta> places;
+  for (const PlacedSolution& s : first) {
+    if (s.chi_squared > hopeless) break;
+    const bool known = std::ranges::any_of(
+        places, [&](const PlacedTheta& other) { return AtOnePlace(s.theta, other); });
+    if (!known) places.push_back(s.theta);
+  }
+  return SolveFrom(problem.estimation, places);
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search for a lamp's place: rows in units of the layout, every minimum they have. Internal to
+// locate.cc and locate_refusals.cc.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/locate/next_placement.h"
+#include "lightcal/fit/locate/placed_solve.h"
+#include "lightcal/fit/model/observations.h"
+
+namespace lightcal::fit {
+
+// All of it in the frame's units.
+struct PlacedProblem {
+  PlacedEstimation estimation;
+  std::vector<int> observation;  // of each row
+  PlacedFrame frame;
+  std::optional<Vec3> near;  // where the lamp is known to be about
+  double ambient_start = 0.0;
+  bool ambient_told = false;
+  int lit = 0;
+};
+
+struct PlacedSolution {
+  PlacedTheta theta{};
+  double chi_squared = std::numeric_limits<double>::infinity();
+};
+
+[[nodiscard]] inline Vec3 LampOf(const PlacedTheta& theta) {
+  return {theta[kPlacedX], theta[kPlacedY], theta[kPlacedZ]};
+}
+// Whether a reading stands by its own place, not by a distance.
+[[nodiscard]] inline bool IsPlaced(const Observation& o) {
+  return o.lit && o.measured_from_center && o.position_m;
+}
+
+// E0 is free where lamp-off readings tell it, or beside six readings under the prior that it cannot
+// exceed the dimmest; d0 where readings give distances alone.
+[[nodiscard]] PlacedProblem PlacedProblemOf(const Observations& observations,
+                                            const LightDescription& light,
+                                            const ForwardModel& model);
+
+// Every minimum that the starts lead to, best first: found with the ambient light held, then with
+// it free from each place that may still win (beside it, hopeless starts creep for a long time).
+[[nodiscard]] std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem);
+
+// Whether two solutions are one.
+[[nodiscard]] bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b);
+
+}  // namespace lightcal::fit

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maximum a posteriori estimate of (ln I, position, E0, d0) from placed readings, in any one set of
+// units, and how well they determine it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/locate/placed_model.h"
+#include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/model/uncertainty.h"
+
+namespace lightcal::fit {
+
+struct PlacedEstimation {
+  std::vector<PlacedRow> rows;
+  std::optional<Vec3> aim;  // unit, of a flat Lambertian source
+  ParameterRule ambient;    // ln I and the position are always free
+  ParameterRule offset;
+};
+
+using PlacedCovariance =
+    std::array<double, static_cast<std::size_t>(kPlacedParameters) * kPlacedParameters>;
+
+// Minimises 1/2 sum r_i^2 + priors with Ceres from `start`, then by Gauss-Newton. E0 >= 0.
+// Fails: no_convergence.
+[[nodiscard]] Result<PlacedTheta> SolvePlaced(const PlacedEstimation& estimation,
+                                              const PlacedTheta& start);
+
+// Sum of squared residuals with the priors of free parameters; infinite where a row has none.
+[[nodiscard]] double PlacedChiSquared(const PlacedEstimation& estimation, const PlacedTheta& theta);
+// Of the rows one by one.
+[[nodiscard]] std::vector<double> PlacedResiduals(const PlacedEstimation& estimation,
+                                                  const PlacedTheta& theta);
+
+// Covariance of the six parameters at theta, those held having none: the inverse of J^T J of rows
+// and priors, E0 cut at zero as by EstimateCovariance, `considered` influences carried through.
+// `position_sd` > 0 adds that prior on each coordinate (for layouts that do not determine it).
+// Fails: underdetermined.
+struct PlacedUncertainty {
+  double row_scale = 1.0;  // Birge ratio
+  double position_sd = 0.0;
+  std::vector<Consider> considered;
+};
+[[nodiscard]] Result<PlacedCovariance> EstimatePlacedCovariance(const PlacedEstimation& estimation,
+                                                                const PlacedTheta& theta,
+                                                                const PlacedUncertainty& input);
+
+// Ratio of the largest to the smallest singular value of the rows' Jacobian over the free
+// parameters, columns scaled to unit length, priors left out (offset's prior is kept: nothing else
+// tells it). Infinite with fewer rows than parameters.
+[[nodiscard]] double PlacedCondition(const PlacedEstimation& estimation, const PlacedTheta& theta);
+
+}  // namespace lightcal::fit

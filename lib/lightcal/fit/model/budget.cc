@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kLeastShare = 1e-6;
+
+// What halves the standard deviation that a cause makes.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 25> kCures = {{
+    {"readings", "four times as many readings, or a meter twice as sure"},
+    {"readings_and_place", "four times as many readings, spread twice as wide"},
+    {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
+    {"ambient", "a lamp-off or shadow-card reading at each distance"},
+    {"cone", "four times as many readings between the beam's middle and its edge"},
+    {"finite_source", "stand 1.4 times as far away, or state the lamp's size"},
+    {"sphere_surface", "state position_m, so that distances reach the centre"},
+    {"horizon", "turn the meter towards the lamp"},
+    {"meter_tilt", "point the meter within 1.5 degrees of the lamp, or state tilt_deg"},
+    {"distance_error", "read distances to 2.5 mm, or stand twice as far away"},
+    {"room_bounce", "a shadow-card reading; or stand half as far from the lamp"},
+    {"detector_size", "stand 1.4 times as far away, or state head_radius_m"},
+    {"spectral_mismatch", "a meter of half the f1', or a spectrometer"},
+    {"cosine_response", "face the lamp, or a meter of half the f2"},
+    {"haze", "stand half as far away, or clear the air"},
+    {"narrow_beam", "stand 1.4 times as far away, or state diameter_m"},
+    {"mains", "a regulated supply"},
+    {"flicker", "readings that gather light for twice as long"},
+    {"rolling_shutter", "an exposure twice as long"},
+    {"warm_up", "let the lamp warm up ten minutes longer"},
+    {"table_interpolation", "a table with nodes 0.7 times as far apart"},
+    {"vignetting", "move the patch 0.7 times as far from the picture's middle, or a flat field"},
+    {"veiling_glare", "a darker surround, or a shade on the lens"},
+    {"noise", "a patch of four times the pixels"},
+    {"shape_off_axis", "readings 1.4 times as far away"},
+}};
+
+std::string CureOf(std::string_view name) {
+  const auto at = std::ranges::find(kCures, name, [](const auto& cure) { return cure.first; });
+  return at == kCures.end() ? std::string() : std::string(at->second);
+}
+
+double IntensityVariance(const UncertaintyInput& input) {
+  const Result<Covariance> covariance = EstimateCovariance(input);
+  return covariance ? (*covariance)[kLnIntensity] : -1.0;
+}
+
+}  // namespace
+
+std::vector<VariancePart> VarianceParts(
+    std::string base, const std::vector<Consider>& considered,
+    const std::function<double(const std::vector<Consider>&)>& variance) {
+  const double alone = variance({});
+  if (!(alone >= 0.0)) return {};
+  std::vector<VariancePart> parts = {{std::move(base), alone}};
+  for (const Consider& influence : considered) {
+    parts.push_back({influence.name, std::max(0.0, variance({influence}) - alone)});
+  }
+  return parts;
+}
+
+std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
+  Estimation estimation = *input.estimation;
+  const auto rules = estimation.rules;
+  UncertaintyInput some = input;
+  some.estimation = &estimation;
+  some.considered.clear();
+  estimation.rules[kDistanceOffset] = {};
+  estimation.rules[kAmbient] = {};
+  const double readings = IntensityVariance(some);
+  estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
+  const double with_offset = IntensityVariance(some);
+  estimation.rules[kAmbient] = rules[kAmbient];
+  std::vector<VariancePart> parts =
+      VarianceParts("ambient", input.considered, [&](const std::vector<Consider>& considered) {
+        some.considered = considered;
+        return IntensityVariance(some);
+      });
+  if (parts.empty() || !(readings >= 0.0) || !(with_offset >= 0.0)) return {};
+  // Cutting E0 at zero may take from what the offset alone makes.
+  const double whole = parts.front().variance;
+  const double first = std::min(readings, whole);
+  const double second = std::clamp(with_offset - readings, 0.0, whole - first);
+  parts.front().variance = whole - first - second;
+  parts.push_back({"distance_offset", second});
+  parts.push_back({"readings", first});
+  return parts;
+}
+
+std::vector<BudgetPart> BudgetOf(const std::vector<VariancePart>& parts) {
+  std::vector<VariancePart> sums;
+  double whole = 0.0;
+  for (const VariancePart& part : parts) {
+    whole += part.variance;
+    const auto same = std::ranges::find(sums, part.name, &VariancePart::name);
+    if (same == sums.end()) {
+      sums.push_back(part);
+    } else {
+      same->variance += part.variance;
+    }
+  }
+  std::ranges::stable_sort(sums, std::ranges::greater(), &VariancePart::variance);
+  std::vector<BudgetPart> budget;
+  for (const VariancePart& part : sums) {
+    if (!(part.variance > kLeastShare * whole)) continue;
+    budget.push_back(
+        {part.name, std::sqrt(part.variance), part.variance / whole, CureOf(part.name)});
+  }
+  return budget;
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/data_sheet.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/light/beam_ensemble.h"
+#include "lightcal/photometry/source_photometry.h"
+
+namespace lightcal::fit {
+namespace {
+
+// Half widths of the 95 % interval of I/(Phi/Omega) where only the kind is known.
+constexpr double kPointSpread = 0.30;
+constexpr double kKindSpread = 0.15;
+
+// Both ends come from the same printed flux, whose own tolerance widens them.
+Uncertain FromInterval(double low, double high) {
+  const double shape_sd = std::log(high / low) / (2.0 * kZ95);
+  const double flux_sd = std::log1p(kFluxToleranceRelative) / kZ95;
+  return UncertainFromLog(0.5 * std::log(low * high), std::hypot(shape_sd, flux_sd));
+}
+
+// Phi/I of the kind's own distribution, independent of its size.
+double SolidAngleOfKind(const LightDescription& light) {
+  constexpr double kPi = std::numbers::pi;
+  if (light.distribution) {
+    return light.distribution->Flux().value() / light.distribution->peak().intensity.value();
+  }
+  if (light.kind == LightKind::kSpot && light.outer) {
+    return SolidAngleOfSpot({light.inner.value_or(Radians(0.0)), *light.outer},
+                            SpotFalloff::kSquaredLinear)
+        .value();
+  }
+  if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) return kPi;
+  if (light.kind == LightKind::kTube) return kPi * kPi;
+  return 4.0 * kPi;
+}
+
+}  // namespace
+
+bool HasDataSheet(const LightDescription& light) {
+  return light.flux && light.flux->value() > 0.0 && light.kind != LightKind::kDirectional &&
+         light.kind != LightKind::kDome;
+}
+
+Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
+  if (!HasDataSheet(light)) {
+    return Refused("no_readings", light.name, "neither readings nor flux_lm are given");
+  }
+  const double flux = light.flux->value();
+  if (light.beam) {
+    auto beams = BeamEnsemble(*light.beam, light.field);
+    if (!beams) return Propagate(std::move(beams));
+    return FromInterval(flux / beams->most.value(), flux / beams->least.value());
+  }
+  const bool shape_unknown =
+      light.kind == LightKind::kPoint || (light.kind == LightKind::kSpot && !light.outer);
+  const double kind_spread = shape_unknown ? kPointSpread : kKindSpread;
+  const double spread = light.distribution ? 0.0 : std::log1p(kind_spread);
+  const double middle = flux / SolidAngleOfKind(light);
+  return FromInterval(middle * std::exp(-spread), middle * std::exp(spread));
+}
+
+Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out) {
+  auto intensity = IntensityFromDataSheet(light);
+  if (!intensity) return tl::unexpected(std::move(intensity).error());
+  out.intensity_cd = *intensity;
+  out.fit.prior = {"intensity", "distance_offset", "ambient"};
+  return {};
+}
+
+void CheckDataSheet(const LightDescription& light, const FittedLight& fitted, Warnings& warnings) {
+  if (!HasDataSheet(light) || !fitted.intensity_cd) return;
+  const auto sheet = IntensityFromDataSheet(light);
+  if (!sheet) return;
+  const Uncertain& measured = *fitted.intensity_cd;
+  const double low = measured.low.value_or(measured.value - measured.u95);
+  const double high = measured.high.value_or(measured.value + measured.u95);
+  if (high >= *sheet->low && low <= *sheet->high) return;
+  warnings.push_back({"data_sheet_disagrees", light.name,
+                      "measured " + RoundedText(measured.value, 4) + " cd, but its data sheet (" +
+                          RoundedText(light.flux->value(), 4) + " lm) gives " +
+                          RoundedText(*sheet->low, 3) + " to " + RoundedText(*sheet->high, 3) +
+                          " cd; check distance, beam_deg and whether the lamp is dimmed"});
+}
+
+}  // namespace lightcal::fit

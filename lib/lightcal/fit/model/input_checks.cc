@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/input_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::fit {
+namespace {
+
+struct UnitSlip {
+  double ln_ratio;   // of E d^2 in the two groups
+  double tolerance;  // room for a distance offset, ambient light and the readings' own sigma
+  std::string_view ratio;
+  std::string_view question_high;  // when the odd rows are too high
+  std::string_view question_low;
+};
+constexpr std::array<UnitSlip, 6> kSlips = {{
+    {2.375874, 0.22, "10.76", "are their distances in feet, the others' in metres?",
+     "is their illuminance in footcandles, or the others' distance in feet?"},
+    {4.605170, 0.35, "100", "is their distance ten times too large?",
+     "is their illuminance in a larger unit, or their distance ten times too small?"},
+    {6.907755, 0.45, "1 000", "is their illuminance in lx, the others' in klx?",
+     "is their illuminance in klx?"},
+    {7.345862, 0.2, "1 550", "is their distance in inches?", "is the others' distance in inches?"},
+    {9.210340, 0.6, "10 000", "is their distance in cm?", "is the others' distance in cm?"},
+    {13.815511, 0.7, "1 000 000", "is their distance in mm?", "is the others' distance in mm?"},
+}};
+
+// Towards a beam's rim a degree of aim outweighs any unit: only its bright part is compared.
+constexpr double kBrightPart = 0.3;
+
+bool IsBright(const Observation& row) {
+  return row.lit && !row.over_range && !(row.off_axis && row.emission < kBrightPart);
+}
+
+struct Strength {
+  double ln_candela;  // ln(E d^2/cos tilt)
+  int index;
+};
+
+std::vector<Strength> Strengths(const Observations& observations) {
+  // Ambient light from lamp-off readings would otherwise look like a step of units.
+  double ambient = 0.0;
+  int count = 0;
+  for (const Observation& row : observations.rows) {
+    if (row.lit) continue;
+    ambient += row.measured_lx;
+    ++count;
+  }
+  if (count > 0) ambient /= count;
+  std::vector<Strength> out;
+  for (const Observation& row : observations.rows) {
+    const double direct = row.measured_lx - (row.differenced ? 0.0 : ambient);
+    if (!IsBright(row) || !(direct > 2.0 * row.sigma_lx)) continue;
+    out.push_back({std::log(direct * row.distance_m * row.distance_m /
+                            (std::cos(row.tilt_rad) * row.emission * row.table_part)),
+                   row.index});
+  }
+  std::sort(out.begin(), out.end(),
+            [](const Strength& a, const Strength& b) { return a.ln_candela < b.ln_candela; });
+  return out;
+}
+
+double Middle(const std::vector<Strength>& sorted, std::size_t begin, std::size_t end) {
+  const std::size_t n = end - begin;
+  return 0.5 * (sorted[begin + (n - 1) / 2].ln_candela + sorted[begin + n / 2].ln_candela);
+}
+
+std::string RowList(const std::vector<Strength>& sorted, std::size_t begin, std::size_t end) {
+  std::vector<int> rows;
+  for (std::size_t i = begin; i < end; ++i) rows.push_back(sorted[i].index);
+  std::sort(rows.begin(), rows.end());
+  std::string text = rows.size() == 1 ? "reading " : "readings ";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0) text += i + 1 == rows.size() ? " and " : ", ";
+    text += std::to_string(rows[i]);
+  }
+  return text;
+}
+
+bool IsInside(const Vec3& p, const Vec3& room_m) {
+  constexpr double kSlack = 0.01;  // metres: a meter on the floor, a lamp at the wall
+  const bool level =
+      std::abs(p[0]) <= 0.5 * room_m[0] + kSlack && std::abs(p[1]) <= 0.5 * room_m[1] + kSlack;
+  return level && p[2] >= -kSlack && p[2] <= room_m[2] + kSlack;
+}
+
+}  // namespace
+
+Result<void> CheckUnits(const Observations& observations, const std::string& light) {
+  const std::vector<Strength> sorted = Strengths(observations);
+  if (sorted.size() < 2) return {};
+  std::size_t cut = 1;
+  for (std::size_t i = 2; i < sorted.size(); ++i) {
+    if (sorted[i].ln_candela - sorted[i - 1].ln_candela >
+        sorted[cut].ln_candela - sorted[cut - 1].ln_candela) {
+      cut = i;
+    }
+  }
+  const double gap = sorted[cut].ln_candela - sorted[cut - 1].ln_candela;
+  const double within = std::max(sorted[cut - 1].ln_candela - sorted.front().ln_candela,
+                                 sorted.back().ln_candela - sorted[cut].ln_candela);
+  if (within > 0.5 * gap) return {};
+  const double apart = Middle(sorted, cut, sorted.size()) - Middle(sorted, 0, cut);
+  for (const UnitSlip& slip : kSlips) {
+    if (std::abs(apart - slip.ln_ratio) > slip.tolerance) continue;
+    const bool high_is_odd = sorted.size() - cut <= cut;
+    const std::string odd =
+        high_is_odd ? RowList(sorted, cut, sorted.size()) : RowList(sorted, 0, cut);
+    const std::string ratio(slip.ratio);
+    return Refused(
+        "units_ambiguous", light,
+        odd +
+            (high_is_odd ? " (counted from 0): about " + ratio +
+                               " times the E d^2 of the others: " + std::string(slip.question_high)
+                         : " (counted from 0): about 1/" + ratio +
+                               " of the E d^2 of the others: " + std::string(slip.question_low)) +
+            " Write units, or correct the rows; if it is ambient light, add a lamp-off "
+            "reading");
+  }
+  return {};
+}
+
+Result<void> CheckFalloff(const Observations& observations, const std::string& light,
+                          Warnings& warnings) {
+  double w = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  const auto for_each_lit = [&](auto&& visit) {
+    for (const Observation& row : observations.rows) {
+      if (!IsBright(row) || !(row.measured_lx > 2.0 * row.sigma_lx)) continue;
+      const double sigma = row.sigma_lx / row.measured_lx;
+      visit(1.0 / (sigma * sigma), std::log(row.distance_m),
+            std::log(row.measured_lx / (std::cos(row.tilt_rad) * row.emission * row.table_part)));
+    }
+  };
+  for_each_lit([&](double weight, double ln_d, double ln_e) {
+    w += weight;
+    x += weight * ln_d;
+    y += weight * ln_e;
+  });
+  if (!(w > 0.0) || CountDistinctDistances(observations.rows) < 2) return {};
+  x /= w;
+  y /= w;
+  for_each_lit([&](double weight, double ln_d, double ln_e) {
+    xx += weight * (ln_d - x) * (ln_d - x);
+    xy += weight * (ln_d - x) * (ln_e - y);
+  });
+  if (!(xx > 0.0)) return {};
+  const double slope = xy / xx;
+  const double sd = 1.0 / std::sqrt(xx);
+  if (slope > 2.0 * sd) {
+    return Refused("increasing_with_distance", light,
+                   "illuminance grows with distance (as d^" + RoundedText(slope, 2) +
+                       "); check that distances and readings belong together and that one lamp "
+                       "alone was on");
+  }
+  if (slope - 2.0 * sd > -0.5) {
+    warnings.push_back(
+        {"slow_falloff", light,
+         "illuminance falls only as d^" + RoundedText(slope, 2) +
+             "; most of it is ambient light or bounce: add a shadow-card or lamp-off "
+             "reading"});
+  }
+  return {};
+}
+
+void CheckRoom(const Session& session, const LightDescription& light, Warnings& warnings) {
+  if (!session.room) return;
+  const Vec3& size = session.room->size_m;
+  std::string outside;
+  const auto add = [&](const std::string& what) {
+    outside += (outside.empty() ? "" : ", ") + what;
+  };
+  if (light.position_m && !IsInside(*light.position_m, size)) add("the lamp");
+  int index = 0;  // over the light's readings
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light.name) continue;
+    const auto& place = row.reading.position_m;
+    if (place && !IsInside(*place, size)) add("reading " + std::to_string(index));
+    ++index;
+  }
+  if (outside.empty()) return;
+  warnings.push_back(
+      {"outside_room", light.name,
+       outside + " (counted from 0) stands outside the [room], which reaches from -" +
+           RoundedText(0.5 * size[0], 3) + " to " + RoundedText(0.5 * size[0], 3) + " m in x, -" +
+           RoundedText(0.5 * size[1], 3) + " to " + RoundedText(0.5 * size[1], 3) +
+           " m in y, 0 to " + RoundedText(size[2], 3) +
+           " m in z; for its walls' light it counts as just inside: correct the positions or "
+           "size_m"});
+}
+
+}  // namespace lightcal::fit

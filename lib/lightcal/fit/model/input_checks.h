@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What no estimate can repair: mixed units, light that grows with distance, places outside the
+// room.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// Refused: units_ambiguous when ln(E d^2) of the rows falls into two groups apart by the square of
+// a ratio of length units (cm/m: 10 000, ft/m: 10.76) or by a ratio of illuminance units
+// (fc/lx: 10.76, klx/lx: 1000). The message names the smaller group.
+[[nodiscard]] Result<void> CheckUnits(const Observations& observations, const std::string& light);
+
+// Refused: increasing_with_distance when the slope of ln E over ln d is above zero by two of its
+// own standard deviations. Adds the warning slow_falloff while it stays above -0.5: more than half
+// of what was read is not the lamp's direct light.
+[[nodiscard]] Result<void> CheckFalloff(const Observations& observations, const std::string& light,
+                                        Warnings& warnings);
+
+// Warns of a lamp or a reading outside the [room] (outside_room): for its walls' light it counts as
+// just inside.
+void CheckRoom(const Session& session, const LightDescription& light, Warnings& warnings);
+
+}  // namespace lightcal::fit

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/monte_carlo.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace lightcal::fit {
+namespace {
+
+constexpr int kFigures = 4;  // mean, sd, low, high
+constexpr int kFewestBlocks = 2;
+constexpr double kTail = 0.025;
+constexpr std::size_t kSamplesAFailure = 100;  // at least, for each draw without an optimum
+
+using Figures = std::array<double, kFigures>;
+
+// FNV-1a over what was measured: the same readings, the same samples.
+std::uint64_t SeedOf(const Estimation& estimation) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto add = [&hash](double x) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 1099511628211ULL;
+  };
+  for (const ReadingRow& row : estimation.rows) {
+    add(row.distance);
+    add(row.measured);
+    add(row.sigma);
+  }
+  return hash;
+}
+
+// One draw after another of everything that is uncertain.
+class Draws {
+ public:
+  explicit Draws(const UncertaintyInput& input)
+      : input_(input), drawn_(*input.estimation), random_(SeedOf(*input.estimation)) {
+    for (const ReadingRow& row : drawn_.rows) {
+      instruments_ = std::max(instruments_, row.instrument + 1);
+    }
+    shared_.resize(static_cast<std::size_t>(instruments_) + input.considered.size());
+    influence_.resize(drawn_.rows.size() * input.considered.size());
+    for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
+      const ReadingRow& row = drawn_.rows[i];
+      const bool lit = row.form == ReadingRow::Form::kLog && row.direct_gain > 0.0;
+      for (std::size_t c = 0; c < input.considered.size(); ++c) {
+        const Consider& one = input.considered[c];
+        influence_[i * input.considered.size() + c] =
+            lit ? one.relative * std::pow(row.distance, one.distance_power) : 0.0;
+      }
+    }
+  }
+
+  // The next draw's problem; `start` becomes the optimum's linear prediction for held parameters.
+  const Estimation& Next(Theta& start) {
+    for (double& z : shared_) z = normal_(random_);
+    const std::size_t influences = input_.considered.size();
+    for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
+      const ReadingRow& given = input_.estimation->rows[i];
+      double relative = given.calibration * shared_[static_cast<std::size_t>(given.instrument)];
+      for (std::size_t c = 0; c < influences; ++c) {
+        relative +=
+            influence_[i * influences + c] * shared_[static_cast<std::size_t>(instruments_) + c];
+      }
+      const double own = given.sigma * input_.row_scale * normal_(random_);
+      drawn_.rows[i].measured = given.form == ReadingRow::Form::kLinear
+                                    ? given.measured * (1.0 + relative) + own
+                                    : given.measured * std::exp(relative + own);
+    }
+    for (int k = 0; k < kParameters; ++k) {
+      const ParameterRule& rule = input_.estimation->rules[k];
+      if (!(rule.prior_sd > 0.0)) continue;
+      const double value = rule.prior_mean + rule.prior_sd * normal_(random_);
+      if (rule.free) {
+        drawn_.rules[k].prior_mean = value;
+      } else {
+        start[k] = k == kDistanceOffset ? std::max(value, drawn_.least_distance_offset) : value;
+      }
+    }
+    return drawn_;
+  }
+
+ private:
+  const UncertaintyInput& input_;
+  Estimation drawn_;
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+  int instruments_ = 0;
+  std::vector<double> shared_;     // of each instrument, then of each considered influence
+  std::vector<double> influence_;  // of each row and influence, relative
+};
+
+Figures FiguresOf(std::vector<double>& samples) {
+  const auto n = static_cast<double>(samples.size());
+  double sum = 0.0;
+  for (const double x : samples) sum += x;
+  const double mean = sum / n;
+  double squares = 0.0;
+  for (const double x : samples) squares += (x - mean) * (x - mean);
+  const auto quantile = [&](double p) {
+    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(p * (n - 1.0) + 0.5);
+    std::nth_element(samples.begin(), at, samples.end());
+    return *at;
+  };
+  return {mean, std::sqrt(squares / (n - 1.0)), quantile(kTail), quantile(1.0 - kTail)};
+}
+
+// Half of the last of `digits` significant digits of u.
+double HalfDigit(double u, int digits) {
+  return 0.5 * std::pow(10.0, std::floor(std::log10(u)) - (digits - 1));
+}
+
+// Mean over blocks and the standard deviation of that mean.
+struct Spread {
+  double mean = 0.0;
+  double sd = 0.0;
+};
+Spread SpreadOf(const std::vector<Figures>& blocks, int figure) {
+  const auto n = static_cast<double>(blocks.size());
+  Spread out;
+  for (const Figures& block : blocks) out.mean += block[figure] / n;
+  double squares = 0.0;
+  for (const Figures& block : blocks) squares += std::pow(block[figure] - out.mean, 2);
+  out.sd = blocks.size() > 1 ? std::sqrt(squares / (n * (n - 1.0))) : 0.0;
+  return out;
+}
+
+bool IsStable(const std::vector<Figures>& blocks, int digits) {
+  const double u = SpreadOf(blocks, 1).mean;
+  if (!(u > 0.0)) return true;
+  for (int figure = 0; figure < kFigures; ++figure) {
+    if (2.0 * SpreadOf(blocks, figure).sd > HalfDigit(u, digits)) return false;
+  }
+  return true;
+}
+
+Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& input,
+                                                     std::size_t count, Draws& draws) {
+  std::array<std::vector<double>, kParameters> samples;
+  for (auto& one : samples) one.reserve(count);
+  std::size_t failures = 0;
+  while (samples.front().size() < count) {
+    Theta start = input.theta;
+    const Estimation& drawn = draws.Next(start);
+    std::optional<Theta> theta = SolveCoarsely(drawn, start);
+    if (!theta) {
+      const Result<Theta> full = SolveInFull(drawn, start);
+      if (full) theta = *full;
+    }
+    if (!theta) {
+      if (++failures * kSamplesAFailure > count) {
+        return Failed("no_convergence", "fit", "too many samples of the readings have no optimum");
+      }
+      continue;
+    }
+    for (int k = 0; k < kParameters; ++k) samples[k].push_back((*theta)[k]);
+  }
+  std::array<Figures, kParameters> out;
+  for (int k = 0; k < kParameters; ++k) out[k] = FiguresOf(samples[k]);
+  return out;
+}
+
+}  // namespace
+
+SamplingRule JustSamples(int samples) {
+  const SamplingRule usual;
+  const int blocks = (samples + usual.block - 1) / usual.block;
+  return {usual.digits, blocks, (samples + blocks - 1) / blocks, true};
+}
+
+Result<SampledEstimate> SampleEstimate(const UncertaintyInput& input, const SamplingRule& rule) {
+  if (auto determined = EstimateCovariance(input); !determined) {
+    return Propagate(std::move(determined));
+  }
+  Draws draws(input);
+  std::array<std::vector<Figures>, kParameters> blocks;
+  SampledEstimate out;
+  for (int block = 0; block < rule.largest_blocks; ++block) {
+    if (out.stable && !rule.all_blocks) break;
+    const auto figures = SampleBlock(input, static_cast<std::size_t>(rule.block), draws);
+    if (!figures) return tl::unexpected(figures.error());
+    out.stable = block + 1 >= kFewestBlocks;
+    for (int k = 0; k < kParameters; ++k) {
+      blocks[k].push_back((*figures)[k]);
+      out.stable = out.stable && IsStable(blocks[k], rule.digits);
+    }
+    out.samples += rule.block;
+  }
+  for (int k = 0; k < kParameters; ++k) {
+    out.parameters[k] = {SpreadOf(blocks[k], 0).mean, SpreadOf(blocks[k], 1).mean,
+                         SpreadOf(blocks[k], 2).mean, SpreadOf(blocks[k], 3).mean};
+  }
+  return out;
+}
+
+}  // namespace lightcal::fit

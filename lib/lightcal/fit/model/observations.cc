@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/observations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/light/lamp_axes.h"
+
+namespace lightcal::fit {
+namespace {
+
+// A meter's reading of nothing is known to half a percent of the dimmest reading that counts: its
+// resolution and dark offset. Relative, so that the fit has no scale of its own.
+constexpr double kDarkFloor = 0.005;
+// No meter repeats better than this; keeps a sigma of 0 from deciding alone.
+constexpr double kLeastSigma = 1e-4;
+// A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
+// bounce differs from place to place.
+constexpr double kSigmaElsewhere = 0.3;
+// Nearer than this no meter's head fits and no distance is known.
+constexpr double kLeastDistance_m = 1e-3;
+// Readings within this many metres of each other stand in one place.
+constexpr double kSamePlace = 0.005;
+// People point a meter within a degree, 1 sigma, once they mean a tilt.
+constexpr double kTiltSigma = std::numbers::pi / 180.0;
+// A reading under range lies anywhere from 0 to its limit L: mean L/2, sigma L/sqrt(12).
+constexpr double kUnderRangeMean = 0.5;
+const double kUnderRangeSigma = 1.0 / std::sqrt(3.0);  // relative to the mean
+
+struct Geometry {
+  double distance_m = 1.0;
+  double tilt_rad = 0.0;
+  bool from_center = false;
+};
+
+Geometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
+  const Vec3 to_lamp = lamp - meter;
+  const double distance = Length(to_lamp);
+  const double lengths = distance * Length(normal);
+  const double cosine = lengths > 0.0 ? Dot(to_lamp, normal) / lengths : 0.0;
+  return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
+}
+
+std::string RowName(const SessionReading& row, int index) {
+  return row.where.empty() ? "reading " + std::to_string(index) : row.where;
+}
+
+// The radius around the reference point inside which no meter can stand.
+double InnerRadius(const LightDescription& light) {
+  if (light.kind == LightKind::kTube && light.radius) return light.radius->value();
+  if (light.kind == LightKind::kSphere && light.diameter) return 0.5 * light.diameter->value();
+  return 0.0;
+}
+
+class Collector {
+ public:
+  Collector(const Session& session, const LightDescription& light)
+      : session_(session), light_(light) {}
+
+  Result<Observations> Collect() {
+    for (const SessionReading& row : session_.readings) {
+      if (row.reading.light != light_.name) continue;
+      if (row.reading.illuminance) (void)InstrumentIndex(row.reading);
+    }
+    for (const SessionReading& row : session_.readings) {
+      if (row.reading.light != light_.name) continue;
+      const int index = out_.readings++;
+      if (auto added = Add(row, index); !added) return tl::unexpected(std::move(added).error());
+    }
+    if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
+    SubtractShadows();
+    FillSigmas();
+    std::sort(out_.rejected.begin(), out_.rejected.end());
+    return std::move(out_);
+  }
+
+ private:
+  Result<void> Add(const SessionReading& row, int index) {
+    const Reading& reading = row.reading;
+    if (!reading.illuminance) return {};  // a colour reading
+    const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
+    auto geometry = GeometryOf(row, index, lit);
+    if (!geometry) return tl::unexpected(std::move(geometry).error());
+    const std::string fault = FaultOf(reading, *geometry, lit);
+    if (!fault.empty()) {
+      out_.rejected.push_back(index);
+      out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
+      return {};
+    }
+    if (!reading.shadow_card && !lit) ++out_.off_readings;
+    if (reading.shadow_card) ++out_.shadow_readings;
+    Observation observation;
+    observation.index = index;
+    observation.lit = lit;
+    observation.distance_m = geometry->distance_m;
+    observation.placed = reading.distance || reading.position_m;
+    observation.tilt_rad = geometry->tilt_rad;
+    observation.measured_lx = observation.raw_lx =
+        (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
+    observation.over_range = reading.over_range;
+    observation.measured_from_center = geometry->from_center;
+    observation.position_m = reading.position_m;
+    observation.table_part = TablePart(reading);
+    if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
+    observation.calibration = CalibrationRelative(session_, reading);
+    observation.instrument = InstrumentIndex(reading);
+    const double sigma = SigmaOf(reading);
+    relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
+                         reading.shadow_card, !lit && !observation.placed, &row});
+    out_.rows.push_back(observation);
+    return {};
+  }
+
+  // Where several instruments speak, what sets them apart belongs to each reading's sigma.
+  [[nodiscard]] double SigmaOf(const Reading& reading) const {
+    if (reading.under_range) return kUnderRangeSigma;
+    return std::max(kLeastSigma, instruments_.size() == 1 ? RepeatabilityRelative(session_, reading)
+                                                          : SigmaRelative(session_, reading));
+  }
+
+  int InstrumentIndex(const Reading& reading) {
+    const std::string& name = InstrumentOf(reading);
+    const auto known = std::find(instruments_.begin(), instruments_.end(), name);
+    const auto index = static_cast<int>(known - instruments_.begin());
+    if (known == instruments_.end()) instruments_.push_back(name);
+    return index;
+  }
+
+  // Readings without positions stand on the lamp's aim; a lamp without an aim shines down.
+  [[nodiscard]] double TablePart(const Reading& reading) const {
+    if (!light_.distribution) return 1.0;
+    const IntensityTable& table = *light_.distribution;
+    Vec3 towards{0.0, 0.0, -1.0};
+    if (reading.position_m && light_.position_m) {
+      const LampAxes axes = AxesOfAim(light_.aim.value_or(Vec3{0.0, 0.0, -1.0}));
+      const Vec3 way = *reading.position_m - *light_.position_m;
+      towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
+    }
+    return table.Towards(towards) / table.peak().intensity;
+  }
+
+  Result<Geometry> GeometryOf(const SessionReading& row, int index, bool lit) const {
+    const Reading& reading = row.reading;
+    const std::string name = RowName(row, index);
+    if (reading.distance && reading.distance->value() < 0.0) {
+      return Refused("negative_distance", name, "a distance below 0 m has no meaning; correct it");
+    }
+    if (!HasDistanceLaw(light_.kind)) return Geometry{1.0, reading.tilt.value(), true};
+    if (reading.distance) return Geometry{reading.distance->value(), reading.tilt.value(), false};
+    if (!reading.position_m) {
+      if (!lit) return Geometry{};
+      return Refused("no_distance", name, "give distance_m, or position_m and normal");
+    }
+    if (!light_.position_m) {
+      return Geometry{1.0, reading.normal ? 0.0 : reading.tilt.value(), true};
+    }
+    if (reading.normal) {
+      return FromPositions(*light_.position_m, *reading.position_m, *reading.normal);
+    }
+    return Geometry{Length(*light_.position_m - *reading.position_m), reading.tilt.value(), true};
+  }
+
+  std::string FaultOf(const Reading& reading, const Geometry& geometry, bool lit) const {
+    const double lux = reading.illuminance->value();
+    if (!std::isfinite(lux)) return "its illuminance is not a number";
+    if (!std::isfinite(geometry.distance_m)) return "its distance is not a number";
+    if (lit && !(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
+    if (!std::isfinite(geometry.tilt_rad)) return "its tilt is not a number";
+    if (!lit) return {};
+    if (!(TablePart(reading) > 0.0)) {
+      return "the lamp's photometric file has no light in the meter's direction";
+    }
+    if (geometry.distance_m < InnerRadius(light_)) {
+      return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
+    }
+    if (HasDistanceLaw(light_.kind) && geometry.distance_m < kLeastDistance_m) {
+      return "it is nearer than 1 mm (" + ShortestText(geometry.distance_m) +
+             " m), where no distance is known: measure from farther away";
+    }
+    if (std::abs(geometry.tilt_rad) >= 0.5 * std::numbers::pi - 1e-9) {
+      return "the meter faces away from the lamp (tilt 90 degrees or more)";
+    }
+    return {};
+  }
+
+  // Readings with other lamps lit become differences; what they were subtracted from goes.
+  Result<void> SubtractOthers() {
+    std::vector<bool> gone(out_.rows.size(), false);
+    const std::vector<std::size_t> off =
+        RowsWhere([&](std::size_t j) { return !out_.rows[j].lit; });
+    int separated = 0;
+    int mixed = 0;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const std::vector<std::string>& others = relative_[i].source->others_lit;
+      if (others.empty()) continue;
+      if (!out_.rows[i].lit) {
+        gone[i] = true;
+        continue;
+      }
+      ++mixed;
+      const auto lamp_off = [&](std::size_t j) {
+        const SessionReading& reading = *relative_[j].source;
+        return reading.others_lit == others && reading.place == relative_[i].source->place;
+      };
+      gone[i] = out_.rows[i].over_range || !Subtract(i, off, lamp_off);
+      out_.rows[i].ambient_subtracted = !gone[i];
+      separated += gone[i] ? 0 : 1;
+    }
+    const bool alone = std::any_of(out_.rows.begin(), out_.rows.end(), [&](const Observation& o) {
+      return o.lit && relative_[&o - out_.rows.data()].source->others_lit.empty();
+    });
+    if (mixed > 0 && separated == 0 && !alone) {
+      return Refused("not_separated", light_.name,
+                     "other lamps were lit in every reading of this one; read the same place once "
+                     "more with it off and the same others lit");
+    }
+    Keep(gone);
+    return {};
+  }
+
+  void Keep(const std::vector<bool>& gone) {
+    std::vector<Observation> kept;
+    std::vector<Extra> kept_extra;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (gone[i]) continue;
+      kept.push_back(out_.rows[i]);
+      kept_extra.push_back(relative_[i]);
+    }
+    out_.rows = std::move(kept);
+    relative_ = std::move(kept_extra);
+  }
+
+  template <class Where>
+  [[nodiscard]] std::vector<std::size_t> RowsWhere(const Where& where) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
+      if (where(j)) rows.push_back(j);
+    }
+    return rows;
+  }
+
+  // Takes the mean of those readings among `candidates` that are `of` row i, weighted by their
+  // sigmas, from it. False: there is none.
+  template <class Of>
+  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
+    Observation& row = out_.rows[i];
+    double weights = 0.0;
+    double sum = 0.0;
+    for (const std::size_t j : candidates) {
+      if (!of(j)) continue;
+      const Observation& other = out_.rows[j];
+      double relative = relative_[j].sigma;
+      if (other.instrument != row.instrument) relative = std::hypot(relative, other.calibration);
+      const double sigma =
+          std::max(std::abs(other.raw_lx) * relative, kLeastSigma * std::abs(row.raw_lx));
+      weights += 1.0 / (sigma * sigma);
+      sum += other.raw_lx / (sigma * sigma);
+    }
+    if (!(weights > 0.0)) return false;
+    row.measured_lx = row.raw_lx - sum / weights;
+    row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, 1.0 / std::sqrt(weights));
+    return true;
+  }
+
+  void SubtractShadows() {
+    if (out_.shadow_readings == 0) return;
+    std::vector<bool> consumed(out_.rows.size(), false);
+    const std::vector<std::size_t> shadows =
+        RowsWhere([&](std::size_t j) { return relative_[j].shadow; });
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.over_range || row.ambient_subtracted) continue;
+      const auto shadow = [&](std::size_t j) {
+        const bool here = SamePlace(row, j);
+        if (here) consumed[j] = true;
+        return here;
+      };
+      if (!Subtract(i, shadows, shadow)) continue;
+      out_.rows[i].differenced = true;
+      if (row.measured_lx < 0.0) WarnOfNegative(row);
+    }
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (consumed[i]) {
+        out_.shadow_used.push_back(out_.rows[i].index);
+        continue;
+      }
+      if (!relative_[i].shadow) continue;
+      out_.warnings.push_back({"shadow_unmatched", light_.name,
+                               "a shadow-card reading has no lamp-on reading at its distance; it "
+                               "counts as ambient light, within 30 %"});
+      relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
+    }
+    Keep(consumed);
+  }
+
+  // Cutting it at 0 would make the lamp brighter than it is.
+  void WarnOfNegative(const Observation& row) {
+    out_.warnings.push_back(
+        {"negative_difference", light_.name,
+         "reading " + std::to_string(row.index) + " (" + RoundedText(row.raw_lx, 4) +
+             " lx) shows less than its shadow-card reading; the difference of " +
+             RoundedText(row.measured_lx, 3) +
+             " lx is kept with its sign: read again where the lamp is brighter"});
+  }
+
+  [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
+    if (!HasDistanceLaw(light_.kind)) return true;
+    const std::optional<Vec3>& there = out_.rows[j].position_m;
+    if (!light_.position_m && row.position_m && there) {
+      return Length(*row.position_m - *there) < kSamePlace;
+    }
+    return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m);
+  }
+
+  void FillSigmas() {
+    double dimmest = std::numeric_limits<double>::infinity();
+    double brightest = 0.0;
+    for (const Observation& row : out_.rows) {
+      if (row.lit && row.raw_lx > 0.0) dimmest = std::min(dimmest, row.raw_lx);
+      brightest = std::max(brightest, std::abs(row.raw_lx));
+    }
+    // With no positive reading at all, the meter's last digit: 0.1 lx.
+    const double floor =
+        std::isfinite(dimmest) ? kDarkFloor * dimmest : std::max(brightest, 0.1 / std::sqrt(12.0));
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Observation& row = out_.rows[i];
+      if (row.differenced || row.ambient_subtracted) continue;
+      const double proportional = std::abs(row.raw_lx) * relative_[i].sigma;
+      row.sigma_lx = row.lit && row.raw_lx > 0.0 ? proportional : std::hypot(proportional, floor);
+    }
+  }
+
+  struct Extra {
+    double sigma = 0.0;  // relative
+    bool shadow = false;
+    bool no_place = false;  // an off or shadow reading without a distance
+    const SessionReading* source = nullptr;
+  };
+
+  const Session& session_;
+  const LightDescription& light_;
+  Observations out_;
+  std::vector<Extra> relative_;  // beside out_.rows
+  std::vector<std::string> instruments_;
+};
+
+}  // namespace
+
+bool HasDistanceLaw(LightKind kind) {
+  return kind != LightKind::kDirectional && kind != LightKind::kDome;
+}
+
+bool SameDistance(double a_m, double b_m) {
+  return std::abs(a_m - b_m) <= 1e-3 * std::max(std::abs(a_m), std::abs(b_m));
+}
+
+int CountDistinctDistances(const std::vector<Observation>& rows) {
+  std::vector<double> distances;
+  for (const Observation& row : rows) {
+    if (row.lit) distances.push_back(row.distance_m);
+  }
+  std::sort(distances.begin(), distances.end());
+  int count = 0;
+  std::optional<double> last;
+  for (const double d : distances) {
+    if (last && SameDistance(*last, d)) continue;
+    last = d;
+    ++count;
+  }
+  return count;
+}
+
+Result<Observations> CollectObservations(const Session& session, const LightDescription& light) {
+  return Collector(session, light).Collect();
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readings of one light say about it: geometry resolved, lamp-off and shadow-card readings
+// put to their use, impossible rows set aside.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/off_axis_pose.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// A reading with the lamp on, or (lit false) one of everything but the lamp.
+struct Observation {
+  int index = 0;  // 0-based over the light's readings
+  bool lit = true;
+  double distance_m = 1.0;  // from the reference point, or of the two positions; 1 where none
+  bool placed = true;       // whether the session says where the meter was
+  double tilt_rad = 0.0;
+  double measured_lx = 0.0;  // a matching shadow-card reading is subtracted
+  double raw_lx = 0.0;       // as read
+  double sigma_lx = 0.0;     // 1 sigma of measured_lx
+  bool differenced = false;  // shadow card subtracted: no ambient, no bounce
+  // The same place with this lamp off was subtracted: no ambient, no other lamps, its own bounce.
+  bool ambient_subtracted = false;
+  double calibration = 0.0;  // 1 sigma, relative: of every reading of this instrument alike
+  int instrument = 0;        // among this light's
+  bool over_range = false;
+  double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
+  bool measured_from_center = false;  // by positions, the lamp's known or to be found
+  std::optional<Vec3> position_m;
+  std::optional<Vec3> normal;           // unit, where the reading gives one
+  std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
+  double emission = 1.0;                // E/I there over cos(tilt)/d^2
+};
+
+struct Observations {
+  std::vector<Observation> rows;
+  std::vector<int> rejected;     // indices over the light's readings, ascending
+  std::vector<int> shadow_used;  // indices of shadow-card readings that were subtracted
+  int readings = 0;              // rows of this light, good or bad
+  int off_readings = 0;
+  int shadow_readings = 0;
+  Warnings warnings;
+};
+
+// Sorts the session's readings of `light`. A row that is not finite, has a distance of 0, lies
+// inside the lamp or faces away is rejected with the warning row_rejected. Refused:
+// negative_distance, no_distance, not_separated (other lamps were lit in every reading of this one,
+// and none of them was taken with this one off). A reading with other lamps lit counts by its
+// difference from one at the same place with this lamp off and the same others lit. Where one
+// instrument took every reading, sigmas are its repeatability and `calibration` is to be added
+// after the fit; beside another's they hold both. Where the lamp has no position, readings that
+// give theirs keep a distance of 1 until locate.h finds it.
+[[nodiscard]] Result<Observations> CollectObservations(const Session& session,
+                                                       const LightDescription& light);
+
+// Whether the light's illuminance follows a distance at all (not for directional and dome).
+[[nodiscard]] bool HasDistanceLaw(LightKind kind);
+
+// Readings within a thousandth of each other stand at one distance.
+[[nodiscard]] bool SameDistance(double a_m, double b_m);
+[[nodiscard]] int CountDistinctDistances(const std::vector<Observation>& rows);
+
+}  // namespace lightcal::fit

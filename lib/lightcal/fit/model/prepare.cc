@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+#include <variant>
+
+#include "lightcal/fit/model/row_values.h"
+#include "lightcal/light/effects/detector_size.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kLeastOffset = -0.9;  // of the shortest distance
+constexpr int kDistancesForAmbient = 4;
+
+Scales ScalesOf(const Observations& observations) {
+  double ln_length = 0.0;
+  double ln_illuminance = 0.0;
+  int count = 0;
+  for (const Observation& row : observations.rows) {
+    if (!row.lit || !(row.measured_lx > 0.0)) continue;
+    ln_length += std::log(row.distance_m);
+    ln_illuminance += std::log(row.measured_lx);
+    ++count;
+  }
+  if (count == 0) return {};
+  return {std::exp(ln_length / count), std::exp(ln_illuminance / count)};
+}
+
+AxialShape Scaled(AxialShape shape, double length_m) {
+  shape.first /= length_m;
+  shape.second /= length_m;
+  return shape;
+}
+
+OffAxisPose Scaled(OffAxisPose pose, double length_m) {
+  std::visit(
+      [length_m](auto& source) {
+        using Source = std::decay_t<decltype(source)>;
+        if constexpr (std::is_same_v<Source, SphereSource> || std::is_same_v<Source, DiskSource>) {
+          source.radius /= length_m;
+        } else if constexpr (std::is_same_v<Source, RectSource>) {
+          source.half_width /= length_m;
+          source.half_height /= length_m;
+        } else if constexpr (std::is_same_v<Source, TubeSource>) {
+          source.half_length /= length_m;
+          source.radius /= length_m;
+        }
+      },
+      pose.source);
+  pose.at.position = pose.at.position * (1.0 / length_m);
+  return pose;
+}
+
+ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardModel& model,
+                 const Scales& scales) {
+  ReadingRow row;
+  FillRowValues(observation, i, model, scales.length_m, scales.illuminance_lx, row);
+  row.calibration = observation.calibration;
+  row.instrument = observation.instrument;
+  if (!observation.lit) {
+    row.direct_gain = 0.0;
+    return row;
+  }
+  row.shape = Scaled(model.shape, scales.length_m);
+  const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
+  row.distance = (observation.distance_m + surface) / scales.length_m;
+  if (observation.off_axis) row.off_axis = Scaled(*observation.off_axis, scales.length_m);
+  // A pose off the axis holds its normal; without one the tilt is all that is known.
+  if (model.tilt && !(observation.off_axis && observation.normal)) {
+    row.direct_gain = std::cos(observation.tilt_rad);
+  }
+  row.direct_gain *= observation.table_part;
+  if (model.head_radius_m > 0.0) {
+    row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
+  }
+  return row;
+}
+
+}  // namespace
+
+Prepared Prepare(const Observations& observations, const ForwardModel& model) {
+  Prepared out;
+  out.estimation.choice = model.choice;
+  out.scales = ScalesOf(observations);
+  out.shortest = std::numeric_limits<double>::infinity();
+  double dimmest = std::numeric_limits<double>::infinity();
+  bool offset_possible = model.distance_law && model.fit_offset;
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    const Observation& observation = observations.rows[i];
+    if (!observation.lit && !model.fit_ambient) continue;
+    out.estimation.rows.push_back(RowOf(observation, i, model, out.scales));
+    out.observation.push_back(static_cast<int>(i));
+    const ReadingRow& row = out.estimation.rows.back();
+    if (!observation.lit) {
+      out.ambient_told = true;
+      continue;
+    }
+    ++out.lit_rows;
+    out.shortest = std::min(out.shortest, row.distance);
+    if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
+      dimmest = std::min(dimmest, row.measured);
+    }
+  }
+  out.distances = model.distance_law ? CountDistinctDistances(observations.rows) : 1;
+  offset_possible = offset_possible && out.lit_rows > 0;
+  auto& rules = out.estimation.rules;
+  rules[kLnIntensity].free = true;
+  if (offset_possible) {
+    rules[kDistanceOffset].prior_sd = kOffsetPriorRelative * out.shortest;
+    rules[kDistanceOffset].free = out.distances >= 2;
+  }
+  out.estimation.least_distance_offset = kLeastOffset * out.shortest;
+  if (out.ambient_told) {
+    rules[kAmbient].free = true;
+  } else if (model.fit_ambient && model.distance_law && out.distances >= kDistancesForAmbient &&
+             std::isfinite(dimmest)) {
+    // Ambient light cannot exceed the dimmest reading.
+    rules[kAmbient] = {true, 0.0, dimmest};
+  }
+  return out;
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// One row of the least-squares problem and the law every cost shares.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "lightcal/fit/model/off_axis_pose.h"
+#include "lightcal/light/axial_shape.h"
+
+namespace lightcal::fit {
+
+// The parameters, in this order everywhere: natural logarithm of the axial intensity, the distance
+// offset, the ambient illuminance. Units are those of the rows (the solver scales both).
+enum Parameter : std::uint8_t { kLnIntensity = 0, kDistanceOffset = 1, kAmbient = 2 };
+inline constexpr int kParameters = 3;
+
+struct ReadingRow {
+  enum class Form : std::uint8_t {
+    kLog,       // (ln m - ln E)/sigma, sigma relative
+    kLinear,    // (m - E)/sigma, sigma in lux: readings near or below zero, lamp-off readings
+    kCensored,  // max(0, ln m - ln E)/sigma: the meter was over range, the truth is at least m
+  };
+  Form form = Form::kLog;
+  AxialShape shape;
+  std::optional<OffAxisPose> off_axis;  // instead of shape and distance
+  double distance = 1.0;
+  double direct_gain = 1.0;   // cosine of the tilt; 0 for a reading without the lamp
+  double bounce = 0.0;        // illuminance from the room's walls per candela, known
+  double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
+  double measured = 0.0;
+  double sigma = 1.0;
+  double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
+  int instrument = 0;
+};
+
+// Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off
+// the axis of a source with size and aim its exact form.
+template <class T>
+[[nodiscard]] T LuxPerCandela(const ReadingRow& row, const T& distance_offset) {
+  if (row.off_axis) {
+    return row.direct_gain * LuxPerCandela(*row.off_axis, distance_offset) + row.bounce;
+  }
+  const T r = row.distance + distance_offset;
+  return row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
+}
+
+// E = exp(ln I) (illuminance per candela) + ambient. T is double or an automatic-differentiation
+// scalar.
+template <class T>
+[[nodiscard]] T RowIlluminance(const ReadingRow& row, const T& ln_intensity,
+                               const T& distance_offset, const T& ambient) {
+  using std::exp;
+  const T direct = row.direct_gain > 0.0 ? LuxPerCandela(row, distance_offset) : T(row.bounce);
+  return exp(ln_intensity) * direct + row.ambient_gain * ambient;
+}
+
+}  // namespace lightcal::fit

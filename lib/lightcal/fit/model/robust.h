@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The estimate when some readings may be wrong.
+#pragma once
+
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/solve.h"
+
+namespace lightcal::fit {
+
+struct RobustEstimate {
+  Theta theta{};
+  Estimation kept;              // the rows that carried it
+  std::vector<int> rejected;    // positions in the rows given
+  std::vector<int> suspicious;  // four readings or fewer: far from the model, yet none is rejected
+  bool bimodal = false;         // two of four disagree with the other two
+};
+
+// Squared loss when no residual exceeds kSuspiciousResidual. Otherwise, by the number n of readings
+// with the lamp on: n <= 3 none is rejected; n = 4 median start and Huber loss, none is rejected; n
+// >= 5 median start, Huber, then Tukey polish with the scale max(1, 1.4826 MAD); readings beyond
+// kTukeyConstant scales are rejected and the estimate is the squared-loss one on those kept.
+// Fails as Solve.
+[[nodiscard]] Result<RobustEstimate> EstimateRobustly(const Estimation& estimation);
+
+inline constexpr double kSuspiciousResidual = 2.5;
+
+}  // namespace lightcal::fit

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maximum a posteriori estimate of (ln I, d0, E0) from rows already in the solver's own units.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/reading_model.h"
+#include "lightcal/records/accuracy_profile.h"
+
+namespace lightcal::fit {
+
+using Theta = std::array<double, kParameters>;
+
+// A parameter is free (with or without a prior) or held at its start. sd <= 0: no prior.
+struct ParameterRule {
+  bool free = false;
+  double prior_mean = 0.0;
+  double prior_sd = 0.0;
+};
+
+struct Estimation {
+  std::vector<ReadingRow> rows;
+  std::array<ParameterRule, kParameters> rules;
+  double least_distance_offset = -1e300;  // d0 stays at or above it, so that d + d0 > 0
+  EstimatorChoice choice{};
+};
+
+enum class Loss : std::uint8_t { kSquared, kHuber, kTukey };
+
+// Huber's and Tukey's constants: 95 % efficiency for normal errors.
+inline constexpr double kHuberConstant = 1.345;
+inline constexpr double kTukeyConstant = 4.685;
+
+// Minimises 1/2 sum rho(r_i^2) + priors with Ceres from `start`, d0 and E0 in their boxes. `scale`
+// widens the loss (a multiple of sigma). Fails: no_convergence.
+// As estimation.choice.solver says: squared losses try SolveQuickly first by default.
+[[nodiscard]] Result<Theta> Solve(const Estimation& estimation, const Theta& start,
+                                  Loss loss = Loss::kSquared, double scale = 1.0);
+// The same always by the full solver.
+[[nodiscard]] Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start,
+                                        Loss loss = Loss::kSquared, double scale = 1.0);
+// The squared-loss optimum by ceres::TinySolver, a tenth of the full solver's time and the same to
+// 1e-9; E0 at its bound is held there. Absent where it does not converge or d0 leaves its box.
+[[nodiscard]] std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start);
+
+// The same to 1e-7 of a parameter, for samples.
+[[nodiscard]] std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start);
+
+// Whitened residual of one row at theta.
+[[nodiscard]] double RowResidual(const ReadingRow& row, const Theta& theta);
+// Whitened residual and its derivatives by (ln I, d0, E0).
+struct RowDerivative {
+  double residual = 0.0;
+  std::array<double, kParameters> gradient{};
+};
+[[nodiscard]] RowDerivative DifferentiateRow(const ReadingRow& row, const Theta& theta);
+
+// 1/2 sum r_i^2 with the priors of free parameters.
+[[nodiscard]] double HalfChiSquared(const Estimation& estimation, const Theta& theta);
+
+}  // namespace lightcal::fit

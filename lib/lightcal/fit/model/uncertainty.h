@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Covariance of an estimate, and how well the readings determine it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/solve.h"
+
+namespace lightcal::fit {
+
+using Covariance = std::array<double, std::size_t{kParameters} * kParameters>;
+
+// A systematic influence that is not fitted: one standard deviation of it changes every ln E by
+// `relative` (the same sign in all rows, growing with distance to the power `distance_power`).
+struct Consider {
+  double relative = 0.0;
+  double distance_power = 0.0;
+  std::string name{};  // the effect it stands for
+};
+
+struct UncertaintyInput {
+  const Estimation* estimation = nullptr;
+  Theta theta{};
+  double row_scale = 1.0;  // every row's sigma is multiplied by it (Birge ratio)
+  std::vector<Consider> considered;
+};
+
+// Covariance of (ln I, d0, E0) at theta: the inverse of J^T J of the whitened rows and of the
+// priors of the free parameters, by QR (weights may span 1e12), plus, for each parameter that is
+// held though uncertain (prior_sd > 0) and each considered influence, its standard deviation
+// carried through the estimate (Schmidt's consider covariance); so is each instrument's
+// calibration, a factor its rows have in common and more of them do not average away (JCGM 100,
+// F.1.2.3). A free E0 is bounded below by 0: its marginal becomes the normal truncated there, and
+// the others follow by their regression on it. Fails: underdetermined (a free parameter no row and
+// no prior determines).
+[[nodiscard]] Result<Covariance> EstimateCovariance(const UncertaintyInput& input);
+
+// Ratio of the largest to the smallest singular value of the whitened rows' Jacobian over the
+// parameters marked true, columns scaled to unit length; priors are left out. Infinite when a
+// column is zero or fewer rows than parameters are there.
+[[nodiscard]] double ScaledCondition(const Estimation& estimation, const Theta& theta,
+                                     const std::array<bool, kParameters>& parameters);
+
+// Root mean square relative error of predicting each log row from all others, by the hat matrix of
+// the linearised problem: ln error_i = r_i sigma_i/(1 - h_i), relative = exp(..) - 1. Absent when
+// some row decides a parameter alone or when there are fewer than three log rows.
+[[nodiscard]] std::optional<double> LeaveOneOut(const Estimation& estimation, const Theta& theta);
+
+// The 95th percentile of chi-squared with `dof` degrees of freedom (Wilson and Hilferty 1931,
+// within 1.5 % for dof >= 1).
+[[nodiscard]] double ChiSquared95(int dof);
+
+}  // namespace lightcal::fit

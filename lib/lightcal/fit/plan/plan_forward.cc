@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/plan/plan_forward.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+#include "lightcal/light/effects/detector_size.h"
+#include "lightcal/light/gate.h"
+#include "lightcal/light/room_bounce.h"
+
+namespace lightcal::fit {
+namespace {
+
+template <class T>
+void KeepLargest(std::optional<T>& kept, const std::optional<T>& next) {
+  if (next && (!kept || *next > *kept)) kept = next;
+}
+
+// The worst of what the light's meters state.
+void AddMeters(const Session& session, const LightDescription& light, Scene& scene) {
+  for (const MeterDescription& meter : session.meters) {
+    const bool used = std::any_of(
+        session.readings.begin(), session.readings.end(), [&](const SessionReading& row) {
+          return row.reading.light == light.name && row.reading.meter == meter.name;
+        });
+    if (!used) continue;
+    KeepLargest(scene.spectral_f1, meter.spectral_f1);
+    KeepLargest(scene.cosine_f2, meter.cosine_f2);
+    KeepLargest(scene.head_radius, meter.head_radius);
+  }
+}
+
+std::optional<double> AmbientRatio(const Observations& observations) {
+  double off = 0.0;
+  int count = 0;
+  double dimmest = std::numeric_limits<double>::infinity();
+  for (const Observation& row : observations.rows) {
+    if (row.lit && row.raw_lx > 0.0) dimmest = std::min(dimmest, row.raw_lx);
+    if (row.lit) continue;
+    off += row.measured_lx;
+    ++count;
+  }
+  const auto is_subtracted = [](const Observation& o) { return o.ambient_subtracted; };
+  const bool subtracted =
+      std::any_of(observations.rows.begin(), observations.rows.end(), is_subtracted) &&
+      std::all_of(observations.rows.begin(), observations.rows.end(), [&](const Observation& o) {
+        return is_subtracted(o) || (o.lit && o.differenced);
+      });
+  if (count == 0 && subtracted) return 0.0;
+  if (count == 0 || !std::isfinite(dimmest)) return std::nullopt;
+  return off / count / dimmest;
+}
+
+// Between the source's axis and the meter; 0 where nobody placed both.
+double EmissionOf(const LightDescription& light, const Observation& row) {
+  if (row.off_axis) {
+    const Vec3& p = row.off_axis->at.position;
+    const bool tube = std::holds_alternative<TubeSource>(row.off_axis->source);
+    return tube ? std::atan2(std::abs(p[0]), std::hypot(p[1], p[2]))
+                : std::atan2(std::hypot(p[0], p[1]), p[2]);
+  }
+  if (light.kind != LightKind::kPhotometric || !light.aim || !light.position_m || !row.position_m) {
+    return 0.0;
+  }
+  const Vec3 away = *row.position_m - *light.position_m;
+  return std::atan2(Length(Cross(*light.aim, away)), Dot(*light.aim, away));
+}
+
+// Who read, with what: a person's meter, a manufacturer, a camera.
+void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
+  scene.time.own_lamp = false;
+  bool pictures = false;
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light.name || !row.reading.illuminance) continue;
+    scene.time.own_lamp = scene.time.own_lamp || row.reading.meter != kDataSheetMeter;
+    pictures = pictures || row.reading.quality == MeterQuality::kDerived;
+  }
+  if (!pictures) return;
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
+    if (capture.anchor_illuminance) continue;  // a meter gives the level, the picture the colour
+    if (!scene.picture) scene.picture.emplace();
+    if (capture.exposure_s.empty()) continue;
+    scene.picture->exposure_s =
+        *std::min_element(capture.exposure_s.begin(), capture.exposure_s.end());
+  }
+}
+
+Scene SceneOf(const Session& session, const LightDescription& light,
+              const Observations& observations, int patches) {
+  Scene scene;
+  scene.kind = light.kind;
+  scene.size = {light.diameter, light.width, light.height, light.length, light.radius};
+  scene.position_m = light.position_m;
+  scene.aim = light.aim;
+  scene.inner = light.inner;
+  scene.outer = light.outer;
+  scene.beam = light.beam;
+  double least_part = 1.0;
+  for (const Observation& row : observations.rows) {
+    if (!row.lit) continue;
+    scene.poses.push_back({row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced,
+                           row.position_m, EmissionOf(light, row)});
+    least_part = std::min(least_part, row.table_part);
+  }
+  scene.distances = CountDistinctDistances(observations.rows);
+  scene.ambient_ratio = AmbientRatio(observations);
+  if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance, patches};
+  if (light.distribution) {
+    scene.table = SceneTableOf(*light.distribution);
+    scene.table->least_part = least_part;
+  }
+  AddMeters(session, light, scene);
+  AddTime(session, light, scene);
+  return scene;
+}
+
+EffectState StateOf(GateState state) {
+  if (state == GateState::kOn) return EffectState::kOn;
+  return state == GateState::kFitted ? EffectState::kFitted : EffectState::kOff;
+}
+
+// An influence of relative size sd at the farthest reading.
+Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
+  const double power = effect.finding.distance_power;
+  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name)};
+}
+
+void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
+  double mean = 0.0;
+  bool even = true;
+  auto pose = scene.poses.begin();
+  for (const Observation& row : observations.rows) {
+    double bounce = 0.0;
+    if (row.lit) {
+      if (!row.differenced) {
+        const Bounce found = BounceAt(scene, *pose);
+        bounce = found.Estimate();
+        even = even && found.even;
+      }
+      mean += bounce / static_cast<double>(scene.poses.size());
+      ++pose;
+    }
+    model.bounce_per_candela.push_back(bounce);
+  }
+  model.considered.push_back({BounceSigma(even) * mean, 2.0, "room_bounce"});
+}
+
+void ModelEffect(const Scene& scene, const LightDescription& light,
+                 const Observations& observations, std::string_view name, ForwardModel& model) {
+  if (name == "finite_source") model.shape = AxialShapeOf(light.kind, scene.size);
+  if (name == "meter_tilt") model.tilt = true;
+  if (name == "detector_size") model.head_radius_m = scene.head_radius->value();
+  if (name == "sphere_surface" && light.diameter) {
+    model.surface_radius_m = 0.5 * light.diameter->value();
+  }
+  if (name == "room_bounce" && scene.room) ModelBounce(scene, observations, model);
+}
+
+void Apply(const Scene& scene, const LightDescription& light, const Observations& observations,
+           const GatedEffect& effect, ForwardModel& model) {
+  const Treatment treatment = effect.finding.treatment;
+  const double bound = effect.finding.bound;
+  if (effect.name == "distance_offset") model.fit_offset = effect.state != GateState::kOff;
+  if (effect.name == "ambient" && effect.state == GateState::kOff) {
+    model.fit_ambient = treatment == Treatment::kUnknown && !effect.forced;
+  }
+  if (effect.state == GateState::kOff) {
+    // A rectangular distribution of half width `bound`.
+    if (effect.ignored && bound > 0.0) {
+      model.considered.push_back(Widening(scene, effect, bound / std::numbers::sqrt3));
+    }
+    return;
+  }
+  if (treatment == Treatment::kWidens) {
+    model.considered.push_back(Widening(scene, effect, 0.5 * bound));
+  }
+  if (treatment == Treatment::kModelled && bound > 0.0) {
+    ModelEffect(scene, light, observations, effect.name, model);
+  }
+}
+
+// What the size of a source placed off its axis does there, beside a point with the same lobe.
+double SizeOffAxis(const Observation& row) {
+  const Vec3& p = row.off_axis->at.position;
+  const double r = Length(p);
+  double lobe = 1.0;
+  if (std::holds_alternative<TubeSource>(row.off_axis->source)) {
+    lobe = std::hypot(p[1], p[2]) / r;
+  } else if (std::holds_alternative<DiskSource>(row.off_axis->source) ||
+             std::holds_alternative<RectSource>(row.off_axis->source)) {
+    lobe = p[2] / r;
+  } else {
+    return 0.0;
+  }
+  return row.emission / lobe - 1.0;
+}
+
+// What an effect did at the reading where it did most.
+std::optional<double> ContributionOf(const EffectReport& effect, const ForwardModel& model,
+                                     const Observations& observations,
+                                     const LightEstimate& estimate) {
+  if (effect.state == EffectState::kOff || estimate.upper_limit) return std::nullopt;
+  double most = 0.0;
+  bool known = false;
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    const Observation& row = observations.rows[i];
+    if (!row.lit) continue;
+    const double d = row.distance_m;
+    double part = 0.0;
+    if (effect.name == "distance_offset") {
+      const double ratio = d / (d + estimate.theta[kDistanceOffset]);
+      part = ratio * ratio - 1.0;
+    } else if (effect.name == "ambient" && row.raw_lx > 0.0) {
+      part = estimate.theta[kAmbient] / row.raw_lx;
+    } else if (effect.name == "finite_source") {
+      part = row.off_axis ? SizeOffAxis(row) : AxialShapeFactor(model.shape, d) - 1.0;
+    } else if (effect.name == "meter_tilt") {
+      part = std::cos(row.tilt_rad) - 1.0;
+    } else if (effect.name == "room_bounce" && !model.bounce_per_candela.empty()) {
+      part = model.bounce_per_candela[i] * d * d;
+    } else if (effect.name == "detector_size" && model.head_radius_m > 0.0) {
+      part = effects::DetectorFactor(model.head_radius_m, d) - 1.0;
+    } else if (effect.name == "sphere_surface" && model.surface_radius_m > 0.0) {
+      part = d * d / ((d + model.surface_radius_m) * (d + model.surface_radius_m)) - 1.0;
+    } else {
+      continue;
+    }
+    known = true;
+    if (std::abs(part) > std::abs(most)) most = part;
+  }
+  if (!known || !std::isfinite(most)) return std::nullopt;
+  return most;
+}
+
+// The model and the report of what the gate decided.
+void Follow(const LightDescription& light, const Observations& observations,
+            const EstimatorChoice& choice, ForwardPlan& plan) {
+  plan.model = {};
+  plan.model.choice = choice;
+  plan.model.distance_law = HasDistanceLaw(light.kind);
+  plan.model.tilt = false;
+  plan.effects.clear();
+  for (GatedEffect& effect : plan.gated) {
+    // Lamp-off readings are fitted however little they show.
+    if (effect.name == "ambient" && plan.scene.ambient_ratio && effect.ignored) {
+      effect.ignored = false;
+      effect.state = GateState::kFitted;
+      effect.reason = effect.finding.reason;
+    }
+    Apply(plan.scene, light, observations, effect, plan.model);
+    if (!choice.exact_source) plan.model.shape = {};
+    if (!effect.finding.applies) continue;
+    plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
+                            std::nullopt, effect.cost_ns, effect.reason});
+  }
+}
+
+}  // namespace
+
+Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& light,
+                                const Observations& observations, const FitSettings& settings) {
+  ForwardPlan plan;
+  plan.model.distance_law = HasDistanceLaw(light.kind);
+  plan.model.tilt = false;
+  plan.scene = SceneOf(session, light, observations, settings.estimator.bounce_patches);
+  if (plan.scene.poses.empty()) return plan;  // the estimate refuses: no reading of the lamp
+  Result<std::vector<GatedEffect>> effects =
+      GateEffects(plan.scene, settings.tolerance_relative, settings.effects);
+  if (!effects) return Propagate(std::move(effects));
+  plan.gated = *std::move(effects);
+  Follow(light, observations, settings.estimator, plan);
+  return plan;
+}
+
+Result<std::optional<ForwardPlan>> PlanAfterFit(const ForwardPlan& plan,
+                                                const LightDescription& light,
+                                                const Observations& observations,
+                                                const FitSettings& settings,
+                                                const LightEstimate& estimate) {
+  const double offset = estimate.theta[kDistanceOffset];
+  if (plan.gated.empty() || estimate.upper_limit || offset == 0.0) return std::nullopt;
+  ForwardPlan next;
+  next.scene = plan.scene;
+  for (ScenePose& pose : next.scene.poses) {
+    if (!pose.from_center) pose.distance_m = std::max(1e-6, pose.distance_m + offset);
+  }
+  Result<std::vector<GatedEffect>> effects =
+      RegateEffects(plan.gated, next.scene, settings.tolerance_relative, settings.effects);
+  if (!effects) return Propagate(std::move(effects));
+  if (!OutgrewShare(plan.gated, *effects)) return std::nullopt;
+  next.gated = *std::move(effects);
+  for (std::size_t i = 0; i < next.gated.size(); ++i) {
+    if (!plan.gated[i].ignored || next.gated[i].state == GateState::kOff) continue;
+    next.gated[i].reason += "; off at first, and outgrown by the distance offset found";
+  }
+  // Poses stay as read: the model adds the offset itself.
+  next.scene.poses = plan.scene.poses;
+  Follow(light, observations, settings.estimator, next);
+  return next;
+}
+
+std::vector<EffectReport> ReportEffects(const ForwardPlan& plan, const Observations& observations,
+                                        const LightEstimate& estimate) {
+  std::vector<EffectReport> effects = plan.effects;
+  for (EffectReport& effect : effects) {
+    effect.contribution = ContributionOf(effect, plan.model, observations, estimate);
+  }
+  return effects;
+}
+
+}  // namespace lightcal::fit

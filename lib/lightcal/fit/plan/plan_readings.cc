@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/plan/plan_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/off_axis.h"
+#include "lightcal/fit/plan/reading_candidates.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kNominalCandela = 1000.0;
+// Readings that help equally but for this: the one that comes first is easier.
+constexpr double kAsGood = 0.01;
+
+Reading LikeTheLast(const Session& session) {
+  Reading like;
+  like.light = session.lights.front().name;
+  if (!session.meters.empty()) like.meter = session.meters.front().name;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (!reading.illuminance || reading.meter == kDataSheetMeter) continue;
+    like.meter = reading.meter;
+    like.device = reading.device;
+    like.sigma_relative = reading.sigma_relative;
+  }
+  return like;
+}
+
+struct Outcome {
+  FittedLight light;
+  double u95_relative = std::numeric_limits<double>::infinity();
+};
+
+std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings) {
+  auto fitted = FitSession(session, settings);
+  if (!fitted) return std::nullopt;
+  Outcome out{std::move(fitted->lights.lights.front())};
+  const auto u = RelativeUncertainty(out.light);
+  if (!u) return std::nullopt;
+  out.u95_relative = *u;
+  return out;
+}
+
+class Planner {
+ public:
+  Planner(Session session, const FitSettings& settings)
+      : session_(std::move(session)), settings_(settings), like_(LikeTheLast(session_)) {}
+
+  Result<ReadingPlan> Plan(int steps) {
+    ReadingPlan plan;
+    const bool read =
+        std::any_of(session_.readings.begin(), session_.readings.end(),
+                    [](const SessionReading& row) { return fit::IsLit(row.reading); });
+    auto fitted = FitSession(session_, settings_);
+    if (fitted && !fitted->lights.lights.empty()) {
+      now_ = std::move(fitted->lights.lights.front());
+      if (read) plan.u95_relative = RelativeUncertainty(*now_);
+    } else if (read) {
+      return Propagate(std::move(fitted));
+    }
+    plan.span = fit::DistanceSpan(session_);
+    for (int i = 0; i < steps; ++i) {
+      std::vector<PlannedReading> ranked = Rank();
+      if (ranked.empty()) break;
+      if (i == 0) plan.candidates = ranked;
+      plan.steps.push_back(ranked.front());
+      Take(ranked.front());
+    }
+    return plan;
+  }
+
+ private:
+  [[nodiscard]] const LightDescription& Light() const { return session_.lights.front(); }
+
+  // Best first; those as good as the best keep their order.
+  std::vector<PlannedReading> Rank() const {
+    std::vector<PlannedReading> out;
+    for (PlannedReading& candidate : fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr)) {
+      if (Judge(candidate)) out.push_back(std::move(candidate));
+    }
+    if (out.empty()) return out;
+    const double least = std::min_element(out.begin(), out.end(), [](const auto& a, const auto& b) {
+                           return a.u95_relative < b.u95_relative;
+                         })->u95_relative;
+    const auto as_good = std::find_if(out.begin(), out.end(), [least](const PlannedReading& r) {
+      return r.u95_relative <= least * (1.0 + kAsGood);
+    });
+    std::rotate(out.begin(), as_good, as_good + 1);
+    std::stable_sort(out.begin() + 1, out.end(),
+                     [](const auto& a, const auto& b) { return a.u95_relative < b.u95_relative; });
+    return out;
+  }
+
+  [[nodiscard]] SessionReading RowOf(const PlannedReading& planned) const {
+    SessionReading row{like_, "planned"};
+    row.reading.distance = planned.distance;
+    row.reading.position_m = planned.position_m;
+    row.reading.normal = planned.normal;
+    row.reading.shadow_card = planned.action == PlannedAction::kShadowCard;
+    if (planned.action == PlannedAction::kLampOff) row.reading.lamp = LampState::kOff;
+    row.reading.illuminance = planned.expected;
+    return row;
+  }
+
+  // The reading at the illuminance that a fit with it predicts for it.
+  bool Judge(PlannedReading& candidate) const {
+    Session with = session_;
+    candidate.expected = FirstGuess(candidate);
+    if (!(candidate.expected.value() >= 0.0)) return false;
+    with.readings.push_back(RowOf(candidate));
+    std::optional<Outcome> outcome = FitOf(with, settings_);
+    if (!outcome) return false;
+    if (candidate.action == PlannedAction::kRead && now_) {
+      const int index = outcome->light.fit.readings - 1;
+      for (const ResidualRow& row : outcome->light.residuals) {
+        if (row.index != index || !(row.predicted_lx > 0.0)) continue;
+        candidate.expected = Lux(row.predicted_lx);
+        with.readings.back().reading.illuminance = candidate.expected;
+        outcome = FitOf(with, settings_);
+        break;
+      }
+    }
+    if (!outcome) return false;
+    candidate.u95_relative = outcome->u95_relative;
+    return std::isfinite(candidate.u95_relative);
+  }
+
+  void Take(const PlannedReading& planned) {
+    session_.readings.push_back(RowOf(planned));
+    auto outcome = FitOf(session_, settings_);
+    if (outcome) now_ = std::move(outcome->light);
+  }
+
+  [[nodiscard]] double Ambient() const {
+    return now_ && now_->ambient_lx ? std::max(0.0, now_->ambient_lx->value) : 0.0;
+  }
+
+  [[nodiscard]] Lux FirstGuess(const PlannedReading& planned) const {
+    if (planned.action != PlannedAction::kRead) return Lux(Ambient() + OtherLight(planned));
+    const bool has_intensity = now_ && now_->intensity_cd;
+    const double candela = has_intensity ? now_->intensity_cd->value : kNominalCandela;
+    if (now_ && now_->illuminance_lx) return Lux(now_->illuminance_lx->value + Ambient());
+    if (planned.distance && has_intensity) {
+      const auto predicted = PredictIlluminance(*now_, *planned.distance, 0.05);
+      return predicted ? Lux(predicted->model_lx.value) : Lux(-1.0);
+    }
+    if (planned.distance) {
+      const double d = planned.distance->value();
+      return Lux(candela / (d * d));
+    }
+    if (!planned.position_m) return Lux(candela);
+    return Lux(candela * LuxPerCandelaAt(planned) + Ambient());
+  }
+
+  // A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
+  [[nodiscard]] double OtherLight(const PlannedReading& planned) const {
+    if (planned.action != PlannedAction::kShadowCard || Ambient() > 0.0) return 0.0;
+    constexpr double kShare = 0.01;
+    for (const SessionReading& row : session_.readings) {
+      if (fit::IsLit(row.reading) && row.reading.distance == planned.distance &&
+          row.reading.position_m == planned.position_m) {
+        return kShare * row.reading.illuminance->value();
+      }
+    }
+    return 0.0;
+  }
+
+  [[nodiscard]] double LuxPerCandelaAt(const PlannedReading& planned) const {
+    LightDescription light = Light();
+    if (now_ && now_->position_m) light.position_m = now_->position_m;
+    if (now_ && now_->aim) light.aim = now_->aim;
+    if (now_ && now_->outer_deg) {
+      light.outer = RadiansFromDegrees(*now_->outer_deg);
+      light.inner = RadiansFromDegrees(now_->inner_deg.value_or(0.0));
+    }
+    if (!light.position_m) return -1.0;
+    const Vec3 from = *planned.position_m - *light.position_m;
+    const double distance = Length(from);
+    const Vec3 normal = planned.normal.value_or(from * (-1.0 / distance));
+    if (const auto source = fit::PlacedSourceOf(light)) {
+      const fit::OffAxisPose pose{source->model,
+                                  {source->frame.Of(from), source->frame.Of(normal)}};
+      return fit::LuxPerCandela(pose, 0.0);
+    }
+    return -Dot(from, normal) / (distance * distance * distance);
+  }
+
+  Session session_;
+  const FitSettings& settings_;
+  Reading like_;
+  std::optional<FittedLight> now_;
+};
+
+std::string PlaceText(const Vec3& at) {
+  return "(" + RoundedText(at[0], 3) + ", " + RoundedText(at[1], 3) + ", " + RoundedText(at[2], 3) +
+         ")";
+}
+
+std::string WhereText(const PlannedReading& reading) {
+  if (reading.distance) return " at " + RoundedText(reading.distance->value(), 3) + " m";
+  if (!reading.position_m) return "";
+  std::string text = " at " + PlaceText(*reading.position_m) + " m";
+  if (reading.normal) text += ", facing " + PlaceText(*reading.normal);
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> RelativeUncertainty(const FittedLight& light) {
+  const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
+  if (!u || !(u->value > 0.0)) return std::nullopt;
+  return (u->high ? std::max(*u->high - u->value, u->u95) : u->u95) / u->value;
+}
+
+Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
+                                 const FitSettings& settings, int steps) {
+  const LightDescription* const found = FindLight(session, light);
+  if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
+  Session alone;
+  alone.room = session.room;
+  alone.meters = session.meters;
+  alone.lights = {*found};
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light == light) alone.readings.push_back(row);
+  }
+  return Planner(std::move(alone), settings).Plan(steps);
+}
+
+std::string SayPlannedReading(const PlannedReading& reading) {
+  switch (reading.action) {
+    case PlannedAction::kShadowCard:
+      return "add a shadow-card reading" + WhereText(reading) + " (block only the direct beam)";
+    case PlannedAction::kLampOff:
+      return "read once with the lamp off";
+    case PlannedAction::kRead:
+      break;
+  }
+  const bool facing = reading.distance.has_value();
+  return "read" + WhereText(reading) + (facing ? ", facing the lamp" : "");
+}
+
+}  // namespace lightcal

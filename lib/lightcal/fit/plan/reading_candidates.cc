@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/plan/reading_candidates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/light/models/receiver.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kNearest = 0.25;  // metres a person holds a meter from a lamp
+constexpr double kFarthest = 10.0;
+constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
+constexpr int kPlaneSteps = 2;                // to each side
+constexpr double kSpread = 1.25;
+
+// Length of what a meter must stay clear of.
+double SizeOf(const LightDescription& light) {
+  double size = 0.0;
+  for (const auto& length : {light.diameter, light.width, light.height, light.length}) {
+    if (length) size = std::max(size, length->value());
+  }
+  return size;
+}
+
+double RoundedLength(double metres) {
+  const double unit = metres < 1.0 ? 0.01 : 0.1;
+  return std::round(metres / unit) * unit;
+}
+
+// What readings of one light could come next.
+class Candidates {
+ public:
+  Candidates(const Session& session, const LightDescription& light, const FittedLight* fitted)
+      : light_(light), fitted_(fitted) {
+    for (const SessionReading& row : session.readings) Note(row.reading);
+  }
+
+  [[nodiscard]] std::vector<PlannedReading> List() const {
+    std::vector<PlannedReading> out;
+    AddShadowCards(out);
+    if (!off_) out.push_back({PlannedAction::kLampOff, {}, {}, {}});
+    if (!HasDistanceLaw(light_.kind)) {
+      out.push_back({});
+      return out;
+    }
+    const bool places = !places_.empty() || (distances_.empty() && light_.position_m && light_.aim);
+    if (places) {
+      AddPlaces(out);
+    } else {
+      AddDistances(out);
+    }
+    return out;
+  }
+
+ private:
+  struct Place {
+    Vec3 position;
+    std::optional<Vec3> normal;
+  };
+
+  void Note(const Reading& reading) {
+    if (!reading.illuminance) return;
+    off_ = off_ || (reading.lamp == LampState::kOff);
+    if (reading.shadow_card) {
+      carded_.push_back(reading);
+      return;
+    }
+    if (!IsLit(reading)) return;
+    if (reading.distance && reading.distance->value() > 0.0) {
+      distances_.push_back(reading.distance->value());
+    }
+    if (reading.position_m) places_.push_back({*reading.position_m, reading.normal});
+    lit_.push_back(reading);
+  }
+
+  void AddShadowCards(std::vector<PlannedReading>& out) const {
+    for (const Reading& lit : lit_) {
+      const bool known = std::any_of(carded_.begin(), carded_.end(), [&](const Reading& card) {
+        return card.distance == lit.distance && card.position_m == lit.position_m;
+      });
+      const bool listed = std::any_of(out.begin(), out.end(), [&](const PlannedReading& card) {
+        return card.distance == lit.distance && card.position_m == lit.position_m;
+      });
+      if (known || listed || lit.meter == kDataSheetMeter) continue;
+      out.push_back({PlannedAction::kShadowCard, lit.distance, lit.position_m, lit.normal});
+    }
+  }
+
+  void AddDistances(std::vector<PlannedReading>& out) const {
+    const double clear = std::max(kNearest, 0.5 * SizeOf(light_));
+    std::vector<double> distances;
+    if (distances_.empty()) {
+      distances = {std::max(0.5, 2.0 * SizeOf(light_))};
+    } else {
+      const auto [low, high] = std::minmax_element(distances_.begin(), distances_.end());
+      for (const double d : {*low, *high, *low * kStep, *high * kStep, *low / kStep, *high / kStep,
+                             *high * 2.0, *low / 2.0, std::sqrt(*low * *high)}) {
+        distances.push_back(d);
+      }
+    }
+    for (double d : distances) {
+      const bool taken = std::find(distances_.begin(), distances_.end(), d) != distances_.end();
+      if (!taken) d = RoundedLength(std::clamp(d, clear, kFarthest));
+      const bool listed = std::any_of(out.begin(), out.end(), [d](const PlannedReading& other) {
+        return other.action == PlannedAction::kRead && other.distance &&
+               SameDistance(other.distance->value(), d);
+      });
+      if (!listed) out.push_back({PlannedAction::kRead, Metres(d), {}, {}});
+    }
+  }
+
+  [[nodiscard]] std::optional<Vec3> LampPlace() const {
+    return fitted_ != nullptr && fitted_->position_m ? fitted_->position_m : light_.position_m;
+  }
+  [[nodiscard]] std::optional<Vec3> Aim() const {
+    return fitted_ != nullptr && fitted_->aim ? fitted_->aim : light_.aim;
+  }
+
+  // The normal the readings share, if any do.
+  [[nodiscard]] std::optional<Vec3> CommonNormal() const {
+    std::optional<Vec3> common;
+    for (const Place& place : places_) {
+      if (!place.normal) return std::nullopt;
+      const Vec3 normal = *place.normal * (1.0 / Length(*place.normal));
+      if (common && Dot(*common, normal) < 0.999) return std::nullopt;
+      if (!common) common = normal;
+    }
+    return common;
+  }
+
+  void AddPlace(const Vec3& at, std::vector<PlannedReading>& out) const {
+    const auto round = [](double x) { return std::round(x * 100.0) / 100.0; };
+    const Vec3 place{round(at[0]), round(at[1]), round(at[2])};
+    const std::optional<Vec3> lamp = LampPlace();
+    std::optional<Vec3> normal = CommonNormal();
+    if (lamp) {
+      const Vec3 to_lamp = *lamp - place;
+      const double distance = Length(to_lamp);
+      if (!(distance > std::max(kNearest, 0.5 * SizeOf(light_)))) return;
+      if (!normal) normal = to_lamp * (1.0 / distance);
+      if (!(Dot(*normal, to_lamp) > 0.1 * distance)) return;
+    }
+    const bool listed = std::any_of(out.begin(), out.end(), [&](const PlannedReading& other) {
+      return other.action == PlannedAction::kRead && other.position_m == place;
+    });
+    if (!listed) out.push_back({PlannedAction::kRead, {}, place, normal});
+  }
+
+  void AddPlaces(std::vector<PlannedReading>& out) const {
+    AddRound(out);
+    AddOnBeam(out);
+  }
+
+  // A box about the places taken, somewhat larger; flat where they are.
+  void AddRound(std::vector<PlannedReading>& out) const {
+    if (places_.empty() || light_.kind == LightKind::kSpot) return;
+    Vec3 low = places_.front().position;
+    Vec3 high = low;
+    for (const Place& place : places_) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], place.position[k]);
+        high[k] = std::max(high[k], place.position[k]);
+      }
+    }
+    const Vec3 middle = (low + high) * 0.5;
+    const double reach = 0.5 * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+    if (!(reach > 0.0)) return AddPlace(middle, out);
+    std::array<int, 3> steps{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      steps[k] = high[k] - low[k] > 0.02 * reach ? kPlaneSteps : 0;
+    }
+    for (int i = -steps[0]; i <= steps[0]; ++i) {
+      for (int j = -steps[1]; j <= steps[1]; ++j) {
+        for (int k = -steps[2]; k <= steps[2]; ++k) {
+          const Vec3 offset{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
+          AddPlace(middle + offset * (kSpread * reach / kPlaneSteps), out);
+        }
+      }
+    }
+  }
+
+  // On the axis and, of a spot, across its cone's edge, at the distance of those taken.
+  void AddOnBeam(std::vector<PlannedReading>& out) const {
+    const auto lamp = LampPlace();
+    const auto aim = Aim();
+    if (!lamp || !aim) return;
+    double distance = 0.0;
+    for (const Place& place : places_) distance += Length(place.position - *lamp);
+    distance = places_.empty() ? std::max(1.0, 2.0 * SizeOf(light_))
+                               : distance / static_cast<double>(places_.size());
+    for (const double factor : {0.5, 1.0, 2.0}) {
+      AddPlace(*lamp + *aim * std::min(kFarthest, factor * distance), out);
+    }
+    if (light_.kind != LightKind::kSpot || fitted_ == nullptr || !fitted_->outer_deg) return;
+    const double inner = fitted_->inner_deg.value_or(0.0);
+    const SourceFrame frame = SourceFrame::Facing(*aim);
+    for (const double part : {0.0, 0.5, 0.85}) {
+      const double angle =
+          (inner + part * (*fitted_->outer_deg - inner)) * std::numbers::pi / 180.0;
+      for (int q = 0; q < 4; ++q) {
+        const double f = 0.5 * std::numbers::pi * q;
+        const Vec3 way = *aim * std::cos(angle) +
+                         (frame.x * std::cos(f) + frame.y * std::sin(f)) * std::sin(angle);
+        AddPlace(*lamp + way * distance, out);
+      }
+    }
+  }
+
+  const LightDescription& light_;
+  const FittedLight* fitted_;
+  std::vector<double> distances_;
+  std::vector<Place> places_;
+  std::vector<Reading> lit_, carded_;
+  bool off_ = false;
+};
+
+}  // namespace
+
+bool IsLit(const Reading& reading) {
+  return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
+}
+
+std::vector<PlannedReading> ReadingCandidates(const Session& session, const FittedLight* fitted) {
+  return Candidates(session, session.lights.front(), fitted).List();
+}
+
+std::optional<double> DistanceSpan(const Session& session) {
+  double low = 0.0;
+  double high = 0.0;
+  for (const SessionReading& row : session.readings) {
+    if (!IsLit(row.reading) || !row.reading.distance) continue;
+    const double d = row.reading.distance->value();
+    low = low > 0.0 ? std::min(low, d) : d;
+    high = std::max(high, d);
+  }
+  if (!(low > 0.0)) return std::nullopt;
+  return high / low;
+}
+
+}  // namespace lightcal::fit

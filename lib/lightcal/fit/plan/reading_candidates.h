@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The readings of one light that a person could take next. Internal to plan_readings.cc.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lightcal/fit/plan/plan_readings.h"
+
+namespace lightcal::fit {
+
+// Of the session's first (only) light, as plan_readings.h says; `fitted` is what is known of it.
+[[nodiscard]] std::vector<PlannedReading> ReadingCandidates(const Session& session,
+                                                            const FittedLight* fitted);
+// Farthest over nearest distance of its readings with the lamp on.
+[[nodiscard]] std::optional<double> DistanceSpan(const Session& session);
+// Whether it is of the lamp's light.
+[[nodiscard]] bool IsLit(const Reading& reading);
+
+}  // namespace lightcal::fit

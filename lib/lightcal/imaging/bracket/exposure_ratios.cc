@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/exposure_ratios.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/noise.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kLeastSamples = 64.0;
+constexpr double kWorstPairSd = 0.02;  // of a pair's ln ratio; wider is no measurement
+constexpr double kModelSd = 2e-4;      // what no residual shows: black levels, slow bends
+constexpr double kLabelSd = 0.06;      // of a label's ln ratio: third-stop rounding, 3 % shutter
+constexpr double kBelievedTo = 0.8;    // of the clip, when ratios are summed
+constexpr double kStraightTo = 0.5;    // every sensor is linear up to here
+constexpr double kBendShare = 1e-3;    // departure that counts as a bend
+constexpr double kBendSigmas = 4.0;
+constexpr double kHighestLinear = 0.9;
+constexpr int kPasses = 3;
+constexpr double kWarnEv = 0.25;
+constexpr double kRefuseEv = 1.0;
+
+struct PairRatio {
+  std::size_t a = 0, b = 0;
+  double ln_ratio = 0.0, sd = 0.0;
+  bool clip_known = true;
+  PairSums sums{};
+};
+
+// A first ratio that needs no label: the median of b/a where both stand clear of noise and clip.
+std::optional<double> RoughRatio(std::span<const float> a, std::span<const float> b,
+                                 std::span<const float> clip) {
+  for (const float floor : {0.03F, 0.01F, 0.003F, 0.001F}) {
+    std::vector<float> ratios;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const bool clear = a[i] > floor * clip[i] && b[i] > floor * clip[i] &&
+                         a[i] < 0.9F * clip[i] && b[i] < 0.9F * clip[i];
+      if (clear) ratios.push_back(b[i] / a[i]);
+    }
+    if (static_cast<double>(ratios.size()) < kLeastSamples) continue;
+    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+    std::nth_element(ratios.begin(), middle, ratios.end());
+    return *middle;
+  }
+  return std::nullopt;
+}
+
+// sum b / sum a and its standard deviation over the levels between the two.
+LevelSums SumLevels(const PairSums& sums, double from, double to) {
+  LevelSums total;
+  for (int bin = 0; bin < kLevelBins; ++bin) {
+    if (BinLowerLevel(bin) < from || BinLowerLevel(bin + 1) > to) continue;
+    const LevelSums& sum = sums[static_cast<std::size_t>(bin)];
+    total.count += sum.count;
+    total.a += sum.a;
+    total.b += sum.b;
+    total.d += sum.d;
+    total.d2 += sum.d2;
+  }
+  return total;
+}
+
+bool Tells(const LevelSums& total) {
+  return total.count >= kLeastSamples && total.a > 0.0 && total.b > 0.0 &&
+         std::sqrt(total.d2) < kWorstPairSd * total.b;
+}
+
+// The brightest range that tells the ratio: there black levels matter least.
+std::optional<LevelSums> TellingLevels(const PairSums& sums, double to) {
+  for (const double from : {0.05, 0.01, 0.002}) {
+    const LevelSums total = SumLevels(sums, from, to);
+    if (Tells(total)) return total;
+  }
+  return std::nullopt;
+}
+
+std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t a, std::size_t b) {
+  const auto& first = signals.frames[a];
+  const auto& second = signals.frames[b];
+  const PairClips clips = ClipsOfPair(signals, a, b);
+  const auto rough = RoughRatio(first, second, clips.clip);
+  if (!rough) return std::nullopt;
+  PairRatio pair{.a = a, .b = b, .clip_known = clips.known};
+  PairSetting setting{.ratio = *rough, .noise = kMiddlingNoise};
+  setting.gate = FirstGates(first, second, clips.clip, setting);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    pair.sums = ComparePair(first, second, clips.clip, setting);
+    const auto total = TellingLevels(pair.sums, kBelievedTo);
+    if (!total) return std::nullopt;
+    setting.ratio = total->b / total->a;
+    setting.gate = GatesOf(pair.sums);
+  }
+  return pair;
+}
+
+// The level from which longer frames fall behind what shorter ones predict, over all pairs. Where
+// nobody knows the clip there is no level.
+double LinearTo(std::span<const PairRatio> pairs) {
+  for (int bin = 0; bin < kLevelBins; ++bin) {
+    if (BinLowerLevel(bin) < kStraightTo || BinLowerLevel(bin + 1) > kHighestLinear) continue;
+    double behind = 0.0, of = 0.0, variance = 0.0;
+    for (const PairRatio& pair : pairs) {
+      if (!pair.clip_known) continue;
+      const auto straight = TellingLevels(pair.sums, kStraightTo);
+      const LevelSums& sum = pair.sums[static_cast<std::size_t>(bin)];
+      if (!straight || sum.count < kLeastSamples) continue;
+      behind += sum.b - straight->b / straight->a * sum.a;
+      of += sum.b;
+      variance += sum.d2;
+    }
+    if (std::abs(behind) > std::max(kBendShare * of, kBendSigmas * std::sqrt(variance))) {
+      return BinLowerLevel(bin);
+    }
+  }
+  return kHighestLinear;
+}
+
+// Every pair of neighbours and of next neighbours in exposure that tells something.
+std::vector<PairRatio> MeasurePairs(const SampledSignals& signals,
+                                    std::span<const std::size_t> order) {
+  std::vector<std::pair<std::size_t, std::size_t>> candidates;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < std::min(i + 3, order.size()); ++j) {
+      candidates.emplace_back(order[i], order[j]);
+    }
+  }
+  std::vector<std::optional<PairRatio>> measured(candidates.size());
+  ParallelFor(static_cast<int>(candidates.size()), [&](int i) {
+    const auto [a, b] = candidates[static_cast<std::size_t>(i)];
+    measured[static_cast<std::size_t>(i)] = MeasurePair(signals, a, b);
+  });
+  std::vector<PairRatio> pairs;
+  for (const auto& pair : measured) {
+    if (pair) pairs.push_back(*pair);
+  }
+  return pairs;
+}
+
+// Ratios once more, up to where the sensor is straight.
+void SumUp(std::span<PairRatio> pairs, double linear_to) {
+  for (PairRatio& pair : pairs) {
+    const double to = std::min(kBelievedTo, linear_to);
+    const auto total = TellingLevels(pair.sums, to);
+    const LevelSums sum = total ? *total : SumLevels(pair.sums, 0.002, kBelievedTo);
+    pair.ln_ratio = std::log(sum.b / sum.a);
+    pair.sd = std::hypot(std::sqrt(sum.d2) / sum.b, kModelSd);
+  }
+}
+
+// min sum ((e_b - e_a - ln_ratio)/sd)^2 with e of the first frame 0.
+void SolveNetwork(std::span<const PairRatio> pairs, ExposureRatios& answer) {
+  const auto n = static_cast<Eigen::Index>(answer.ln_exposure.size());
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n);
+  for (const PairRatio& pair : pairs) {
+    const double weight = 1.0 / (pair.sd * pair.sd);
+    const auto a = static_cast<Eigen::Index>(pair.a);
+    const auto b = static_cast<Eigen::Index>(pair.b);
+    normal(a, a) += weight;
+    normal(b, b) += weight;
+    normal(a, b) -= weight;
+    normal(b, a) -= weight;
+    right(b) += weight * pair.ln_ratio;
+    right(a) -= weight * pair.ln_ratio;
+  }
+  normal.row(0).setZero();
+  normal.col(0).setZero();
+  normal(0, 0) = 1.0;
+  right(0) = 0.0;
+  const Eigen::LDLT<Eigen::MatrixXd> solver(normal);
+  const Eigen::VectorXd solution = solver.solve(right);
+  const Eigen::MatrixXd covariance = solver.solve(Eigen::MatrixXd::Identity(n, n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    answer.ln_exposure[static_cast<std::size_t>(i)] = solution(i);
+    answer.sd_ln[static_cast<std::size_t>(i)] = i == 0 ? 0.0 : std::sqrt(covariance(i, i));
+  }
+}
+
+// Neighbours that share nothing are joined by their labels.
+void AddLabelPairs(std::span<const std::size_t> order, std::span<const double> label,
+                   std::vector<PairRatio>& pairs) {
+  const std::size_t measured = pairs.size();
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    const bool bridged =
+        std::any_of(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(measured),
+                    [&](const PairRatio& p) { return p.a == order[i - 1] && p.b == order[i]; });
+    if (bridged) continue;
+    PairRatio pair{.a = order[i - 1], .b = order[i]};
+    pair.ln_ratio = std::log(label[pair.b] / label[pair.a]);
+    pair.sd = kLabelSd;
+    pairs.push_back(pair);
+  }
+}
+
+std::string EvText(double ln) {
+  const double ev = ln / std::numbers::ln2;
+  return (ev > 0.0 ? "+" : "") + RoundedText(ev, 2) + " EV";
+}
+
+Result<void> CompareWithLabels(std::span<const double> label, std::span<const std::string> names,
+                               ExposureRatios& answer) {
+  std::vector<double> off;
+  std::vector<double> joined;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    off.push_back(answer.ln_exposure[i] - std::log(label[i]));
+    if (answer.measured[i]) joined.push_back(off.back());
+  }
+  const std::vector<double>& trusted = joined.empty() ? off : joined;
+  std::vector<double> sorted = trusted;
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  double sum = 0.0, count = 0.0;
+  for (const double o : trusted) {
+    if (std::abs(o - median) > kWarnEv * std::numbers::ln2) continue;
+    sum += o;
+    count += 1.0;
+  }
+  const double gauge = sum / count;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    answer.ln_exposure[i] -= gauge;
+    const double ev = std::abs(off[i] - gauge) / std::numbers::ln2;
+    if (ev > kRefuseEv) {
+      return Refused("exposures_disagree", names[i],
+                     "its picture was exposed " + EvText(off[i] - gauge) +
+                         " from what its tags or --exposures say, beside the other frames; give "
+                         "the exposures in the order of the files, or leave this frame out");
+    }
+    if (ev > kWarnEv) {
+      answer.warnings.push_back({"exposure_off", names[i],
+                                 "its picture was exposed " + EvText(off[i] - gauge) +
+                                     " from what its tags say; the measured exposure is used"});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
+                                             std::span<const double> label,
+                                             std::span<const std::string> names) {
+  const std::size_t n = label.size();
+  ExposureRatios answer;
+  answer.ln_exposure.assign(n, 0.0);
+  answer.sd_ln.assign(n, 0.0);
+  answer.measured.assign(n, false);
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return label[i] < label[j]; });
+  std::vector<PairRatio> pairs = MeasurePairs(signals, order);
+  answer.linear_to = LinearTo(pairs);
+  SumUp(pairs, answer.linear_to);
+  for (const PairRatio& pair : pairs) answer.measured[pair.a] = answer.measured[pair.b] = true;
+  AddLabelPairs(order, label, pairs);
+  SolveNetwork(pairs, answer);
+  if (auto compared = CompareWithLabels(label, names, answer); !compared) {
+    return Propagate(std::move(compared));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (n > 1 && !answer.measured[i]) {
+      answer.warnings.push_back(
+          {"ratio_from_label", names[i],
+           "it shares no well exposed part with another frame, so its exposure is its label's, "
+           "good to 6 %; take frames 1 to 2 EV apart"});
+    }
+  }
+  return answer;
+}
+
+}  // namespace lightcal

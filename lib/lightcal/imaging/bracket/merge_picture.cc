@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/merge_picture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/signal_kernels.h"
+
+namespace lightcal {
+namespace {
+
+constexpr int kStripRows = 32;
+constexpr std::size_t kPad = kLanes;  // samples before and after a row of the strip
+
+// One coefficient a lane for a sample dx to the right and dy below.
+struct Tap {
+  int dx = 0, dy = 0;
+  kernels::Lanes value{};
+  kernels::Lanes square{};
+};
+// [row phase] -> the taps that matter there
+using Kernel = std::vector<std::vector<Tap>>;
+
+bool IsMosaic(const SignalFrame& frame) {
+  if (frame.channels != 1) return false;
+  return std::any_of(frame.channel.begin(), frame.channel.end(), [](const auto& lanes) {
+    return std::any_of(lanes.begin(), lanes.end(), [](int c) { return c != 0; });
+  });
+}
+
+// Samples after which the colours of every row repeat.
+std::size_t ColumnPeriod(const SignalFrame& frame) {
+  for (std::size_t period = 1; period < kLanes; ++period) {
+    const bool repeats =
+        kLanes % period == 0 &&
+        std::all_of(frame.channel.begin(), frame.channel.end(), [period](const auto& lanes) {
+          return std::equal(lanes.begin() + static_cast<std::ptrdiff_t>(period), lanes.end(),
+                            lanes.begin());
+        });
+    if (repeats) return period;
+  }
+  return kLanes;
+}
+
+int ChannelAt(const SignalFrame& frame, int phase, int lane, int dx, int dy) {
+  const int row = (phase + dy + frame.row_period) % frame.row_period;
+  const int column = (lane + dx + kLanes) % kLanes;
+  return frame.channel[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+}
+
+// How much the sample at (dx, dy) counts for its colour at the place (phase, lane): a pixel's own
+// colour is its own sample, others are the bilinear mean of their nearest.
+double ShareOf(const SignalFrame& frame, int phase, int lane, int dx, int dy) {
+  const int channel = ChannelAt(frame, phase, lane, dx, dy);
+  if (channel == ChannelAt(frame, phase, lane, 0, 0)) return dx == 0 && dy == 0 ? 1.0 : 0.0;
+  double sum = 0.0;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      if (ChannelAt(frame, phase, lane, i, j) != channel) continue;
+      sum += (2 - std::abs(i)) * (2 - std::abs(j));
+    }
+  }
+  return (2 - std::abs(dx)) * (2 - std::abs(dy)) / sum;
+}
+
+bool SeesAllColours(const SignalFrame& frame, int phase, int lane) {
+  std::array<bool, 3> seen{};
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) {
+      seen[static_cast<std::size_t>(ChannelAt(frame, phase, lane, i, j))] = true;
+    }
+  }
+  return seen[0] && seen[1] && seen[2];
+}
+
+Kernel KernelOf(const SignalFrame& frame, const std::array<double, 3>& row) {
+  Kernel kernel(static_cast<std::size_t>(frame.row_period));
+  for (int phase = 0; phase < frame.row_period; ++phase) {
+    for (int j = -1; j <= 1; ++j) {
+      for (int i = -1; i <= 1; ++i) {
+        Tap tap{.dx = i, .dy = j};
+        bool matters = false;
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const int channel = ChannelAt(frame, phase, lane, i, j);
+          const double coefficient =
+              row[static_cast<std::size_t>(channel)] * ShareOf(frame, phase, lane, i, j);
+          const auto at = static_cast<std::size_t>(lane);
+          tap.value[at] = static_cast<float>(coefficient);
+          tap.square[at] = static_cast<float>(coefficient * coefficient);
+          matters = matters || coefficient != 0.0;
+        }
+        if (matters) kernel[static_cast<std::size_t>(phase)].push_back(tap);
+      }
+    }
+  }
+  return kernel;
+}
+
+// Rows [first - 1, first + count + 1) of the merged picture with a pixel around them: what lies
+// outside is taken from one period further inside, where the same colours are.
+class Strip {
+ public:
+  Strip(const BracketMerger& merger, const SampleCorrections& corrections, int most_rows)
+      : merger_(merger),
+        corrections_(corrections),
+        samples_(merger.frames()[0].row_samples()),
+        stride_(samples_ + 2 * kPad),
+        column_period_(ColumnPeriod(merger.frames()[0])),
+        value_(stride_ * static_cast<std::size_t>(most_rows + 2)),
+        variance_(value_.size()) {}
+
+  std::size_t Fill(int first, int count) {
+    const SignalFrame& frame = merger_.frames()[0];
+    const int top = std::max(0, first - 1);
+    const int end = std::min(frame.height, first + count + 1);
+    if (top < first) static_cast<void>(MergeInto(top, top, 1, first));
+    const std::size_t clipped = MergeInto(first, first, count, first);
+    if (end > first + count) static_cast<void>(MergeInto(end - 1, end - 1, 1, first));
+    if (first == 0) static_cast<void>(MergeInto(-1, frame.row_period - 1, 1, first));
+    if (first + count == frame.height) {
+      static_cast<void>(MergeInto(frame.height, frame.height - frame.row_period, 1, first));
+    }
+    return clipped;
+  }
+  [[nodiscard]] const float* value(int y, int first) const { return Row(value_, y, first); }
+  [[nodiscard]] const float* variance(int y, int first) const { return Row(variance_, y, first); }
+
+ private:
+  [[nodiscard]] const float* Row(const std::vector<float>& plane, int y, int first) const {
+    return plane.data() + static_cast<std::size_t>(y - first + 1) * stride_ + kPad;
+  }
+  float* Row(std::vector<float>& plane, int y, int first) {
+    return plane.data() + static_cast<std::size_t>(y - first + 1) * stride_ + kPad;
+  }
+  // Merges rows from `source` on to where the rows from `y` on belong.
+  std::size_t MergeInto(int y, int source, int count, int first) {
+    const auto width = static_cast<int>(samples_);
+    const auto stride = static_cast<std::ptrdiff_t>(stride_);
+    const std::size_t clipped = merger_.MergeRows(
+        source, count, View2d<float>(Row(value_, y, first), width, count, 1, stride),
+        View2d<float>(Row(variance_, y, first), width, count, 1, stride));
+    for (int i = 0; i < count; ++i) {
+      if (!corrections_.empty()) {
+        corrections_.Apply(merger_.frames()[0], source + i, Row(value_, y + i, first),
+                           Row(variance_, y + i, first));
+      }
+      PadRow(Row(value_, y + i, first));
+      PadRow(Row(variance_, y + i, first));
+    }
+    return clipped;
+  }
+  void PadRow(float* row) const {
+    row[-1] = row[column_period_ - 1];
+    row[samples_] = row[samples_ - column_period_];
+  }
+
+  const BracketMerger& merger_;
+  const SampleCorrections& corrections_;
+  std::size_t samples_, stride_;
+  std::size_t column_period_;
+  std::vector<float> value_, variance_;
+};
+
+// Sum of the taps over a row; squares of the coefficients for variances.
+void ApplyKernel(const std::vector<Tap>& taps, const Strip& strip, int y, int first, bool variances,
+                 std::span<float> out) {
+  std::fill(out.begin(), out.end(), 0.0F);
+  for (std::size_t x = 0; x < out.size(); x += kernels::kBlock) {
+    const std::size_t count = std::min(kernels::kBlock, out.size() - x);
+    for (const Tap& tap : taps) {
+      const float* in =
+          variances ? strip.variance(y + tap.dy, first) : strip.value(y + tap.dy, first);
+      kernels::AddProducts(in + static_cast<std::ptrdiff_t>(x) + tap.dx,
+                           variances ? tap.square : tap.value, count, out.data() + x);
+    }
+  }
+}
+
+// Row of a picture whose pixels hold all their channels.
+void ApplyRow(const float* samples, int channels, const std::array<double, 3>& row, bool squares,
+              std::span<float> out) {
+  std::array<float, 3> k{};
+  for (std::size_t c = 0; c < 3; ++c) k[c] = static_cast<float>(squares ? row[c] * row[c] : row[c]);
+  for (std::size_t x = 0; x < out.size(); ++x) {
+    const float* pixel = samples + x * static_cast<std::size_t>(channels);
+    out[x] = k[0] * pixel[0];
+    if (channels == 3) out[x] += k[1] * pixel[1] + k[2] * pixel[2];
+  }
+}
+
+// How rows of merged samples become rows of the picture.
+class Mapper {
+ public:
+  Mapper(const SignalFrame& frame, const PictureRows& rows)
+      : frame_(frame), rows_(rows), mosaic_(IsMosaic(frame)) {
+    if (!mosaic_) return;
+    for (const auto& row : rows.picture) picture_.push_back(KernelOf(frame, row));
+    luminance_ = KernelOf(frame, rows.luminance);
+  }
+  void Picture(const Strip& strip, int y, int first, std::size_t channel,
+               std::span<float> out) const {
+    if (mosaic_) return ApplyKernel(picture_[channel][Phase(y)], strip, y, first, false, out);
+    ApplyRow(strip.value(y, first), frame_.channels, rows_.picture[channel], false, out);
+  }
+  void Sigma(const Strip& strip, int y, int first, std::span<float> out) const {
+    if (mosaic_) {
+      ApplyKernel(luminance_[Phase(y)], strip, y, first, true, out);
+    } else {
+      ApplyRow(strip.variance(y, first), frame_.channels, rows_.luminance, true, out);
+    }
+    kernels::SquareRoots(out.data(), out.size(), out.data());
+  }
+
+ private:
+  [[nodiscard]] std::size_t Phase(int y) const {
+    return static_cast<std::size_t>(y % frame_.row_period);
+  }
+  const SignalFrame& frame_;
+  const PictureRows& rows_;
+  bool mosaic_;
+  std::vector<Kernel> picture_;
+  Kernel luminance_;
+};
+
+void WriteStrip(const Mapper& mapper, const Strip& strip, int y0, int count, int first,
+                View2d<float> picture, View2d<float> sigma) {
+  std::vector<float> channel(static_cast<std::size_t>(picture.width()));
+  for (int y = y0; y < y0 + count; ++y) {
+    const auto out = picture.row(y - first);
+    const auto channels = static_cast<std::size_t>(picture.channels());
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (channels == 1) {
+        mapper.Picture(strip, y, y0, c, out);
+        continue;
+      }
+      mapper.Picture(strip, y, y0, c, channel);
+      for (std::size_t x = 0; x < channel.size(); ++x) out[x * channels + c] = channel[x];
+    }
+    if (!sigma.empty()) mapper.Sigma(strip, y, y0, sigma.row(y - first));
+  }
+}
+
+}  // namespace
+
+Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows& rows, int first,
+                                 int count, View2d<float> picture, View2d<float> sigma) {
+  const SignalFrame& frame = merger.frames()[0];
+  bool understood = frame.row_samples() >= ColumnPeriod(frame) && frame.height >= frame.row_period;
+  if (IsMosaic(frame)) {
+    for (int phase = 0; phase < frame.row_period; ++phase) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        understood = understood && SeesAllColours(frame, phase, lane);
+      }
+    }
+  }
+  if (!understood) {
+    return Refused("pattern_unknown", frame.name,
+                   "its colour filter pattern is not one lightcal can interpolate, or the picture "
+                   "is smaller than the pattern");
+  }
+  // Strips start on whole periods, so that a row of the picture has one place in them.
+  const int strip_rows = kStripRows / frame.row_period * frame.row_period + frame.row_period;
+  const int strips = (count + strip_rows - 1) / strip_rows;
+  const Mapper mapper(frame, rows);
+  std::atomic<std::size_t> clipped{0};
+  ParallelFor(strips, [&](int i) {
+    const int y0 = first + i * strip_rows;
+    const int n = std::min(strip_rows, first + count - y0);
+    Strip strip(merger, rows.corrections, std::max(n, frame.row_period));
+    clipped += strip.Fill(y0, n);
+    WriteStrip(mapper, strip, y0, n, first, picture, sigma);
+  });
+  return clipped.load();
+}
+
+}  // namespace lightcal

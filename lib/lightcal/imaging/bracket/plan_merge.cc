@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/plan_merge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/bracket/exposure_ratios.h"
+#include "lightcal/imaging/bracket/sampled.h"
+
+namespace lightcal {
+namespace {
+
+constexpr std::size_t kSamples = 300'000;
+constexpr double kLabelSd = 0.04;  // of one label: a third stop's rounding, a shutter's 3 %
+constexpr double kNoiseDisagreement = 0.2;  // relative, of variances
+constexpr double kMiddleSignal = 0.2;
+constexpr double kStandsOut = 8.0;    // standard deviations of the dark
+constexpr double kLeastShare = 1e-5;  // of the samples that must stand out
+constexpr double kEncodedFloor = 0.003;
+
+double MeanOf(std::span<const NoiseProfile> planes, double NoiseProfile::*member) {
+  double sum = 0.0;
+  for (const NoiseProfile& plane : planes) sum += plane.*member;
+  return sum / static_cast<double>(planes.size());
+}
+
+// Of the mean of n x n samples, whose own is given.
+NoiseProfile NoiseOfMean(const NoiseProfile& noise, int n) {
+  const double count = static_cast<double>(n) * n;
+  return {noise.scale / count, noise.offset / count};
+}
+
+std::optional<std::vector<NoiseProfile>> NoiseInFiles(const MergeRequest& request,
+                                                      std::span<const std::size_t> order) {
+  if (request.noise_in_file.size() != order.size()) return std::nullopt;
+  std::vector<NoiseProfile> noise;
+  for (const std::size_t i : order) {
+    const auto& planes = request.noise_in_file[i];
+    if (planes.empty()) return std::nullopt;
+    noise.push_back(
+        NoiseOfMean({MeanOf(planes, &NoiseProfile::scale), MeanOf(planes, &NoiseProfile::offset)},
+                    request.samples_averaged));
+    if (!(noise.back().scale >= 0.0) || !(noise.back().offset > 0.0)) return std::nullopt;
+  }
+  return noise;
+}
+
+double VarianceAt(const NoiseProfile& noise, double signal) {
+  return noise.scale * signal + noise.offset;
+}
+
+// Noise of every frame in the merge's order, and where it is from.
+Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& request,
+                         std::span<const SignalFrame> frames, PlannedMerge& planned) {
+  const std::size_t n = frames.size();
+  if (request.noise) {
+    planned.noise_source = NoiseSource::kGiven;
+    planned.plan.noise.assign(n, NoiseOfMean(*request.noise, request.samples_averaged));
+    return {};
+  }
+  const auto estimate = EstimateNoise(signals, planned.plan.exposure);
+  if (const auto file = NoiseInFiles(request, planned.order)) {
+    planned.noise_source = request.noise_of_camera ? NoiseSource::kCamera : NoiseSource::kFile;
+    planned.plan.noise = *file;
+    if (!estimate) return {};
+    const double ratio =
+        VarianceAt(*estimate, kMiddleSignal) / VarianceAt((*file)[n / 2], kMiddleSignal);
+    if (std::abs(ratio - 1.0) > kNoiseDisagreement) {
+      planned.warnings.push_back(
+          {"noise_disagrees", frames[n / 2].name,
+           "the frames scatter " + RoundedText(ratio, 2) + " times what the " +
+               (request.noise_of_camera ? "camera's profile" : "file's NoiseProfile") +
+               " says (variance), which is used: the scene moved, or the profile is wrong; "
+               "--noise replaces it"});
+    }
+    return {};
+  }
+  planned.noise_source = NoiseSource::kEstimated;
+  planned.plan.noise.assign(
+      n, estimate.value_or(NoiseOfMean(kMiddlingNoise, request.samples_averaged)));
+  if (estimate) return {};
+  if (n == 1) {
+    return Refused("one_frame", frames[0].name,
+                   "a single frame does not show its own noise, and its file does not name it; "
+                   "give more frames or a DNG with NoiseProfile");
+  }
+  planned.noise_source = NoiseSource::kAssumed;
+  planned.warnings.push_back({"noise_assumed", frames[0].name,
+                              "no two frames share enough to show their noise; that of a middling "
+                              "sensor is assumed"});
+  return {};
+}
+
+// Frames whose samples are all the same as another's: the same file twice.
+std::vector<bool> Duplicates(const SampledSignals& signals) {
+  std::vector<bool> duplicate(signals.frames.size(), false);
+  for (std::size_t j = 1; j < signals.frames.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      if (signals.frames[i] == signals.frames[j]) duplicate[j] = true;
+    }
+  }
+  return duplicate;
+}
+
+double ShareAbove(std::span<const float> signals, std::span<const float> clip, double share) {
+  std::size_t above = 0;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    if (double{signals[i]} >= share * double{clip[i]}) ++above;
+  }
+  return static_cast<double>(above) / static_cast<double>(signals.size());
+}
+
+// Refusals that need no model: nothing to see in any frame.
+Result<void> CheckContents(const SampledSignals& signals, std::span<const SignalFrame> frames,
+                           std::span<const double> label) {
+  const auto shortest =
+      static_cast<std::size_t>(std::min_element(label.begin(), label.end()) - label.begin());
+  if (std::all_of(signals.frames.begin(), signals.frames.end(), [&](const auto& frame) {
+        return ShareAbove(frame, signals.clip, 0.9) > 0.9999;
+      })) {
+    return Refused("all_saturated", frames[shortest].name,
+                   "every frame is saturated; expose shorter, stop down or use an ND filter");
+  }
+  return {};
+}
+
+// The longest frame must show something beyond its own read noise.
+Result<void> CheckDark(const SampledSignals& signals, const PlannedMerge& planned,
+                       std::span<const SignalFrame> frames) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const double stands_out = kStandsOut * std::sqrt(planned.plan.noise[i].offset);
+    std::size_t seen = 0;
+    for (const float y : signals.frames[i]) seen += y > stands_out ? 1U : 0U;
+    const double needed =
+        std::max(8.0, kLeastShare * static_cast<double>(signals.frames[i].size()));
+    if (static_cast<double>(seen) >= needed) return {};
+  }
+  return Refused("all_black", frames.back().name,
+                 "nothing stands out of the noise in any frame; expose longer, take the lens cap "
+                 "off");
+}
+
+template <class T>
+void Permute(std::vector<T>& values, std::span<const std::size_t> order) {
+  std::vector<T> sorted;
+  sorted.reserve(order.size());
+  for (const std::size_t i : order) sorted.push_back(std::move(values[i]));
+  values = std::move(sorted);
+}
+
+// Leaves out frames that are there twice; `kept` are the indices that stay.
+std::vector<std::size_t> DropDuplicates(SampledSignals& signals, std::vector<SignalFrame>& frames,
+                                        Warnings& warnings) {
+  const std::vector<bool> duplicate = Duplicates(signals);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!duplicate[i]) {
+      kept.push_back(i);
+      continue;
+    }
+    warnings.push_back({"duplicate_frame", frames[i].name,
+                        "holds the same samples as an earlier frame and is left out: twice the "
+                        "same noise is no second measurement"});
+  }
+  Permute(signals.frames, kept);
+  Permute(frames, kept);
+  return kept;
+}
+
+Result<ExposureRatios> RatiosOf(const SampledSignals& signals, const MergeRequest& request,
+                                std::span<const double> label,
+                                std::span<const SignalFrame> frames) {
+  if (request.keep_labels || frames.size() == 1) {
+    ExposureRatios ratios;
+    for (const double l : label) ratios.ln_exposure.push_back(std::log(l));
+    ratios.sd_ln.assign(label.size(), frames.size() == 1 ? 0.0 : kLabelSd);
+    ratios.measured.assign(label.size(), false);
+    return ratios;
+  }
+  std::vector<std::string> names;
+  for (const SignalFrame& frame : frames) names.push_back(frame.name);
+  return MeasureExposureRatios(signals, label, names);
+}
+
+}  // namespace
+
+Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequest& request) {
+  if (frames.empty()) return Refused("no_frames", "merge", "no frame was given");
+  PlannedMerge planned;
+  FindClipping(frames, request.done);
+  SampledSignals signals = SampleRows(frames, kSamples, request.done);
+  const std::vector<std::size_t> kept = DropDuplicates(signals, frames, planned.warnings);
+  std::vector<double> label;
+  for (const std::size_t i : kept) label.push_back(request.label_exposure[i]);
+  if (auto checked = CheckContents(signals, frames, label); !checked) {
+    return Propagate(std::move(checked));
+  }
+  auto ratios = RatiosOf(signals, request, label, frames);
+  if (!ratios) return Propagate(std::move(ratios));
+  planned.warnings.insert(planned.warnings.end(), ratios->warnings.begin(), ratios->warnings.end());
+
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return ratios->ln_exposure[i] < ratios->ln_exposure[j];
+  });
+  Permute(frames, order);
+  Permute(signals.frames, order);
+  for (const std::size_t i : order) {
+    planned.order.push_back(kept[i]);
+    planned.ln_exposure.push_back(ratios->ln_exposure[i]);
+    planned.sd_ln.push_back(ratios->sd_ln[i]);
+    planned.measured.push_back(ratios->measured[i]);
+    planned.plan.exposure.push_back(
+        std::exp(ratios->ln_exposure[i] - ratios->ln_exposure[order.front()]));
+  }
+  const auto joined = std::count(planned.measured.begin(), planned.measured.end(), true);
+  planned.gauge_sd = kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1)));
+  planned.plan.usable = ratios->linear_to;
+  planned.plan.fixed_pattern /= request.samples_averaged;
+  for (const auto& frame : signals.frames) {
+    planned.usable_share.push_back(1.0 - ShareAbove(frame, signals.clip, planned.plan.usable));
+  }
+  if (request.keep_labels) planned.plan.floor = kEncodedFloor;
+  if (auto chosen = ChooseNoise(signals, request, frames, planned); !chosen) {
+    return Propagate(std::move(chosen));
+  }
+  if (auto dark = CheckDark(signals, planned, frames); !dark) return Propagate(std::move(dark));
+  if (frames.size() == 1) {
+    planned.warnings.push_back({"one_frame", frames[0].name,
+                                "a single frame: its range is the sensor's, its noise what the "
+                                "file says"});
+  }
+  const auto merger = BracketMerger::Make(frames, planned.plan);
+  if (!merger) return tl::unexpected(merger.error());
+  planned.plan.fixed_pattern = EstimateFixedPattern(*merger, [&](std::size_t k) {
+    if (request.done) request.done(planned.order[k]);
+  });
+  return planned;
+}
+
+}  // namespace lightcal

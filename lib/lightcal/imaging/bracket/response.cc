@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/response.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace lightcal {
+namespace {
+
+constexpr int kSteps = 256;
+constexpr int kLowestStep = 3;     // below, noise is cut off at black
+constexpr int kHighestStep = 249;  // above, the codes fill up
+constexpr double kGamma = 2.2;     // what most cameras' curves are near
+constexpr double kStepSd = 1.0;    // of a code
+constexpr double kSmoothness = 2e3;
+constexpr double kMovedLn = 0.25;  // a residual from which a pixel probably shows something else
+constexpr int kTurns = 5;
+constexpr double kLeastShare = 1.0 / 3.0;
+constexpr double kLeastRise = 1e-4;  // of g a step: curves increase
+
+using CodeView = View2d<const std::uint16_t>;
+
+// n(a, b): how often one pixel shows step a in the first and step b in the second frame.
+struct PairCounts {
+  double ln_ratio = 0.0;
+  std::vector<double> count = std::vector<double>(kSteps * kSteps, 0.0);
+};
+
+int StepOf(std::uint16_t code, double top) {
+  return std::min(kSteps - 1, static_cast<int>(code * (kSteps - 1) / top + 0.5));
+}
+
+PairCounts CountPair(const CodeView& a, const CodeView& b, int channel, double top,
+                     double ln_ratio) {
+  PairCounts pair;
+  pair.ln_ratio = ln_ratio;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const int first = StepOf(a(x, y, channel), top);
+      const int second = StepOf(b(x, y, channel), top);
+      if (first < kLowestStep || second < kLowestStep) continue;
+      if (first > kHighestStep || second > kHighestStep) continue;
+      pair.count[static_cast<std::size_t>(first * kSteps + second)] += 1.0;
+    }
+  }
+  return pair;
+}
+
+// The variance of ln(signal) that an uncertainty of one code means there.
+double StepVariance(const Eigen::VectorXd& g, int step) {
+  const int low = std::max(step - 2, 0), high = std::min(step + 2, kSteps - 1);
+  const double slope = std::max((g(high) - g(low)) / (high - low), kLeastRise);
+  return slope * slope * kStepSd * kStepSd;
+}
+
+Eigen::VectorXd StartCurve() {
+  Eigen::VectorXd g(kSteps);
+  for (int step = 0; step < kSteps; ++step) {
+    g(step) = kGamma * std::log((step + 0.5) / (kSteps - 0.5));
+  }
+  return g;
+}
+
+// One weighted least squares solution, with weights of the curve so far.
+Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const Eigen::VectorXd& so_far,
+                      bool trust_residuals) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kSteps, kSteps);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kSteps);
+  for (const PairCounts& pair : pairs) {
+    for (int a = kLowestStep; a <= kHighestStep; ++a) {
+      const double variance_a = StepVariance(so_far, a);
+      for (int b = kLowestStep; b <= kHighestStep; ++b) {
+        const double count = pair.count[static_cast<std::size_t>(a * kSteps + b)];
+        if (count == 0.0) continue;
+        double weight = count / (variance_a + StepVariance(so_far, b));
+        if (trust_residuals) {
+          const double residual = (so_far(b) - so_far(a) - pair.ln_ratio) / kMovedLn;
+          weight /= (1.0 + residual * residual) * (1.0 + residual * residual);
+        }
+        normal(a, a) += weight;
+        normal(b, b) += weight;
+        normal(a, b) -= weight;
+        normal(b, a) -= weight;
+        right(b) += weight * pair.ln_ratio;
+        right(a) -= weight * pair.ln_ratio;
+      }
+    }
+  }
+  // Smooth deviation from the power law: (h(z-1) - 2 h(z) + h(z+1))^2 with h = g - start.
+  const Eigen::VectorXd start = StartCurve();
+  const double smooth = kSmoothness * normal.diagonal().mean();
+  for (int step = 1; step + 1 < kSteps; ++step) {
+    const std::array<double, 3> k = {1.0, -2.0, 1.0};
+    const double curvature = start(step - 1) - 2.0 * start(step) + start(step + 1);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        normal(step - 1 + i, step - 1 + j) +=
+            smooth * k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
+      }
+      right(step - 1 + i) += smooth * k[static_cast<std::size_t>(i)] * curvature;
+    }
+  }
+  // Gauge: the top step is signal 1.
+  normal(kSteps - 1, kSteps - 1) += normal.diagonal().maxCoeff();
+  return normal.ldlt().solve(right);
+}
+
+// The nearest increasing curve: neighbours that fall are replaced by their mean.
+void MakeIncreasing(Eigen::VectorXd& g) {
+  struct Block {
+    double mean;
+    int count;
+  };
+  std::vector<Block> blocks;
+  for (int step = 0; step < kSteps; ++step) {
+    blocks.push_back({g(step) - kLeastRise * step, 1});
+    while (blocks.size() > 1 && blocks[blocks.size() - 2].mean > blocks.back().mean) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      Block& merged = blocks.back();
+      merged.mean =
+          (merged.mean * merged.count + last.mean * last.count) / (merged.count + last.count);
+      merged.count += last.count;
+    }
+  }
+  int step = 0;
+  for (const Block& block : blocks) {
+    for (int i = 0; i < block.count; ++i, ++step) g(step) = block.mean + kLeastRise * step;
+  }
+}
+
+bool SharesEnough(std::span<const PairCounts> pairs) {
+  std::vector<bool> seen(kSteps, false);
+  for (const PairCounts& pair : pairs) {
+    for (int a = 0; a < kSteps; ++a) {
+      for (int b = 0; b < kSteps; ++b) {
+        if (pair.count[static_cast<std::size_t>(a * kSteps + b)] == 0.0) continue;
+        seen[static_cast<std::size_t>(a)] = seen[static_cast<std::size_t>(b)] = true;
+      }
+    }
+  }
+  const auto shared = static_cast<double>(std::count(seen.begin(), seen.end(), true));
+  return shared >= kLeastShare * kSteps;
+}
+
+// Signals of all codes, between the steps linear in ln.
+std::vector<float> SignalsOf(const Eigen::VectorXd& g, double top) {
+  std::vector<float> signals;
+  for (int code = 0; code <= static_cast<int>(top); ++code) {
+    const double at = code * (kSteps - 1) / top;
+    const int low = std::min(static_cast<int>(at), kSteps - 2);
+    const double ln = g(low) + (at - low) * (g(low + 1) - g(low)) - g(kSteps - 1);
+    signals.push_back(static_cast<float>(std::exp(ln)));
+  }
+  return signals;
+}
+
+tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why) {
+  return Refused("no_response", file,
+                 why +
+                     "; shoot RAW, or two to five frames 1 to 2 EV apart that show the same "
+                     "parts well exposed");
+}
+
+}  // namespace
+
+Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
+                                       std::span<const double> exposure) {
+  if (frames.size() < 2) {
+    return NoResponse(frames.empty() ? "merge" : frames[0].info.file,
+                      "one frame does not tell by which curve its codes were made");
+  }
+  std::vector<std::size_t> order(frames.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return exposure[i] < exposure[j]; });
+  const FrameInfo& info = frames[0].info;
+  const double top = info.levels ? double{info.levels->white[0]} : 255.0;
+  ResponseCurves curves;
+  for (int channel = 0; channel < std::min(info.channels, 3); ++channel) {
+    std::vector<PairCounts> pairs;
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const auto* a = std::get_if<CodeView>(&frames[order[i - 1]].samples);
+      const auto* b = std::get_if<CodeView>(&frames[order[i]].samples);
+      if (a == nullptr || b == nullptr) return NoResponse(info.file, "its samples are no codes");
+      const double ln_ratio = std::log(exposure[order[i]] / exposure[order[i - 1]]);
+      if (ln_ratio < 0.1) continue;
+      pairs.push_back(CountPair(*a, *b, channel, top, ln_ratio));
+    }
+    if (!SharesEnough(pairs)) {
+      return NoResponse(info.file, "the frames share too few codes to tell the camera's curve");
+    }
+    Eigen::VectorXd g = StartCurve();
+    for (int turn = 0; turn < kTurns; ++turn) {
+      g = Solve(pairs, g, turn >= kTurns / 2);
+      MakeIncreasing(g);
+    }
+    curves.signal_of_code[static_cast<std::size_t>(channel)] = SignalsOf(g, top);
+  }
+  return curves;
+}
+
+}  // namespace lightcal

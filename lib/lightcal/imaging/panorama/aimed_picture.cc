@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/panorama/aimed_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lightcal {
+namespace {
+
+constexpr double kRimPixels = 2.0;  // whose neighbours the rim cuts
+
+}  // namespace
+
+AimedView::AimedView(PixelSolidAngles angles, const ViewAim& aim)
+    : angles_(std::move(angles)), rim_share_(1.0) {
+  const double yaw = aim.yaw.value(), pitch = aim.pitch.value();
+  forward_ = {std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
+  const Vec3 level = {std::cos(yaw), -std::sin(yaw), 0.0};
+  const Vec3 upright = Cross(level, forward_);
+  const double c = std::cos(aim.roll.value()), s = std::sin(aim.roll.value());
+  right_ = level * c - upright * s;
+  up_ = upright * c + level * s;
+  const PictureView& view = angles_.view();
+  if (view.projection == Projection::kEquidistant || view.projection == Projection::kEquisolid) {
+    rim_share_ = 1.0 - 2.0 * kRimPixels / std::min(view.width, view.height);
+  }
+}
+
+std::optional<std::array<double, 2>> AimedView::PointOf(const Vec3& direction) const {
+  const auto point =
+      angles_.PointOf({Dot(right_, direction), Dot(forward_, direction), Dot(up_, direction)});
+  if (!point || angles_.RimShare((*point)[0], (*point)[1]) > rim_share_) return std::nullopt;
+  return point;
+}
+
+PictureTap TapAt(const PictureView& view, const std::array<double, 2>& point) {
+  const double x = point[0] - 0.5, y = point[1] - 0.5;
+  const int left = static_cast<int>(std::floor(x)), top = static_cast<int>(std::floor(y));
+  const auto fx = static_cast<float>(x - left), fy = static_cast<float>(y - top);
+  const auto column = [&](int c) {
+    if (view.projection == Projection::kLatLong) return (c + view.width) % view.width;
+    return std::clamp(c, 0, view.width - 1);
+  };
+  PictureTap tap;
+  for (int i = 0; i < 4; ++i) {
+    const int dx = i % 2, dy = i / 2;
+    const int row = std::clamp(top + dy, 0, view.height - 1);
+    const auto at = static_cast<std::size_t>(i);
+    tap.pixel[at] = static_cast<std::size_t>(row) * static_cast<std::size_t>(view.width) +
+                    static_cast<std::size_t>(column(left + dx));
+    tap.weight[at] = (dx == 1 ? fx : 1.0F - fx) * (dy == 1 ? fy : 1.0F - fy);
+  }
+  return tap;
+}
+
+bool AnyClipped(const AimedPicture& picture, const PictureTap& tap) {
+  if (picture.clipped.empty()) return false;
+  return std::ranges::any_of(tap.pixel, [&](std::size_t i) { return picture.clipped[i] != 0; });
+}
+
+}  // namespace lightcal

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lux meter's reading -> what a panorama's numbers are in cd/m^2, or what a clipped light is.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/units.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/imaging/panorama/dome_lights.h"
+
+namespace lightcal {
+
+// Taken where the panorama was.
+struct DomeReading {
+  Lux illuminance{0.0};
+  double sigma_relative = 0.05;
+  Vec3 normal{0.0, 0.0, 1.0};  // where the meter faced; unit
+  std::optional<Lux> shaded;   // the same with a card between the meter and the brightest light
+};
+
+struct DomeScale {
+  double factor = 1.0;       // what samples and lights were multiplied by
+  double sd_relative = 0.0;  // of the samples' scale; 0 where no reading gave it
+  // Lights whose illuminance is the reading minus the rest; their relative sd.
+  int inferred = 0;
+  double inferred_sd_relative = 0.0;
+};
+
+// With E(n) = integral of L max(0, n . w) dOmega over the whole panorama, R = E(n) - the lights
+// that are solved for (their flow . n), and d a light's direction:
+//   no light clipped, none shaded      factor = E_lux / E(n)
+//   `shaded` given                     factor = E_shaded / R, and the brightest light (lights[0])
+//                                      gives (E_lux - E_shaded) / (n . d) at normal incidence
+//   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
+//                                      several share one luminance
+// The samples of dome and lights are multiplied.
+// Refused: no_light (E(n) or R not above 0), lux_below_rest (the rest alone exceeds the reading),
+// lux_misses_light (the meter faced away from the light to be solved), clipped_scale_unknown (a
+// clipped light in a panorama whose scale nobody knows).
+[[nodiscard]] Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute, Dome& dome,
+                                          std::vector<DomeLight>& lights);
+
+}  // namespace lightcal

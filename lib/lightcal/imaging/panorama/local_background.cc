@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/panorama/local_background.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/core/parallel.h"
+
+namespace lightcal {
+namespace {
+
+constexpr int kCellRows = 60;  // of 3 degrees
+constexpr double kPercentile = 0.7;
+const double kNeighbourhoodCosine = std::cos(25.0 * std::numbers::pi / 180.0);
+
+double MedianOf(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Rows or columns [from, to) of the picture that cell i of n covers; never none.
+std::pair<int, int> Extent(int i, int n, int size) {
+  const auto edge = [&](int k) { return static_cast<int>(std::int64_t{k} * size / n); };
+  return {edge(i), std::max(edge(i) + 1, edge(i + 1))};
+}
+
+std::vector<double> CellMedians(View2d<const float> nits, const LatLongGrid& cells) {
+  std::vector<double> medians(static_cast<std::size_t>(cells.width()) * cells.height());
+  ParallelFor(cells.height(), [&](int cy) {
+    std::vector<float> values;
+    const auto [top, bottom] = Extent(cy, cells.height(), nits.height());
+    for (int cx = 0; cx < cells.width(); ++cx) {
+      const auto [left, right] = Extent(cx, cells.width(), nits.width());
+      values.clear();
+      for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) values.push_back(nits(x, y));
+      }
+      medians[static_cast<std::size_t>(cells.Index(cx, cy))] = MedianOf(values);
+    }
+  });
+  return medians;
+}
+
+double PercentileAround(const std::vector<double>& medians, const LatLongGrid& cells,
+                        const Vec3& centre) {
+  std::vector<std::pair<double, double>> near;  // value, solid angle
+  double total = 0.0;
+  for (int y = 0; y < cells.height(); ++y) {
+    for (int x = 0; x < cells.width(); ++x) {
+      if (Dot(centre, cells.Direction(x, y)) < kNeighbourhoodCosine) continue;
+      near.emplace_back(medians[static_cast<std::size_t>(cells.Index(x, y))], cells.SolidAngle(y));
+      total += near.back().second;
+    }
+  }
+  std::sort(near.begin(), near.end());
+  double below = 0.0;
+  for (const auto& [value, weight] : near) {
+    below += weight;
+    if (below >= kPercentile * total) return std::max(0.0, value);
+  }
+  return near.empty() ? 0.0 : std::max(0.0, near.back().first);
+}
+
+}  // namespace
+
+LocalBackground::LocalBackground(View2d<const float> nits, const LatLongGrid& grid)
+    : cells_(std::min(2 * kCellRows, grid.width()), std::min(kCellRows, grid.height())),
+      cells_per_x_(double(cells_.width()) / grid.width()),
+      cells_per_y_(double(cells_.height()) / grid.height()),
+      value_(static_cast<std::size_t>(cells_.width()) * cells_.height()) {
+  const std::vector<double> medians = CellMedians(nits, cells_);
+  ParallelFor(cells_.height(), [&](int y) {
+    for (int x = 0; x < cells_.width(); ++x) {
+      value_[static_cast<std::size_t>(cells_.Index(x, y))] =
+          PercentileAround(medians, cells_, cells_.Direction(x, y));
+    }
+  });
+}
+
+double LocalBackground::At(int x, int y) const {
+  const double cx = (x + 0.5) * cells_per_x_ - 0.5, cy = (y + 0.5) * cells_per_y_ - 0.5;
+  const double left = std::floor(cx), top = std::floor(cy);
+  const double fx = cx - left, fy = cy - top;
+  const auto value = [&](int dx, int dy) {
+    const int column = (static_cast<int>(left) + dx + cells_.width()) % cells_.width();
+    const int row = std::clamp(static_cast<int>(top) + dy, 0, cells_.height() - 1);
+    return value_[static_cast<std::size_t>(cells_.Index(column, row))];
+  };
+  return (1.0 - fy) * ((1.0 - fx) * value(0, 0) + fx * value(1, 0)) +
+         fy * ((1.0 - fx) * value(0, 1) + fx * value(1, 1));
+}
+
+}  // namespace lightcal
