@@ -10,10 +10,10 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/bracket/frame_agreement.h"
 #include "lightcal/imaging/bracket/merge_picture.h"
+#include "lightcal/imaging/bracket/release_rows.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/exposure_grid.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal::app {
 namespace {
@@ -242,7 +242,7 @@ Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows&
   const int height = picture.height(), width = picture.width();
   const int band = in_files && !work.alignment ? BandRows(work.frames) : height;
   std::size_t clipped = 0;
-  for (const Frame& frame : work.frames) LetGo(frame, 0, frame.info.height);
+  for (const Frame& frame : work.frames) ReleaseRows(frame, 0, frame.info.height);
   for (int first = 0; first < height; first += band) {
     const int count = std::min(band, height - first);
     const auto done = MergePicture(merger, rows, first, count, picture.Crop(0, first, width, count),
@@ -250,7 +250,7 @@ Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows&
     if (!done) return done;
     clipped += *done;
     if (band == height) continue;
-    for (const Frame& frame : work.frames) LetGo(frame, first, count);
+    for (const Frame& frame : work.frames) ReleaseRows(frame, first, count);
   }
   return clipped;
 }
@@ -275,7 +275,7 @@ Result<MergedBracket> MergeBracket(const Bracket& bracket, const BracketMergeReq
   if (!merger) return tl::unexpected(merger.error());
   const auto let_go = [&](std::size_t k) {
     const Frame& frame = (*work)->frames[(*work)->planned.order[k]];
-    LetGo(frame, 0, frame.info.height);
+    ReleaseRows(frame, 0, frame.info.height);
   };
   if (request.work.check_frames) {
     Append(CompareFrames(*merger, Unaligned(**work), let_go), merged.warnings);

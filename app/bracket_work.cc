@@ -11,7 +11,6 @@
 #include "lightcal/imaging/bracket/thin_frame.h"
 #include "lightcal/imaging/camera/flat_field.h"
 #include "lightcal_devices/captures/masked_picture.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal::app {
 namespace {
@@ -34,7 +33,7 @@ Result<void> LoadFrames(const std::vector<FrameInfo>& infos, BracketWork& work,
     picture = LoadMaskedFrame(infos[static_cast<std::size_t>(i)], store);
     if (!*picture) return;
     const Frame& frame = (*picture)->frame;
-    LetGo(frame, 0, frame.info.height);  // before the next one needs the memory
+    ReleaseRows(frame, 0, frame.info.height);  // before the next one needs the memory
   });
   for (auto& picture : loaded) {
     if (!*picture) return Propagate(std::move(*picture));
@@ -191,7 +190,7 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
     auto signal = SignalOf(frame, &work->response);
     if (!signal) return Propagate(std::move(signal));
     work->signals.push_back(std::move(*signal));
-    LetGo(frame, 0, frame.info.height);
+    ReleaseRows(frame, 0, frame.info.height);
     merge.noise_in_file.push_back(request.own_noise ? std::vector<NoiseProfile>()
                                                     : frame.info.noise);
   }
@@ -210,12 +209,12 @@ Result<std::unique_ptr<BracketWork>> PrepareBracket(const BracketMergeRequest& r
     merge.samples_averaged = work->thinning.n;
   }
   merge.done = [&frames = work->frames](std::size_t i) {
-    LetGo(frames[i], 0, frames[i].info.height);
+    ReleaseRows(frames[i], 0, frames[i].info.height);
   };
   auto planned = PlanMerge(work->signals, merge);
   if (!planned) return Propagate(std::move(planned));
   work->planned = std::move(*planned);
-  for (const Frame& frame : work->frames) LetGo(frame, 0, frame.info.height);
+  for (const Frame& frame : work->frames) ReleaseRows(frame, 0, frame.info.height);
   if (request.align) {
     if (auto aligned = Align(std::move(merge), *work); !aligned)
       return Propagate(std::move(aligned));

@@ -7,7 +7,8 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/thin_table.h"
-#include "photometric_input.h"
+#include "lightcal/records/photometric_type_c.h"
+#include "lightcal_devices/files/read_photometric.h"
 #include "session_files.h"
 #include "session_names.h"
 

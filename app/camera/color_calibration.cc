@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "board_module.h"
 #include "camera/chart_file.h"
 #include "camera/raw_region.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/imaging/camera/color_chart.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
+#include "lightcal_devices/captures/board_module.h"
 #include "output_files.h"
 #include "session_files.h"
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "board_module.h"
 #include "capture_reading.h"
 #include "capture_readings.h"
 #include "lightcal/core/numbers_text.h"
@@ -16,6 +15,7 @@
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/wall_samples.h"
+#include "lightcal_devices/captures/board_module.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "picture_record.h"
 #include "session_files.h"

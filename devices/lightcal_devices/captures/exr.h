@@ -8,7 +8,6 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 

@@ -243,18 +243,6 @@ Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
   return frame;
 }
 
-Warning WarningOfMasked(const MaskedPicture& picture) {
-  const FrameInfo& info = picture.frame.info;
-  const std::size_t count = picture.masked.size();
-  const auto width = static_cast<std::size_t>(info.width);
-  const std::size_t first = picture.masked.empty() ? 0 : picture.masked.front();
-  return {"bad_samples", info.file,
-          std::to_string(count) + (count == 1 ? " pixel that holds" : " pixels that hold") +
-              " no number (not finite, or beyond 1e30), the first at " +
-              std::to_string(first % width) + "," + std::to_string(first / width) +
-              ": the nearest ones to both sides stand in"};
-}
-
 Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore store) {
   auto frame = ReadUnchecked(path, store);
   if (!frame) return Propagate(std::move(frame));

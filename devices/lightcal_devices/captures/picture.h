@@ -12,7 +12,6 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 

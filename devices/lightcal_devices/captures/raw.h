@@ -7,7 +7,6 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A photometric file on disk -> what it says.
+// Distributions of any type as type C, which every format and engine knows.
 #pragma once
 
-#include <string>
-
 #include "lightcal/core/result.h"
-#include "lightcal/records/photometric_codec.h"
+#include "lightcal/records/photometric_file.h"
 
-namespace lightcal::app {
-
-// Reads at most kMaxPhotometricBytes, whatever the path names, and the TILT file beside it.
-// Fails: not_found, unreadable. Refused: too_large, and as PhotometricFromText.
-[[nodiscard]] Result<ReadPhotometric> ReadPhotometricFile(const std::string& path);
+namespace lightcal {
 
 // A table of type A or B sampled as type C for formats and engines that know no other: every 2.5
 // degrees of C, every degree of gamma, or finer where the file is. Type C comes back as it is.
@@ -21,4 +15,4 @@ namespace lightcal::app {
 // comes back as it is, B and A are sampled as by AsTypeC.
 [[nodiscard]] Result<IntensityTable> AboutItsAim(IntensityTable table);
 
-}  // namespace lightcal::app
+}  // namespace lightcal

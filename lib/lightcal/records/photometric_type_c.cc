@@ -1,36 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "photometric_input.h"
+#include "lightcal/records/photometric_type_c.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-namespace lightcal::app {
+namespace lightcal {
 namespace {
-
-namespace fs = std::filesystem;
-
-Result<std::string> ReadBounded(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return Failed("not_found", path, "there is no such file");
-  std::ifstream stream(path, std::ios::binary);
-  std::string bytes;
-  std::array<char, 1 << 16> chunk{};
-  while (stream.read(chunk.data(), chunk.size()) || stream.gcount() > 0) {
-    bytes.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-    if (bytes.size() > kMaxPhotometricBytes) {
-      return Refused("too_large", path, "is larger than 32 MiB, which no lamp's file is");
-    }
-  }
-  if (!stream.eof())
-    return Failed("unreadable", path, "cannot be read; is it a file you may open?");
-  return bytes;
-}
 
 double FinestStep(const std::vector<double>& angles, double coarsest) {
   double step = coarsest;
@@ -44,18 +21,6 @@ std::vector<double> EvenAngles(double to, double step) {
   for (int i = 0; i <= count; ++i) out.push_back(to * i / count);
   return out;
 }
-
-}  // namespace
-
-Result<ReadPhotometric> ReadPhotometricFile(const std::string& path) {
-  const auto text = ReadBounded(path);
-  if (!text) return tl::unexpected(text.error());
-  const fs::path folder = fs::path(path).parent_path();
-  return PhotometricFromText(*text, fs::path(path).filename().string(),
-                             [&](const std::string& name) { return ReadBounded(folder / name); });
-}
-
-namespace {
 
 // The angles a table of type A or B is sampled at.
 IntensityGrid SamplingOf(const IntensityTable& table) {
@@ -95,4 +60,4 @@ Result<IntensityTable> AboutItsAim(IntensityTable table) {
   return IntensityTable::Make(std::move(grid), "sampled distribution");
 }
 
-}  // namespace lightcal::app
+}  // namespace lightcal

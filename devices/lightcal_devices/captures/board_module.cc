@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "board_module.h"
+#include "lightcal_devices/captures/board_module.h"
 
 #include <utility>
 
 #include "lightcal_devices/captures/module_door.h"
 
-namespace lightcal::app {
+namespace lightcal {
 namespace {
 
 Result<const BoardFunctions*> Open() {
@@ -22,4 +22,4 @@ Result<const BoardFunctions*> BoardModule() {
   return module;
 }
 
-}  // namespace lightcal::app
+}  // namespace lightcal

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal_devices/captures/sample_store.h"
+#include "lightcal/imaging/bracket/release_rows.h"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@ void DropPages(const void* begin, const void* end) {
 
 }  // namespace
 
-void LetGo(const Frame& frame, int first, int count) {
+void ReleaseRows(const Frame& frame, int first, int count) {
   if (!frame.in_file || count < 1) return;
   std::visit(
       [&](const auto& view) {
