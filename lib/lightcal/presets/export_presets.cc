@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "preset_files.h"
+#include "lightcal/presets/export_presets.h"
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "lightcal/presets/preset_table.h"
 
-namespace lightcal::app {
+namespace lightcal {
 namespace {
 
 Result<std::vector<PresetTarget>> ChosenTargets(const std::vector<std::string>& names) {
@@ -48,43 +50,31 @@ void DropUnasked(const Warnings& said, Warnings& warnings) {
 }
 
 // Two targets may bring the same photometric file, with the same contents.
-void KeepFirstOfEachName(std::vector<OutputFile>& files) {
+void KeepFirstOfEachName(std::vector<PresetFile>& files) {
   std::set<std::string> names;
-  std::erase_if(files, [&](const OutputFile& file) { return !names.insert(file.path).second; });
+  std::erase_if(files, [&](const PresetFile& file) { return !names.insert(file.name).second; });
 }
 
 }  // namespace
 
-Result<PresetOutputs> PresetFiles(const LightFile& lights, const std::string& stem,
-                                  const std::vector<std::string>& targets,
-                                  const PresetOptions& options, Warnings& warnings) {
+Result<ExportedPresets> ExportPresets(const LightFile& lights,
+                                      const std::vector<std::string>& targets,
+                                      const std::string& stem, const PresetOptions& options) {
   const auto chosen = ChosenTargets(targets);
   if (!chosen) return tl::unexpected(chosen.error());
-  PresetOutputs outputs;
+  ExportedPresets all;
   for (const PresetTarget& target : *chosen) {
     auto preset = target.exporter(lights, stem, options);
     if (!preset) return Propagate(std::move(preset));
-    if (targets.empty()) DropUnasked(warnings, preset->warnings);
-    AddOnce(preset->warnings, warnings);
-    for (PresetFile& file : preset->files) {
-      outputs.files.push_back({std::move(file.name), std::move(file.contents)});
-    }
+    if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
+    AddOnce(preset->warnings, all.warnings);
+    std::ranges::move(preset->files, std::back_inserter(all.files));
     if (!preset->paste.empty()) {
-      outputs.pastes.push_back(std::string(target.name) + ": " + preset->paste);
+      all.pastes.push_back(std::string(target.name) + ": " + preset->paste);
     }
   }
-  KeepFirstOfEachName(outputs.files);
-  return outputs;
+  KeepFirstOfEachName(all.files);
+  return all;
 }
 
-void PlaceUnder(const std::string& directory, PresetOutputs& outputs) {
-  PlaceUnder(directory, outputs.files);
-  for (std::string& line : outputs.pastes) {
-    for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
-      line.replace(at, kPasteDirectory.size(), directory);
-      at += directory.size();
-    }
-  }
-}
-
-}  // namespace lightcal::app
+}  // namespace lightcal
