@@ -16,6 +16,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "option_words.h"
 #include "reading_source.h"
 #include "session_input.h"
 #include "session_names.h"
@@ -214,7 +215,7 @@ class Walk {
 
   void Explain(const Error& error) const {
     const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-    std::fprintf(stderr, "   %s%s\n", subject.c_str(), error.message.c_str());
+    std::fprintf(stderr, "   %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
   }
 
   // Into the journal, unless it looks wrong and the person takes it back. False: measure again.

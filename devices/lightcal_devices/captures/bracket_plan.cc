@@ -102,9 +102,8 @@ void WarnOfFlicker(const std::vector<PlannedFrame>& frames, Warnings& warnings) 
   }
   if (unsafe.empty()) return;
   warnings.push_back({"flicker_unsafe_shutter", unsafe,
-                      "no whole periods of the lamp: off by up to " +
-                          RoundedText(100.0 * worst, 2) +
-                          " %, as it happens; a smaller aperture or a neutral filter lets all "
+                      "no whole periods of the lamp: off by up to " + PercentText(worst) +
+                          ", as it happens; a smaller aperture or a neutral filter lets all "
                           "times be longer"});
 }
 
@@ -159,7 +158,7 @@ std::optional<std::string> RawFormat(const std::vector<std::string>& choices) {
 
 Result<BracketWish> ParseBracket(std::string_view text) {
   const auto wrong = [&] {
-    return WrongUsage("--bracket " + std::string(text),
+    return WrongUsage("{shoot.bracket} " + std::string(text),
                       "give half the range and the step: ±4EV/1EV is nine frames 1 EV apart");
   };
   std::string_view rest = TrimBlanks(text);
@@ -209,17 +208,18 @@ Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices, Seconds
     plan.frames.push_back({chosen->label, chosen->time, chosen->ev, chosen->flicker});
   }
   if (plan.frames.size() < 2) {
-    return Refused("no_bracket", "--bracket",
-                   "the camera offers no two shutter times for it; name another --center, or a "
-                   "smaller range or step");
+    return Refused(
+        "no_bracket", "{shoot.bracket}",
+        "the camera offers no two shutter times for it; name another {shoot.center}, or a "
+        "smaller range or step");
   }
   std::ranges::stable_sort(plan.frames, {}, [](const PlannedFrame& f) { return f.ev; });
   if (!missing.empty()) {
-    plan.warnings.push_back({"bracket_clipped", missing,
-                             "the camera has no shutter time there; " +
-                                 std::to_string(plan.frames.size()) +
-                                 " frames are left. Another "
-                                 "--center, --aperture or --iso moves the range"});
+    plan.warnings.push_back(
+        {"bracket_clipped", missing,
+         "the camera has no shutter time there; " + std::to_string(plan.frames.size()) +
+             " frames are left. Another "
+             "{shoot.center}, {shoot.aperture} or {shoot.iso} moves the range"});
   }
   WarnOfFlicker(plan.frames, plan.warnings);
   return plan;
