@@ -171,7 +171,7 @@ class Walk {
 
   [[nodiscard]] Result<bool> EndOfInput() const {
     std::fputc('\n', stderr);
-    if (!InterruptGuard::Wish().Requested()) return false;
+    if (!InterruptGuard::StopRequest().Requested()) return false;
     return Failed("interrupted", frame_.light,
                   "stopped by you; " + std::to_string(taken_) + " readings are in the journal");
   }
@@ -254,7 +254,7 @@ class Walk {
 
   // A number that is none can be typed again and a meter asked again; a tape only repeats itself.
   [[nodiscard]] bool MayTryAgain(const Error& error) const {
-    if (InterruptGuard::Wish().Requested()) return false;
+    if (InterruptGuard::StopRequest().Requested()) return false;
     return typed_ || (error.kind == ErrorKind::kFailed && !source_.meter()->IsReplay());
   }
 

@@ -57,7 +57,7 @@ class SetupMaker {
  public:
   SetupMaker(const CameraState& state, const ExposureWish& wish) : state_(state), wish_(wish) {}
 
-  Result<CameraSetup> Make(const BracketWish& bracket) {
+  Result<CameraSetup> Make(const BracketRange& bracket) {
     if (!state_.shutter || state_.shutter->read_only) {
       return Failed(std::string(fault::kSettingRefused), "shutter",
                     "the camera does not let its shutter time be set over the cable; turn its dial "
@@ -167,7 +167,7 @@ class SetupMaker {
 
 }  // namespace
 
-Result<CameraSetup> SetupFor(const CameraState& state, const BracketWish& bracket,
+Result<CameraSetup> SetupFor(const CameraState& state, const BracketRange& bracket,
                              const ExposureWish& wish) {
   return SetupMaker(state, wish).Make(bracket);
 }

@@ -67,13 +67,13 @@ struct Candidate {
 };
 
 std::vector<Candidate> CandidatesOf(const std::vector<std::string>& choices, Seconds centre,
-                                    const BracketWish& wish) {
+                                    const BracketRange& range) {
   std::vector<Candidate> candidates;
   for (const std::string& label : choices) {
     const auto time = TimeOfChoice(label);
     if (!time) continue;
     Candidate candidate{label, *time, std::log2(time->time / centre)};
-    for (const LampFlicker& lamp : wish.lamps) {
+    for (const LampFlicker& lamp : range.lamps) {
       candidate.flicker = std::max(candidate.flicker, WorstFlickerError(lamp, time->time));
     }
     candidates.push_back(std::move(candidate));
@@ -156,7 +156,7 @@ std::optional<std::string> RawFormat(const std::vector<std::string>& choices) {
   return best;
 }
 
-Result<BracketWish> ParseBracket(std::string_view text) {
+Result<BracketRange> ParseBracket(std::string_view text) {
   const auto wrong = [&] {
     return WrongUsage("{shoot.bracket} " + std::string(text),
                       "give half the range and the step: ±4EV/1EV is nine frames 1 EV apart");
@@ -187,19 +187,19 @@ Result<BracketWish> ParseBracket(std::string_view text) {
       2.0 * half / step + 1.0 > kMostFrames + kSlack) {
     return wrong();
   }
-  return BracketWish{half, step, {}};
+  return BracketRange{half, step, {}};
 }
 
 Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices, Seconds centre,
-                                const BracketWish& wish) {
-  std::vector<Candidate> candidates = CandidatesOf(choices, centre, wish);
-  const int each_way = static_cast<int>(std::floor(wish.half_range_ev / wish.step_ev + kSlack));
+                                const BracketRange& range) {
+  std::vector<Candidate> candidates = CandidatesOf(choices, centre, range);
+  const int each_way = static_cast<int>(std::floor(range.half_range_ev / range.step_ev + kSlack));
   BracketPlan plan;
   std::string missing;
   for (int i = -each_way; i <= each_way; ++i) {
-    const double target = i * wish.step_ev;
-    Candidate* chosen = NearestTo(target, wish.step_ev * kThird, true, candidates);
-    if (chosen == nullptr) chosen = NearestTo(target, wish.step_ev / 2.0, false, candidates);
+    const double target = i * range.step_ev;
+    Candidate* chosen = NearestTo(target, range.step_ev * kThird, true, candidates);
+    if (chosen == nullptr) chosen = NearestTo(target, range.step_ev / 2.0, false, candidates);
     if (chosen == nullptr) {
       missing += (missing.empty() ? "" : ", ") + RoundedText(target, 2) + " EV";
       continue;
