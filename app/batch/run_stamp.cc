@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/presets/json_pieces.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
