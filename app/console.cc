@@ -7,12 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "lightcal/core/numbers_text.h"
+#include "option_words.h"
 
 namespace lightcal::app {
 namespace {
 
 void Write(std::FILE* stream, std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
+  const std::string words = InOptionWords(text);
+  std::fwrite(words.data(), 1, words.size(), stream);
 }
 
 std::string Sentence(std::string_view kind, const std::string& subject,

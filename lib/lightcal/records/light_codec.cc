@@ -191,7 +191,7 @@ Result<LightFile> LightFileFromJson(std::string_view text, std::string_view wher
   LightFile file;
   records::ReadSchema(reader);
   records::VisitFile(reader, file);
-  reader.Ignore("warnings");  // `fit --json` adds them to the same document
+  reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   if (reading.error) return tl::unexpected(*std::move(reading.error));
   return file;
