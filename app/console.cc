@@ -7,12 +7,14 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/json_codec.h"
+#include "option_words.h"
 
 namespace lightcal::app {
 namespace {
 
 void Write(std::FILE* stream, std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stream);
+  const std::string words = InOptionWords(text);
+  std::fwrite(words.data(), 1, words.size(), stream);
 }
 
 void WriteDocument(const Node& document) {

@@ -10,6 +10,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/meters/text/frame.h"
+#include "option_words.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -38,7 +39,7 @@ Result<Summary> AskedSummary() {
     }
     auto summary = TypedSummary(*typed);
     if (summary) return summary;
-    std::fprintf(stderr, "  %s\n", summary.error().message.c_str());
+    std::fprintf(stderr, "  %s\n", InOptionWords(summary.error().message).c_str());
   }
 }
 

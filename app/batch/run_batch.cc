@@ -151,7 +151,7 @@ Result<void> WriteSummary(const BatchRequest& request, const std::vector<Outcome
   return WriteOutputs({{request.summary, text}}, false);
 }
 
-std::string WhatCame(const BatchItem& item, const Outcome& outcome) {
+std::string OutcomeText(const BatchItem& item, const Outcome& outcome) {
   if (outcome.error) {
     const std::string& subject = outcome.error->subject;
     return (subject.empty() ? "" : subject + ": ") + outcome.error->message;
@@ -169,7 +169,7 @@ std::string Table(const std::vector<BatchItem>& items, const std::vector<Outcome
   for (std::size_t i = 0; i < items.size(); ++i) {
     rows.push_back({items[i].session,
                     std::string(kStatusNames[static_cast<std::size_t>(outcomes[i].status)]),
-                    WhatCame(items[i], outcomes[i])});
+                    OutcomeText(items[i], outcomes[i])});
   }
   return TextTable({"session", "status", "lights"}, rows);
 }
@@ -265,7 +265,7 @@ std::vector<Outcome> RunAll(const BatchRequest& request) {
     misused = misused || (outcome.error && outcome.error->kind == ErrorKind::kUsage);
     progress.Show(outcomes);
   };
-  plan.stop = [&] { return misused || InterruptGuard::Wish().Requested(); };
+  plan.stop = [&] { return misused || InterruptGuard::StopRequest().Requested(); };
   RunJobs(plan);
   progress.Clear();
   return outcomes;

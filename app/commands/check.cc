@@ -146,7 +146,7 @@ MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight
 }
 
 // A photometric file hangs where the lamp does, C0 to the right as seen from behind it.
-EngineLight Hung(EngineLight light, const MeteredLamp& lamp) {
+EngineLight PlacedAt(EngineLight light, const MeteredLamp& lamp) {
   light.position_m = lamp.place_m - lamp.aim * (lamp.turned ? lamp.offset_m : 0.0);
   light.offset_m = lamp.turned ? 0.0 : lamp.offset_m;
   light.aim = lamp.aim;
@@ -165,7 +165,7 @@ double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp
     if (!light.name.empty() && light.name != lamp.fitted.name) continue;
     const bool dome = lamp.description.kind == LightKind::kDome;
     if (light.name.empty() && light.placed && !dome) continue;  // surroundings
-    const EngineLight placed = light.placed ? light : Hung(light, lamp);
+    const EngineLight placed = light.placed ? light : PlacedAt(light, lamp);
     if (reading.position_m && reading.normal) {
       const Vec3 normal = *reading.normal * (1.0 / Length(*reading.normal));
       sum += LuxAt(placed, *reading.position_m, normal);

@@ -12,6 +12,7 @@
 #include "light_input.h"
 #include "light_summary.h"
 #include "light_table.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/light_distribution.h"
 #include "lightcal/records/light_codec.h"
@@ -132,10 +133,8 @@ Result<LibraryLight> OneCalled(const std::string& name, std::vector<LibraryLight
   if (exact.empty()) {
     return Refused("unknown_light", name, "no light is called so; lightcal lights list shows all");
   }
-  std::string files;
-  for (const LibraryLight& entry : exact) {
-    files += (files.empty() ? "" : ", ") + fs::path(entry.path).stem().string();
-  }
+  const std::string files = Joined(
+      exact, ", ", [](const LibraryLight& entry) { return fs::path(entry.path).stem().string(); });
   return Refused("several_lights", name, "is the name of several; say which: " + files);
 }
 

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
@@ -37,14 +38,6 @@ struct Source {
   std::string default_output;
 };
 
-std::string JoinedPlotNames() {
-  std::string names;
-  for (const std::string_view name : report::PlotNames()) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  }
-  return names;
-}
-
 // ---- --plot NAME=FILE ----
 
 struct PlotRequest {
@@ -59,7 +52,7 @@ Result<PlotRequest> ParsePlot(const std::string& text) {
     const std::string nearest = NearestWord(name, known);
     return WrongUsage("--plot", "\"" + name + "\" is no plot" +
                                     (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
-                                    " (there are: " + JoinedPlotNames() + ")");
+                                    " (there are: " + Joined(report::PlotNames()) + ")");
   }
   if (sign == std::string::npos) {
     return WrongUsage("--plot", "say where it goes: " + name + "=FILE.svg or .png");
@@ -186,7 +179,7 @@ Run BuildReport(CLI::App& parser) {
   parser
       .add_option("--plot", options->plots,
                   "One of its plots as a file, instead of the page (give -o for both): " +
-                      JoinedPlotNames() +
+                      Joined(report::PlotNames()) +
                       ". Where several lights have it, each gets FILE-LIGHT.svg. Repeatable")
       ->type_name("NAME=FILE.svg|png")
       ->delimiter(',')

@@ -80,7 +80,7 @@ Result<Measurements> Measure(const Options& options, const tradeoff::Question& q
                              bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
-  const tradeoff::Watch watch = {[] { return InterruptGuard::Wish().Requested(); },
+  const tradeoff::Watch watch = {[] { return InterruptGuard::StopRequest().Requested(); },
                                  [&](double share) { progress.At(share); }};
   Measurements out;
   SessionTwin twin;

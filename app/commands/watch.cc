@@ -110,11 +110,11 @@ class Watching {
     MeasuringPlan one;
     one.measurements = 1;
     const auto began = Clock::now();
-    while (!Enough(began) && !InterruptGuard::Wish().Requested()) {
+    while (!Enough(began) && !InterruptGuard::StopRequest().Requested()) {
       const auto asked = Clock::now();
       const auto taken = source_.Take(lamp_.frame, one, console_);
       if (!taken) {
-        if (InterruptGuard::Wish().Requested() && series_.count() > 0) break;
+        if (InterruptGuard::StopRequest().Requested() && series_.count() > 0) break;
         return tl::unexpected(taken.error());
       }
       const std::chrono::duration<double> since = Clock::now() - began;

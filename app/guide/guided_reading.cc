@@ -16,6 +16,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "option_words.h"
 #include "reading_source.h"
 #include "session_input.h"
 #include "session_names.h"
@@ -170,7 +171,7 @@ class Walk {
 
   [[nodiscard]] Result<bool> EndOfInput() const {
     std::fputc('\n', stderr);
-    if (!InterruptGuard::Wish().Requested()) return false;
+    if (!InterruptGuard::StopRequest().Requested()) return false;
     return Failed("interrupted", frame_.light,
                   "stopped by you; " + std::to_string(taken_) + " readings are in the journal");
   }
@@ -214,7 +215,7 @@ class Walk {
 
   void Explain(const Error& error) const {
     const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-    std::fprintf(stderr, "   %s%s\n", subject.c_str(), error.message.c_str());
+    std::fprintf(stderr, "   %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
   }
 
   // Into the journal, unless it looks wrong and the person takes it back. False: measure again.
@@ -253,7 +254,7 @@ class Walk {
 
   // A number that is none can be typed again and a meter asked again; a tape only repeats itself.
   [[nodiscard]] bool MayTryAgain(const Error& error) const {
-    if (InterruptGuard::Wish().Requested()) return false;
+    if (InterruptGuard::StopRequest().Requested()) return false;
     return typed_ || (error.kind == ErrorKind::kFailed && !source_.meter()->IsReplay());
   }
 

@@ -26,7 +26,7 @@ constexpr double kSeenError = 1e-9;
 constexpr double kSeenChangeOfU = 0.01;  // of u: the strictest setting draws it to half of that
 
 std::string Percent(double relative) {
-  return relative < kSeenError ? "none" : RoundedText(100.0 * relative, 2) + " %";
+  return relative < kSeenError ? "none" : PercentText(relative);
 }
 std::string Milliseconds(double seconds) { return RoundedText(1e3 * seconds, 3); }
 

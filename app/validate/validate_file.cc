@@ -72,7 +72,7 @@ Holds HeldBySensitivities(const std::string& text, const std::string& path) {
 Holds HeldByProfile(const std::string& text, const std::string& path) {
   const auto profile = AccuracyProfileFromJson(text, path);
   if (!profile) return tl::unexpected(profile.error());
-  return "tolerance " + RoundedText(100.0 * profile->tolerance_relative, 2) + " %";
+  return "tolerance " + PercentText(profile->tolerance_relative);
 }
 
 Holds HeldByCapture(const std::string& text, const std::string& path) {

@@ -9,6 +9,7 @@
 #include "lightcal/colorimetry/cie_tables/tables.h"
 #include "lightcal/colorimetry/daylight.h"
 #include "lightcal/colorimetry/planckian.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal {
@@ -17,7 +18,7 @@ namespace {
 constexpr double kNanometresPerMetre = 1e9;
 constexpr double kCentreNm = 560.0;
 constexpr double kIlluminantAKelvin = 2848.0;
-constexpr double kColdestKelvin = 400.0;
+constexpr double kColdestPlanckKelvin = 400.0;
 
 // 100 at 560 nm: (560/l)^4 g(c2/(l T)) / g(c2/(560 T)).
 Spectrum PlanckSpectrum(double c2_over_t_nm) {
@@ -77,7 +78,7 @@ std::string FullName(std::string name) {
 }  // namespace
 
 Result<Spectrum> BlackBodySpectrum(Kelvin temperature) {
-  if (!(temperature.value() >= kColdestKelvin)) {
+  if (!(temperature.value() >= kColdestPlanckKelvin)) {
     return Refused("out_of_range", "black body",
                    "give a temperature of 400 K or more; colder bodies shine too little in the "
                    "visible range to be computed");
@@ -96,10 +97,8 @@ Result<Spectrum> IlluminantSpectrum(std::string_view name) {
   for (const IlluminantTable& table : IlluminantTables()) {
     if (LowerAscii(table.name) == wanted) return FromTable(table);
   }
-  std::string known;
-  for (const std::string& each : IlluminantNames()) known += (known.empty() ? "" : ", ") + each;
   return Refused("unknown_illuminant", std::string(name),
-                 "is no illuminant of the CIE; known are " + known +
+                 "is no illuminant of the CIE; known are " + Joined(IlluminantNames()) +
                      ", any daylight such as D56 and any black body such as P3200");
 }
 

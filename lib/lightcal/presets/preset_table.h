@@ -11,7 +11,7 @@
 namespace lightcal {
 
 struct PresetTarget {
-  std::string_view name;  // the word after --to
+  std::string_view name;  // the word it is asked for by
   Exporter exporter;
   std::string_view verified;  // how the output was checked, for people
 };

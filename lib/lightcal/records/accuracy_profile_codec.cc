@@ -92,7 +92,7 @@ Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text, std::stri
   reader.Text("schema", schema);
   if (schema != kProfileSchema) {
     reader.Fail("schema", "a profile.json has \"schema\": \"" + std::string(kProfileSchema) +
-                              "\"; `lightcal tradeoff SESSION -o DIR` writes one");
+                              "\"; `{MakeStudy}` writes one");
   }
   records::VisitProfile(reader, profile);
   reader.Ignore("measured");

@@ -135,7 +135,7 @@ void ReadSchema(FieldReader& reader) {
   } else if (schema != kCameraSchema) {
     reader.Fail("schema", "schema = " + Quoted(schema) + ": this program reads " +
                               std::string(kCameraSchema) +
-                              "; make the profile again with lightcal camera");
+                              "; make the profile again with {CalibrateCamera}");
   }
 }
 
@@ -191,7 +191,7 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
   CameraProfile profile;
   records::ReadSchema(reader);
   records::VisitProfile(reader, profile);
-  reader.Ignore("warnings");  // `camera --json` adds them to the same document
+  reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   records::CheckProfile(reader, profile);
   if (reading.error) return tl::unexpected(*std::move(reading.error));
@@ -211,7 +211,7 @@ Result<CameraFile> CameraFileFromJson(std::string_view text, std::string_view wh
   auto sensitivities = CameraSensitivitiesFromJson(text, where);
   if (!sensitivities) {
     Error error = std::move(sensitivities).error();
-    error.message += ". A profile written by lightcal camera is the other kind of file";
+    error.message += ". A profile written by {CalibrateCamera} is the other kind of file";
     return tl::unexpected(std::move(error));
   }
   file.sensitivities = std::move(*sensitivities);

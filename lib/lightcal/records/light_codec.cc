@@ -258,7 +258,7 @@ static Result<LightFile> LightsOfDocument(std::string_view text, std::string_vie
   LightFile file;
   records::ReadSchema(reader);
   records::VisitFile(reader, file);
-  reader.Ignore("warnings");  // `fit --json` adds them to the same document
+  reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   if (reading.error) return tl::unexpected(*std::move(reading.error));
   return file;

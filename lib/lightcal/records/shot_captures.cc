@@ -55,7 +55,7 @@ Result<void> AddOne(const fs::path& record, LoadedSession& loaded) {
   if (!shoot->complete) {
     loaded.warnings.push_back({"unfinished_capture", folder.generic_string(),
                                "broken off after " + HowFar(*shoot) +
-                                   " and not used; lightcal shoot --resume goes on, or delete the "
+                                   " and not used; {shoot.resume} goes on, or delete the "
                                    "folder"});
     return {};
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/meters/sekonic/reading.h"
 
 namespace lightcal::sekonic {
@@ -20,10 +21,6 @@ constexpr int kDarkPatience = 4;
 bool MayLeaveReply(const Error& error) {
   return error.code == kBadReply || error.code == fault::kTimeout ||
          error.code == fault::kStalled || error.code == fault::kIo;
-}
-
-bool IsGone(const Error& error) {
-  return error.code == fault::kUnplugged || error.code == fault::kNoDevice;
 }
 
 tl::unexpected<Error> InCommand(std::string_view command, Error error) {
@@ -89,7 +86,7 @@ Result<MeterIdentity> SekonicMeter::Identify() {
     identity.warnings.push_back({"untested_model", DeviceName(),
                                  "is a " + model_ +
                                      ", a model this driver was never tried with; please send a "
-                                     "tape (--record)"});
+                                     "tape ({meter.tape})"});
   }
   return identity;
 }
@@ -203,7 +200,7 @@ Result<MeterReading> SekonicMeter::ReadMemory(int index, const Cancellation& can
   MeterReading reading = ReadingFromMeasurement(*measurement, DeviceName());
   reading.warnings.push_back({"experimental", DeviceName(),
                               "reading a C-7000's memory was never tried on one; compare with its "
-                              "display, and please send a tape (--record)"});
+                              "display, and please send a tape ({meter.tape})"});
   return reading;
 }
 
