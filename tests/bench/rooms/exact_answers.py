@@ -34,8 +34,8 @@ def answer_exactly(lamp):
     direct = [r for r in lamp.readings if not r.get("shadow_card")]
     cards = {r["distance_m"]: r["illuminance_lx"] for r in lamp.readings if r.get("shadow_card")}
     distances = [r["distance_m"] for r in direct]
-    return tuple(posterior(
+    return (*posterior(
         distances, [r["illuminance_lx"] for r in direct],
         card=np.array([cards.get(d, math.nan) for d in distances]) if cards else None,
         size=lamp.keys.get("size_m"), offsets=offsets_of(lamp.fixture),
-        walls=walls_of(lamp)))
+        walls=walls_of(lamp)), 0)

@@ -15,8 +15,8 @@ from traced_table import FIXTURES
 REFERENCE = 3.0  # m
 # ln b there: mean, sd; gamma: mean, sd; t: sd; q. README.md of tests/tools/traced_rooms says whence.
 PRIORS = {
-    "bulb": (np.log(0.122), 0.42, -1.0, 0.35, 0.07, -0.27),
-    "panel": (np.log(0.037), 0.45, -0.35, 0.45, 0.14, -0.37),
+    "bulb": (np.log(0.122), 0.42, -1.05, 0.42, 0.07, -0.27),
+    "panel": (np.log(0.037), 0.45, -0.45, 0.55, 0.14, -0.37),
     "beam": (np.log(0.0033), 1.25, 0.60, 0.45, 0.25, 0.0),
 }
 UNKNOWN_KIND = (("bulb", 0.5), ("panel", 0.25), ("beam", 0.25))

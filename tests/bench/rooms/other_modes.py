@@ -6,7 +6,7 @@ import tempfile
 
 import numpy as np
 
-from sessions import Lamp, binomial, fit_all, fit_session, knows_fixture, summary
+from sessions import HEAD, Lamp, binomial, fit_all, fit_session, knows_fixture, summary
 from traced_table import draw_of_205, draw_offset
 
 DARK = {"dark": True}
@@ -26,6 +26,7 @@ def dark_room(lightcal):
 def dark(lightcal, sessions):
     """One reading in the dark: fixture unknown (a draw of the 205 tables), and a bulb."""
     room, fixtures = dark_room(lightcal), knows_fixture(lightcal)
+    print(" " * 20 + HEAD)
     for fixture in (None, "bulb"):
         for d in (0.5, 1.0, 2.0):
             rng = np.random.default_rng([1, int(10 * d), fixture is None])
@@ -38,8 +39,8 @@ def dark(lightcal, sessions):
                 if fixture and fixtures:
                     lamp.keys["fixture"] = fixture
                 lamps.append(lamp)
-            print(f"dark, {fixture or 'unknown':8s} {d:3.1f} m {summary(lamps, fit_all(lightcal, lamps))}",
-                  flush=True)
+            answers = fit_all(lightcal, lamps)
+            print(f"dark, {fixture or 'unknown':8s} {d:3.1f} m {summary(lamps, answers)}", flush=True)
 
 
 def located(lightcal, sessions):
@@ -51,7 +52,7 @@ def located(lightcal, sessions):
     held, count, refused, errors = np.zeros(4), 0, {}, []
     with tempfile.TemporaryDirectory(prefix="room_coverage_") as folder:
         for _ in range(sessions):
-            lamp_at = np.array([rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(1.4, 2.4)])
+            lamp_at = rng.uniform((-0.8, -0.8, 1.4), (0.8, 0.8, 2.4))
             truth = 10 ** rng.uniform(2, 3)
             lamp = Lamp(truth=truth, room=room, meter={"sigma_relative": 0.01})
             for place in places:
@@ -99,7 +100,7 @@ def typed(lightcal, sessions):
             lamp.readings.append({"distance_m": d, "illuminance_lx": lux})
         lamps.append(lamp)
     answers = fit_all(lightcal, lamps)
-    print("typed, 12 readings  " + summary(lamps, answers))
+    print(" " * 20 + HEAD + "\ntyped, 12 readings  " + summary(lamps, answers))
     halves = [(a[2] - a[0]) / 2 / a[1] for a in answers if not isinstance(a, str)]
     if halves:
         print(f"typed, narrowest half width {100 * min(halves):.1f} %")
@@ -128,12 +129,11 @@ def bent(case, rng):
                 "illuminance_lx": gain * (2 / math.sqrt(square)) ** power / square
                 * math.exp(rng.normal(0, 0.01))})
         return lamp
-    odd = rng.integers(1, len(distances))
+    odd, second = rng.integers(1, len(distances)), rng.uniform(0.3, 1.0)
     for i, d in enumerate(distances):
         lux = gain / (d + offset) ** 2
-        if case == "two lamps as one":  # the other one stands beside the way, at 1 m
-            beside = 0.5 + rng.uniform(0, 0.01)
-            lux += 0.7 * gain * beside / (beside ** 2 + (d - 1.0) ** 2) ** 1.5 * 0.5
+        if case == "two lamps as one" and d > 1:  # the other one: 60 cm beside the way, at 1 m
+            lux += second * gain * (d - 1) / ((d - 1) ** 2 + 0.36) ** 1.5
         if case == "another lamp's reading" and i == odd:
             lux *= 2.5
         if case == "one distance in feet" and i == odd:
@@ -159,7 +159,7 @@ def misfit(lightcal, sessions):
                     low, high = (lights[0]["intensity_cd"].get(k, math.nan) for k in ("low95", "high95"))
                     said = bool(lights[0].get("warnings") or document.get("warnings"))
                     rejected = bool(lights[0].get("fit", {}).get("rejected"))
-                    held = low <= lamp.truth * 1.0 <= high
+                    held = low <= lamp.truth <= high
                     what = ("warned" if said else "reading rejected" if rejected else "silent") + (
                         ", held" if held else ", not held")
                 counts[what] = counts.get(what, 0) + 1

@@ -65,13 +65,15 @@ def fit_session(lightcal, lamps, folder):
 
 
 def interval(light):
+    """(low, value, high, readings thrown out)."""
     intensity = light["intensity_cd"]
     value, u95 = intensity["value"], intensity["u95"]
-    return intensity.get("low95", value - u95), value, intensity.get("high95", value + u95)
+    return (intensity.get("low95", value - u95), value, intensity.get("high95", value + u95),
+            len(light.get("fit", {}).get("rejected", [])))
 
 
 def fit_all(lightcal, lamps):
-    """(low, value, high) of each lamp, or the error's code where it was refused."""
+    """`interval` of each lamp, or the error's code where it was refused."""
     groups = []
     for lamp in lamps:
         if groups and not lamp.room and not groups[-1][0].room and len(groups[-1]) < LAMPS_A_SESSION:
@@ -107,13 +109,18 @@ def binomial(hits, count):
     return share, math.sqrt(max(share * (1 - share), 1 / count) / count)
 
 
+HEAD = f"{'sessions':>9s} {'held':>13s} {'bias':>9s} {'half width':>11s} {'refused':>8s} {'rejected':>9s}"
+
+
 def summary(lamps, answers):
+    """A line under HEAD. `rejected`: sessions of which a true reading was thrown out."""
     fitted = [(lamp.truth, *answer) for lamp, answer in zip(lamps, answers)
               if not isinstance(answer, str)]
     if not fitted:
         return f"{len(lamps):9d}   all refused: {answers[:1]}"
-    truth, low, value, high = np.array(fitted).T
+    truth, low, value, high, rejected = np.array(fitted).T
     held, error = binomial(int(np.sum((low <= truth) & (truth <= high))), len(fitted))
     half = np.median((high - low) / 2 / value)
-    return (f"{len(lamps):9d} {100 * held:6.1f} +- {100 * error:3.1f} {100 * np.median(value / truth - 1):+8.1f} %"
-            f" {100 * half:8.1f} % {len(lamps) - len(fitted):9d}")
+    bias = np.median(value / truth - 1)
+    return (f"{len(lamps):9d} {100 * held:6.1f} +- {100 * error:3.1f} {100 * bias:+8.1f} %"
+            f" {100 * half:9.1f} % {len(lamps) - len(fitted):8d} {int(np.sum(rejected > 0)):9d}")
