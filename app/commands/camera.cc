@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "lightcal/calibrate/camera/calibrate_camera.h"
@@ -101,7 +100,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
           : options.output;
   if (auto written = WriteOutputs({{path, *json}}, options.force); !written) return written;
   console.Print(Table(*profile));
-  console.PrintJson(nlohmann::ordered_json::parse(*json));
+  console.PrintDocument(DocumentOf(*profile));
   console.Note("wrote " + path);
   if (profile->scale.readings.empty()) {
     console.Note(

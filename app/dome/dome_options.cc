@@ -11,7 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "one_of.h"
-#include "picture_options.h"
+#include "picture_words.h"
 
 namespace lightcal::app {
 namespace {

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -74,15 +75,20 @@ class Disk {
         return Sha256Hex(read->second->bytes);
       }
     }
-    if (const auto mapped = MapFile(path)) {
-      return Sha256Hex({static_cast<const char*>(mapped->bytes.get()), mapped->size});
+    if (const auto mapped = open_.Map(path)) {
+      std::string hash = Sha256Hex({static_cast<const char*>(mapped->bytes.get()), mapped->size});
+      ReleasePages(*mapped);
+      return hash;
     }
     const auto text = Text(path);  // empty, no regular file, or not there
     if (!text) return text;
     return Sha256Hex(*text);
   }
 
+  [[nodiscard]] OpenFiles* open() { return &open_; }
+
  private:
+  OpenFiles open_;  // pictures
   std::mutex mutex_;
   std::map<std::string, Bytes> read_;
 };
@@ -105,12 +111,25 @@ Sources DiskSources() {
   sources.read_photometric = [disk](const std::string& path) {
     return PhotometricRead(*disk->Read(path, kMaxPhotometricBytes), path);
   };
-  sources.open_bracket = OpenBracket;
-  sources.read_frame_info = ReadFrameInfo;
-  sources.read_frame = [](const std::string& path) { return ReadFrame(path); };
-  sources.load_frame = [](const FrameInfo& info) { return LoadFrame(info); };
-  sources.read_masked_frame = [](const std::string& path) { return ReadMaskedFrame(path); };
-  sources.load_masked_frame = LoadMaskedFrame;
+  sources.open_bracket = [disk](std::span<const std::string> patterns,
+                                const BracketOverrides& overrides) {
+    return OpenBracket(patterns, overrides, disk->open());
+  };
+  sources.read_frame_info = [disk](const std::string& path) {
+    return ReadFrameInfo(path, disk->open());
+  };
+  sources.read_frame = [disk](const std::string& path) {
+    return ReadFrame(path, SampleStore::kMemory, disk->open());
+  };
+  sources.load_frame = [disk](const FrameInfo& info) {
+    return LoadFrame(info, SampleStore::kMemory, disk->open());
+  };
+  sources.read_masked_frame = [disk](const std::string& path) {
+    return ReadMaskedFrame(path, SampleStore::kMemory, disk->open());
+  };
+  sources.load_masked_frame = [disk](const FrameInfo& info, SampleStore store) {
+    return LoadMaskedFrame(info, store, disk->open());
+  };
   sources.find_board = [](View2d<const float> luminance,
                           const CharucoBoard& board) -> Result<std::vector<BoardCorner>> {
     const auto module = BoardModule();

@@ -6,8 +6,9 @@
 
 namespace lightcal {
 
-// Texts, spectra and photometric files are opened once in the life of these sources and their
-// copies, whatever is asked about them; they may be asked from several threads.
+// Each file is opened once in the life of these sources and their copies, whatever is asked about
+// it: texts and tables are held, EXR and camera RAW stay mapped (OpenImageIO opens TIFF, PNG, JPEG
+// and Radiance HDR itself once more). They may be asked from several threads at once.
 [[nodiscard]] Sources DiskSources();
 
 }  // namespace lightcal

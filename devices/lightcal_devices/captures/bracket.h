@@ -23,16 +23,19 @@ namespace lightcal {
 // Refused: mixed_size, mixed_kind, exposure_count (overrides and files differ in number), and as
 // ReadRawInfo and ReadPictureInfo.
 [[nodiscard]] Result<Bracket> OpenBracket(std::span<const std::string> patterns,
-                                          const BracketOverrides& overrides = {});
+                                          const BracketOverrides& overrides = {},
+                                          OpenFiles* files = nullptr);
 
 // The frame's samples; their exposure is that of `info`, overrides included. Fails besides:
 // file_changed.
 [[nodiscard]] Result<Frame> LoadFrame(const FrameInfo& info,
-                                      SampleStore store = SampleStore::kMemory);
+                                      SampleStore store = SampleStore::kMemory,
+                                      OpenFiles* files = nullptr);
 
 // One picture of any kind: RAW by ReadRaw, others by ReadPicture.
-[[nodiscard]] Result<FrameInfo> ReadFrameInfo(const std::string& path);
+[[nodiscard]] Result<FrameInfo> ReadFrameInfo(const std::string& path, OpenFiles* files = nullptr);
 [[nodiscard]] Result<Frame> ReadFrame(const std::string& path,
-                                      SampleStore store = SampleStore::kMemory);
+                                      SampleStore store = SampleStore::kMemory,
+                                      OpenFiles* files = nullptr);
 
 }  // namespace lightcal

@@ -9,11 +9,16 @@
 
 namespace lightcal {
 
+class OpenFiles;  // mapped_file.h: here and below, opens the file where given
+
 // As ReadPicture (picture.h), ReadFrame and LoadFrame (bracket.h), but for bad_samples.
 [[nodiscard]] Result<MaskedPicture> ReadMaskedPicture(const std::string& path,
-                                                      SampleStore store = SampleStore::kMemory);
+                                                      SampleStore store = SampleStore::kMemory,
+                                                      OpenFiles* files = nullptr);
 [[nodiscard]] Result<MaskedPicture> ReadMaskedFrame(const std::string& path,
-                                                    SampleStore store = SampleStore::kMemory);
-[[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store);
+                                                    SampleStore store = SampleStore::kMemory,
+                                                    OpenFiles* files = nullptr);
+[[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store,
+                                                    OpenFiles* files = nullptr);
 
 }  // namespace lightcal

@@ -57,7 +57,7 @@ Result<InspectedPicture> InspectPicture(const std::string& path, const Sources& 
   if (info->meaning == SampleMeaning::kEncoded) {
     return Refused("no_response", path,
                    "its codes are no luminance without the camera's response curve; merge the "
-                   "bracket it belongs to (lightcal merge), or use the RAW");
+                   "bracket it belongs to ({MergeBracket}), or use the RAW");
   }
   auto picture = sources.read_masked_frame(path);
   if (!picture) return Propagate(std::move(picture));

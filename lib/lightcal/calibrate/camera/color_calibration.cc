@@ -17,7 +17,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kPatchShare = 0.2;  // of the distance to the next patch
-constexpr double kLargestUnevenness = 0.15;
+constexpr double kLargestPatchUnevenness = 0.15;
 constexpr Xy kD50{0.34567, 0.35851};  // CIE 15:2018, table 11.3
 
 Region PatchRegion(const ChartGrid& grid, int column, int row) {
@@ -43,7 +43,7 @@ Result<CameraColor> FitChartAt(const std::array<double, 8>& corners, const Chart
     const auto seen =
         MeasureRawPatch(merged, PatchRegion(*grid, one.column - 1, one.row - 1), place);
     if (!seen) return tl::unexpected(seen.error());
-    if (seen->uneven_sd > kLargestUnevenness) {
+    if (seen->uneven_sd > kLargestPatchUnevenness) {
       return Refused("patch_uneven", place,
                      "the picture is not even there; check corners: the centres of the corner "
                      "patches, upper left, upper right, lower right, lower left");

@@ -13,7 +13,7 @@ Result<CameraProfile> ReadCameraProfile(const std::string& path, const Sources& 
   if (!file->profile) {
     return Refused("no_profile", path,
                    "holds spectral sensitivities alone; name them in a session's [camera] and "
-                   "make a profile of it with lightcal camera");
+                   "make a profile of it with {CalibrateCamera}");
   }
   return std::move(*file->profile);
 }

@@ -74,8 +74,9 @@ Result<Seen> SeePicture(const CameraFramesDescription& what, const CameraProfile
   return Seen{ColorOf(profile, raw), 0.0};
 }
 
-Result<MismatchFactor> FactorOf(Session& session, const Sources& sources,
-                                const CameraFramesDescription& what, const CameraProfile& profile) {
+Result<MismatchFactor> LampFactorOf(Session& session, const Sources& sources,
+                                    const CameraFramesDescription& what,
+                                    const CameraProfile& profile) {
   if (what.spectrum_file.empty()) return CameraMismatch(profile, what.lamp_class);
   const std::string path = PathInSession(session, what.spectrum_file);
   NoteInputFile(path, session);
@@ -98,7 +99,7 @@ Result<WeighedScaleReading> ReadScale(Session& session, const Sources& sources,
   const bool picture = !what.projection.empty();
   const auto seen = picture ? SeePicture(what, profile, merged) : SeePatch(what, profile, merged);
   if (!seen) return tl::unexpected(seen.error());
-  const auto factor = FactorOf(session, sources, what, profile);
+  const auto factor = LampFactorOf(session, sources, what, profile);
   if (!factor) return tl::unexpected(factor.error());
   double true_value = 0.0, card_sd = 0.0;
   WeighedScaleReading out;

@@ -33,7 +33,7 @@ Result<void> CheckRange(const PictureLuminance& luminance, const std::string& fi
 }
 
 // What our own merge wrote beside the samples.
-void TakeOwnScale(const FrameInfo& info, DomeInput& input) {
+void TakeStatedScale(const FrameInfo& info, DomeInput& input) {
   for (const auto& [name, text] : info.lightcal_attributes) {
     if (name == "scale_source") input.scale = text;
     if (name == "scale_u95_relative") input.scale_u95_relative = ParseNumber(text);
@@ -87,7 +87,7 @@ Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
   }
   input.scale = luminance->scale;
   input.absolute = request.convention || frame->info.white_luminance;
-  if (convention == LuminanceConvention::kPhotometric) TakeOwnScale(frame->info, input);
+  if (convention == LuminanceConvention::kPhotometric) TakeStatedScale(frame->info, input);
   input.has_colour = frame->info.channels == 3;
   input.primaries = frame->info.chromaticities;
   if (request.clip) {

@@ -20,7 +20,7 @@ constexpr double kIsoPriorSd = 0.2;
 constexpr double kOutputSensitivityExposure = 10.0;
 constexpr double kOutputSensitivityCode = 118.0 / 255.0;
 constexpr double kEncodedPriorSd = 0.3;
-constexpr double kClippedSigma = 0.99;
+constexpr double kClippedSpotSigma = 0.99;
 
 // How much less light focusing near lets onto the sensor.
 double FocusOf(const FrameInfo& info) {
@@ -63,7 +63,7 @@ bool IsClippedIn(const BracketMerger& merger, const SpotReading& spot) {
       const auto i = static_cast<std::size_t>(x);
       const bool bright =
           value[i] > 0.5F * static_cast<float>(merger.plan().usable) * frame.clip[0];
-      if (bright && variance[i] > kClippedSigma * value[i] * value[i]) return true;
+      if (bright && variance[i] > kClippedSpotSigma * value[i] * value[i]) return true;
     }
   }
   return false;

@@ -60,20 +60,21 @@ Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool a
     const FrameExposure& exposure = info.exposure;
     if (!exposure.time) {
       return NoExposure(info.file, "exposure time",
-                        "give one a file with --exposures 1/250,1/60,...");
+                        "give one a file with {merge.exposures} 1/250,1/60,...");
     }
     if (!anchored && !exposure.iso) {
-      return NoExposure(info.file, "ISO speed", "give it with --iso, or a spot reading (--anchor)");
+      return NoExposure(info.file, "ISO speed",
+                        "give it with {merge.iso}, or a spot reading ({merge.anchor})");
     }
     if (!anchored && !exposure.light_f_number()) {
       return NoExposure(info.file, "f-number",
-                        "give it with --f-number, or a spot reading (--anchor)");
+                        "give it with {exposure.f_number}, or a spot reading ({merge.anchor})");
     }
     const FrameExposure& first = infos.front().exposure;
     if (exposure.iso.has_value() != first.iso.has_value() ||
         exposure.light_f_number().has_value() != first.light_f_number().has_value()) {
       return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
-                        "give --iso and --f-number");
+                        "give {merge.iso} and {exposure.f_number}");
     }
     const double n = exposure.light_f_number().value_or(1.0);
     labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
@@ -119,7 +120,7 @@ Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
   if (!info.focal_length) {
     return Refused("no_focal_length", info.file,
                    "the file does not say its focal length, which cos^4 needs; take a flat field "
-                   "with lightcal camera instead");
+                   "with {CalibrateCamera} instead");
   }
   const Metres half_diagonal(0.5 * sensor_width.value() *
                              std::hypot(1.0, static_cast<double>(info.height) / info.width));
@@ -166,7 +167,7 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   if (request.space && !color->has_colour) {
     return Refused(
         "no_colour", bracket.frames.front().file,
-        "holds no colour, or nobody knows its camera's; leave --space out for luminance");
+        "holds no colour, or nobody knows its camera's; leave {merge.space} out for luminance");
   }
   Append(color->warnings, warnings);
   auto prepared = std::make_unique<PreparedFrames>();

@@ -71,7 +71,8 @@ Warnings CheckShutters(std::span<const FrameInfo> frames, const LampsOnSet& lamp
                RoundedText(100.0 * worst_error, 2) + " % wrong at " +
                LabelText(LabelOfTime(*worst->exposure.time).value_or(*worst->exposure.time)) +
                " s. Safe" + SafeShutters(lamps) +
-               " s, with an ND filter against too much light; --mains none where nothing flickers "
+               " s, with an ND filter against too much light; {shutter.mains} none where nothing "
+               "flickers "
                "(daylight, DC)"}};
 }
 

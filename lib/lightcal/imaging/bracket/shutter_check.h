@@ -23,7 +23,7 @@ struct LampsOnSet {
 // what shutters themselves repeat to; names safe shutters. Frames without a time are passed over.
 [[nodiscard]] Warnings CheckShutters(std::span<const FrameInfo> frames, const LampsOnSet& lamps);
 
-// Refused: flicker_unsafe_shutter, a single frame of a lamp stated to pulse (--pwm) that may read
+// Refused: flicker_unsafe_shutter, a single frame of a lamp stated to pulse that may read
 // more than twice its light or miss it altogether; of a bracket the other frames tell.
 [[nodiscard]] Result<void> RefuseHopelessShutter(std::span<const FrameInfo> frames,
                                                  const LampsOnSet& lamps);

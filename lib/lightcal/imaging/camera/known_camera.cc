@@ -12,7 +12,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kSameIso = 0.02;         // of ln
+constexpr double kSameSpeed = 0.02;       // of ln
 constexpr double kGreenOnlySigma = 0.15;  // luminance by green pixels, of lamps of any colour
 
 const CameraNdFilter* FilterOf(const KnownCamera& camera) {
@@ -83,7 +83,7 @@ std::vector<std::vector<NoiseProfile>> CameraNoiseOf(const KnownCamera& camera,
   std::vector<std::vector<NoiseProfile>> noise;
   for (const FrameInfo& info : infos) {
     const auto found = std::ranges::find_if(camera.profile->noise, [&](const CameraNoise& one) {
-      return info.exposure.iso && std::abs(std::log(one.iso / *info.exposure.iso)) < kSameIso;
+      return info.exposure.iso && std::abs(std::log(one.iso / *info.exposure.iso)) < kSameSpeed;
     });
     if (found == camera.profile->noise.end()) return {};
     noise.push_back({found->noise});
@@ -134,14 +134,14 @@ Result<SampleCorrections> CorrectionsOf(const KnownCamera& camera, std::span<con
   if (!info.exposure.f_number) {
     return Refused("no_exposure_metadata", info.file,
                    "the file does not say its f-number, which the camera's flat fields belong to; "
-                   "give it, or leave flat fields out (--no-flat)");
+                   "give it, or leave flat fields out ({camera.flat})");
   }
   auto flat = FlatFor(profile.flats, *info.exposure.f_number, info.focal_length);
   if (!flat) return Propagate(std::move(flat));
   if (!LetsLightThrough(*flat, profile.width, profile.height)) {
     return Refused("bad_camera", "flats",
                    "a flat field of the profile lets no light through to a part of the picture; "
-                   "make the profile again with lightcal camera");
+                   "make the profile again with {CalibrateCamera}");
   }
   corrections.SetFlat(*flat);
   return corrections;

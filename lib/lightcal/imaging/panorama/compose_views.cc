@@ -14,7 +14,7 @@
 namespace lightcal {
 namespace {
 
-constexpr int kPlateau = 16;            // pixels of a view that share its largest value: clipped
+constexpr int kViewPlateau = 16;        // pixels of a view that share its largest value: clipped
 constexpr double kSameMatrix = 1e-4;    // of matrices that mean the same primaries
 constexpr double kDisagreement = 0.05;  // robust sd of ln L in overlaps
 constexpr double kWholeSphere = 0.9995;
@@ -30,7 +30,7 @@ Result<void> CheckAlike(const DomeInput& first, const DomeInput& other) {
   if (alike) return {};
   return Refused("views_differ", other.files.front(),
                  "its channels or primaries are not those of " + first.files.front() +
-                     "; write all views with one --space");
+                     "; write all views with one {merge.space}");
 }
 
 // Pixels at the view's end of scale: no reading of theirs makes them lights, but another view of
@@ -38,7 +38,7 @@ Result<void> CheckAlike(const DomeInput& first, const DomeInput& other) {
 std::vector<std::uint8_t> PlateauOf(const Dome& dome) {
   const float brightest = *std::max_element(dome.nits.begin(), dome.nits.end());
   std::vector<std::uint8_t> at;
-  if (std::ranges::count(dome.nits, brightest) < kPlateau) return at;
+  if (std::ranges::count(dome.nits, brightest) < kViewPlateau) return at;
   at.reserve(dome.nits.size());
   for (const float v : dome.nits) at.push_back(v == brightest ? 1 : 0);
   return at;

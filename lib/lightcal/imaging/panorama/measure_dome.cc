@@ -25,7 +25,7 @@ tl::unexpected<Error> AboutFile(const char* code, const DomeInput& input, const 
   return Refused(code, input.files.front(), message);
 }
 
-Result<void> CheckContents(const DomeInput& input, Warnings& warnings) {
+Result<void> CheckBrightness(const DomeInput& input, Warnings& warnings) {
   const auto& nits = input.dome.nits;
   const auto [least, most] = std::minmax_element(nits.begin(), nits.end());
   if (!(*most > 0.0F)) {
@@ -59,7 +59,7 @@ Result<void> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& 
   return AboutFile("reading_beyond_view", input,
                    ("the meter saw what no view shows: " + RoundedText(100.0 * share, 2) +
                     " % of what lights it from a uniform sphere; turn it to where the pictures "
-                    "look (--lux-direction), or add views")
+                    "look ({dome.normal}), or add views")
                        .c_str());
 }
 
@@ -106,11 +106,12 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
       {"maybe_clipped", input.files.front(),
        std::to_string(suspect->body.plateau) + " pixels of the light at azimuth " +
            RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3) +
-           " share the picture's largest value; if they are clipped, say from where (--clip) and "
-           "read again with the light shaded (--lux-shaded)"});
+           " share the picture's largest value; if they are clipped, say from where ({dome.clip}) "
+           "and "
+           "read again with the light shaded ({dome.shaded})"});
 }
 
-Result<void> Scale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
   DomeInput& input = measured.input;
   measured.scale_source = input.scale;
   measured.scale_u95_relative = input.scale_u95_relative;
@@ -142,15 +143,15 @@ Result<void> Scale(const std::optional<DomeReading>& reading, MeasuredDome& meas
   return {};
 }
 
-void WarnOfClipping(MeasuredDome& measured) {
+void WarnOfClippedLights(MeasuredDome& measured) {
   const bool lost = std::ranges::any_of(measured.lights, [](const DomeLight& light) {
     return light.body.clipped && !light.inferred;
   });
   if (!lost) return;
-  measured.warnings.push_back(
-      {"clipped", measured.input.files.front(),
-       "a light is clipped: its lux are a lower bound; read it with a lux meter (--lux, and "
-       "--lux-shaded where the picture is not in cd/m2)"});
+  measured.warnings.push_back({"clipped", measured.input.files.front(),
+                               "a light is clipped: its lux are a lower bound; read it with a lux "
+                               "meter ({dome.illuminance}, and "
+                               "{dome.shaded} where the picture is not in cd/m2)"});
 }
 
 // What was inferred may outshine what was not.
@@ -172,7 +173,7 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   MeasuredDome measured;
   measured.input = std::move(input);
   measured.north = request.north;
-  if (auto ok = CheckContents(measured.input, measured.warnings); !ok) {
+  if (auto ok = CheckBrightness(measured.input, measured.warnings); !ok) {
     return Propagate(std::move(ok));
   }
   std::optional<DomeReading> reading = request.reading;
@@ -180,9 +181,9 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   if (auto seen = CheckSeen(reading, measured); !seen) return Propagate(std::move(seen));
   measured.lights = FindLights(measured.input);
   JudgePlateaus(request, reading, measured);
-  if (auto ok = Scale(reading, measured); !ok) return Propagate(std::move(ok));
+  if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
   OrderLights(measured);
-  WarnOfClipping(measured);
+  WarnOfClippedLights(measured);
   Warnings& warnings = measured.warnings;
   warnings.insert(warnings.begin(), measured.input.warnings.begin(), measured.input.warnings.end());
   return measured;
