@@ -168,15 +168,15 @@ void CheckProfile(FieldReader& reader, const CameraProfile& profile) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+records::Node DocumentOf(const CameraProfile& profile) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kCameraSchema));
+  writer.Put("schema", kCameraSchema);
   records::VisitProfile(writer, profile);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  return writer.TakeTable();
+}
+
+Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+  return records::FiniteJson(DocumentOf(profile));
 }
 
 Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_view where) {
