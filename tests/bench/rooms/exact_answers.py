@@ -26,8 +26,8 @@ def prior_of(kind, lamp):
 
 def walls_of(lamp):
     if lamp.exact_kind != "point":
-        return [(1.0, prior_of(lamp.exact_kind, lamp))]
-    return [(weight, prior_of(kind, lamp)) for kind, weight in UNKNOWN_KIND]
+        return [(1.0, prior_of(lamp.exact_kind, lamp), lamp.keys.get("size_m"))]
+    return [(weight, prior_of(kind, lamp), size) for weight, kind, size in UNKNOWN_KIND]
 
 
 def answer_exactly(lamp):
@@ -37,5 +37,4 @@ def answer_exactly(lamp):
     return (*posterior(
         distances, [r["illuminance_lx"] for r in direct],
         card=np.array([cards.get(d, math.nan) for d in distances]) if cards else None,
-        size=lamp.keys.get("size_m"), offsets=offsets_of(lamp.fixture),
-        walls=walls_of(lamp)), 0)
+        offsets=offsets_of(lamp.fixture), walls=walls_of(lamp)), 0)
