@@ -23,11 +23,13 @@ PRIORS = {
 UNKNOWN_KIND = ((0.5, "bulb", None), (0.1, "panel", (0.12, 0.09)), (0.08, "panel", (0.25, 0.19)),
                 (0.07, "panel", (0.42, 0.32)), (0.25, "beam", None))
 BEAM_OVER_FLUX = 0.0092  # b at 3 m over flux over I, 1/(m^2 sr), of a beam whose angle is known
-# In a stated room: factor over flux rho / (I A (1 - rho)), its sd of ln, flux over I (None: a beam's).
+# In a stated room b = k flux / I (f / .0088)^.7, f = rho / (A (1 - rho)): k, sd of ln, flux / I (None: a
+# beam's). The power is less than 1 as f says only in part what a meter sees.
+ROOM_POWER, ORDINARY_ROOM = 0.7, 0.0088
 IN_ROOM = {
-    "bulb": (1.30, 0.25, 0.86 * 4 * np.pi),
-    "panel": (1.42, 0.36, np.pi),
-    "beam": (0.92, 0.65, None),
+    "bulb": (0.0113, 0.22, 0.86 * 4 * np.pi),
+    "panel": (0.0120, 0.31, np.pi),
+    "beam": (0.0082, 0.63, None),
 }
 CARD_HIDES = 0.04  # sd of ln of what a card keeps away besides the direct light
 UNKNOWN_FIXTURE = ((2 / 3, 0.0, 0.04), (1 / 3, 0.0, 0.15))
