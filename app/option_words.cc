@@ -16,6 +16,7 @@ struct FieldRow {
 constexpr auto kFields = std::to_array<FieldRow>({
     {"CalibrateCamera", "lightcal camera"},
     {"FindMeters", "lightcal devices"},
+    {"ImportFile", "lightcal import"},
     {"MakeDome", "lightcal dome"},
     {"MakeStudy", "lightcal tradeoff SESSION -o DIR"},
     {"MergeBracket", "lightcal merge"},
@@ -29,6 +30,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"dome.shaded", "--lux-shaded"},
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
+    {"import.column", "--column"},
     {"merge.align", "--align"},
     {"merge.anchor", "--anchor"},
     {"merge.exposures", "--exposures"},
@@ -40,6 +42,8 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"meter.option", "--set"},
     {"meter.settle", "--settle"},
     {"meter.tape", "--record"},
+    {"place.aim", "--aim"},
+    {"place.position", "--position"},
     {"preset.range", "--range"},
     {"preset.target", "--to"},
     {"reading.illuminance", "--lux"},
@@ -50,6 +54,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"shoot.resume", "--resume"},
     {"shutter.mains", "--mains"},
     {"study.knobs", "--knobs"},
+    {"study.synthetic", "--synthetic"},
     {"study.tolerance", "--tol"},
     {"view.field_of_view", "--fov"},
 });

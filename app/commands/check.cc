@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration_options.h"
 #include "check/card_picture.h"
 #include "check/engine_light.h"
 #include "check/render_cause.h"
@@ -16,7 +17,6 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/captures/picture.h"
 #include "output_files.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
@@ -219,7 +219,7 @@ Result<void> CheckPreset(const Options& options, Console& console) {
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.preset, *text);
   if (!lights) return tl::unexpected(lights.error());
-  const auto calibrated = CalibrateSession(options.session, {}, console);
+  const auto calibrated = CalibrateAloud(options.session, {}, console);
   if (!calibrated) return tl::unexpected(calibrated.error());
   const std::vector<Compared> rows = Compare(*calibrated, *lights);
   if (rows.empty()) {
