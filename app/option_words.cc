@@ -16,6 +16,7 @@ struct FieldRow {
 constexpr auto kFields = std::to_array<FieldRow>({
     {"CalibrateCamera", "lightcal camera"},
     {"FindMeters", "lightcal devices"},
+    {"ImportFile", "lightcal import FILE"},
     {"MakeDome", "lightcal dome"},
     {"MakeStudy", "lightcal tradeoff SESSION -o DIR"},
     {"MergeBracket", "lightcal merge"},
@@ -29,6 +30,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"dome.shaded", "--lux-shaded"},
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
+    {"import.column", "--column"},
     {"merge.align", "--align"},
     {"merge.anchor", "--anchor"},
     {"merge.exposures", "--exposures"},

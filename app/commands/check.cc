@@ -243,7 +243,7 @@ Result<void> CheckPreset(const Options& options, Console& console) {
     std::string error = "-";
     if (row.measured_lx > 0.0) {
       readings.back().Put("error", row.predicted_lx / row.measured_lx - 1.0);
-      error = RoundedText(100.0 * (row.predicted_lx / row.measured_lx - 1.0), 2) + " %";
+      error = PercentText(row.predicted_lx / row.measured_lx - 1.0);
     }
     table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : "-",
                      RoundedText(row.measured_lx, 4) + " lx",
@@ -251,7 +251,7 @@ Result<void> CheckPreset(const Options& options, Console& console) {
                      error + (row.used ? "" : " (rejected)")});
   }
   console.Print(TextTable({"light", "distance", "meter", "preset", "error"}, table));
-  console.Print("\nrms " + RoundedText(100.0 * RmsOf(rows), 2) + " %\n");
+  console.Print("\nrms " + PercentText(RmsOf(rows)) + "\n");
   console.PrintDocument({{"readings", readings}, {"rms_relative", RmsOf(rows)}});
   return {};
 }
