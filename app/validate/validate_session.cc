@@ -60,7 +60,7 @@ std::optional<Error> FirstBadRow(Warnings& warnings) {
   return error;
 }
 
-std::string HeldBy(const Session& session) {
+std::string ContentsOf(const Session& session) {
   std::string text =
       Counted(session.lights.size(), "light") + ", " + Counted(session.readings.size(), "reading");
   if (!session.captures.empty()) text += ", " + Counted(session.captures.size(), "capture");
@@ -120,7 +120,7 @@ void ValidateSession(FileVerdict& verdict) {
     return;
   }
   verdict.version = "1";
-  verdict.holds = HeldBy(loaded->session);
+  verdict.holds = ContentsOf(loaded->session);
   verdict.warnings = std::move(loaded->warnings);
   verdict.error = FirstBadRow(verdict.warnings);
   if (!verdict.error) verdict.error = FirstMissing(loaded->session);

@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "lightcal/presets/blender_program.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/rig_pieces.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
@@ -179,9 +179,8 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
   const auto text = json_pieces::TextOf(root, stem + ".blender.py");
   if (!text) return tl::unexpected(text.error());
-  preset.files.push_back({stem + ".blender.py", std::string(kBlenderProgramHead) +
-                                                    json_pieces::Quotable(*text) +
-                                                    std::string(kBlenderProgramTail)});
+  preset.files.push_back(
+      {stem + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
   preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + stem + ".blender.py";
   return preset;
 }

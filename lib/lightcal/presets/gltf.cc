@@ -8,11 +8,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <vector>
 
+#include "lightcal/core/base64.h"
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
@@ -76,6 +76,34 @@ Json LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLig
           {"extras", {{"lightcal", LightExtras(lamp, light)}}}};
 }
 
+// The same for audit.
+DerivedLight DerivedOf(const PunctualLight& light, const FalloffRefit& refit) {
+  const GltfLight gltf = GltfLightFrom(light, refit);
+  DerivedLight derived;
+  derived.type = std::string(gltf.type);
+  const auto put = [&](const char* name, const std::optional<double>& value) {
+    if (value) derived.Put(name, *value);
+  };
+  const auto put_all = [&](const char* name, const auto& values) {
+    std::vector<double> plain;
+    for (const double v : values) plain.push_back(v == 0.0 ? 0.0 : v);  // -0 is written 0
+    derived.Put(name, std::move(plain));
+  };
+  put("intensity", gltf.intensity);
+  put("intensity_u95", gltf.intensity_u95);
+  put_all("color", gltf.color);
+  put("range", gltf.range_m);
+  put("innerConeAngle", gltf.inner_cone_rad);
+  put("outerConeAngle", gltf.outer_cone_rad);
+  put_all("translation", gltf.translation);
+  put_all("rotation", gltf.rotation);
+  if (light.type != PunctualType::kDirectional) {
+    derived.notes.push_back({"falloff_residual", {refit.residual}});
+  }
+  derived.substitution = light.substitution;
+  return derived;
+}
+
 // A file's name as a relative URI.
 std::string UriOf(const std::string& name) {
   constexpr std::string_view kHex = "0123456789ABCDEF";
@@ -95,33 +123,16 @@ std::string UriOf(const std::string& name) {
 
 // ---- rig ----
 
-std::string Base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kAlphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < left ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= left ? kAlphabet[group >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
 template <class T>
-void AppendLittleEndian(std::vector<std::uint8_t>& bytes, T value) {
+void AppendLittleEndian(std::string& bytes, T value) {
   static_assert(std::endian::native == std::endian::little);
-  std::array<std::uint8_t, sizeof(T)> raw{};
-  std::memcpy(raw.data(), &value, sizeof(T));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
 // A square in the local XY plane that faces +Z: 4 positions, 4 normals, 6 indices.
 struct SquareMesh {
   float half = 0.0F;
-  std::vector<std::uint8_t> bytes;
+  std::string bytes;
 };
 
 SquareMesh MakeSquare(Metres side) {
@@ -373,6 +384,9 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   auto text = json_pieces::TextOf(document, stem + ".gltf");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".gltf", std::move(*text)});
+  for (std::size_t i = 0; i < punctual->size(); ++i) {
+    preset.derived.push_back(DerivedOf((*punctual)[i], refits[i]));
+  }
   for (std::size_t i = 0; i < ies->size(); ++i) {
     if (lights.lights[i].distribution && (*ies)[i]) preset.files.push_back(*(*ies)[i]);
   }

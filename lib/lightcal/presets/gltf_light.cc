@@ -35,10 +35,11 @@ Quaternion RotationFromAxes(const Vec3& x, const Vec3& y, const Vec3& z) {
 
 std::vector<FalloffRefit> RefitInGltf(const LightFile& file, std::span<const PunctualLight> lights,
                                       const PresetOptions& options, Warnings& warnings) {
-  return RefitLights(
-      file, lights,
-      {.engine = EngineFalloff::kGltf, .far_range = Metres(kGltfRange_m), .fixed = options.range},
-      warnings);
+  return RefitLights(file, lights,
+                     {.falloff = {&GltfFalloff, WindowPower::kPlain},
+                      .far_range = Metres(kGltfRange_m),
+                      .fixed = options.range},
+                     warnings);
 }
 
 GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit) {

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "lightcal/presets/exporters.h"
-#include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
@@ -87,18 +86,6 @@ Json Fit(const FitDiagnostics& fit) {
   return json;
 }
 
-Json DerivedGltf(const GltfLight& light) {
-  Json json = {{"type", light.type}, {"intensity", light.intensity}};
-  Put<Json>(json, "intensity_u95", light.intensity_u95);
-  json["color"] = Array<Json>(light.color);
-  Put<Json>(json, "range", light.range_m);
-  Put<Json>(json, "innerConeAngle", light.inner_cone_rad);
-  Put<Json>(json, "outerConeAngle", light.outer_cone_rad);
-  json["translation"] = Array<Json>(light.translation);
-  json["rotation"] = Array<Json>(light.rotation);
-  return json;
-}
-
 // ---- what other targets are given ----
 
 struct Derivation {
@@ -158,13 +145,12 @@ void WarnOfHalfFloats(const PresetLight& light, double exposure, Warnings& warni
                       "the disc, or let it clip at 65504"});
 }
 
-Json LightJson(const FittedLight& lamp, const PunctualLight& light, const FalloffRefit& refit,
-               const PresetLight& form, std::size_t index,
+Json LightJson(const FittedLight& lamp, const PresetLight& form, std::size_t index,
                const std::vector<Derivation>& derivations, double exposure) {
   Json json = {{"name", lamp.name},
                {"kind", LightKindName(lamp.kind)},
                {"photometry", Photometry(lamp)},
-               {"color", Color(lamp, light.color)},
+               {"color", Color(lamp, form.color())},
                {"geometry", Geometry(lamp)},
                {"fit", Fit(lamp.fit)},
                {"pre_exposed", PreExposed(form, exposure)}};
@@ -174,11 +160,7 @@ Json LightJson(const FittedLight& lamp, const PunctualLight& light, const Fallof
     json["distribution"]["planes"] = grid.horizontal_deg.size();
     json["distribution"]["angles"] = grid.vertical_deg.size();
   }
-  json["derived"]["gltf"] = DerivedGltf(GltfLightFrom(light, refit));
-  if (form.candela > 0.0) json["derived"]["gltf"]["falloff_residual"] = refit.residual;
-  if (!light.substitution.empty()) json["derived"]["gltf"]["substituted"] = light.substitution;
   for (const Derivation& derivation : derivations) {
-    if (derivation.target == "gltf") continue;
     json["derived"][std::string(derivation.target)] = DerivedJson(derivation.lights[index]);
   }
   return json;
@@ -199,13 +181,12 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  const auto refits = RefitInGltf(lights, *punctual, options, said_already);
   const auto derivations = Derivations(lights, stem, options);
   Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};
   root["lights"] = Json::array();
   for (std::size_t i = 0; i < punctual->size(); ++i) {
-    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i], refits[i], (*forms)[i], i,
-                                       derivations, rig.exposure.scale));
+    root["lights"].push_back(
+        LightJson(lights.lights[i], (*forms)[i], i, derivations, rig.exposure.scale));
     WarnOfHalfFloats((*forms)[i], rig.exposure.scale, preset.warnings);
   }
   root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);

@@ -84,17 +84,4 @@ template <class Json>
   return derived;
 }
 
-// JSON text as it may stand inside a quoted string of a script: without apostrophes.
-[[nodiscard]] inline std::string Quotable(std::string text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '\'') {
-      out += "\\u0027";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 }  // namespace lightcal::json_pieces

@@ -14,7 +14,7 @@
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/rig_pieces.h"
-#include "lightcal/presets/three_program.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
@@ -141,8 +141,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   auto text = json_pieces::TextOf(root, stem + ".three.js");
   if (!text) return Propagate(std::move(text));
   text->pop_back();
-  preset.files.push_back({stem + ".three.js",
-                          std::string(kThreeProgramHead) + *text + std::string(kThreeProgramTail)});
+  preset.files.push_back({stem + ".three.js", ScriptWith("three.js", *text)});
   return preset;
 }
 

@@ -12,8 +12,8 @@
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/json_pieces.h"
-#include "lightcal/presets/text_pieces.h"
-#include "lightcal/presets/unity_importer.h"
+#include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
@@ -21,6 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using json_pieces::Array;
 
+constexpr EngineFalloff kFalloff{[](Metres d, Metres r) { return UnityHdrpFalloff(d, r); }};
 constexpr Metres kFarRange{10000.0};
 constexpr double kWidestSpot_deg = 179.0;  // full angle
 
@@ -73,9 +74,9 @@ Json DerivedJson(const DerivedLight& derived) {
 
 Json PlaceJson(const std::string& name, const Vec3& at_m, const Vec3& forward, const Vec3& up) {
   return {{"name", name},
-          {"position", V(PositionIn(EngineAxes::kUnity, at_m))},
-          {"forward", V(DirectionIn(EngineAxes::kUnity, forward))},
-          {"up", V(DirectionIn(EngineAxes::kUnity, up))}};
+          {"position", V(PositionIn(EngineAxes::kYUpLeftHanded, at_m))},
+          {"forward", V(DirectionIn(EngineAxes::kYUpLeftHanded, forward))},
+          {"up", V(DirectionIn(EngineAxes::kYUpLeftHanded, up))}};
 }
 
 Json LightJson(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
@@ -109,7 +110,7 @@ void AddRig(Json& root, const Rig& rig) {
 Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                            const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "unity", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "unity", preset.warnings);
   const auto forms =
       PresetLightsFrom(lights, {.sphere = true, .rect = true}, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
@@ -117,12 +118,12 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
   const auto plain = PresetLightsFrom(lights, {.sphere = true}, options, of_urp);
   if (!plain) return tl::unexpected(plain.error());
   const RefitRequest request = {
-      .engine = EngineFalloff::kUnityHdrp, .far_range = kFarRange, .fixed = options.range};
+      .falloff = kFalloff, .far_range = kFarRange, .fixed = options.range};
   const auto refits = RefitLights(lights, *forms, request, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   const double unitless = rig.exposure.scale / std::numbers::pi;
   Json root = {{"schema", "lightcal.unity/1"},
-               {"generator", text_pieces::GeneratorOf(lights)},
+               {"generator", preset_text::GeneratorOf(lights)},
                {"name", stem},
                {"note", "not executed in Unity: schema-checked"},
                {"exposure", {{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
@@ -133,15 +134,30 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
     const DerivedLight urp = Derive((*plain)[i], refits[i], unitless, of_urp);
     root["lights"].push_back(LightJson((*forms)[i], preset.derived.back(), urp));
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
+    const Rgb& c = (*forms)[i].color().max_normalised;
+    preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
   }
   if (!options.bare) AddRig(root, rig);
   auto text = json_pieces::TextOf(root, stem + ".unity.json");
   if (!text) return Propagate(std::move(text));
   preset.files = {{stem + ".unity.json", *std::move(text)},
-                  {"LightcalImporter.cs", std::string(kUnityImporter)}};
+                  {"LightcalImporter.cs", std::string(Script("LightcalImporter.cs"))}};
   preset.paste = "copy both files from " + std::string(kPasteDirectory) +
                  " into Assets/Editor, then Tools > lightcal > Import preset";
   return preset;
+}
+
+Emission EmittedInUnity(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
+  const double emitted = NumberIn(light, "intensity") * LuminanceIn(light, "color");
+  if (light.type == "Directional") return {.lux = emitted};
+  Emission out{.candela = emitted, .falloff = kFalloff, .range_m = NumberIn(light, "range_m")};
+  if (light.type == "Rectangle") {
+    const double width = NumberIn(light, "area_width_m");
+    const double height = NumberIn(light, "area_height_m");
+    out.candela = emitted * width * height;
+    out.shape = {AxialShape::Outline::kRect, 0.5 * width, 0.5 * height};
+  }
+  return out;
 }
 
 }  // namespace lightcal

@@ -13,9 +13,9 @@
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/photometric_files.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/scripts.h"
 #include "lightcal/presets/unreal_light.h"
-#include "lightcal/presets/unreal_script.h"
 
 namespace lightcal {
 namespace {
@@ -29,8 +29,8 @@ struct Pose {
 };
 
 Pose PoseOf(const Vec3& forward, const Vec3& right, const Vec3& up, const Vec3& at_m) {
-  const auto in = [](const Vec3& v) { return DirectionIn(EngineAxes::kUnreal, v); };
-  return {PositionIn(EngineAxes::kUnreal, at_m),
+  const auto in = [](const Vec3& v) { return DirectionIn(EngineAxes::kZUpLeftHanded, v); };
+  return {PositionIn(EngineAxes::kZUpLeftHanded, at_m),
           UnrealRotatorFromAxes(in(forward), in(right), in(up))};
 }
 
@@ -92,13 +92,8 @@ Result<std::string> ScriptText(const Json& data, const std::string& name) {
   if (!json_pieces::AllFinite(data)) {
     return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
   }
-  std::string text(kUnrealScript);
-  std::string literal = data.dump(1, ' ', true, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = literal.find('\'', at)) != std::string::npos; at += 6) {
-    literal.replace(at, 1, "\\u0027");
-  }
-  const std::string_view mark = "@DATA@";
-  return text.replace(text.find(mark), mark.size(), literal);
+  const std::string text = data.dump(1, ' ', true, Json::error_handler_t::replace);
+  return ScriptWith("unreal.py", WithoutApostrophes(text));
 }
 
 // ---- T3D ----
@@ -142,7 +137,7 @@ std::string ActorText(const std::string& id, const PresetLight& light, const Unr
           "\n        RelativeRotation=" +
           triple("Pitch", pose.rotation.pitch_deg, "Yaw", pose.rotation.yaw_deg, "Roll",
                  pose.rotation.roll_deg) +
-          "\n      End Object\n      ActorLabel=" + text_pieces::Quoted(light.name()) +
+          "\n      End Object\n      ActorLabel=" + preset_text::Quoted(light.name()) +
           "\n    End Actor\n";
   return text;
 }
@@ -152,7 +147,7 @@ std::string T3dText(const std::vector<PresetLight>& lights,
   std::string text = "Begin Map\n  Begin Level\n";
   std::set<std::string> taken;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    text += ActorText("lightcal_" + text_pieces::Identifier(lights[i].name(), taken), lights[i],
+    text += ActorText("lightcal_" + preset_text::Identifier(lights[i].name(), taken), lights[i],
                       unreal[i]);
   }
   return text + "  End Level\nEnd Map\n";
@@ -163,17 +158,17 @@ std::string T3dText(const std::vector<PresetLight>& lights,
 Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                             const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "unreal", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "unreal", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kUnrealForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
-  const auto refits = RefitLights(
-      lights, *forms,
-      {.engine = EngineFalloff::kUnreal, .far_range = kUnrealFarRange, .fixed = options.range},
-      preset.warnings);
+  const auto refits =
+      RefitLights(lights, *forms,
+                  {.falloff = kUnrealFalloff, .far_range = kUnrealFarRange, .fixed = options.range},
+                  preset.warnings);
   std::vector<UnrealLight> unreal;
-  Json data = {{"generator", text_pieces::GeneratorOf(lights)}, {"name", stem}};
+  Json data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", stem}};
   data["lights"] = Json::array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
