@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kSpectrumHead = "Wavelength [nm]";
 constexpr std::string_view kIrradiance = "Ee [W/(sqm*nm)]";
 // x, y and X, Y, Z are printed for eight observers; the first is CIE 1931 2 degree.
-constexpr HeaderLabels kLabels{
+constexpr HeaderLabels kJetiLabels{
     "Ev [lx] (CIE1931*", "CCT [K]", "Duv", "x", "y", "X", "Y", "Z", "Ra", "R", "", ""};
 
 // The first table of spectra; raw counts and references follow under the same head.
@@ -44,14 +44,14 @@ std::string DeviceName(std::string_view number_row) {
   return number.empty() ? "jeti" : "jeti:" + std::string(number);
 }
 
-Result<FoundSpectrum> ReadColumn(const LabelledColumns& table, const SpectralRows& spectral,
-                                 std::size_t column) {
+Result<FoundSpectrum> ReadJetiColumn(const LabelledColumns& table, const SpectralRows& spectral,
+                                     std::size_t column) {
   auto spectrum = table.SpectrumOf(spectral, column, 1.0);
   if (!spectrum) return Propagate(std::move(spectrum));
   FoundSpectrum found;
   found.imported.name = table.Value("Input", column);
   found.imported.spectrum = std::move(*spectrum);
-  found.imported.reported = table.Reported(kLabels, column);
+  found.imported.reported = table.Reported(kJetiLabels, column);
   found.time = IsoTime(
       std::string(table.Value("Date", column)) + " " + std::string(table.Value("Time", column)),
       DateOrder::kDayFirst);
@@ -81,7 +81,7 @@ Result<ImportedFile> ReadJetiCsv(std::string_view text, std::string_view name) {
   std::vector<FoundSpectrum> all;
   Warnings warnings;
   for (const std::size_t column : columns) {
-    auto found = ReadColumn(table, found_table.spectral, column);
+    auto found = ReadJetiColumn(table, found_table.spectral, column);
     if (!found) return Propagate(std::move(found));
     const std::string_view unit = CellAt(*found_table.head, column);
     if (unit == kIrradiance) {

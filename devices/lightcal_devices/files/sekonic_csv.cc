@@ -14,18 +14,18 @@ namespace {
 constexpr std::string_view kSample = "Spectral Data ";
 constexpr std::string_view kSampleEnd = "[nm]";
 // The Duv label begins with a triangle whose encoding depends on the computer it was saved on.
-constexpr HeaderLabels kLabels{"Illuminance [lx]",
-                               "Tcp [K]",
-                               "*uv",
-                               "CIE1931 x",
-                               "CIE1931 y",
-                               "Tristimulus Value X",
-                               "Tristimulus Value Y",
-                               "Tristimulus Value Z",
-                               "CRI Ra",
-                               "CRI R",
-                               "TM-30 Rf",
-                               "TM-30 Rg"};
+constexpr HeaderLabels kSekonicLabels{"Illuminance [lx]",
+                                      "Tcp [K]",
+                                      "*uv",
+                                      "CIE1931 x",
+                                      "CIE1931 y",
+                                      "Tristimulus Value X",
+                                      "Tristimulus Value Y",
+                                      "Tristimulus Value Z",
+                                      "CRI Ra",
+                                      "CRI R",
+                                      "TM-30 Rf",
+                                      "TM-30 Rg"};
 
 std::optional<double> SampleWavelength(std::string_view label) {
   if (!label.starts_with(kSample) || !label.ends_with(kSampleEnd)) return std::nullopt;
@@ -53,14 +53,14 @@ SpectralRows FinestBlock(const std::vector<Row>& rows) {
   return finest;
 }
 
-Result<FoundSpectrum> ReadColumn(const LabelledColumns& table, const SpectralRows& spectral,
-                                 std::size_t column) {
+Result<FoundSpectrum> ReadSekonicColumn(const LabelledColumns& table, const SpectralRows& spectral,
+                                        std::size_t column) {
   auto spectrum = table.SpectrumOf(spectral, column, 1.0);
   if (!spectrum) return Propagate(std::move(spectrum));
   FoundSpectrum found;
   found.imported.name = table.Value("Title", column);
   found.imported.spectrum = std::move(*spectrum);
-  found.imported.reported = table.Reported(kLabels, column);
+  found.imported.reported = table.Reported(kSekonicLabels, column);
   const auto angle = table.Number("Viewing Angle*", column);
   if (angle && *angle != 2.0) {  // then the instrument's XYZ are those of the 10 degree observer
     found.imported.reported.xy.reset();
@@ -92,7 +92,7 @@ Result<ImportedFile> ReadSekonicCsv(std::string_view text, std::string_view name
   std::vector<FoundSpectrum> all;
   Warnings warnings;
   for (const std::size_t column : columns) {
-    auto found = ReadColumn(table, spectral, column);
+    auto found = ReadSekonicColumn(table, spectral, column);
     if (!found) return Propagate(std::move(found));
     const std::string_view mode = table.Value("Measuring Mode", column);
     const bool ambient = mode.empty() || mode == "Ambient";

@@ -10,8 +10,8 @@
 namespace lightcal::files {
 namespace {
 
-constexpr HeaderLabels kLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
-                               "Y",   "Z",   "CRI", "R", "Rf", "Rg"};
+constexpr HeaderLabels kUprtekLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
+                                     "Y",   "Z",   "CRI", "R", "Rf", "Rg"};
 constexpr double kMilliwatt = 1e-3;
 
 SpectralRows FindSpectralRows(const std::vector<Row>& rows) {
@@ -52,7 +52,7 @@ Result<ImportedFile> ReadUprtekXls(std::string_view text, std::string_view name)
     found.imported.name = table.Value("Memo", column);
     found.imported.spectrum = std::move(*spectrum);
     found.imported.spectrum.quantity = SpectralQuantity::kIrradiance;
-    found.imported.reported = table.Reported(kLabels, column);
+    found.imported.reported = table.Reported(kUprtekLabels, column);
     found.file_unit_W_m2_nm = kMilliwatt;
     found.time = IsoTime(table.Value("Time", column), DateOrder::kYearFirst);
     found.device = "uprtek:" + std::string(table.Value("Model Name", column)) + " " +

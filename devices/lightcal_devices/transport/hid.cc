@@ -23,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
-constexpr std::string_view kUsbDevices = "/sys/bus/usb/devices";
 constexpr std::string_view kHidrawClass = "/sys/class/hidraw";
 constexpr std::uint8_t kHidClass = 0x03;
 
@@ -140,13 +139,9 @@ std::optional<unsigned> NumberIn(const std::string& folder, std::string_view att
   return value;
 }
 
-std::vector<std::string> FoldersIn(std::string_view parent) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator it(parent, error), end; !error && it != end; it.increment(error)) {
-    names.push_back(it->path().filename().string());
-  }
-  std::ranges::sort(names);
+std::vector<std::string> FolderNamesIn(const std::string& parent) {
+  std::vector<std::string> names = FoldersIn(parent);
+  for (std::string& name : names) name = fs::path(name).filename().string();
   return names;
 }
 
@@ -162,14 +157,14 @@ bool IsHidFolder(std::string_view name) {  // 0003:273F:1008.0001
 }
 
 // "1-1.4:1.2" -> "1-1.4"; "" where there is no interface in the name.
-std::string UsbDeviceOf(const std::string& interface) {
+std::string DeviceOfInterface(const std::string& interface) {
   const auto colon = interface.find(':');
   return colon == std::string::npos ? "" : interface.substr(0, colon);
 }
 
 // The kernel's HID device on a USB interface.
 std::string HidDeviceUnder(const std::string& interface_folder) {
-  for (const std::string& name : FoldersIn(interface_folder)) {
+  for (const std::string& name : FolderNamesIn(interface_folder)) {
     if (IsHidFolder(name)) return interface_folder + "/" + name;
   }
   return "";
@@ -184,8 +179,9 @@ std::string UsbNode(const std::string& device_folder) {
 }
 
 HidDeviceInfo DescribeUsbHid(const std::string& interface) {
-  const std::string device_folder = std::string(kUsbDevices) + "/" + UsbDeviceOf(interface);
-  const std::string folder = std::string(kUsbDevices) + "/" + interface;
+  const std::string device_folder =
+      std::string(kUsbDevicesInSysfs) + "/" + DeviceOfInterface(interface);
+  const std::string folder = std::string(kUsbDevicesInSysfs) + "/" + interface;
   HidDeviceInfo info;
   info.backend = HidBackend::kLibusb;
   info.path = interface;
@@ -361,7 +357,8 @@ std::string HidFolderOf(std::string_view path) {
 
 Result<std::vector<HidDeviceInfo>> ListHidraw() {
   std::vector<HidDeviceInfo> found;
-  if (FoldersIn(kHidrawClass).empty()) return found;  // no device, no need of the library
+  if (FolderNamesIn(std::string(kHidrawClass)).empty())
+    return found;  // no device, no need of the library
   const auto library = HidLibrary::Use(HidBackend::kHidraw);
   if (!library) return tl::unexpected(library.error());
   hid_device_info* list = (*library)->call.enumerate(0, 0);
@@ -389,11 +386,11 @@ Result<std::vector<HidDeviceInfo>> ListHidraw() {
 
 Result<std::vector<HidDeviceInfo>> ListUsbHid(std::uint16_t vendor, std::uint16_t product) {
   std::vector<HidDeviceInfo> found;
-  for (const std::string& interface : FoldersIn(kUsbDevices)) {
-    const std::string device = UsbDeviceOf(interface);
+  for (const std::string& interface : FolderNamesIn(std::string(kUsbDevicesInSysfs))) {
+    const std::string device = DeviceOfInterface(interface);
     if (device.empty()) continue;
-    const std::string device_folder = std::string(kUsbDevices) + "/" + device;
-    const std::string folder = std::string(kUsbDevices) + "/" + interface;
+    const std::string device_folder = std::string(kUsbDevicesInSysfs) + "/" + device;
+    const std::string folder = std::string(kUsbDevicesInSysfs) + "/" + interface;
     if (NumberIn(device_folder, "idVendor", 16) != vendor ||
         NumberIn(device_folder, "idProduct", 16) != product ||
         NumberIn(folder, "bInterfaceClass", 16) != kHidClass) {

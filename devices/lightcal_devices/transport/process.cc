@@ -16,6 +16,8 @@
 #include <thread>
 #include <utility>
 
+#include "lightcal_devices/transport/file_descriptor.h"
+
 namespace lightcal {
 namespace {
 
@@ -25,39 +27,17 @@ using Clock = std::chrono::steady_clock;
 constexpr milliseconds kTermGrace{500};  // between SIGTERM and SIGKILL
 constexpr milliseconds kSlice{20};       // between two looks at whether the program is over
 
-// A file descriptor, closed at the end of the scope.
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { Close(); }
-  void Close() {
-    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  }
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_ = -1;
-};
-
 struct Pipe {
-  Descriptor read_end;
-  Descriptor write_end;
+  FileDescriptor read_end;
+  FileDescriptor write_end;
 };
 
 // Neither end is seen by any program but the one that gets a copy. Fails: false, with errno.
 bool MakePipe(Pipe& made) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return false;
-  made.read_end = Descriptor(ends[0]);
-  made.write_end = Descriptor(ends[1]);
+  made.read_end = FileDescriptor(ends[0]);
+  made.write_end = FileDescriptor(ends[1]);
   return true;
 }
 
@@ -224,8 +204,8 @@ class ProcessTransport final : public Transport {
   ProcessSettings settings_;
   pid_t child_ = -1;
   Clock::time_point started_;
-  Descriptor input_;   // the program's, our end
-  Descriptor output_;  // its standard output and error, our end
+  FileDescriptor input_;   // the program's, our end
+  FileDescriptor output_;  // its standard output and error, our end
   std::string ending_ = "was not started";
 };
 

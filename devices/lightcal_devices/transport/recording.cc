@@ -5,16 +5,10 @@
 #include <utility>
 
 namespace lightcal {
-namespace {
-
-Bytes Copy(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
-
-}  // namespace
-
 Result<void> RecordingTransport::Write(std::span<const std::byte> bytes,
                                        std::chrono::milliseconds timeout) {
   auto done = inner_.Write(bytes, timeout);
-  Keep({TapeOperation::kWrite, 0.0, "", Copy(bytes), {}, done ? "" : done.error().code});
+  Keep({TapeOperation::kWrite, 0.0, "", CopyOf(bytes), {}, done ? "" : done.error().code});
   return done;
 }
 
@@ -32,7 +26,7 @@ Result<Bytes> RecordingTransport::Read(std::size_t max, std::chrono::millisecond
 Result<Bytes> RecordingTransport::Control(std::string_view verb, std::span<const std::byte> bytes,
                                           std::size_t max, std::chrono::milliseconds timeout) {
   auto answer = inner_.Control(verb, bytes, max, timeout);
-  Keep({TapeOperation::kControl, 0.0, std::string(verb), Copy(bytes), answer.value_or(Bytes()),
+  Keep({TapeOperation::kControl, 0.0, std::string(verb), CopyOf(bytes), answer.value_or(Bytes()),
         answer ? "" : answer.error().code});
   return answer;
 }

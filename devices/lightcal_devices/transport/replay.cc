@@ -4,8 +4,6 @@
 namespace lightcal {
 namespace {
 
-Bytes Copy(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
-
 // What the driver asks, in words; what came of it does not matter here.
 std::string Spoken(const TapeExchange& exchange) {
   switch (exchange.operation) {
@@ -49,7 +47,7 @@ Result<Bytes> ReplayTransport::Play(const TapeExchange& asked, std::size_t max) 
 
 Result<void> ReplayTransport::Write(std::span<const std::byte> bytes,
                                     std::chrono::milliseconds /*timeout*/) {
-  const auto played = Play({TapeOperation::kWrite, 0.0, "", Copy(bytes), {}, ""}, 0);
+  const auto played = Play({TapeOperation::kWrite, 0.0, "", CopyOf(bytes), {}, ""}, 0);
   if (!played) return tl::unexpected(played.error());
   return {};
 }
@@ -60,7 +58,7 @@ Result<Bytes> ReplayTransport::Read(std::size_t max, std::chrono::milliseconds /
 
 Result<Bytes> ReplayTransport::Control(std::string_view verb, std::span<const std::byte> bytes,
                                        std::size_t max, std::chrono::milliseconds /*timeout*/) {
-  return Play({TapeOperation::kControl, 0.0, std::string(verb), Copy(bytes), {}, ""}, max);
+  return Play({TapeOperation::kControl, 0.0, std::string(verb), CopyOf(bytes), {}, ""}, max);
 }
 
 }  // namespace lightcal

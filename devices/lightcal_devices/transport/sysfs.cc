@@ -71,8 +71,6 @@ Result<Bytes> Content(const std::string& folder, const std::string& attribute, s
   return bytes;
 }
 
-constexpr const char* kUsbDevices = "/sys/bus/usb/devices";
-
 std::string AttributeOr(const std::string& folder, std::string_view attribute) {
   auto text = ReadSysfsAttribute(folder, attribute).value_or("");
   std::erase_if(text, [](char c) { return c < ' ' || c > '~'; });
@@ -170,7 +168,7 @@ Result<std::string> ReadSysfsAttribute(const std::string& folder, std::string_vi
 
 std::vector<SysfsUsbDevice> UsbDevicesInSysfs() {
   std::vector<SysfsUsbDevice> devices;
-  const std::vector<std::string> folders = FoldersIn(kUsbDevices);
+  const std::vector<std::string> folders = FoldersIn(std::string(kUsbDevicesInSysfs));
   for (const std::string& folder : folders) {
     auto device = UsbDeviceOf(folder);
     if (!device) continue;

@@ -22,6 +22,8 @@ inline constexpr std::size_t kSysfsAttributeBytes = 4096;
 
 // Where the devices of Industrial I/O sensors are.
 inline constexpr std::string_view kIioDevices = "/sys/bus/iio/devices";
+// Where USB devices and their interfaces are ("1-1.4", "1-1.4:1.2").
+inline constexpr std::string_view kUsbDevicesInSysfs = "/sys/bus/usb/devices";
 
 // The device whose attributes are the files of `folder` ("/sys/bus/iio/devices/iio:device0").
 //   Write  an attribute's name (a file of the folder itself) chooses it; nothing is written

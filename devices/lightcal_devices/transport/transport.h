@@ -14,6 +14,9 @@
 namespace lightcal {
 
 using Bytes = std::vector<std::byte>;
+[[nodiscard]] inline Bytes CopyOf(std::span<const std::byte> bytes) {
+  return {bytes.begin(), bytes.end()};
+}
 
 // What can go wrong on a line; Error::code of every transport is one of these words.
 namespace fault {

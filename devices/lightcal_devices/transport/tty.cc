@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal_devices/transport/file_descriptor.h"
 
 namespace lightcal {
 namespace {
@@ -43,23 +44,6 @@ constexpr std::array<Speed, 9> kSpeeds = {{{1200, B1200},
                                            {57600, B57600},
                                            {115200, B115200},
                                            {230400, B230400}}};
-
-// An open file of the kernel.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&&) = delete;
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  [[nodiscard]] int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 std::string PortName(const std::string& path) { return "serial port " + path; }
 
@@ -176,13 +160,13 @@ enum class Wait { kReady, kTimeout, kGone };
 
 class TtyTransport final : public Transport {
  public:
-  TtyTransport(Descriptor port, termios former, bool seven_bits, std::string name)
+  TtyTransport(FileDescriptor port, termios former, bool seven_bits, std::string name)
       : port_(std::move(port)), former_(former), seven_bits_(seven_bits), name_(std::move(name)) {}
   TtyTransport(const TtyTransport&) = delete;
   TtyTransport& operator=(const TtyTransport&) = delete;
   ~TtyTransport() override {
-    ::ioctl(port_.number(), TIOCNXCL);
-    ::tcsetattr(port_.number(), TCSANOW, &former_);
+    ::ioctl(port_.get(), TIOCNXCL);
+    ::tcsetattr(port_.get(), TCSANOW, &former_);
   }
 
   Result<void> Write(std::span<const std::byte> bytes, milliseconds timeout) override {
@@ -191,7 +175,7 @@ class TtyTransport final : public Transport {
       if (const Wait wait = WaitFor(POLLOUT, deadline); wait != Wait::kReady) {
         return WaitError(wait, "takes no bytes", timeout);
       }
-      const ssize_t sent = ::write(port_.number(), bytes.data(), bytes.size());
+      const ssize_t sent = ::write(port_.get(), bytes.data(), bytes.size());
       if (sent < 0 && errno != EAGAIN && errno != EINTR) return TransferError(errno);
       bytes = bytes.subspan(static_cast<std::size_t>(std::max<ssize_t>(sent, 0)));
     }
@@ -205,7 +189,7 @@ class TtyTransport final : public Transport {
       if (const Wait wait = WaitFor(POLLIN, deadline); wait != Wait::kReady) {
         return WaitError(wait, "sent nothing", timeout);
       }
-      const ssize_t received = ::read(port_.number(), bytes.data(), bytes.size());
+      const ssize_t received = ::read(port_.get(), bytes.data(), bytes.size());
       if (received == 0) return Unplugged(name_);  // ready, and yet at its end
       if (received < 0 && errno != EAGAIN && errno != EINTR) return TransferError(errno);
       if (received < 0) continue;
@@ -224,7 +208,7 @@ class TtyTransport final : public Transport {
   [[nodiscard]] Wait WaitFor(short what, steady_clock::time_point deadline) const {
     const auto left = std::chrono::ceil<milliseconds>(deadline - steady_clock::now());
     const auto wait = std::clamp<milliseconds::rep>(left.count(), 0, 86'400'000);
-    pollfd port{port_.number(), what, 0};
+    pollfd port{port_.get(), what, 0};
     if (::poll(&port, 1, static_cast<int>(wait)) <= 0) return Wait::kTimeout;
     if ((port.revents & what) != 0) return Wait::kReady;
     return Wait::kGone;
@@ -243,7 +227,7 @@ class TtyTransport final : public Transport {
     return Failed(std::string(fault::kIo), name_, std::strerror(code));
   }
 
-  Descriptor port_;
+  FileDescriptor port_;
   termios former_;
   bool seven_bits_;
   std::string name_;
@@ -266,17 +250,17 @@ Result<std::unique_ptr<Transport>> OpenTty(const std::string& path,
     return Failed(std::string(fault::kIo), PortName(path),
                   std::to_string(settings.baud) + " baud is no speed of serial ports");
   }
-  Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  if (port.number() < 0) return PortError(errno, path);
-  if (::flock(port.number(), LOCK_EX | LOCK_NB) != 0) return PortError(errno, path);
+  FileDescriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (port.get() < 0) return PortError(errno, path);
+  if (::flock(port.get(), LOCK_EX | LOCK_NB) != 0) return PortError(errno, path);
   termios former{};
-  if (::tcgetattr(port.number(), &former) != 0) {
+  if (::tcgetattr(port.get(), &former) != 0) {
     return Failed(std::string(fault::kIo), PortName(path), "is not a serial port");
   }
-  ::ioctl(port.number(), TIOCEXCL);  // what a terminal cannot do, its lock does
+  ::ioctl(port.get(), TIOCEXCL);  // what a terminal cannot do, its lock does
   const termios raw = Raw(former, settings, *speed);
-  if (::tcsetattr(port.number(), TCSANOW, &raw) != 0) return PortError(errno, path);
-  ::tcflush(port.number(), TCIOFLUSH);
+  if (::tcsetattr(port.get(), TCSANOW, &raw) != 0) return PortError(errno, path);
+  ::tcflush(port.get(), TCIOFLUSH);
   return std::make_unique<TtyTransport>(std::move(port), former, settings.data_bits == 7,
                                         PortName(path));
 }

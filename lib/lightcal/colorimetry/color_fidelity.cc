@@ -12,7 +12,7 @@
 namespace lightcal {
 namespace {
 
-const SampleSet& Samples() {
+const SampleSet& CfiSampleSet() {
   static const SampleSet samples({CfiSamples().front().data(), kCfiRowCount * kCfiSampleCount},
                                  kCfiFirstNm, kCfiSampleCount);
   return samples;
@@ -96,7 +96,7 @@ Areas AreasOf(const std::array<HueBin, kHueBinCount>& bins) {
 
 ColorFidelity ColorFidelityOf(const RenderingInput& light, const FidelityEdition& edition) {
   const auto [test, reference] =
-      Samples().Under(light.powers, Reference(light, edition), Cie1964Cmf());
+      CfiSampleSet().Under(light.powers, Reference(light, edition), Cie1964Cmf());
   const Cam02UcsUnder under_test(test.white);
   const Cam02UcsUnder under_reference(reference.white);
   ColorFidelity result;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFirstDaylightKelvin = 5000.0;
 constexpr std::size_t kSamplesOfRa = 8;
 
-const SampleSet& Samples() {
+const SampleSet& CriSampleSet() {
   static const SampleSet samples({CriSamples().front().data(), kCriRowCount * kCriSampleCount},
                                  kCriFirstNm, kCriSampleCount);
   return samples;
@@ -56,7 +56,7 @@ Uvw1964 UvwOf(Uv1960 uv, double Y, Uv1960 white) {
 }  // namespace
 
 ColorRendering ColorRenderingOf(const RenderingInput& light) {
-  const auto [test, reference] = Samples().Under(light.powers, Reference(light), Cie1931Cmf());
+  const auto [test, reference] = CriSampleSet().Under(light.powers, Reference(light), Cie1931Cmf());
   const Uv1960 test_white = UvOf(test.white);
   const Uv1960 white = UvOf(reference.white);
   const ConeRatios from = RatiosOf(test_white);

@@ -12,9 +12,9 @@
 namespace lightcal {
 namespace {
 
-constexpr double kColdestKelvin = 4000.0;
+constexpr double kColdestPhaseKelvin = 4000.0;
 constexpr double kJoinKelvin = 7000.0;
-constexpr double kHottestKelvin = 25000.0;
+constexpr double kHottestPhaseKelvin = 25000.0;
 
 // ((c3/T + c2)/T + c1)/T + c0
 struct ReciprocalCubic {
@@ -30,7 +30,7 @@ double RoundedToThousandths(double value) { return std::round(value * 1000.0) / 
 
 Result<Xy> DaylightXy(Kelvin temperature) {
   const double t = temperature.value();
-  if (!(t >= kColdestKelvin && t <= kHottestKelvin)) {
+  if (!(t >= kColdestPhaseKelvin && t <= kHottestPhaseKelvin)) {
     return Refused("out_of_range", "daylight",
                    (std::isfinite(t) ? ShortestText(t) + " K" : std::string("this temperature")) +
                        " lies outside CIE daylight, 4000 to 25000 K; use the Planckian locus");

@@ -11,8 +11,8 @@
 namespace lightcal {
 namespace {
 
-constexpr double kColdestKelvin = 1000.0;
-constexpr double kHottestKelvin = 15000.0;
+constexpr double kColdestEngineKelvin = 1000.0;
+constexpr double kHottestEngineKelvin = 15000.0;
 constexpr double kTintPerUv = -3000.0;
 
 Rgb Rec709AtUnitY(Uv1960 uv) { return LinearSrgbFromXyz(XyzFromXyAtUnitY(XyFromUv1960(uv))); }
@@ -22,7 +22,8 @@ Rgb WithoutNegatives(const Rgb& c) {
 }
 
 Uv1960 ClampedKrystekUv(Kelvin temperature) {
-  return KrystekUv(Kelvin(std::clamp(temperature.value(), kColdestKelvin, kHottestKelvin)));
+  return KrystekUv(
+      Kelvin(std::clamp(temperature.value(), kColdestEngineKelvin, kHottestEngineKelvin)));
 }
 
 struct Isotherm {
@@ -78,8 +79,8 @@ std::optional<Kelvin> KrystekKelvinFrom(Uv1960 color) {
     const Uv1960 at = KrystekUv(KelvinFromMireds(Mireds(mireds)));
     return (at.u - color.u) * (at.u - color.u) + (at.v - color.v) * (at.v - color.v);
   };
-  constexpr double kHot = 1e6 / kHottestKelvin;
-  constexpr double kCold = 1e6 / kColdestKelvin;
+  constexpr double kHot = 1e6 / kHottestEngineKelvin;
+  constexpr double kCold = 1e6 / kColdestEngineKelvin;
   constexpr int kSteps = 200;
   constexpr double kStep = (kCold - kHot) / kSteps;
   int nearest = 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kNanometresPerMetre = 1e9;
 constexpr double kCentreNm = 560.0;
 constexpr double kIlluminantAKelvin = 2848.0;
-constexpr double kColdestKelvin = 400.0;
+constexpr double kColdestPlanckKelvin = 400.0;
 
 // 100 at 560 nm: (560/l)^4 g(c2/(l T)) / g(c2/(560 T)).
 Spectrum PlanckSpectrum(double c2_over_t_nm) {
@@ -77,7 +77,7 @@ std::string FullName(std::string name) {
 }  // namespace
 
 Result<Spectrum> BlackBodySpectrum(Kelvin temperature) {
-  if (!(temperature.value() >= kColdestKelvin)) {
+  if (!(temperature.value() >= kColdestPlanckKelvin)) {
     return Refused("out_of_range", "black body",
                    "give a temperature of 400 K or more; colder bodies shine too little in the "
                    "visible range to be computed");

@@ -21,7 +21,7 @@ constexpr double kLeastLastNm = 700.0;
 constexpr double kWidestStepNm = 20.0;
 constexpr double kLargestNegativeShare = 0.1;
 constexpr double kHottestDaylightKelvin = 25000.0;
-constexpr double kCentreNm = 560.0;
+constexpr double kUnitNm = 560.0;  // where a reference is 1
 constexpr double kC2NanometreKelvin = kC2MetreKelvin * 1e9;
 
 // Shares `power` at one wavelength out to the two whole nanometres beside it.
@@ -152,11 +152,11 @@ NanometrePowers ReferencePowers(const RenderingInput& input, std::span<const dou
 
 std::vector<double> BlackBodyAt(Kelvin temperature, std::span<const double> nm) {
   const double c2_over_t = kC2NanometreKelvin / temperature.value();
-  const double centre = PlanckRatio(c2_over_t / kCentreNm);
+  const double centre = PlanckRatio(c2_over_t / kUnitNm);
   std::vector<double> values;
   values.reserve(nm.size());
   for (const double l : nm) {
-    const double ratio = kCentreNm / l;
+    const double ratio = kUnitNm / l;
     values.push_back(ratio * ratio * ratio * ratio * PlanckRatio(c2_over_t / l) / centre);
   }
   return values;

@@ -10,19 +10,18 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSpillShare = 1.0 / 3.0;  // of the flux, in the widest beam-only member
 
 // 2 pi int_0^{pi/2} f(t) sin t dt, composite Simpson.
 double SolidAngle(const std::function<double(double)>& relative_intensity) {
   constexpr int kSteps = 2000;
-  const double h = 0.5 * kPi / kSteps;
+  const double h = 0.5 * std::numbers::pi / kSteps;
   double sum = 0.0;
   for (int i = 0; i <= kSteps; ++i) {
     const int weight = (i == 0 || i == kSteps) ? 1 : (i % 2 == 1 ? 4 : 2);
     sum += weight * relative_intensity(i * h) * std::sin(i * h);
   }
-  return 2.0 * kPi * sum * h / 3.0;
+  return 2.0 * std::numbers::pi * sum * h / 3.0;
 }
 
 BeamSolidAngles Range(std::initializer_list<double> members) {
@@ -31,8 +30,8 @@ BeamSolidAngles Range(std::initializer_list<double> members) {
 
 BeamSolidAngles FromBeam(double half) {
   const double exponent = std::log(0.5) / std::log(std::cos(half));
-  const double uniform = 2.0 * kPi * (1.0 - std::cos(half));
-  const double cosine = 2.0 * kPi / (exponent + 1.0);
+  const double uniform = 2.0 * std::numbers::pi * (1.0 - std::cos(half));
+  const double cosine = 2.0 * std::numbers::pi / (exponent + 1.0);
   const double gaussian = SolidAngle(
       [half](double t) { return std::exp(-std::numbers::ln2 * (t / half) * (t / half)); });
   return Range({uniform, cosine, gaussian, cosine / (1.0 - kSpillShare)});
@@ -59,7 +58,7 @@ Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field)
   }
   if (!field) return FromBeam(half);
   const double tenth = 0.5 * field->value();
-  if (!(tenth > half) || !(tenth <= 0.5 * kPi)) {
+  if (!(tenth > half) || !(tenth <= 0.5 * std::numbers::pi)) {
     return Refused("bad_beam", "field_deg",
                    "the field angle (10 % of the peak) must exceed the beam angle (50 %) and stay "
                    "within 180 degrees");

@@ -15,7 +15,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSameAngleDeg = 1e-6;
 constexpr double kSameAngleRad = 1e-9;
 // Beyond any lamp; keeps sums finite.
@@ -158,21 +157,21 @@ double Copies(GoniometerType type, TableSymmetry symmetry) {
 
 // C of the mirrored plane among the stored ones.
 double FoldC(double c, TableSymmetry symmetry) {
-  c = std::fmod(c, 2.0 * kPi);
-  if (c < 0.0) c += 2.0 * kPi;
+  c = std::fmod(c, 2.0 * std::numbers::pi);
+  if (c < 0.0) c += 2.0 * std::numbers::pi;
   switch (symmetry) {
     case TableSymmetry::kNone:
       return c;
     case TableSymmetry::kAxial:
       return 0.0;
     case TableSymmetry::kBilateral:
-      return c > kPi ? 2.0 * kPi - c : c;
+      return c > std::numbers::pi ? 2.0 * std::numbers::pi - c : c;
     case TableSymmetry::kBilateral90:
-      if (c < 0.5 * kPi) return kPi - c;
-      return c > 1.5 * kPi ? 3.0 * kPi - c : c;
+      if (c < 0.5 * std::numbers::pi) return std::numbers::pi - c;
+      return c > 1.5 * std::numbers::pi ? 3.0 * std::numbers::pi - c : c;
     case TableSymmetry::kQuadrant:
-      if (c > kPi) c = 2.0 * kPi - c;
-      return c > 0.5 * kPi ? kPi - c : c;
+      if (c > std::numbers::pi) c = 2.0 * std::numbers::pi - c;
+      return c > 0.5 * std::numbers::pi ? std::numbers::pi - c : c;
   }
   return c;
 }
@@ -225,15 +224,15 @@ void IntensityTable::Lay() {
   const bool turn = from_pole && symmetry_ == TableSymmetry::kNone;
   if (!turn) return;
   if (Same(grid_.horizontal_deg.back(), 360.0)) {
-    azimuth_.back() = 2.0 * kPi;
+    azimuth_.back() = 2.0 * std::numbers::pi;
   } else {
-    azimuth_.push_back(2.0 * kPi);
+    azimuth_.push_back(2.0 * std::numbers::pi);
     values_.insert(values_.end(), grid_.candela.begin(), grid_.candela.begin() + nv);
   }
 }
 
 std::optional<double> IntensityTable::Opposite(double azimuth, std::size_t theta) const {
-  const Found plane = Locate(azimuth_, Folded(azimuth + kPi));
+  const Found plane = Locate(azimuth_, Folded(azimuth + std::numbers::pi));
   if (!plane.inside) return std::nullopt;
   const double before = Node(plane.index, theta);
   return plane.part == 0.0 ? before : before + plane.part * (Node(plane.index + 1, theta) - before);
@@ -241,7 +240,7 @@ std::optional<double> IntensityTable::Opposite(double azimuth, std::size_t theta
 
 void IntensityTable::FindSlopes() {
   const bool first_is_pole = std::abs(theta_.front()) <= kSameAngleRad;
-  const bool last_is_pole = std::abs(theta_.back() - kPi) <= kSameAngleRad;
+  const bool last_is_pole = std::abs(theta_.back() - std::numbers::pi) <= kSameAngleRad;
   const bool last_is_mirror = MirrorsTheta(grid_.type, symmetry_);
   slopes_.resize(values_.size());
   for (std::size_t p = 0; p < azimuth_.size(); ++p) {
@@ -267,7 +266,7 @@ void IntensityTable::FindPeak() {
       DirectionOf(grid_.type, azimuth_[index / theta_.size()], theta_[index % theta_.size()]);
   const AboutPole place = PoleAngles(GoniometerType::kC, d);
   const bool on_axis = std::hypot(d[0], d[1]) < kSameAngleRad;
-  const double c = place.azimuth < 0.0 ? place.azimuth + 2.0 * kPi : place.azimuth;
+  const double c = place.azimuth < 0.0 ? place.azimuth + 2.0 * std::numbers::pi : place.azimuth;
   peak_ = {Candela(*largest), Radians(on_axis ? 0.0 : c), Radians(place.theta)};
 }
 
@@ -285,12 +284,12 @@ double IntensityTable::AlongPlane(std::size_t plane, std::size_t index, double p
 
 double IntensityTable::Folded(double azimuth) const {
   if (grid_.type == GoniometerType::kC) return FoldC(azimuth, symmetry_);
-  azimuth = std::remainder(azimuth, 2.0 * kPi);
+  azimuth = std::remainder(azimuth, 2.0 * std::numbers::pi);
   return MirrorsAzimuth(grid_.type, symmetry_) ? std::abs(azimuth) : azimuth;
 }
 
 double IntensityTable::AtPole(double azimuth, double theta, TableInterpolation way) const {
-  if (MirrorsTheta(grid_.type, symmetry_)) theta = std::min(theta, kPi - theta);
+  if (MirrorsTheta(grid_.type, symmetry_)) theta = std::min(theta, std::numbers::pi - theta);
   const Found along = Locate(theta_, theta);
   const Found plane = Locate(azimuth_, Folded(azimuth));
   if (!along.inside || !plane.inside) return 0.0;
@@ -313,7 +312,7 @@ Candela IntensityTable::At(Radians c, Radians gamma, TableInterpolation way) con
 Lumens IntensityTable::Flux(TableInterpolation way) const {
   double sum = 0.0;
   for (std::size_t p = 0; p < azimuth_.size(); ++p) {
-    double width = 2.0 * kPi;
+    double width = 2.0 * std::numbers::pi;
     if (azimuth_.size() > 1) {
       const double low = azimuth_[p == 0 ? 0 : p - 1];
       const double high = azimuth_[std::min(p + 1, azimuth_.size() - 1)];

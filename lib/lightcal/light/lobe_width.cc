@@ -8,7 +8,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kSteps = 1800;  // of a half-plane; lobes narrower than 0.2 degrees may be missed
 
 // The direction a lobe is measured about, and two across it.
@@ -19,7 +18,7 @@ Axes AxesOf(const IntensityTable& table) {
   if (table.grid().type == GoniometerType::kA) {
     return {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
   }
-  const double up = table.peak().gamma.value() > 0.5 * kPi ? 1.0 : -1.0;
+  const double up = table.peak().gamma.value() > 0.5 * std::numbers::pi ? 1.0 : -1.0;
   return {{0.0, 0.0, up}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 }
 
@@ -39,7 +38,7 @@ class HalfPlane {
 
   // Where the intensity last falls below `limit` beyond its maximum; 0 where it never reaches it.
   [[nodiscard]] double EdgeAt(double limit) const {
-    const auto angle = [](int step) { return kPi * step / kSteps; };
+    const auto angle = [](int step) { return std::numbers::pi * step / kSteps; };
     int top = 0;
     for (int i = 1; i <= kSteps; ++i) {
       if (At(angle(i)) > At(angle(top)) * (1.0 + 1e-12)) top = i;
@@ -47,7 +46,7 @@ class HalfPlane {
     if (At(angle(top)) < limit) return 0.0;
     int below = top;
     while (below <= kSteps && At(angle(below)) >= limit) ++below;
-    if (below > kSteps) return kPi;
+    if (below > kSteps) return std::numbers::pi;
     double low = angle(below - 1);
     double high = angle(below);
     for (int i = 0; i < 50; ++i) {
@@ -69,12 +68,12 @@ class HalfPlane {
 Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInterpolation way) {
   const double limit = level * table.peak().intensity.value();
   return Radians(HalfPlane(table, c.value(), way).EdgeAt(limit) +
-                 HalfPlane(table, c.value() + kPi, way).EdgeAt(limit));
+                 HalfPlane(table, c.value() + std::numbers::pi, way).EdgeAt(limit));
 }
 
 LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
   const Radians c0 = LobeWidth(table, Radians(0.0), level);
-  const Radians c90 = LobeWidth(table, Radians(0.5 * kPi), level);
+  const Radians c90 = LobeWidth(table, Radians(0.5 * std::numbers::pi), level);
   return {0.5 * (c0 + c90), c0, c90};
 }
 

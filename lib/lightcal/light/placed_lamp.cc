@@ -9,8 +9,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 template <class Source>
 constexpr bool kHasLadder =
     std::is_same_v<Source, DiskSource> || std::is_same_v<Source, RectSource> ||
@@ -116,11 +114,11 @@ double SolidAngleOf(const LampSource& source) {
   if (const auto* table = std::get_if<TableSource>(&source)) {
     return table->table->Flux().value() / table->table->peak().intensity.value();
   }
-  if (std::holds_alternative<TubeSource>(source)) return kPi * kPi;
+  if (std::holds_alternative<TubeSource>(source)) return std::numbers::pi * std::numbers::pi;
   if (std::holds_alternative<DiskSource>(source) || std::holds_alternative<RectSource>(source)) {
-    return kPi;
+    return std::numbers::pi;
   }
-  return 4.0 * kPi;
+  return 4.0 * std::numbers::pi;
 }
 
 bool IsEverywhere(const LampSource& source) {

@@ -11,7 +11,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kInside = 0.05;  // metres between a point and the wall it was moved from
 
 // Relative intensity over directions.
@@ -47,9 +46,9 @@ class Pattern {
 
   // Flux per candela on the axis.
   [[nodiscard]] double SolidAngle() const {
-    if (even_) return 4.0 * kPi;
+    if (even_) return 4.0 * std::numbers::pi;
     if (cone_) return SolidAngleOfSpot(*cone_, SpotFalloff::kSquaredLinear).value();
-    return 2.0 * kPi / (exponent_ + 1.0);
+    return 2.0 * std::numbers::pi / (exponent_ + 1.0);
   }
 
  private:
@@ -80,7 +79,7 @@ std::vector<double> Grade(int patches, double low, double high, double foot, dou
   return edges;
 }
 
-struct Receiver {
+struct FacingMeter {
   Vec3 position;
   Vec3 normal;
 };
@@ -88,7 +87,7 @@ struct Receiver {
 // One wall: coordinate `axis` fixed at `at`, normal `inward` along it.
 class Wall {
  public:
-  Wall(const Pattern& pattern, const Vec3& lamp, const Receiver& receiver, int axis, double at,
+  Wall(const Pattern& pattern, const Vec3& lamp, const FacingMeter& receiver, int axis, double at,
        double inward)
       : pattern_(pattern),
         lamp_(lamp),
@@ -125,13 +124,14 @@ class Wall {
         pattern_.Toward(from_lamp) * height() / (lamp_distance * lamp_distance * lamp_distance);
     // A patch as large as its distance acts as a disk: pi r^2 + A instead of pi r^2.
     const double area = (u1 - u0) * (v1 - v0);
-    return wall_illuminance * area * at_receiver * at_wall / (kPi * distance * distance + area);
+    return wall_illuminance * area * at_receiver * at_wall /
+           (std::numbers::pi * distance * distance + area);
   }
 
  private:
   const Pattern& pattern_;
   const Vec3& lamp_;
-  const Receiver& receiver_;
+  const FacingMeter& receiver_;
   int axis_;
   double at_, inward_;
 };
@@ -163,7 +163,7 @@ Bounce BounceAt(const Scene& scene, const ScenePose& pose) {
   const Vec3 position = MovedInside(stated, size);
   const Vec3 to_lamp = lamp - position;
   const double distance = Length(to_lamp);
-  const Receiver receiver{position, distance > 0.0 ? to_lamp * (1.0 / distance) : along * -1.0};
+  const FacingMeter receiver{position, distance > 0.0 ? to_lamp * (1.0 / distance) : along * -1.0};
 
   Pattern pattern(scene);
   pattern.AimAt(receiver.normal * -1.0);

@@ -16,11 +16,11 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr PagePoint kTile = {340.0, 178.0};
-constexpr double kGap = 16.0;
+constexpr double kTileGap = 16.0;
 constexpr double kMargin = 24.0;
 constexpr double kHeading = 40.0;
 constexpr std::size_t kColumns = 3;
-constexpr double kLeft = 18.0;  // of a tile's text
+constexpr double kTextLeft = 18.0;  // of a tile's text
 constexpr std::size_t kLongestName = 21;
 constexpr std::size_t kLongestNote = 34;
 
@@ -52,7 +52,7 @@ std::string Shortened(std::string_view text, std::size_t most) {
 }
 
 void DrawSwatch(Svg& svg, const std::string& color) {
-  const PagePoint at = {kLeft + 11.0, 31.0};
+  const PagePoint at = {kTextLeft + 11.0, 31.0};
   if (!color.empty()) {
     svg.Element("<circle cx=\"" + Px(at.first) + "\" cy=\"" + Px(at.second) +
                 "\" r=\"11\" fill=\"" + color + "\"/>");
@@ -72,18 +72,19 @@ struct Polar {
   }
 };
 
-constexpr int kSteps = 72;  // each way from straight down
+constexpr int kLobeSteps = 72;  // each way from straight down
 
 std::vector<PagePoint> Arc(const Polar& polar, double part) {
   std::vector<PagePoint> points;
-  for (int i = -kSteps; i <= kSteps; ++i) points.push_back(polar.At(part, polar.most * i / kSteps));
+  for (int i = -kLobeSteps; i <= kLobeSteps; ++i)
+    points.push_back(polar.At(part, polar.most * i / kLobeSteps));
   return points;
 }
 
 bool ShinesUp(const IntensityTable& table) {
   constexpr double kVisible = 0.005;  // of the peak
-  for (int i = 1; i <= kSteps; ++i) {
-    const Radians gamma(0.5 * kPi * (1.0 + static_cast<double>(i) / kSteps));
+  for (int i = 1; i <= kLobeSteps; ++i) {
+    const Radians gamma(0.5 * kPi * (1.0 + static_cast<double>(i) / kLobeSteps));
     for (const double c : {0.0, kPi}) {
       const double candela = table.At(Radians(c), gamma).value();
       if (candela > kVisible * table.peak().intensity.value()) return true;
@@ -100,8 +101,8 @@ void DrawLobe(Svg& svg, const IntensityTable& table, const std::string& color) {
   svg.Line("ring", polar.centre, polar.At(1.0, 0.0));
   const double peak = table.peak().intensity.value();
   std::string data;
-  for (int i = -kSteps; i <= kSteps; ++i) {
-    const double out = polar.most * i / kSteps;
+  for (int i = -kLobeSteps; i <= kLobeSteps; ++i) {
+    const double out = polar.most * i / kLobeSteps;
     const double candela = table.At(Radians(out < 0.0 ? kPi : 0.0), Radians(std::abs(out))).value();
     const PagePoint at = polar.At(candela / peak, out);
     data += (data.empty() ? "M" : "L") + Px(at.first) + " " + Px(at.second);
@@ -127,8 +128,8 @@ void DrawShape(Svg& svg, const SheetLight& entry, const std::string& color) {
     svg.Text("note", {270.0, 101.0}, "middle", "measured");
   } else if (entry.light.kind == LightKind::kDome) {
     std::vector<PagePoint> dome;
-    for (int i = 0; i <= kSteps; ++i) {
-      const double a = kPi * i / kSteps;
+    for (int i = 0; i <= kLobeSteps; ++i) {
+      const double a = kPi * i / kLobeSteps;
       dome.emplace_back(270.0 - 58.0 * std::cos(a), 118.0 - 58.0 * std::sin(a));
     }
     svg.Path("ray", dome, true);
@@ -142,22 +143,22 @@ void DrawTile(Svg& svg, const SheetLight& entry) {
               "\" height=\"" + Px(kTile.second - 1.0) + "\" rx=\"10\"/>");
   DrawShape(svg, entry, color);
   DrawSwatch(svg, color);
-  svg.Text("name", {kLeft + 32.0, 29.0}, "start", Shortened(light.name, kLongestName));
-  svg.Text("note", {kLeft + 32.0, 45.0}, "start", LightKindName(light.kind));
+  svg.Text("name", {kTextLeft + 32.0, 29.0}, "start", Shortened(light.name, kLongestName));
+  svg.Text("note", {kTextLeft + 32.0, 45.0}, "start", LightKindName(light.kind));
   const Headline headline = HeadlineOf(light);
   if (headline.value != nullptr) {
     const Uncertain bare{headline.value->value, 0.0, {}, {}};
-    svg.Text("big", {kLeft, 84.0}, "start", PlusMinus(bare, headline.unit));
-    svg.Text("note", {kLeft, 101.0}, "start", RelativePlusMinus(*headline.value));
+    svg.Text("big", {kTextLeft, 84.0}, "start", PlusMinus(bare, headline.unit));
+    svg.Text("note", {kTextLeft, 101.0}, "start", RelativePlusMinus(*headline.value));
   }
   if (light.flux_lm && headline.value != &*light.flux_lm) {
-    svg.Text("figure", {kLeft, 124.0}, "start",
+    svg.Text("figure", {kTextLeft, 124.0}, "start",
              PlusMinus(Uncertain{light.flux_lm->value, 0.0, {}, {}}, "lm") + " " +
                  RelativePlusMinus(*light.flux_lm));
   }
-  svg.Text("figure", {kLeft, 143.0}, "start",
+  svg.Text("figure", {kTextLeft, 143.0}, "start",
            light.color.cct_K ? PlusMinus(*light.color.cct_K, "K") : "no colour temperature");
-  svg.Text("note", {kLeft, 165.0}, "start", Shortened(entry.note, kLongestNote));
+  svg.Text("note", {kTextLeft, 165.0}, "start", Shortened(entry.note, kLongestNote));
 }
 
 std::string CountOf(const std::vector<SheetLight>& lights) {
@@ -170,7 +171,7 @@ std::string ContactSheetSvg(const std::vector<SheetLight>& lights, std::string_v
   const std::size_t columns = std::clamp<std::size_t>(lights.size(), 1, kColumns);
   const std::size_t rows = (lights.size() + columns - 1) / columns;
   const auto extent = [](std::size_t count, double side) {
-    return 2.0 * kMargin + static_cast<double>(count) * (side + kGap) - kGap;
+    return 2.0 * kMargin + static_cast<double>(count) * (side + kTileGap) - kTileGap;
   };
   Svg svg("sheet", title, "Contact sheet of " + CountOf(lights) + ", written by lightcal",
           {extent(columns, kTile.first),
@@ -179,8 +180,9 @@ std::string ContactSheetSvg(const std::vector<SheetLight>& lights, std::string_v
   svg.Text("note", {extent(columns, kTile.first) - kMargin, kMargin + 18.0}, "end",
            CountOf(lights));
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const double x = kMargin + static_cast<double>(i % columns) * (kTile.first + kGap);
-    const double y = kMargin + kHeading + static_cast<double>(i / columns) * (kTile.second + kGap);
+    const double x = kMargin + static_cast<double>(i % columns) * (kTile.first + kTileGap);
+    const double y =
+        kMargin + kHeading + static_cast<double>(i / columns) * (kTile.second + kTileGap);
     svg.Element("<g transform=\"translate(" + Px(x) + " " + Px(y) + ")\">");
     DrawTile(svg, lights[i]);
     svg.Element("</g>");

@@ -45,24 +45,24 @@ double PartOf(const ValueScale& scale, double value) {
 // The next round number, upward or downward.
 double Round(double value, bool up) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
-  constexpr std::array<double, 9> kSteps = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
+  constexpr std::array<double, 9> kRoundSteps = {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0};
   const double mantissa = value / decade;
   if (up) {
-    for (const double step : kSteps) {
+    for (const double step : kRoundSteps) {
       if (mantissa <= step * (1.0 + 1e-9)) return step * decade;
     }
     return 10.0 * decade;
   }
-  for (auto step = kSteps.rbegin(); step != kSteps.rend(); ++step) {
+  for (auto step = kRoundSteps.rbegin(); step != kRoundSteps.rend(); ++step) {
     if (mantissa >= *step * (1.0 - 1e-9)) return *step * decade;
   }
   return decade;
 }
 
-struct Range {
+struct NitsRange {
   double dim, bright;  // the twentieth below which a twentieth lies, the brightest
 };
-Range RangeOf(View2d<const float> values) {
+NitsRange RangeOf(View2d<const float> values) {
   std::vector<float> lit;
   for (int y = 0; y < values.height(); ++y) {
     for (const float v : values.row(y)) {
@@ -79,7 +79,7 @@ Range RangeOf(View2d<const float> values) {
 }  // namespace
 
 ValueScale ScaleFor(View2d<const float> values, AxisScale way) {
-  const Range range = RangeOf(values);
+  const NitsRange range = RangeOf(values);
   if (way == AxisScale::kLinear) return {way, 0.0, Round(range.bright, true)};
   const double least = range.bright * std::pow(10.0, -kMostDecades);
   double low = Round(std::max(range.dim, least), false);
@@ -89,7 +89,7 @@ ValueScale ScaleFor(View2d<const float> values, AxisScale way) {
 }
 
 ValueScale ScaleFor(View2d<const float> values) {
-  const Range range = RangeOf(values);
+  const NitsRange range = RangeOf(values);
   return ScaleFor(values,
                   range.bright > kLinearUpTo * range.dim ? AxisScale::kLog : AxisScale::kLinear);
 }

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kWidth = 860.0;
 constexpr double kRow = 30.0;
-constexpr double kTop = 74.0;
-constexpr double kLeft = 222.0;
+constexpr double kBarsTop = 74.0;
+constexpr double kBarsLeft = 222.0;
 constexpr double kFirstRight = 520.0;
 constexpr double kSecondLeft = 566.0;
 constexpr double kSecondRight = 826.0;
@@ -88,7 +88,7 @@ void DrawRow(Canvas& canvas, const Row& row, double y, const Axis& cost, const A
   const auto placed = [](const Axis& axis, double value) {
     return axis.At(std::clamp(value, axis.low, axis.high));
   };
-  canvas.Text(row.own ? "own" : "label", kLeft - 18.0, y + 4.5, "end", row.name);
+  canvas.Text(row.own ? "own" : "label", kBarsLeft - 18.0, y + 4.5, "end", row.name);
   canvas.Line("gate-span", cost.At(row.none_ns), y, cost.At(row.all_ns), y);
   canvas.Line("gate-span", error.from_px, y,
               placed(error, std::max({row.gate, row.none, row.bound})), y);
@@ -105,14 +105,14 @@ void DrawRow(Canvas& canvas, const Row& row, double y, const Axis& cost, const A
 
 void DrawLegend(Canvas& canvas) {
   const double y = 20.0;
-  canvas.All(kLeft, y);
-  canvas.Text("label", kLeft + 12.0, y + 4.5, "start", "every effect");
-  canvas.Gate(kLeft + 122.0, y);
-  canvas.Text("label", kLeft + 134.0, y + 4.5, "start", "what the gate calls for");
-  canvas.None(kLeft + 318.0, y);
-  canvas.Text("label", kLeft + 330.0, y + 4.5, "start", "none: I/d²");
-  canvas.Line("gate-bound", kLeft + 430.0, y - 8.0, kLeft + 430.0, y + 8.0);
-  canvas.Text("label", kLeft + 440.0, y + 4.5, "start", "what is left off, at most");
+  canvas.All(kBarsLeft, y);
+  canvas.Text("label", kBarsLeft + 12.0, y + 4.5, "start", "every effect");
+  canvas.Gate(kBarsLeft + 122.0, y);
+  canvas.Text("label", kBarsLeft + 134.0, y + 4.5, "start", "what the gate calls for");
+  canvas.None(kBarsLeft + 318.0, y);
+  canvas.Text("label", kBarsLeft + 330.0, y + 4.5, "start", "none: I/d²");
+  canvas.Line("gate-bound", kBarsLeft + 430.0, y - 8.0, kBarsLeft + 430.0, y + 8.0);
+  canvas.Text("label", kBarsLeft + 440.0, y + 4.5, "start", "what is left off, at most");
 }
 
 constexpr std::string_view kCss =
@@ -144,31 +144,31 @@ std::string GateFigure(const std::vector<FittedLight>& lights, double tolerance,
   for (const FittedLight& light : lights) {
     if (!light.effects.empty()) rows.push_back(RowOf(light));
   }
-  const double bottom = kTop + kRow * static_cast<double>(rows.size());
-  const Axis cost{AxisScale::kLog, 1.0, 4000.0, kLeft, kFirstRight};
+  const double bottom = kBarsTop + kRow * static_cast<double>(rows.size());
+  const Axis cost{AxisScale::kLog, 1.0, 4000.0, kBarsLeft, kFirstRight};
   const Axis error{AxisScale::kLog, kLeastError, kMost, kSecondLeft, kSecondRight};
   Canvas canvas;
   DrawLegend(canvas);
-  canvas.Text("head", kLeft, kTop - 18.0, "start", "Cost of one evaluation");
-  canvas.Text("head", kSecondLeft, kTop - 18.0, "start", "Error against every effect");
+  canvas.Text("head", kBarsLeft, kBarsTop - 18.0, "start", "Cost of one evaluation");
+  canvas.Text("head", kSecondLeft, kBarsTop - 18.0, "start", "Error against every effect");
   for (const double ns : {1.0, 10.0, 100.0, 1000.0}) {
-    canvas.Line("grid", cost.At(ns), kTop, cost.At(ns), bottom);
+    canvas.Line("grid", cost.At(ns), kBarsTop, cost.At(ns), bottom);
     canvas.Text("tick", cost.At(ns), bottom + 18.0, "middle", Figure(ns) + " ns");
   }
   for (const double relative : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
-    canvas.Line("grid", error.At(relative), kTop, error.At(relative), bottom);
+    canvas.Line("grid", error.At(relative), kBarsTop, error.At(relative), bottom);
     canvas.Text("tick", error.At(relative), bottom + 18.0, "middle",
                 relative <= kLeastError ? "≤ 0.01 %" : PercentTick(relative));
   }
-  canvas.Line("gate-tolerance", error.At(tolerance), kTop - 6.0, error.At(tolerance), bottom);
+  canvas.Line("gate-tolerance", error.At(tolerance), kBarsTop - 6.0, error.At(tolerance), bottom);
   canvas.Text("gate-tolerance-label", error.At(tolerance) + 5.0, bottom + 36.0, "middle",
               "tolerance " + PercentTick(tolerance));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].own && (i == 0 || !rows[i - 1].own)) {
-      const double y = kTop + kRow * static_cast<double>(i);
+      const double y = kBarsTop + kRow * static_cast<double>(i);
       canvas.Line("grid", 14.0, y, kSecondRight, y);
     }
-    DrawRow(canvas, rows[i], kTop + kRow * (static_cast<double>(i) + 0.5), cost, error);
+    DrawRow(canvas, rows[i], kBarsTop + kRow * (static_cast<double>(i) + 0.5), cost, error);
   }
   const std::string name(id);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"wide\" id=\"" + name +

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kLongSide = 640.0;  // of the picture
 constexpr double kShortestSide = 120.0;
-constexpr double kLeft = 70.0, kTop = 52.0, kRight = 132.0, kBelow = 62.0, kNoteStep = 18.0;
+constexpr double kMapLeft = 70.0, kMapTop = 52.0, kMapRight = 132.0, kMapBelow = 62.0,
+                 kNoteStep = 18.0;
 constexpr double kBarGap = 26.0, kBarWidth = 18.0;
 constexpr double kTickGap = 46.0;
 constexpr int kMostContourSamples = 256;
@@ -33,10 +34,12 @@ struct Layout {
       return at_from < at_to ? Axis{AxisScale::kLinear, at_from, at_to, from, to}
                              : Axis{AxisScale::kLinear, at_to, at_from, to, from};
     };
-    x = axis(f.left, f.right, kLeft, kLeft + width);
-    y = axis(f.bottom, f.top, kTop + height, kTop);
+    x = axis(f.left, f.right, kMapLeft, kMapLeft + width);
+    y = axis(f.bottom, f.top, kMapTop + height, kMapTop);
   }
-  [[nodiscard]] ScaleBar bar() const { return {kLeft + width + kBarGap, kTop, kBarWidth, height}; }
+  [[nodiscard]] ScaleBar bar() const {
+    return {kMapLeft + width + kBarGap, kMapTop, kBarWidth, height};
+  }
 };
 
 std::string Turned(PagePoint at, double degrees, std::string_view css, std::string_view text) {
@@ -47,7 +50,7 @@ std::string Turned(PagePoint at, double degrees, std::string_view css, std::stri
 
 // Ticks outside a frame.
 void DrawAxes(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) {
-  const double bottom = kTop + layout.height;
+  const double bottom = kMapTop + layout.height;
   for (const double tick : TicksOf(layout.x, kTickGap)) {
     const double at = layout.x.At(tick);
     svg.Line("frame", {at, bottom}, {at, bottom + 5.0});
@@ -55,16 +58,16 @@ void DrawAxes(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) {
   }
   for (const double tick : TicksOf(layout.y, kTickGap)) {
     const double at = layout.y.At(tick);
-    svg.Line("frame", {kLeft - 5.0, at}, {kLeft, at});
-    svg.Text("tick", {kLeft - 10.0, at + 4.5}, "end", Figure(tick));
+    svg.Line("frame", {kMapLeft - 5.0, at}, {kMapLeft, at});
+    svg.Text("tick", {kMapLeft - 10.0, at + 4.5}, "end", Figure(tick));
   }
-  svg.Text("axis", {kLeft + 0.5 * layout.width, bottom + 42.0}, "middle", figure.x_title);
-  svg.Element(Turned({18.0, kTop + 0.5 * layout.height}, -90.0, "axis", figure.y_title));
+  svg.Text("axis", {kMapLeft + 0.5 * layout.width, bottom + 42.0}, "middle", figure.x_title);
+  svg.Element(Turned({18.0, kMapTop + 0.5 * layout.height}, -90.0, "axis", figure.y_title));
   svg.Path("frame",
-           {{kLeft, kTop},
-            {kLeft + layout.width, kTop},
-            {kLeft + layout.width, bottom},
-            {kLeft, bottom}},
+           {{kMapLeft, kMapTop},
+            {kMapLeft + layout.width, kMapTop},
+            {kMapLeft + layout.width, bottom},
+            {kMapLeft, bottom}},
            true);
 }
 
@@ -83,8 +86,9 @@ class Labels {
     int best_at = 0;
     for (int i = reach; i < count - reach; ++i) {
       const PagePoint& at = line[static_cast<std::size_t>(i)];
-      const bool inside = at.first > kLeft + half && at.first < kLeft + layout_.width - half &&
-                          at.second > kTop + 14.0 && at.second < kTop + layout_.height - 14.0;
+      const bool inside = at.first > kMapLeft + half &&
+                          at.first < kMapLeft + layout_.width - half &&
+                          at.second > kMapTop + 14.0 && at.second < kMapTop + layout_.height - 14.0;
       if (!inside) continue;
       double nearest = 1e9;
       for (const PagePoint& other : taken_) {
@@ -134,7 +138,7 @@ void DrawIsolux(Svg& svg, const IlluminanceFigure& figure, const ValueScale& sca
     std::size_t labelled = 0;
     for (Contour& line : ContoursOf(field.view(), level)) {
       for (PagePoint& p : line) {
-        p = {kLeft + (p.first + 0.5) * per_x, kTop + (p.second + 0.5) * per_y};
+        p = {kMapLeft + (p.first + 0.5) * per_x, kMapTop + (p.second + 0.5) * per_y};
       }
       svg.Path("isolux halo", line);
       svg.Path("isolux", line);
@@ -160,7 +164,7 @@ void DrawLamps(Svg& svg, const IlluminanceFigure& figure, const Layout& layout) 
     svg.Circle("lamp halo", at, 6.0);
     svg.Circle("lamp", at, 6.0, lamp.name);
     svg.Circle("lampdot", at, 1.8);
-    const bool left = at.first > kLeft + 0.8 * layout.width;
+    const bool left = at.first > kMapLeft + 0.8 * layout.width;
     const PagePoint label = {at.first + (left ? -12.0 : 12.0), at.second + 4.5};
     svg.Text("isolabel halo", label, left ? "end" : "start", lamp.name);
     svg.Text("isolabel", label, left ? "end" : "start", lamp.name);
@@ -186,12 +190,13 @@ std::string IlluminancePicture(const IlluminanceFigure& figure, const ValueScale
                                std::string_view image_uri, std::string_view scale_uri) {
   const Layout layout(figure);
   const double notes = kNoteStep * static_cast<double>(figure.notes.size());
-  const PagePoint size = {kLeft + layout.width + kRight, kTop + layout.height + kBelow + notes};
+  const PagePoint size = {kMapLeft + layout.width + kMapRight,
+                          kMapTop + layout.height + kMapBelow + notes};
   Svg svg("illuminance", figure.title, "Illuminance map in lux, written by lightcal", size);
-  svg.Text("title", {kLeft, 28.0}, "start", figure.title);
-  svg.Element(ImageElement({kLeft, kTop}, {layout.width, layout.height}, image_uri));
-  svg.Element("<clipPath id=\"map\"><rect x=\"" + Px(kLeft) + "\" y=\"" + Px(kTop) + "\" width=\"" +
-              Px(layout.width) + "\" height=\"" + Px(layout.height) +
+  svg.Text("title", {kMapLeft, 28.0}, "start", figure.title);
+  svg.Element(ImageElement({kMapLeft, kMapTop}, {layout.width, layout.height}, image_uri));
+  svg.Element("<clipPath id=\"map\"><rect x=\"" + Px(kMapLeft) + "\" y=\"" + Px(kMapTop) +
+              "\" width=\"" + Px(layout.width) + "\" height=\"" + Px(layout.height) +
               "\"/></clipPath><g clip-path=\"url(#map)\">");
   Labels labels(layout);
   for (const LampMark& lamp : figure.lamps) {
@@ -202,9 +207,9 @@ std::string IlluminancePicture(const IlluminanceFigure& figure, const ValueScale
   svg.Element("</g>");
   DrawAxes(svg, figure, layout);
   DrawScaleBar(svg, scale, layout.bar(), scale_uri, "lux");
-  double y = kTop + layout.height + kBelow + 4.0;
+  double y = kMapTop + layout.height + kMapBelow + 4.0;
   for (const std::string& note : figure.notes) {
-    svg.Text("note", {kLeft, y}, "start", note);
+    svg.Text("note", {kMapLeft, y}, "start", note);
     y += kNoteStep;
   }
   return StandaloneSvg(WithXlink(svg.Finish()), kStyle);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFirst_nm = 380.0, kLast_nm = 780.0;
 constexpr double kStop_nm = 10.0;
-constexpr double kHeadroom = 1.08;
+constexpr double kSpectrumHeadroom = 1.08;
 constexpr double kMilliwatts = 1e3;
 
 struct Sample {
@@ -69,7 +69,7 @@ std::string SpectrumFigure(const LightSpectrum& light, std::string_view id) {
   const double unit = absolute ? 1.0 : most;
   const PlotArea& area = Svg::Area();
   const Axis x{AxisScale::kLinear, kFirst_nm, kLast_nm, area.left, area.right};
-  const Axis y{AxisScale::kLinear, 0.0, kHeadroom * most / unit, area.bottom, area.top};
+  const Axis y{AxisScale::kLinear, 0.0, kSpectrumHeadroom * most / unit, area.bottom, area.top};
   const std::string name(id);
   Svg svg(name, "Spectrum",
           absolute ? "Spectral irradiance against wavelength, written by lightcal"

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/transport/hid.h"
 
 namespace lightcal::hid_als {
@@ -13,10 +14,6 @@ namespace {
 constexpr int kMostReports = 20;  // until one tells the light
 constexpr int kBadReportRetries = 1;
 constexpr const char* kModel = "sensor";  // nothing tells its name
-
-bool IsGone(const Error& error) {
-  return error.code == fault::kUnplugged || error.code == fault::kNoDevice;
-}
 
 // Replays differ from what they were: not a device that lacks a report.
 bool EndsDialogue(const Error& error) {

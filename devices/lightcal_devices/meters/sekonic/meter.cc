@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/meters/sekonic/reading.h"
 
 namespace lightcal::sekonic {
@@ -20,10 +21,6 @@ constexpr int kDarkPatience = 4;
 bool MayLeaveReply(const Error& error) {
   return error.code == kBadReply || error.code == fault::kTimeout ||
          error.code == fault::kStalled || error.code == fault::kIo;
-}
-
-bool IsGone(const Error& error) {
-  return error.code == fault::kUnplugged || error.code == fault::kNoDevice;
 }
 
 tl::unexpected<Error> InCommand(std::string_view command, Error error) {
