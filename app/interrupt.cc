@@ -31,6 +31,6 @@ InterruptGuard::~InterruptGuard() {
   }
 }
 
-const Cancellation& InterruptGuard::Wish() { return InterruptRequest(); }
+const Cancellation& InterruptGuard::StopRequest() { return InterruptRequest(); }
 
 }  // namespace lightcal::app

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "console.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/effects/effect_table.h"
 
@@ -56,9 +57,7 @@ std::string Position(const FittedLight& light) {
 }
 
 std::string Join(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text.empty() ? kNone : text;
+  return words.empty() ? kNone : Joined(words);
 }
 
 }  // namespace

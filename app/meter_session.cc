@@ -127,7 +127,7 @@ Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& req
 
 Result<MeterReading> MeterSession::Measure() {
   const InterruptGuard guard;
-  auto measured = meter_->Measure(InterruptGuard::Wish());
+  auto measured = meter_->Measure(InterruptGuard::StopRequest());
   if (!measured) return measured;
   Reading& reading = measured->reading;
   reading.time = IsReplay() ? time_ : NowIso8601();
@@ -136,7 +136,7 @@ Result<MeterReading> MeterSession::Measure() {
 
 Result<MeterReading> MeterSession::ReadMemory(int index) {
   const InterruptGuard guard;
-  return meter_->ReadMemory(index, InterruptGuard::Wish());
+  return meter_->ReadMemory(index, InterruptGuard::StopRequest());
 }
 
 Result<void> MeterSession::Finish(Console& console) {

@@ -10,6 +10,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/meters/text/frame.h"
+#include "option_words.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -38,7 +39,7 @@ Result<Summary> AskedSummary() {
     }
     auto summary = TypedSummary(*typed);
     if (summary) return summary;
-    std::fprintf(stderr, "  %s\n", summary.error().message.c_str());
+    std::fprintf(stderr, "  %s\n", InOptionWords(summary.error().message).c_str());
   }
 }
 
@@ -60,8 +61,8 @@ void WarnOutOfRange(const Reading& reading, Warnings& warnings) {
 
 // A reading the journal would not take back is refused before anything is written.
 Result<void> CheckReading(const Reading& reading) {
-  const auto read_back = ReadingFromJson(ReadingToJson(reading), "this reading");
-  if (!read_back) return tl::unexpected(read_back.error());
+  const auto fault = FaultOf(reading);
+  if (fault) return Refused("bad_reading", "this reading", fault->message);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/session.h"
@@ -20,11 +21,7 @@ std::string DidYouMean(std::string_view name, const std::vector<Item>& known) {
   for (const Item& item : known) names.push_back(item.name);
   const std::string nearest = NearestWord(name, names);
   if (!nearest.empty()) return "; did you mean \"" + nearest + "\"?";
-  std::string list;
-  for (const std::string_view one : names) {
-    list += (list.empty() ? "" : ", ") + std::string(one);
-  }
-  return list.empty() ? "" : "; there are " + list;
+  return names.empty() ? "" : "; there are " + Joined(names);
 }
 
 // Whether the session has this light, and this meter ("" and data_sheet are always there).

@@ -25,7 +25,7 @@ bool WaitForLine() {
   ::sigaddset(&stops, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &stops, &former);
   bool ready = false;
-  while (!ready && !InterruptGuard::Wish().Requested()) {
+  while (!ready && !InterruptGuard::StopRequest().Requested()) {
     pollfd input{STDIN_FILENO, POLLIN, 0};
     const int answered = ::ppoll(&input, 1, nullptr, &former);
     ready = answered > 0 || (answered < 0 && errno != EINTR);

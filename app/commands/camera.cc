@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "camera/calibrate_camera.h"
 #include "commands.h"
@@ -100,7 +99,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
           : options.output;
   if (auto written = WriteOutputs({{path, *json}}, options.force); !written) return written;
   console.Print(Table(*profile));
-  console.PrintJson(nlohmann::ordered_json::parse(*json));
+  console.PrintDocument(DocumentOf(*profile));
   console.Note("wrote " + path);
   if (profile->scale.readings.empty()) {
     console.Note(

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -85,32 +84,28 @@ const char* SourceOf(const DomeLight& light) {
   return light.body.clipped ? "lower_bound" : "pixels";
 }
 
-nlohmann::ordered_json LightJson(const MeasuredDome& measured, std::size_t i,
-                                 const std::string& name, bool taken) {
+Node ColorNode(Xy xy) {
+  const CctResult cct = CctFromXy(xy);
+  return {{"xy", {xy.x, xy.y}},
+          {"cct_K", cct.valid() ? Node(cct.temperature) : Node()},
+          {"duv", cct.valid() ? Node(cct.duv) : Node()}};
+}
+
+Node LightNode(const MeasuredDome& measured, std::size_t i, const std::string& name, bool taken) {
   const DomeLight& light = measured.lights[i];
   const Vec3 direction = TurnedNorth(light.direction, measured.north);
   const AzimuthElevation at = AnglesOf(direction);
-  nlohmann::ordered_json row;
-  row["name"] = name;
-  row["illuminance_lx"] = {{"value", light.illuminance.value()},
-                           {"u95", kZ95 * measured.sd_relative[i] * light.illuminance.value()}};
-  row["source"] = SourceOf(light);
-  row["direction"] = direction;
-  row["azimuth_deg"] = at.azimuth_deg;
-  row["elevation_deg"] = at.elevation_deg;
-  row["angular_diameter_deg"] = DegreesFromRadians(light.angular_diameter);
-  row["luminance_nits"] = light.luminance.value();
-  if (light.xy) {
-    auto& color = row["color"];
-    color["xy"] = {light.xy->x, light.xy->y};
-    const CctResult cct = CctFromXy(*light.xy);
-    if (cct.valid()) {
-      color["cct_K"] = cct.temperature.value();
-      color["duv"] = cct.duv;
-    }
-  }
-  row["extracted"] = taken;
-  return row;
+  const double lux = light.illuminance.value();
+  return {{"name", name},
+          {"illuminance_lx", {{"value", lux}, {"u95", kZ95 * measured.sd_relative[i] * lux}}},
+          {"source", SourceOf(light)},
+          {"direction", direction},
+          {"azimuth_deg", at.azimuth_deg},
+          {"elevation_deg", at.elevation_deg},
+          {"angular_diameter_deg", DegreesFromRadians(light.angular_diameter)},
+          {"luminance_nits", light.luminance},
+          {"color", light.xy ? ColorNode(*light.xy) : Node()},
+          {"extracted", taken}};
 }
 
 // What planes in the middle get, before and after the lights left.
@@ -175,18 +170,8 @@ std::string Table(const MeasuredDome& measured, const std::vector<std::string>& 
          "\n";
 }
 
-void AddViews(const DomeInput& input, nlohmann::ordered_json& document) {
-  if (input.views.empty()) return;
-  auto& views = document["views"] = nlohmann::ordered_json::array();
-  for (const DomeViewScale& view : input.views) {
-    views.push_back(
-        {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}});
-  }
-  if (input.views.size() > 1) {
-    document["rim_transmission"] = input.rim_transmission;
-    document["agreement_sd_relative"] = input.agreement_sd;
-  }
-  document["seen_fraction"] = input.seen_share;
+Node ViewNode(const DomeViewScale& view) {
+  return {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}};
 }
 
 std::string ViewsTable(const DomeInput& input) {
@@ -200,34 +185,40 @@ std::string ViewsTable(const DomeInput& input) {
          RoundedText(100.0 * input.rim_transmission, 3) + " % at its rim\n\n";
 }
 
-nlohmann::ordered_json ToJson(const Plan& plan, const MeasuredDome& measured,
-                              const std::vector<std::string>& names, std::size_t extracted,
-                              const std::vector<Balance>& planes,
-                              const std::vector<std::string>& written) {
-  nlohmann::ordered_json document;
-  auto& lights = document["lights"] = nlohmann::ordered_json::array();
+Node ToJson(const Plan& plan, const MeasuredDome& measured, const std::vector<std::string>& names,
+            std::size_t extracted, const std::vector<Balance>& planes,
+            const std::vector<std::string>& written) {
+  Node lights = Node::Array();
   for (std::size_t i = 0; i < names.size(); ++i) {
-    lights.push_back(LightJson(measured, i, names[i], i < extracted));
+    lights.items.push_back(LightNode(measured, i, names[i], i < extracted));
   }
-  auto& illuminance = document["illuminance_lx"];
+  Node illuminance = Node::Table();
   for (const Balance& plane : planes) {
-    illuminance[plane.name] = {
-        {"total", plane.total}, {"lights", plane.lights}, {"remaining", plane.remaining}};
+    illuminance.Put(
+        plane.name,
+        {{"total", plane.total}, {"lights", plane.lights}, {"remaining", plane.remaining}});
   }
-  auto& scale = document["scale"];
-  scale["factor"] = measured.scale.factor;
-  scale["source"] = measured.scale_source;
-  if (measured.scale_u95_relative) scale["u95_relative"] = *measured.scale_u95_relative;
-  document["width"] = measured.input.dome.width;
-  document["height"] = measured.input.dome.height;
-  const Nits white = plan.plate ? MaximumLuminance(*plan.plate) : Nits(1.0);
-  document["white_luminance_nits"] = white.value();
+  Node plate;
   if (plan.plate) {
-    document["plate"] = {{"ev100", Ev100(*plan.plate)}, {"exposure", ExposureScale(*plan.plate)}};
+    plate = {{"ev100", Ev100(*plan.plate)}, {"exposure", ExposureScale(*plan.plate)}};
   }
-  AddViews(measured.input, document);
-  document["files"] = written;
-  return document;
+  const DomeInput& input = measured.input;
+  const bool several = input.views.size() > 1;
+  return {{"lights", lights},
+          {"illuminance_lx", illuminance},
+          {"scale",
+           {{"factor", measured.scale.factor},
+            {"source", measured.scale_source},
+            {"u95_relative", measured.scale_u95_relative}}},
+          {"width", input.dome.width},
+          {"height", input.dome.height},
+          {"white_luminance_nits", plan.plate ? MaximumLuminance(*plan.plate) : Nits(1.0)},
+          {"plate", plate},
+          {"views", Node::UnlessEmpty(Node::List(input.views, ViewNode))},
+          {"rim_transmission", several ? Node(input.rim_transmission) : Node()},
+          {"agreement_sd_relative", several ? Node(input.agreement_sd) : Node()},
+          {"seen_fraction", input.views.empty() ? Node() : Node(input.seen_share)},
+          {"files", written}};
 }
 
 Result<void> RunDome(const Options& options, Console& console) {
@@ -278,7 +269,7 @@ Result<void> RunDome(const Options& options, Console& console) {
   std::vector<std::string> paths;
   for (const OutputWriter& writer : writers) paths.push_back(writer.path);
   console.Print(ViewsTable(measured->input) + Table(*measured, names, extracted, planes.front()));
-  console.PrintJson(ToJson(*plan, *measured, names, extracted, planes, paths));
+  console.PrintDocument(ToJson(*plan, *measured, names, extracted, planes, paths));
   for (const std::string& path : paths) console.Note("wrote " + path);
   return {};
 }

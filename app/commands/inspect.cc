@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -229,43 +228,37 @@ std::optional<Xy> AsShotWhite(const FrameInfo& info) {
   return white ? std::optional(*white) : std::nullopt;
 }
 
-nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
-                              const Answer& answer, std::size_t masked) {
+Node ToJson(const Inspected& inspected, const Region& region, const Answer& answer,
+            std::size_t masked) {
   const LuminanceStatistics& s = answer.statistics;
-  nlohmann::ordered_json document;
-  document["picture"] = {{"file", inspected.info.file},
-                         {"format", inspected.info.format},
-                         {"width", inspected.luminance.width},
-                         {"height", inspected.luminance.height}};
-  document["rect"] = {region.x, region.y, region.width, region.height};
-  document["luminance_nits"] = {{"min", s.min.value()},
-                                {"mean", s.mean.value()},
-                                {"median", s.median.value()},
-                                {"max", s.max.value()}};
-  document["sigma_relative"] = s.sd_relative;
-  if (masked > 0) document["masked_pixels"] = masked;
-  if (answer.illuminance) {
-    document["illuminance_lx"] = answer.illuminance->illuminance.value();
-    document["solid_angle_sr"] = answer.illuminance->solid_angle.value();
-  }
-  auto& peak = document["peak"];
-  peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max.value()}};
+  Node peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max}};
   if (answer.peak_direction) {
     const auto [azimuth, elevation] = AzimuthAndElevation(*answer.peak_direction);
-    peak["azimuth_deg"] = azimuth;
-    peak["elevation_deg"] = elevation;
+    peak.Put({{"azimuth_deg", azimuth}, {"elevation_deg", elevation}});
   }
+  Node as_shot;
   if (const auto white = AsShotWhite(inspected.info)) {
-    auto& as_shot = document["as_shot"];
-    as_shot["xy"] = {white->x, white->y};
-    if (const CctResult cct = CctFromXy(*white); cct.valid()) {
-      as_shot["cct_K"] = cct.temperature.value();
-    }
+    const CctResult cct = CctFromXy(*white);
+    as_shot = {{"xy", {white->x, white->y}},
+               {"cct_K", cct.valid() ? Node(cct.temperature) : Node()}};
   }
-  auto& scale = document["scale"];
-  scale["source"] = inspected.luminance.scale;
-  if (inspected.scale_u95_relative) scale["u95_relative"] = *inspected.scale_u95_relative;
-  return document;
+  const auto& lux = answer.illuminance;
+  return {
+      {"picture",
+       {{"file", inspected.info.file},
+        {"format", inspected.info.format},
+        {"width", inspected.luminance.width},
+        {"height", inspected.luminance.height}}},
+      {"rect", {region.x, region.y, region.width, region.height}},
+      {"luminance_nits", {{"min", s.min}, {"mean", s.mean}, {"median", s.median}, {"max", s.max}}},
+      {"sigma_relative", s.sd_relative},
+      {"masked_pixels", masked > 0 ? Node(masked) : Node()},
+      {"illuminance_lx", lux ? Node(lux->illuminance) : Node()},
+      {"solid_angle_sr", lux ? Node(lux->solid_angle) : Node()},
+      {"peak", peak},
+      {"as_shot", as_shot},
+      {"scale",
+       {{"source", inspected.luminance.scale}, {"u95_relative", inspected.scale_u95_relative}}}};
 }
 
 std::string Table(const Inspected& inspected, const Region& region, const Answer& answer,
@@ -314,7 +307,7 @@ Result<void> RunInspect(const Options& options, Console& console) {
   const bool is_latlong =
       angles->has_value() && (*angles)->view().projection == Projection::kLatLong;
   console.Print(Table(*inspected, *region, *answer, is_latlong));
-  console.PrintJson(ToJson(*inspected, *region, *answer, masked));
+  console.PrintDocument(ToJson(*inspected, *region, *answer, masked));
   return {};
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "bracket_merge.h"
 #include "color_words.h"
@@ -217,56 +216,63 @@ OutputWriter SigmaWriter(const Options& options, const MergedBracket& merged) {
           }};
 }
 
-nlohmann::ordered_json ToJson(const MergedBracket& merged) {
-  nlohmann::ordered_json document;
-  auto& frames = document["frames"] = nlohmann::ordered_json::array();
-  for (const MergedFrame& frame : merged.frames) {
-    nlohmann::ordered_json row = {{"file", frame.info.file}};
-    const FrameExposure& exposure = frame.info.exposure;
-    if (exposure.time) row["exposure_s"] = exposure.time->value();
-    if (exposure.f_number) row["f_number"] = *exposure.f_number;
-    if (exposure.t_stop) row["t_stop"] = *exposure.t_stop;
-    if (exposure.iso) row["iso"] = *exposure.iso;
-    if (const auto& angle = exposure.written.shutter_angle_deg) row["shutter_angle_deg"] = *angle;
-    if (const auto& rate = exposure.written.frames_per_second) row["frames_per_second"] = *rate;
-    if (frame.info.image_counter) row["image_counter"] = *frame.info.image_counter;
-    if (frame.ratio_ev) row["ratio_ev"] = *frame.ratio_ev;
-    row["used"] = frame.used;
-    if (frame.moved) {
-      row["shift_px"] = {frame.moved->x, frame.moved->y};
-      row["shift_sd_px"] = frame.moved->sd;
-      row["taken_back_px"] = {frame.moved->taken_back_x, frame.moved->taken_back_y};
-    }
-    frames.push_back(std::move(row));
+Node FrameNode(const MergedFrame& frame) {
+  const FrameExposure& exposure = frame.info.exposure;
+  Node node = {{"file", frame.info.file},
+               {"exposure_s", exposure.time},
+               {"f_number", exposure.f_number},
+               {"t_stop", exposure.t_stop},
+               {"iso", exposure.iso},
+               {"shutter_angle_deg", exposure.written.shutter_angle_deg},
+               {"frames_per_second", exposure.written.frames_per_second},
+               {"image_counter", frame.info.image_counter},
+               {"ratio_ev", frame.ratio_ev},
+               {"used", frame.used}};
+  if (const auto& moved = frame.moved) {
+    node.Put({{"shift_px", {moved->x, moved->y}},
+              {"shift_sd_px", moved->sd},
+              {"taken_back_px", {moved->taken_back_x, moved->taken_back_y}}});
   }
-  document["scale"] = {{"nits_per_unit", merged.nits_per_unit},
-                       {"source", merged.scale_source},
-                       {"u95_relative", merged.scale_u95_relative}};
-  document["clipped_fraction"] = merged.clipped_fraction;
-  document["noise"] = {{"source", NoiseWord(merged.noise_source)},
-                       {"scale", merged.plan.noise.front().scale},
-                       {"offset", merged.plan.noise.front().offset},
-                       {"fixed_pattern", merged.plan.fixed_pattern}};
-  if (const auto& crop = merged.crop) {
-    document["crop"] = {crop->x, crop->y, crop->width, crop->height};
-  }
+  return node;
+}
+
+// What the camera's profile took out; absent where it did nothing.
+Node CorrectionsNode(const MergedBracket& merged) {
   const SampleCorrections& corrections = merged.corrections;
-  if (merged.masked_pixels > 0) document["masked_pixels"] = merged.masked_pixels;
-  if (corrections.flat() || corrections.black_sd() > 0.0 ||
-      corrections.hot_pixels() > merged.masked_pixels) {
-    auto& camera =
-        document["camera"] = {{"hot_pixels", corrections.hot_pixels()},
-                              {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};
-    if (const auto& flat = corrections.flat()) {
-      const bool prior = corrections.flat_source() == SampleCorrections::FlatSource::kCosineFourth;
-      camera["flat"] = {{"source", prior ? "cos4_prior" : "measured"},
-                        {"f_number", flat->f_number},
-                        {"sigma_relative", flat->sigma_relative}};
-    }
+  const auto& flat = corrections.flat();
+  if (!flat && !(corrections.black_sd() > 0.0) &&
+      corrections.hot_pixels() <= merged.masked_pixels) {
+    return {};
   }
-  document["width"] = merged.width;
-  document["height"] = merged.height;
-  return document;
+  Node node = {{"hot_pixels", corrections.hot_pixels()},
+               {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};
+  if (flat) {
+    const bool prior = corrections.flat_source() == SampleCorrections::FlatSource::kCosineFourth;
+    node.Put("flat", {{"source", prior ? "cos4_prior" : "measured"},
+                      {"f_number", flat->f_number},
+                      {"sigma_relative", flat->sigma_relative}});
+  }
+  return node;
+}
+
+Node ToJson(const MergedBracket& merged) {
+  const auto& crop = merged.crop;
+  return {{"frames", Node::List(merged.frames, FrameNode)},
+          {"scale",
+           {{"nits_per_unit", merged.nits_per_unit},
+            {"source", merged.scale_source},
+            {"u95_relative", merged.scale_u95_relative}}},
+          {"clipped_fraction", merged.clipped_fraction},
+          {"noise",
+           {{"source", NoiseWord(merged.noise_source)},
+            {"scale", merged.plan.noise.front().scale},
+            {"offset", merged.plan.noise.front().offset},
+            {"fixed_pattern", merged.plan.fixed_pattern}}},
+          {"crop", crop ? Node{crop->x, crop->y, crop->width, crop->height} : Node()},
+          {"masked_pixels", merged.masked_pixels > 0 ? Node(merged.masked_pixels) : Node()},
+          {"camera", CorrectionsNode(merged)},
+          {"width", merged.width},
+          {"height", merged.height}};
 }
 
 std::string ScaleWords(const std::string& source) {
@@ -313,7 +319,7 @@ Result<void> RunMerge(const Options& options, Console& console) {
   if (request->want_sigma) outputs.push_back(SigmaWriter(options, *merged));
   if (auto written = WriteOutputsWith(outputs, options.force); !written) return written;
   console.Print(Table(*merged));
-  console.PrintJson(ToJson(*merged));
+  console.PrintDocument(ToJson(*merged));
   console.Note("wrote " + options.output +
                (request->want_sigma ? " and " + options.sigma : std::string()));
   if (merged->scale_source == "iso_prior") {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "commands.h"
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
@@ -38,14 +38,6 @@ struct Source {
   std::string default_output;
 };
 
-std::string JoinedPlotNames() {
-  std::string names;
-  for (const std::string_view name : report::PlotNames()) {
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  }
-  return names;
-}
-
 // ---- --plot NAME=FILE ----
 
 struct PlotRequest {
@@ -60,7 +52,7 @@ Result<PlotRequest> ParsePlot(const std::string& text) {
     const std::string nearest = NearestWord(name, known);
     return WrongUsage("--plot", "\"" + name + "\" is no plot" +
                                     (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
-                                    " (there are: " + JoinedPlotNames() + ")");
+                                    " (there are: " + Joined(report::PlotNames()) + ")");
   }
   if (sign == std::string::npos) {
     return WrongUsage("--plot", "say where it goes: " + name + "=FILE.svg or .png");
@@ -171,12 +163,8 @@ Result<void> RunReport(const Options& options, Console& console) {
   }
   if (auto distinct = CheckDistinct(files); !distinct) return distinct;
   if (auto written = WriteOutputs(files, options.force); !written) return written;
-  auto written = nlohmann::ordered_json::array();
-  for (const OutputFile& file : files) {
-    console.Print("wrote " + file.path + "\n");
-    written.push_back(file.path);
-  }
-  console.PrintJson({{"files", std::move(written)}});
+  for (const OutputFile& file : files) console.Print("wrote " + file.path + "\n");
+  console.PrintDocument({{"files", PathsOf(files)}});
   return {};
 }
 
@@ -191,7 +179,7 @@ Run BuildReport(CLI::App& parser) {
   parser
       .add_option("--plot", options->plots,
                   "One of its plots as a file, instead of the page (give -o for both): " +
-                      JoinedPlotNames() +
+                      Joined(report::PlotNames()) +
                       ". Where several lights have it, each gets FILE-LIGHT.svg. Repeatable")
       ->type_name("NAME=FILE.svg|png")
       ->delimiter(',')

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "calibration_options.h"
 #include "commands.h"
@@ -81,7 +80,7 @@ Result<Measurements> Measure(const Options& options, const tradeoff::Question& q
                              bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
-  const tradeoff::Watch watch = {[] { return InterruptGuard::Wish().Requested(); },
+  const tradeoff::Watch watch = {[] { return InterruptGuard::StopRequest().Requested(); },
                                  [&](double share) { progress.At(share); }};
   Measurements out;
   SessionTwin twin;
@@ -133,7 +132,7 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
     console.Print("next: lightcal run " + options.session + " --profile " + options.output +
                   "/profile.json\n");
   }
-  console.PrintJson(TradeoffJson(study, truth, question->tolerance_relative));
+  console.PrintDocument(TradeoffNode(study, truth, question->tolerance_relative));
   return {};
 }
 

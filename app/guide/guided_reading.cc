@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "guide/drawings.h"
@@ -12,10 +11,12 @@
 #include "guide/shell_word.h"
 #include "guide/step_answer.h"
 #include "interrupt.h"
+#include "light_summary.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "option_words.h"
 #include "reading_source.h"
 #include "session_input.h"
 #include "session_names.h"
@@ -170,7 +171,7 @@ class Walk {
 
   [[nodiscard]] Result<bool> EndOfInput() const {
     std::fputc('\n', stderr);
-    if (!InterruptGuard::Wish().Requested()) return false;
+    if (!InterruptGuard::StopRequest().Requested()) return false;
     return Failed("interrupted", frame_.light,
                   "stopped by you; " + std::to_string(taken_) + " readings are in the journal");
   }
@@ -214,7 +215,7 @@ class Walk {
 
   void Explain(const Error& error) const {
     const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-    std::fprintf(stderr, "   %s%s\n", subject.c_str(), error.message.c_str());
+    std::fprintf(stderr, "   %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
   }
 
   // Into the journal, unless it looks wrong and the person takes it back. False: measure again.
@@ -253,7 +254,7 @@ class Walk {
 
   // A number that is none can be typed again and a meter asked again; a tape only repeats itself.
   [[nodiscard]] bool MayTryAgain(const Error& error) const {
-    if (InterruptGuard::Wish().Requested()) return false;
+    if (InterruptGuard::StopRequest().Requested()) return false;
     return typed_ || (error.kind == ErrorKind::kFailed && !source_.meter()->IsReplay());
   }
 
@@ -303,9 +304,9 @@ class Walk {
 
   void Conclude() const {
     static constexpr const char* kWords[] = {"reached", "no_gain", "stopped", "tape_end"};
-    nlohmann::ordered_json document = {{"light", frame_.light},
-                                       {"readings_taken", taken_},
-                                       {"ended", kWords[static_cast<std::size_t>(ending_)]}};
+    Node document = {{"light", frame_.light},
+                     {"readings_taken", taken_},
+                     {"ended", kWords[static_cast<std::size_t>(ending_)]}};
     const auto& light = guide_->light();
     std::string text = "\n" + EndingText();
     if (light) {
@@ -313,13 +314,12 @@ class Walk {
              "Next:\n  lightcal run " + ShellWord(options_.session) + "\n";
       const auto& value = light->intensity_cd ? light->intensity_cd : light->illuminance_lx;
       if (value) {
-        document[light->intensity_cd ? "intensity_cd" : "illuminance_lx"] = {
-            {"value", value->value}, {"u95", value->u95}};
+        document.Put(light->intensity_cd ? "intensity_cd" : "illuminance_lx", ValueAndU95(*value));
       }
     }
-    if (const auto u95 = guide_->u95_relative()) document["u95_relative"] = *u95;
+    document.Put("u95_relative", guide_->u95_relative());
     console_.Print(text);
-    console_.PrintJson(document);
+    console_.PrintDocument(document);
   }
 
   const ReadOptions& options_;

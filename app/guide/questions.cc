@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
+#include "option_words.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -38,7 +40,7 @@ Result<std::string> Questions::Next(const Question& question) const {
 
 void Questions::Explain(const Error& error) {
   const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-  std::fprintf(stderr, "  %s%s\n", subject.c_str(), error.message.c_str());
+  std::fprintf(stderr, "  %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
 }
 
 std::string MenuText(const std::vector<Choice>& choices) {
@@ -62,8 +64,7 @@ Result<std::size_t> ParseChoice(const std::string& text, const std::vector<Choic
     words.push_back(choices[i].word);
   }
   const std::string nearest = NearestWord(word, words);
-  std::string all;
-  for (const std::string_view one : words) all += (all.empty() ? "" : ", ") + std::string(one);
+  const std::string all = Joined(words);
   return WrongUsage("\"" + text + "\"",
                     nearest.empty() ? "is none of these: " + all + "; type a number or a word"
                                     : "is none of these; did you mean " + nearest + "?");

@@ -26,7 +26,7 @@ constexpr double kMainsHz = 120.0;
 // Below a hundredth of a per cent there is nothing but rounding.
 std::string PercentText(double part) {
   constexpr double kLeast = 1e-4;
-  return std::abs(part) < kLeast ? "< 0.01 %" : RoundedText(100.0 * part, 2) + " %";
+  return std::abs(part) < kLeast ? "< 0.01 %" : PercentText(part);
 }
 
 // Cut to so many characters.

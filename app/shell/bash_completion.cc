@@ -2,29 +2,22 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "shell/shell_texts.h"
 
 namespace lightcal::app {
 namespace {
 
-// Words that need no quoting in a bash list: options, commands and the words options take.
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 // What follows an option that takes a value, as a branch of a case.
 std::string ValueBranch(const std::string& path, const TypedOption& option) {
-  std::string patterns;
-  for (const std::string& name : option.names) {
-    patterns += (patterns.empty() ? "" : " | ") + ("\"" + path) + " " + name + "\"";
-  }
+  const std::string patterns = Joined(option.names, " | ", [&](const std::string& name) {
+    return "\"" + path + " " + name + "\"";
+  });
   std::string answer = "compopt -o default";
   if (option.number) answer = ":";
   if (!option.words.empty()) {
-    answer =
-        (option.commas ? "_lightcal_list \"" : "_lightcal_words \"") + Joined(option.words) + "\"";
+    answer = (option.commas ? "_lightcal_list \"" : "_lightcal_words \"") +
+             Joined(option.words, " ") + "\"";
   }
   return "    " + patterns + ") " + answer + "; return ;;\n";
 }
@@ -46,8 +39,8 @@ void AddBranches(const TypedCommand& command, Branches& branches) {
     branches.commands +=
         (branches.commands.empty() ? "\"" : " | \"") + path + " " + below.path.back() + "\"";
   }
-  branches.paths += "    \"" + path + "\") options=\"" + Joined(options) + "\" words=\"" +
-                    Joined(words) + "\" ;;\n";
+  branches.paths += "    \"" + path + "\") options=\"" + Joined(options, " ") + "\" words=\"" +
+                    Joined(words, " ") + "\" ;;\n";
   for (const TypedCommand& below : command.commands) AddBranches(below, branches);
 }
 

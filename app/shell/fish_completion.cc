@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "shell/shell_texts.h"
 
 namespace lightcal::app {
@@ -14,11 +15,8 @@ std::string Quoted(const std::string& text) {
 // "__fish_seen_subcommand_from lights; and __fish_seen_subcommand_from list"
 std::string Condition(const TypedCommand& command) {
   if (command.path.empty()) return "__fish_use_subcommand";
-  std::string text;
-  for (const std::string& word : command.path) {
-    text += (text.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
-  }
-  return text;
+  return "__fish_seen_subcommand_from " +
+         Joined(command.path, "; and __fish_seen_subcommand_from ");
 }
 
 std::string OptionLine(const std::string& start, const TypedOption& option) {

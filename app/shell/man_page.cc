@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "shell/shell_texts.h"
 
 namespace lightcal::app {
@@ -34,8 +35,7 @@ std::string Verbatim(const std::string& lines) {
 // "-o, --output FILE", or a nameless word's name.
 std::string Heading(const TypedOption& option) {
   if (option.names.empty()) return Italic(option.placeholder) + (option.many ? " ..." : "");
-  std::string text;
-  for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + Bold(name);
+  std::string text = Joined(option.names, ", ", Bold);
   if (option.values > 0) text += " " + Italic(option.placeholder) + (option.many ? " ..." : "");
   return text;
 }
@@ -43,10 +43,8 @@ std::string Heading(const TypedOption& option) {
 std::string Paragraph(const TypedOption& option) {
   std::string text = ".TP\n" + Heading(option) + "\n" + Plain(option.summary);
   if (!option.words.empty()) {
-    std::string words;
-    for (const std::string& word : option.words) words += (words.empty() ? "" : ", ") + Bold(word);
-    text +=
-        "\n.br\n" + std::string(option.commas ? "Words, joined by commas: " : "One of ") + words;
+    text += "\n.br\n" + std::string(option.commas ? "Words, joined by commas: " : "One of ") +
+            Joined(option.words, ", ", Bold);
   }
   if (!option.usual.empty()) text += "\n.br\nDefault: " + Plain(option.usual);
   if (option.required) text += "\n.br\nRequired.";

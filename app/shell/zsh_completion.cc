@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "shell/shell_texts.h"
 
 namespace lightcal::app {
@@ -16,8 +17,7 @@ std::string Explained(const std::string& text) {
 
 // ":FILE:_files", once for each value.
 std::string Values(const TypedOption& option) {
-  std::string joined;
-  for (const std::string& word : option.words) joined += (joined.empty() ? "" : " ") + word;
+  const std::string joined = Joined(option.words, " ");
   std::string action = "_files";
   if (option.number) action = " ";
   if (!joined.empty()) action = option.commas ? "_values -s , word " + joined : "(" + joined + ")";
@@ -34,12 +34,10 @@ std::string Specification(const TypedOption& option) {
     return Quoted((option.many ? "*" : "") + Values(option));
   }
   const bool equals = option.values == 1;
-  std::string all, forms;
-  for (const std::string& name : option.names) {
-    const bool is_long = name.starts_with("--");
-    all += (all.empty() ? "" : " ") + name;
-    forms += (forms.empty() ? "" : ",") + name + (equals ? (is_long ? "=" : "+") : "");
-  }
+  const std::string all = Joined(option.names, " ");
+  const std::string forms = Joined(option.names, ",", [&](const std::string& name) {
+    return name + (equals ? (name.starts_with("--") ? "=" : "+") : "");
+  });
   const std::string once = option.many ? "*" : "(" + all + ")";
   const std::string rest = "[" + Explained(option.summary) + "]" + Values(option);
   if (option.names.size() == 1) return Quoted(once + forms + rest);

@@ -96,7 +96,7 @@ class BracketShoot {
                   " (Ctrl-C stops; what is here stays)");
     for (std::size_t i = 0; i < shoot_.frames.size(); ++i) {
       if (folder_->Has(shoot_.frames[i])) continue;
-      if (InterruptGuard::Wish().Requested()) {
+      if (InterruptGuard::StopRequest().Requested()) {
         return Failed("interrupted", shoot_.light, "stopped by you");
       }
       if (auto taken = Take(i); !taken) return taken;
@@ -232,7 +232,7 @@ class BracketShoot {
     const Seconds patience = Seconds(2.0 * frame.planned_s) + kCardPatience;
     auto files = camera_->Capture(shoot_.pictures, patience);
     for (int i = 0; i < kBusyRetries && !files && files.error().code == fault::kBusy &&
-                    !InterruptGuard::Wish().Requested();
+                    !InterruptGuard::StopRequest().Requested();
          ++i) {
       std::this_thread::sleep_for(kBusyPause);
       files = camera_->Capture(shoot_.pictures, patience);

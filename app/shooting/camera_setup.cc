@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/units_text.h"
 
 namespace lightcal::app {
@@ -15,18 +16,12 @@ using NumberOfChoice = std::optional<double> (*)(std::string_view);
 // a stop, of the f-number and of the ISO.
 constexpr double kNearFNumber = 0.06, kNearIso = 0.12;
 
-std::string Listed(const std::vector<std::string>& choices) {
-  std::string text;
-  for (const std::string& choice : choices) text += (text.empty() ? "" : ", ") + choice;
-  return text;
-}
-
 Result<std::string> ChoiceOf(const CameraSetting& setting, const std::string& option,
                              const std::string& wish, double near, NumberOfChoice number_of) {
   const auto wanted = number_of(wish);
   if (!wanted)
     return WrongUsage(option + " " + wish,
-                      "is no such value; there are " + Listed(setting.choices));
+                      "is no such value; there are " + Joined(setting.choices));
   const std::string* nearest = nullptr;
   double distance = near;
   for (const std::string& choice : setting.choices) {
@@ -36,7 +31,7 @@ Result<std::string> ChoiceOf(const CameraSetting& setting, const std::string& op
     nearest = &choice;
   }
   if (nearest == nullptr) {
-    return WrongUsage(option + " " + wish, "the camera offers " + Listed(setting.choices));
+    return WrongUsage(option + " " + wish, "the camera offers " + Joined(setting.choices));
   }
   return *nearest;
 }
@@ -62,7 +57,7 @@ class SetupMaker {
  public:
   SetupMaker(const CameraState& state, const ExposureWish& wish) : state_(state), wish_(wish) {}
 
-  Result<CameraSetup> Make(const BracketWish& bracket) {
+  Result<CameraSetup> Make(const BracketRange& bracket) {
     if (!state_.shutter || state_.shutter->read_only) {
       return Failed(std::string(fault::kSettingRefused), "shutter",
                     "the camera does not let its shutter time be set over the cable; turn its dial "
@@ -172,7 +167,7 @@ class SetupMaker {
 
 }  // namespace
 
-Result<CameraSetup> SetupFor(const CameraState& state, const BracketWish& bracket,
+Result<CameraSetup> SetupFor(const CameraState& state, const BracketRange& bracket,
                              const ExposureWish& wish) {
   return SetupMaker(state, wish).Make(bracket);
 }

@@ -31,7 +31,7 @@ struct CameraSetup {
 // RAW, on the card, ISO fixed, no dark frame subtracted, the bracket about its centre.
 // Warns (in plan.warnings): not_raw, auto_iso, and as PlanBracket.   Fails: setting_refused (the
 // shutter cannot be set over the cable).   Wrong usage: a wish the camera does not offer.
-[[nodiscard]] Result<CameraSetup> SetupFor(const CameraState& state, const BracketWish& bracket,
+[[nodiscard]] Result<CameraSetup> SetupFor(const CameraState& state, const BracketRange& bracket,
                                            const ExposureWish& wish);
 
 }  // namespace lightcal::app

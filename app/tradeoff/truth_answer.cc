@@ -2,22 +2,18 @@
 #include "truth_answer.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
 namespace {
 
-using nlohmann::ordered_json;
 using tradeoff::TruthRow;
 
 constexpr const char* kStrictest = "strictest";
 constexpr const char* kRecommended = "recommended";
 // Behind an interval of each of hundreds of replicas: tells a width to 3 %, what counts to less.
 constexpr int kDraws = 1000;
-
-std::string Percent(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
 
 const TruthRow& RowOf(const std::vector<TruthRow>& rows, const std::string& name) {
   return *std::ranges::find(rows, name, &TruthRow::name);
@@ -47,7 +43,7 @@ std::vector<std::vector<std::string>> TruthCells(const std::vector<TruthRow>& ro
       {"setting", "mean off truth", "rms off truth", "95 % interval holds it", "light"}};
   for (const TruthRow& row : rows) {
     if (row.replicas == 0) continue;
-    cells.push_back({row.name, Percent(row.mean), Percent(row.rms),
+    cells.push_back({row.name, PercentText(row.mean), PercentText(row.rms),
                      std::to_string(row.held) + " of " + std::to_string(row.intervals), row.light});
   }
   return cells;
@@ -57,25 +53,18 @@ std::string TruthSentence(const std::vector<TruthRow>& rows) {
   const TruthRow& strict = RowOf(rows, kStrictest);
   const TruthRow& recommended = RowOf(rows, kRecommended);
   return "Against the truth of a synthetic twin, read " + std::to_string(recommended.replicas) +
-         " times: the recommended setting is " + Percent(recommended.rms) + " off (the strictest " +
-         Percent(strict.rms) + "), and its 95 % interval holds the truth in " +
+         " times: the recommended setting is " + PercentText(recommended.rms) +
+         " off (the strictest " + PercentText(strict.rms) +
+         "), and its 95 % interval holds the truth in " +
          RoundedText(100.0 * recommended.held_share(), 3) + " % (" +
          RoundedText(100.0 * strict.held_share(), 3) + " %).";
 }
 
-ordered_json TruthJson(const std::vector<TruthRow>& rows) {
-  ordered_json json = ordered_json::array();
-  for (const TruthRow& row : rows) {
-    json.push_back({{"name", row.name},
-                    {"replicas", row.replicas},
-                    {"refused", row.refused},
-                    {"light", row.light},
-                    {"mean_relative", row.mean},
-                    {"rms_relative", row.rms},
-                    {"intervals", row.intervals},
-                    {"intervals_that_hold_the_truth", row.held}});
-  }
-  return json;
+records::Node TruthNode(const TruthRow& row) {
+  return {{"name", row.name},           {"replicas", row.replicas},
+          {"refused", row.refused},     {"light", row.light},
+          {"mean_relative", row.mean},  {"rms_relative", row.rms},
+          {"intervals", row.intervals}, {"intervals_that_hold_the_truth", row.held}};
 }
 
 }  // namespace lightcal::app

@@ -74,7 +74,7 @@ Contents SensitivityContents(const std::string& text, const std::string& path) {
 Contents ProfileContents(const std::string& text, const std::string& path) {
   const auto profile = AccuracyProfileFromJson(text, path);
   if (!profile) return tl::unexpected(profile.error());
-  return "tolerance " + RoundedText(100.0 * profile->tolerance_relative, 2) + " %";
+  return "tolerance " + PercentText(profile->tolerance_relative);
 }
 
 Contents CaptureContents(const std::string& text, const std::string& path) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "lightcal/colorimetry/cie_tables/tables.h"
-#include "run_cli.h"
 
 namespace lightcal {
 namespace {
@@ -35,13 +34,6 @@ TEST(CieTables, OddDaylightRowsAreLinearBetweenTheirNeighbours) {
     EXPECT_NEAR(b.s1, (a.s1 + c.s1) / 2, 1e-12) << i;
     EXPECT_NEAR(b.s2, (a.s2 + c.s2) / 2, 1e-12) << i;
   }
-}
-
-TEST(CieTables, TheSourceIsWhatTheGeneratorWrites) {
-  const auto run = test::RunProgram(
-      {"python3", LIGHTCAL_SOURCE_DIR "/lib/lightcal/colorimetry/cie_tables/make_tables.py",
-       "--check"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
 }  // namespace

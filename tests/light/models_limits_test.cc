@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lightcal/light/axial_shape.h"
-#include "lightcal/light/models/dome_source.h"
 #include "lightcal/light/models/source_model.h"
 
 namespace lightcal {
@@ -143,33 +142,6 @@ TEST(Models, GodotsSpotIsFullOnTheAxisAndDarkAtItsRim) {
   EXPECT_NEAR(GodotSpotProfile(0.0, outer, 1.0), 1.0, 1e-4);
   EXPECT_NEAR(GodotSpotProfile(0.5 * outer, outer, 2.0), 0.75, 1e-12);
   EXPECT_EQ(GodotSpotProfile(outer, outer, 1.0), 0.0);
-}
-
-TEST(Models, AUniformDomeGivesPiTimesItsLuminance) {
-  DomeHarmonics dome;
-  constexpr int kRows = 400;
-  for (int i = 0; i < kRows; ++i) {
-    const double z = -1.0 + 2.0 * (i + 0.5) / kRows;
-    const double s = std::sqrt(1.0 - z * z);
-    for (int j = 0; j < 16; ++j) {
-      const double f = 2.0 * kPi * j / 16;
-      dome.Add({s * std::cos(f), s * std::sin(f), z}, 7.0 * 4.0 * kPi / (16.0 * kRows));
-    }
-  }
-  EXPECT_NEAR(LuxOfDome(dome, Vec3{0.6, 0.0, 0.8}), 7.0 * kPi, 1e-4);
-}
-
-TEST(Models, ASunInNineNumbersErrsByNoMoreThanItsBound) {
-  DomeHarmonics dome;
-  dome.Add({0.0, 0.0, 1.0}, 1000.0);
-  double worst = 0.0;
-  for (int i = 0; i <= 180; ++i) {
-    const double c = std::cos(kPi * i / 180.0);
-    const double found = LuxOfDome(dome, Vec3{std::sqrt(1.0 - c * c), 0.0, c});
-    worst = std::max(worst, std::abs(found - 1000.0 * std::max(0.0, c)));
-  }
-  EXPECT_NEAR(worst, DomeErrorBound(dome), 1e-9);
-  EXPECT_NEAR(LuxOfDome(dome, Vec3{0.0, 0.0, 1.0}), 1062.5, 1e-9);
 }
 
 TEST(Models, ASunsDiskMattersOnlyAtTheHorizon) {

@@ -31,7 +31,6 @@ TEST(InverseSquare, IntensityComesBackFromATiltedOffsetReading) {
   const Lux e = LuxFromCandela(Candela(120.0), at);
   EXPECT_NEAR(e.value(), 120.0 * 0.6 / (0.77 * 0.77), 1e-12);
   EXPECT_NEAR(CandelaFromLux(e, at).value(), 120.0, 1e-12);
-  EXPECT_NEAR(DistanceFromCandelaAndLux(Candela(48.0), Lux(192.0)).value(), 0.5, 1e-15);
 }
 
 TEST(InverseSquare, FluxThroughAPlaneBelowALampIsHalfOfItsFlux) {
@@ -75,7 +74,7 @@ TEST(Lambert, AUniformDomeGivesPiTimesItsLuminance) {
 TEST(Lambert, AWhiteSurfaceReturnsWhatFallsOnIt) {
   EXPECT_DOUBLE_EQ(ExitanceOfLitSurface(Lux(318.0), 1.0).value(), 318.0);
   EXPECT_NEAR(LuminanceOfLitSurface(Lux(pi), 1.0).value(), 1.0, 1e-15);
-  EXPECT_NEAR(LuminanceFromExitance(ExitanceFromLuminance(Nits(54.7))).value(), 54.7, 1e-13);
+  EXPECT_NEAR(ExitanceFromLuminance(Nits(54.7)).value(), 54.7 * pi, 1e-13);
 }
 
 // V(lambda) by the fit of Wyman, Sloan & Shirley, JCGT 2(2) (2013), within about 1 %.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows 18-23 of the errors found in the seed document: colour (its sections 6.1 to 6.5).
+// The errors of the seed document about colour (its sections 6.1 to 6.5); rows.txt lists them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ double SeedHotDaylightX(double t) {
   return ((-2.0064e9 / t + 1.9081e6) / t + 0.24748e3) / t + 0.237040;
 }
 
-TEST(SeedErrors, Row18BlueColumnOfSrgbEndsIn0950532) {
+TEST(SeedErrors, BlueColumnOfSrgbEndsIn0950532) {
   const double seed = 0.0950536;
   Matrix3 matrix = XyzFromRgbMatrix(RgbSpace::kSrgb);
   EXPECT_NEAR(matrix[2][2], 0.950532, 5e-6);
@@ -35,7 +35,7 @@ TEST(SeedErrors, Row18BlueColumnOfSrgbEndsIn0950532) {
   EXPECT_NEAR(white().y, 0.458, 1e-3);
 }
 
-TEST(SeedErrors, Row19HotDaylightTakes19018ThousandOverTSquared) {
+TEST(SeedErrors, HotDaylightTakes19018ThousandOverTSquared) {
   const double ours = DaylightXy(Kelvin(10000))->x;
   EXPECT_NEAR(ours, ((-2.0064e9 / 1e4 + 1.9018e6) / 1e4 + 0.24748e3) / 1e4 + 0.237040, 1e-15);
   EXPECT_NEAR(SeedHotDaylightX(10000) - ours, 6.3e-5, 1e-7);
@@ -47,7 +47,7 @@ TEST(SeedErrors, Row19HotDaylightTakes19018ThousandOverTSquared) {
 }
 
 // "Colour temperature to RGB" in the seed is daylight only: nothing for a lamp.
-TEST(SeedErrors, Row20LampsBelow4000KelvinHaveAColour) {
+TEST(SeedErrors, LampsBelow4000KelvinHaveAColour) {
   EXPECT_FALSE(DaylightXy(Kelvin(2856)).has_value());
   const Xy lamp = XyFromCct(Kelvin(2848.0 * kC2MetreKelvin / kC2OfIlluminantAMetreKelvin));
   EXPECT_NEAR(lamp.x, 0.4475735, 1e-7);  // illuminant A, by its own formula
@@ -57,7 +57,7 @@ TEST(SeedErrors, Row20LampsBelow4000KelvinHaveAColour) {
   EXPECT_LT(rgb.b, 0.3);
 }
 
-TEST(SeedErrors, Row21SevenThousandKelvinBelongsToTheFirstBranch) {
+TEST(SeedErrors, SevenThousandKelvinBelongsToTheFirstBranch) {
   const double first = ((-4.6070e9 / 7e3 + 2.9678e6) / 7e3 + 0.09911e3) / 7e3 + 0.244063;
   const double second = ((-2.0064e9 / 7e3 + 1.9018e6) / 7e3 + 0.24748e3) / 7e3 + 0.237040;
   EXPECT_GT(std::abs(first - second), 4e-7);  // so it matters which is meant
@@ -66,7 +66,7 @@ TEST(SeedErrors, Row21SevenThousandKelvinBelongsToTheFirstBranch) {
 }
 
 // Nearest means nearest in CIE 1960 uv: in xy another temperature would be "nearest".
-TEST(SeedErrors, Row22NearestIsMeantInUvAndOnlyNearTheLocus) {
+TEST(SeedErrors, NearestIsMeantInUvAndOnlyNearTheLocus) {
   const Xy greenish = XyFromCct(Kelvin(4000), 0.02);
   EXPECT_NEAR(CctFromXy(greenish).temperature.value(), 4000.0, 1e-5);
   double best_K = 0.0, best = 1.0;
@@ -80,7 +80,7 @@ TEST(SeedErrors, Row22NearestIsMeantInUvAndOnlyNearTheLocus) {
   EXPECT_FALSE(CctFromXy({0.15, 0.06}).valid());
 }
 
-TEST(SeedErrors, Row23NamesOfDaylightIlluminantsAreNotTheirTemperatures) {
+TEST(SeedErrors, NamesOfDaylightIlluminantsAreNotTheirTemperatures) {
   const struct {
     double name_K, nominal_K;
   } rows[] = {{5000, 5003}, {5500, 5503}, {6500, 6504}, {7500, 7504}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The seed's errors about quantities and their values (its chapter 4, 5.1 and 5.2): rows 35-48.
+// The seed's errors about quantities and their values (its chapter 4, 5.1 and 5.2); rows.txt lists
+// them.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -37,7 +38,7 @@ const ReferenceValue& Reference(ReferenceQuantity quantity, std::string_view wha
   return found == nullptr ? kMissing : *found;
 }
 
-TEST(SeedErrors, Row35APhotometricFileHoldsIntensityByAngle) {
+TEST(SeedErrors, APhotometricFileHoldsIntensityByAngle) {
   // I(theta) = 100 cos(theta) below 90 degrees, every 5 degrees as a file would list it.
   std::vector<Radians> angles;
   std::vector<Candela> intensities;
@@ -59,7 +60,7 @@ TEST(SeedErrors, Row35APhotometricFileHoldsIntensityByAngle) {
   static_assert(!std::is_constructible_v<Radians, Nanometres>);
 }
 
-TEST(SeedErrors, Row36LampEfficacyMultipliesElectricalPower) {
+TEST(SeedErrors, LampEfficacyMultipliesElectricalPower) {
   static_assert(
       std::is_invocable_v<decltype(LumensFromElectrical), ElectricalWatts, LumensPerWatt>);
   static_assert(!std::is_invocable_v<decltype(LumensFromElectrical), RadiantWatts, LumensPerWatt>);
@@ -71,7 +72,7 @@ TEST(SeedErrors, Row36LampEfficacyMultipliesElectricalPower) {
   EXPECT_DOUBLE_EQ(ElectricalFromLumens(Lumens(900.0), LumensPerWatt(100.0)).value(), 9.0);
 }
 
-TEST(SeedErrors, Row37PhotopicWeightAndLampEfficiencyAreTwoThings) {
+TEST(SeedErrors, PhotopicWeightAndLampEfficiencyAreTwoThings) {
   static_assert(!std::is_invocable_v<decltype(LumensFromRadiant), RadiantWatts, OverallEfficiency>);
   static_assert(!std::is_constructible_v<PhotopicWeight, OverallEfficiency>);
   constexpr double kV600 = 0.631;  // CIE 018:2019
@@ -84,7 +85,7 @@ TEST(SeedErrors, Row37PhotopicWeightAndLampEfficiencyAreTwoThings) {
   EXPECT_DOUBLE_EQ(EfficacyFromEfficiency(bulb).value(), 10.0);
 }
 
-TEST(SeedErrors, Row38AWattIs683LumensAt540TerahertzOnly) {
+TEST(SeedErrors, AWattIs683LumensAt540TerahertzOnly) {
   EXPECT_DOUBLE_EQ(LumensFromRadiant(RadiantWatts(1.0), kPhotopicWeightAt540THz).value(), 683.0);
   constexpr double kV650 = 0.107;  // CIE 018:2019
   EXPECT_NEAR(LumensFromRadiant(RadiantWatts(1.0), PhotopicWeight(kV650)).value(), 73.1, 0.05);
@@ -98,7 +99,7 @@ TEST(SeedErrors, Row38AWattIs683LumensAt540TerahertzOnly) {
   EXPECT_LT(EfficacyOfRadiation(flux), kEfficacyAt540THz);
 }
 
-TEST(SeedErrors, Row39ACandelaIsAWattPer683PerSteradian) {
+TEST(SeedErrors, ACandelaIsAWattPer683PerSteradian) {
   const WattsPerSteradian intensity = RadiantFromCandela(Candela(1.0), kPhotopicWeightAt540THz);
   EXPECT_NEAR(intensity.value(), 1.0 / 683.0, 1e-18);
   EXPECT_DOUBLE_EQ(CandelaFromRadiant(intensity, kPhotopicWeightAt540THz).value(), 1.0);
@@ -109,7 +110,7 @@ TEST(SeedErrors, Row39ACandelaIsAWattPer683PerSteradian) {
   EXPECT_NEAR(ours / seed, 4.0 * pi, 1e-6);
 }
 
-TEST(SeedErrors, Row41ASixtyWattBulbHasOneEfficacyThatItsFluxConfirms) {
+TEST(SeedErrors, ASixtyWattBulbHasOneEfficacyThatItsFluxConfirms) {
   const ReferenceValue& flux = Reference(ReferenceQuantity::kFlux, "incandescent bulb 60 W");
   const ReferenceValue& efficacy =
       Reference(ReferenceQuantity::kEfficacy, "incandescent bulb 60 W");
@@ -121,7 +122,7 @@ TEST(SeedErrors, Row41ASixtyWattBulbHasOneEfficacyThatItsFluxConfirms) {
   EXPECT_FALSE(efficacy.seed_note.empty());
 }
 
-TEST(SeedErrors, Row43LuminanceIsASecondDerivativeOfFlux) {
+TEST(SeedErrors, LuminanceIsASecondDerivativeOfFlux) {
   // Flux of a matt patch of 500 nits through a small cone at 60 degrees, from E = I/d^2 cos.
   const auto flux = [](double area, double omega) {
     return Lumens(500.0 * area * std::cos(pi / 3.0) * omega);
@@ -141,7 +142,7 @@ TEST(SeedErrors, Row43LuminanceIsASecondDerivativeOfFlux) {
   EXPECT_NEAR(luminance(whole, 1e-4, 1e-4) / luminance(whole, 1e-4, 1e-3), 10.0, 1e-9);
 }
 
-TEST(SeedErrors, Row44AFullMoonStaysBelowAThirdOfALux) {
+TEST(SeedErrors, AFullMoonStaysBelowAThirdOfALux) {
   const ReferenceValue& moon = Reference(ReferenceQuantity::kIlluminance, "full moon");
   EXPECT_NEAR(moon.low, 0.05, 1e-12);
   EXPECT_LE(moon.high, 0.32);
@@ -150,7 +151,7 @@ TEST(SeedErrors, Row44AFullMoonStaysBelowAThirdOfALux) {
   EXPECT_FALSE(moon.seed_note.empty());
 }
 
-TEST(SeedErrors, Row48SunAndMoonAreGivenAsIlluminanceNotFlux) {
+TEST(SeedErrors, SunAndMoonAreGivenAsIlluminanceNotFlux) {
   SourceGeometry sun;
   sun.kind = LightKind::kDirectional;
   const auto as_flux = ConvertSource(sun, SourceQuantity::kFlux, 1e5);
@@ -168,7 +169,7 @@ TEST(SeedErrors, Row48SunAndMoonAreGivenAsIlluminanceNotFlux) {
   }
 }
 
-// Row 40 is a rounding slip (mark T), so it is outside the set; the exact figures all the same.
+// A rounding slip of the seed, so outside of the set; the exact figures all the same.
 TEST(SeedExample, SixtyWattsAtHalfAMetreKeepsItsDigits) {
   const Lumens flux = LumensFromElectrical(ElectricalWatts(60.0), LumensPerWatt(10.0));
   SourceGeometry bulb;

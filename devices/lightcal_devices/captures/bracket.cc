@@ -155,7 +155,7 @@ void WarnOfExposures(const std::vector<FrameInfo>& frames, Warnings& warnings) {
     if (frame.lens_shading_in_opcodes) {
       warnings.push_back({"lens_shading_not_applied", frame.file,
                           "it asks readers to correct its lens shading, which is not done here; "
-                          "calibrate a flat field with lightcal camera"});
+                          "calibrate a flat field with {CalibrateCamera}"});
     }
   }
   for (std::size_t i = 0; i + 1 < frames.size(); ++i) {

@@ -67,13 +67,13 @@ struct Candidate {
 };
 
 std::vector<Candidate> CandidatesOf(const std::vector<std::string>& choices, Seconds centre,
-                                    const BracketWish& wish) {
+                                    const BracketRange& range) {
   std::vector<Candidate> candidates;
   for (const std::string& label : choices) {
     const auto time = TimeOfChoice(label);
     if (!time) continue;
     Candidate candidate{label, *time, std::log2(time->time / centre)};
-    for (const LampFlicker& lamp : wish.lamps) {
+    for (const LampFlicker& lamp : range.lamps) {
       candidate.flicker = std::max(candidate.flicker, WorstFlickerError(lamp, time->time));
     }
     candidates.push_back(std::move(candidate));
@@ -102,9 +102,8 @@ void WarnOfFlicker(const std::vector<PlannedFrame>& frames, Warnings& warnings) 
   }
   if (unsafe.empty()) return;
   warnings.push_back({"flicker_unsafe_shutter", unsafe,
-                      "no whole periods of the lamp: off by up to " +
-                          RoundedText(100.0 * worst, 2) +
-                          " %, as it happens; a smaller aperture or a neutral filter lets all "
+                      "no whole periods of the lamp: off by up to " + PercentText(worst) +
+                          ", as it happens; a smaller aperture or a neutral filter lets all "
                           "times be longer"});
 }
 
@@ -157,9 +156,9 @@ std::optional<std::string> RawFormat(const std::vector<std::string>& choices) {
   return best;
 }
 
-Result<BracketWish> ParseBracket(std::string_view text) {
+Result<BracketRange> ParseBracket(std::string_view text) {
   const auto wrong = [&] {
-    return WrongUsage("--bracket " + std::string(text),
+    return WrongUsage("{shoot.bracket} " + std::string(text),
                       "give half the range and the step: ±4EV/1EV is nine frames 1 EV apart");
   };
   std::string_view rest = TrimBlanks(text);
@@ -188,19 +187,19 @@ Result<BracketWish> ParseBracket(std::string_view text) {
       2.0 * half / step + 1.0 > kMostFrames + kSlack) {
     return wrong();
   }
-  return BracketWish{half, step, {}};
+  return BracketRange{half, step, {}};
 }
 
 Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices, Seconds centre,
-                                const BracketWish& wish) {
-  std::vector<Candidate> candidates = CandidatesOf(choices, centre, wish);
-  const int each_way = static_cast<int>(std::floor(wish.half_range_ev / wish.step_ev + kSlack));
+                                const BracketRange& range) {
+  std::vector<Candidate> candidates = CandidatesOf(choices, centre, range);
+  const int each_way = static_cast<int>(std::floor(range.half_range_ev / range.step_ev + kSlack));
   BracketPlan plan;
   std::string missing;
   for (int i = -each_way; i <= each_way; ++i) {
-    const double target = i * wish.step_ev;
-    Candidate* chosen = NearestTo(target, wish.step_ev * kThird, true, candidates);
-    if (chosen == nullptr) chosen = NearestTo(target, wish.step_ev / 2.0, false, candidates);
+    const double target = i * range.step_ev;
+    Candidate* chosen = NearestTo(target, range.step_ev * kThird, true, candidates);
+    if (chosen == nullptr) chosen = NearestTo(target, range.step_ev / 2.0, false, candidates);
     if (chosen == nullptr) {
       missing += (missing.empty() ? "" : ", ") + RoundedText(target, 2) + " EV";
       continue;
@@ -209,17 +208,18 @@ Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices, Seconds
     plan.frames.push_back({chosen->label, chosen->time, chosen->ev, chosen->flicker});
   }
   if (plan.frames.size() < 2) {
-    return Refused("no_bracket", "--bracket",
-                   "the camera offers no two shutter times for it; name another --center, or a "
-                   "smaller range or step");
+    return Refused(
+        "no_bracket", "{shoot.bracket}",
+        "the camera offers no two shutter times for it; name another {shoot.center}, or a "
+        "smaller range or step");
   }
   std::ranges::stable_sort(plan.frames, {}, [](const PlannedFrame& f) { return f.ev; });
   if (!missing.empty()) {
-    plan.warnings.push_back({"bracket_clipped", missing,
-                             "the camera has no shutter time there; " +
-                                 std::to_string(plan.frames.size()) +
-                                 " frames are left. Another "
-                                 "--center, --aperture or --iso moves the range"});
+    plan.warnings.push_back(
+        {"bracket_clipped", missing,
+         "the camera has no shutter time there; " + std::to_string(plan.frames.size()) +
+             " frames are left. Another "
+             "{shoot.center}, {shoot.aperture} or {shoot.iso} moves the range"});
   }
   WarnOfFlicker(plan.frames, plan.warnings);
   return plan;

@@ -31,7 +31,7 @@ struct ShutterTime {
 // uncompressed and full-size before others; absent: none does.
 [[nodiscard]] std::optional<std::string> RawFormat(const std::vector<std::string>& choices);
 
-struct BracketWish {
+struct BracketRange {
   double half_range_ev = 0.0;
   double step_ev = 0.0;
   std::vector<LampFlicker> lamps;  // those in the picture that flicker
@@ -39,7 +39,7 @@ struct BracketWish {
 
 // "±4EV/1EV" "+-4EV/1EV" "4EV/1EV" "4/1": half the range and the step; at most 61 frames, steps of
 // a third of a stop and more.   Wrong usage: anything else.
-[[nodiscard]] Result<BracketWish> ParseBracket(std::string_view text);
+[[nodiscard]] Result<BracketRange> ParseBracket(std::string_view text);
 
 struct PlannedFrame {
   std::string shutter;  // the camera's word
@@ -57,10 +57,10 @@ struct BracketPlan {
 // A flicker-safe exposure errs by no more than shutters themselves repeat to.
 inline constexpr double kFlickerSafe = 0.03;
 
-// One frame a step of the wish: the choice nearest to it, or, where a lamp flickers, the nearest
+// One frame a step of the range: the choice nearest to it, or, where a lamp flickers, the nearest
 // that is flicker-safe within a third of a step. No choice is used twice.
 // Refused: no_bracket (fewer than two frames come out).
 [[nodiscard]] Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices,
-                                              Seconds centre, const BracketWish& wish);
+                                              Seconds centre, const BracketRange& range);
 
 }  // namespace lightcal

@@ -114,10 +114,10 @@ void TakeTStop(const WrittenExposure& written, FrameExposure& exposure, const st
   const auto t_stop = Plausible(written.t_stop, kTStops);
   if (!t_stop) return;
   if (exposure.f_number && !kTOverN.Holds(*t_stop / *exposure.f_number)) {
-    warnings.push_back({"exposure_tags_disagree", subject,
-                        "no lens of f/" + RoundedText(*exposure.f_number, 3) + " is T" +
-                            RoundedText(*t_stop, 3) +
-                            "; neither is believed: give --f-number or --t-stop"});
+    warnings.push_back(
+        {"exposure_tags_disagree", subject,
+         "no lens of f/" + RoundedText(*exposure.f_number, 3) + " is T" + RoundedText(*t_stop, 3) +
+             "; neither is believed: give {exposure.f_number} or {exposure.t_stop}"});
     exposure.f_number.reset();
     return;
   }

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/mapped_file.h"
 
@@ -138,10 +139,9 @@ Result<Chosen> ChooseChannels(const Imf::Header& header, FrameInfo& info) {
   chosen.names = ColorLayer(names);
   if (chosen.names.empty() && has("Y")) chosen.names = {"Y"};
   if (chosen.names.empty()) {
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
     return Refused("no_color_channels", info.file,
-                   "it holds " + (all.empty() ? "no channels" : all) + "; R, G, B or Y are needed");
+                   "it holds " + (names.empty() ? "no channels" : Joined(names)) +
+                       "; R, G, B or Y are needed");
   }
   for (const std::string& name : chosen.names) {
     const Imf::Channel& channel = header.channels()[name];

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "lightcal/core/joined.h"
 #include "lightcal_devices/captures/gphoto_module.h"
 #include "lightcal_devices/captures/module_door.h"
 #include "lightcal_devices/transport/sysfs.h"
@@ -98,8 +99,8 @@ Result<FoundCamera> ChooseCamera(const std::vector<FoundCamera>& found, std::str
     return camera;
   }
   if (!wanted.empty() && wanted != kCameraDriver && !wanted.starts_with(prefix)) {
-    return WrongUsage("--device " + std::string(wanted),
-                      "names no camera; give gphoto2:ptpip:HOST, or an id of lightcal devices");
+    return WrongUsage("{meter.device} " + std::string(wanted),
+                      "names no camera; give gphoto2:ptpip:HOST, or an id of {FindMeters}");
   }
   std::vector<FoundCamera> fitting;
   std::ranges::copy_if(found, std::back_inserter(fitting), [&](const FoundCamera& camera) {
@@ -109,11 +110,10 @@ Result<FoundCamera> ChooseCamera(const std::vector<FoundCamera>& found, std::str
   if (fitting.empty()) {
     return Failed(std::string(fault::kNoDevice), wanted.empty() ? "camera" : std::string(wanted),
                   "no camera is plugged in; switch it on, set it to PTP (PC remote) where it asks, "
-                  "or name one in the network: --device gphoto2:ptpip:HOST");
+                  "or name one in the network: {meter.device} gphoto2:ptpip:HOST");
   }
-  std::string ids;
-  for (const FoundCamera& camera : fitting) ids += (ids.empty() ? "" : ", ") + camera.id;
-  return WrongUsage("--device", "several cameras are plugged in; name one of " + ids);
+  return WrongUsage("{meter.device}", "several cameras are plugged in; name one of " +
+                                          Joined(fitting, ", ", &FoundCamera::id));
 }
 
 Result<std::unique_ptr<TetheredCamera>> OpenCamera(const FoundCamera& camera) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
@@ -161,12 +162,6 @@ std::optional<CsvColumn> SpectralColumn(const std::string& simple,
   return std::nullopt;
 }
 
-std::string JoinedName(const std::vector<Token>& tokens) {
-  std::string joined;
-  for (const Token& token : tokens) joined += (joined.empty() ? "" : "_") + token.text;
-  return joined;
-}
-
 }  // namespace
 
 CsvColumn ColumnFromName(std::string_view name) {
@@ -176,7 +171,7 @@ CsvColumn ColumnFromName(std::string_view name) {
     spectral->written = name;
     return *spectral;
   }
-  const std::string joined = JoinedName(tokens);
+  const std::string joined = Joined(tokens, "_", &Token::text);
   const KnownName* known = Lookup(kScalarNames, joined);
   if (known == nullptr) known = Lookup(kOtherNames, joined);
   if (known == nullptr) return {CsvQuantity::kUnknown, 1.0, std::string(name), ""};
@@ -184,11 +179,8 @@ CsvColumn ColumnFromName(std::string_view name) {
 }
 
 std::string KnownColumnNames() {
-  std::string names;
-  for (const KnownName& known : kScalarNames) {
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
-  }
-  return names + " with irradiance_W_m2_nm, irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative";
+  return Joined(kScalarNames, ", ", &KnownName::name) +
+         " with irradiance_W_m2_nm, irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative";
 }
 
 std::string NearestColumnName(std::string_view name) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/actlumus_log.h"
 #include "lightcal_devices/files/archive.h"
@@ -83,13 +84,9 @@ Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name) 
   const auto format = std::ranges::find_if(
       kFormats, [&](const Format& candidate) { return candidate.recognise(*text); });
   if (format != kFormats.end()) return format->read(*text, name);
-  std::string understood;
-  for (const Format& known : kFormats) {
-    understood += (understood.empty() ? "" : ", ") + std::string(known.name);
-  }
   return Refused("unknown_format", std::string(name),
-                 "its format is not recognised; understood are " + understood + " (" +
-                     files::PlainCsvColumns() + ")");
+                 "its format is not recognised; understood are " +
+                     Joined(kFormats, ", ", &Format::name) + " (" + files::PlainCsvColumns() + ")");
 }
 
 Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view column) {

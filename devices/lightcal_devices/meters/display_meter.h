@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hand-held lux meters that send what their display shows, and do not tell who they are.
+// Hand-held lux meters that send what their display shows, and do not tell who they are: one
+// dialogue, and one row a meter.
 #pragma once
 
+#include <cstddef>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -11,46 +15,49 @@
 
 namespace lightcal {
 
-struct DisplayMeterName {
+struct DisplayProtocol {
   std::string_view driver;  // "gm1020"
   std::string_view model;   // "GM1020": what the device is called when no serial number is given
-};
-
-class DisplayMeter : public Meter {
- public:
-  // `transport` outlives the meter.
-  DisplayMeter(Transport& transport, const MeterSetup& setup, const DisplayMeterName& name);
-
-  Result<MeterIdentity> Identify() final;  // asks nothing: the meter does not tell
-
- protected:
-  [[nodiscard]] Transport& transport() const { return transport_; }
-  [[nodiscard]] const MeterTiming& timing() const { return timing_; }
-  [[nodiscard]] const std::string& device() const { return device_; }  // "gm1020:GM1020"
-
- private:
-  Transport& transport_;
-  MeterTiming timing_;
-  std::string model_, device_;
-};
-
-// What a meter sends unasked, frame after frame.
-struct DisplayStream {
-  FrameSearch search;
-  int most_frames = 1;  // that are listened to, as FirstDecoded does
+  FrameSearch search;       // its wait is the meter's time for a reply
+  int most_frames = 1;      // that are listened to, as FirstDecoded does
+  int most_tries = 1;       // from the first byte on, while the answer is bad_reply
+  // What starts the sending, none where the meter sends unasked; and what ends it. The end is also
+  // said after an error or a cancellation; where that fails a reading warns of not_restored.
+  std::span<const std::byte> begin = {};
+  std::span<const std::byte> end = {};
+  std::size_t bytes_a_write = 64;
   Result<MeterReading> (*reading)(const Bytes& frame, const std::string& device) = nullptr;
 };
 
-// Listens, and says nothing.
-class StreamMeter final : public DisplayMeter {
- public:
-  StreamMeter(Transport& transport, const MeterSetup& setup, const DisplayMeterName& name,
-              DisplayStream stream);
+// For the meter table; both outlive the meter. Identify asks nothing. Errors besides the
+// transport's own: bad_reply, interrupted, and those of the protocol's `reading`.
+[[nodiscard]] std::unique_ptr<Meter> MakeDisplayMeter(const DisplayProtocol& protocol,
+                                                      Transport& transport,
+                                                      const MeterSetup& setup);
+template <const DisplayProtocol& kProtocol>
+[[nodiscard]] std::unique_ptr<Meter> MakeDisplayMeter(Transport& transport,
+                                                      const MeterSetup& setup) {
+  return MakeDisplayMeter(kProtocol, transport, setup);
+}
 
-  Result<MeterReading> Measure(const Cancellation& cancellation) override;
-
- private:
-  DisplayStream stream_;
-};
+// The rows, in <driver>/meter.cc, with what `reading` fails of; README.md there tells the protocol.
+namespace gm1020 {
+extern const DisplayProtocol kProtocol;  // of two measurements a second, while it is told to
+}
+namespace lutron16 {
+// Unasked, about once a second. Fails: wrong_unit, no_light_display (only the lower display is
+// sent), negative_reading.
+extern const DisplayProtocol kProtocol;
+}  // namespace lutron16
+namespace pce174 {
+// Fails: hold (the display is held, or shows MAX, MIN, PMAX, PMIN, REL or a stored value),
+// negative_reading.
+extern const DisplayProtocol kProtocol;
+}  // namespace pce174
+namespace ut382 {
+// Unasked, eight times a second. Fails: in_menu, hold (or MAX, MIN shown), overload (in a range
+// chosen by hand).
+extern const DisplayProtocol kProtocol;
+}  // namespace ut382
 
 }  // namespace lightcal

@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 
 namespace lightcal {
@@ -21,12 +22,13 @@ tl::unexpected<Error> UnknownDriver(std::string_view wanted) {
   const std::string nearest = NearestWord(DriverOf(wanted), names);
   std::string message = "no such device or driver";
   if (!nearest.empty()) message += "; did you mean " + nearest + "?";
-  return WrongUsage("--device " + std::string(wanted), message + " (see lightcal devices)");
+  return WrongUsage("{meter.device} " + std::string(wanted), message + " (see {FindMeters})");
 }
 
 tl::unexpected<Error> NotThere(std::string_view wanted) {
   return Failed(std::string(fault::kNoDevice), std::string(wanted),
-                "none is plugged in; plug it in and switch it on, or type the reading: --lux 192");
+                "none is plugged in; plug it in and switch it on, or type the reading: "
+                "{reading.illuminance} 192");
 }
 
 // A meter whose line is opened by an address nobody had to find: "konica:/dev/ttyUSB1".
@@ -43,9 +45,8 @@ std::optional<FoundMeter> Addressed(std::string_view wanted) {
 }
 
 tl::unexpected<Error> Several(const std::vector<FoundMeter>& fitting) {
-  std::string ids;
-  for (const FoundMeter& meter : fitting) ids += (ids.empty() ? "" : ", ") + meter.id;
-  return WrongUsage("--device", "several meters are plugged in; name one of " + ids);
+  return WrongUsage("{meter.device}", "several meters are plugged in; name one of " +
+                                          Joined(fitting, ", ", &FoundMeter::id));
 }
 
 // Whether the folder of `inner` lies within that of `outer`.
@@ -103,8 +104,8 @@ std::string Remedy(const FoundMeter& meter) {
   if (rules.empty()) return text;
   if (!without_rule.empty()) text += ", or ";
   text +=
-      "put this line into /etc/udev/rules.d/70-lightcal.rules, run `sudo udevadm control "
-      "--reload`, and plug it in again:";
+      "put this line into /etc/udev/rules.d/70-lightcal.rules, run "
+      "`sudo udevadm control --reload`, and plug it in again:";
   for (const std::string& rule : rules) text += "\n" + rule;
   return text;
 }

@@ -9,7 +9,7 @@ tl::unexpected<Error> NoFrame(const Transport& transport, const FrameSearch& sea
   if (received == 0) {
     return Failed(std::string(fault::kTimeout), transport.Name(),
                   "sent nothing in " + std::to_string(search.waits) + " waits of " +
-                      std::to_string(search.wait.count()) + " ms; " + search.hint);
+                      std::to_string(search.wait.count()) + " ms; " + std::string(search.hint));
   }
   return Failed(std::string(kBadReply), transport.Name(),
                 std::to_string(received) +

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <string_view>
 
 #include "lightcal/core/result.h"
@@ -22,9 +21,9 @@ struct FrameSearch {
   std::size_t most_bytes = 0;            // of noise and frame together, before giving up
   int waits = 1;                         // silences of `wait` that are borne
   std::chrono::milliseconds wait{1000};  // for the next piece
-  std::string hint;  // what to do when the line is silent: "is its USB switched on?"
+  std::string_view hint = {};  // what to do when the line is silent: "is its USB switched on?"
   // The code of a whole frame that FirstDecoded passes over, "" = none.
-  std::string_view passing;
+  std::string_view passing = {};
 };
 
 // The next whole frame that `may_begin` accepts. Asks the line for no byte beyond it, and decides

@@ -37,10 +37,10 @@ struct MeterLine {
   Result<std::unique_ptr<Transport>> (*open)(const FoundMeter& meter) = nullptr;
   // The rule that permits a device with this id.
   std::string (*udev_rule)(UsbId id) = nullptr;
-  // --device driver:address opens it without its having been found. A line that cannot tell one
+  // "driver:address" opens it without its having been found. A line that cannot tell one
   // meter from another (a serial port) is only ever opened so, or when it is the only one.
   bool takes_address = false;
-  // Found meters of this line may be chosen without being named (--device left out).
+  // Found meters of this line may be chosen without being named.
   bool tells_meters_apart = true;
   // How a person gains permission without a udev rule, "" = only with one.
   std::string_view permission_remedy;

@@ -52,7 +52,7 @@ struct MeterTiming {
 struct MeterSetup {
   std::string serial;  // "" = the device has none
   MeterTiming timing;
-  std::map<std::string, std::string> options;  // --set name=value; MeterRow::options lists them
+  std::map<std::string, std::string> options;  // by name; MeterRow::options lists them
 };
 
 class Meter {

@@ -3,20 +3,17 @@
 
 #include <array>
 
-#include "lightcal_devices/meters/gm1020/meter.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/gossen/meter.h"
 #include "lightcal_devices/meters/hid_als/meter.h"
 #include "lightcal_devices/meters/iio/meter.h"
 #include "lightcal_devices/meters/konica/meter.h"
 #include "lightcal_devices/meters/lines.h"
-#include "lightcal_devices/meters/lutron16/meter.h"
 #include "lightcal_devices/meters/mcp2221/meter.h"
-#include "lightcal_devices/meters/pce174/meter.h"
 #include "lightcal_devices/meters/sekonic/meter.h"
 #include "lightcal_devices/meters/spotread/meter.h"
 #include "lightcal_devices/meters/text/meter.h"
 #include "lightcal_devices/meters/torchbearer/meter.h"
-#include "lightcal_devices/meters/ut382/meter.h"
 
 namespace lightcal {
 namespace {
@@ -94,7 +91,7 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .serial = k9600_8N1,
      .verified = Verified::kDocumentation,
      .options = {},
-     .make = pce174::MakeMeter},
+     .make = MakeDisplayMeter<pce174::kProtocol>},
     {.driver = "ut382",
      .models = "UNI-T UT382",
      .line = &kTtyLine,
@@ -102,7 +99,7 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .serial = k19200_8N1,
      .verified = Verified::kDocumentation,
      .options = {},
-     .make = ut382::MakeMeter},
+     .make = MakeDisplayMeter<ut382::kProtocol>},
     {.driver = "gm1020",
      .models = "Benetech GM1020",
      .line = &kTtyLine,
@@ -110,7 +107,7 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .serial = k19200_8N1,
      .verified = Verified::kDocumentation,
      .options = {},
-     .make = gm1020::MakeMeter},
+     .make = MakeDisplayMeter<gm1020::kProtocol>},
     {.driver = "lutron16",
      .models = "Lutron YK-2005LX and its family (Extech SDL400, PCE)",
      .line = &kTtyLine,
@@ -118,7 +115,7 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .serial = k9600_8N1,
      .verified = Verified::kDocumentation,
      .options = {},
-     .make = lutron16::MakeMeter},
+     .make = MakeDisplayMeter<lutron16::kProtocol>},
     {.driver = "torchbearer",
      .models = "Torch Bearer Y21B7W (experimental)",
      .line = &kTtyLine,

@@ -30,7 +30,7 @@ struct UsbId {
   std::uint16_t product = 0;
 };
 
-// One option of a driver: read --set name=value.
+// One option of a driver, name and value.
 struct MeterOption {
   std::string_view name;
   std::string_view help;

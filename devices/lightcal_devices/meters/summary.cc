@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/statistics.h"
 
 namespace lightcal {
 namespace {
@@ -18,16 +19,6 @@ constexpr std::size_t kFewestForDrift = 4;  // two degrees of freedom of the res
 constexpr double kFlickerSpread = 0.02;
 constexpr std::size_t kFewestForFlicker = 5;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Of an even number the mean of the middle two, or the one of them that is finite.
-double Median(std::vector<double> values) {
-  std::ranges::sort(values);
-  const std::size_t middle = values.size() / 2;
-  if (values.size() % 2 == 1) return values[middle];
-  if (!std::isfinite(values[middle])) return values[middle - 1];
-  if (!std::isfinite(values[middle - 1])) return values[middle];
-  return 0.5 * (values[middle - 1] + values[middle]);
-}
 
 // The least-squares line through equally spaced values.
 struct Trend {
@@ -88,17 +79,18 @@ void AddSeriesWarnings(const std::vector<double>& values, const Summary& summary
   if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return;
   const double median = kept.illuminance->value();
   if (const auto drift = Drift(values, median)) {
-    warnings.push_back({"drift", kept.device,
-                        "the readings drift by " + RoundedText(100.0 * *drift / median, 2) +
-                            " % from first to last; let the lamp warm up (--settle) and measure "
-                            "again"});
+    warnings.push_back(
+        {"drift", kept.device,
+         "the readings drift by " + RoundedText(100.0 * *drift / median, 2) +
+             " % from first to last; let the lamp warm up ({meter.settle}) and measure "
+             "again"});
   } else if (values.size() >= kFewestForFlicker && summary.spread_relative > kFlickerSpread) {
-    warnings.push_back({"flicker", kept.device,
-                        "the readings scatter by " +
-                            RoundedText(100.0 * summary.spread_relative, 2) +
-                            " % (1 sigma) without a trend: the lamp flickers or is dimmed by "
-                            "pulses, or something moves in the beam; take more readings (-n 25), "
-                            "or a longer exposure where the meter has one"});
+    warnings.push_back(
+        {"flicker", kept.device,
+         "the readings scatter by " + PercentText(summary.spread_relative) +
+             " (1 sigma) without a trend: the lamp flickers or is dimmed by "
+             "pulses, or something moves in the beam; take more readings ({meter.count} 25), "
+             "or a longer exposure where the meter has one"});
   }
 }
 
@@ -111,7 +103,8 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
     values.push_back(Rank(m.reading));
   }
   if (values.empty()) return std::nullopt;
-  const double median = Median(values);
+  std::vector<double> ranked = values;
+  const double median = Median(ranked);
   // Between two that are beyond the same end there is no distance.
   const auto distance = [&](double v) { return v == median ? 0.0 : std::abs(v - median); };
   const auto nearest = std::ranges::min_element(values, {}, distance) - values.begin();
@@ -124,7 +117,7 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
     std::vector<double> deviations;
     deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
-    summary.spread_relative = kSigmaPerMad * Median(std::move(deviations)) / median;
+    summary.spread_relative = kSigmaPerMad * Median(deviations) / median;
     const double sigma = std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
     if (sigma > 0.0) reading.sigma_relative = sigma;
   }

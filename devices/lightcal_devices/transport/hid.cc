@@ -327,7 +327,7 @@ tl::unexpected<Error> NotOpened(const HidDeviceInfo& device) {
   const int missing = ::access(device.node.c_str(), R_OK | W_OK) != 0 ? errno : 0;
   if (missing == EACCES) {
     return Failed(std::string(fault::kNoPermission), name,
-                  "you may not open this device; `lightcal devices` prints the udev rule that "
+                  "you may not open this device; `{FindMeters}` prints the udev rule that "
                   "allows it");
   }
   if (missing != 0) {

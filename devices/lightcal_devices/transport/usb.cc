@@ -61,7 +61,7 @@ tl::unexpected<Error> UsbError(int status, const std::string& name, milliseconds
       return Failed(std::string(fault::kNoDevice), name, "no such device; is it plugged in?");
     case LIBUSB_ERROR_ACCESS:
       return Failed(std::string(fault::kNoPermission), name,
-                    "you may not open this device; `lightcal devices` prints the udev rule that "
+                    "you may not open this device; `{FindMeters}` prints the udev rule that "
                     "allows it");
     case LIBUSB_ERROR_BUSY:
       return Failed(std::string(fault::kBusy), name,

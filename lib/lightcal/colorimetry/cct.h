@@ -26,8 +26,7 @@ enum class CctStatus {
 // and duv the component normal to the locus. Error against the definition: under 1e-5 K to 25000 K,
 // 1e-7 relative to 100000 K, duv under 1e-11. The far side of the locus (duv < -0.1) has several
 // nearest points; the globally nearest is given. Sources: CIE 15:2018; Li et al., Opt. Express 24,
-// 14066 (2016) for the definition. The seed (6.1) asks for the "nearest colour temperature" and
-// names neither the plane nor the limit.
+// 14066 (2016) for the definition.
 struct CctResult {
   Kelvin temperature{0.0};
   double duv = 0.0;

@@ -13,15 +13,13 @@ namespace lightcal {
 //   x = -4.6070e9/T^3 + 2.9678e6/T^2 + 0.09911e3/T + 0.244063   4000 <= T <= 7000 K
 //   x = -2.0064e9/T^3 + 1.9018e6/T^2 + 0.24748e3/T + 0.237040   7000 <  T <= 25000 K
 //   y = -3 x^2 + 2.870 x - 0.275
-// Source: CIE 15:2018, eq. 4.2 - 4.4. The seed (6.4) prints 1.9081e6 in the second line, 1.3e-4 in
-// x at 7000 K, and closes both ranges there. T is nominal: the exact CCT of the result is 1.3 K
-// lower at 6504 K, 46 K at 20000 K. Only the daylight locus: for lamps and below 4000 K see
-// UvFromCct. Fails: refused/"out_of_range" outside 4000-25000 K.
+// Source: CIE 15:2018, eq. 4.2 - 4.4. T is nominal: the exact CCT of the result is 1.3 K lower at
+// 6504 K, 46 K at 20000 K. Only the daylight locus: for lamps and below 4000 K see UvFromCct.
+// Fails: refused/"out_of_range" outside 4000-25000 K.
 [[nodiscard]] Result<Xy> DaylightXy(Kelvin temperature);
 
 // T of an illuminant that was named when c2 stood at 1.4380e-2 m K: D65 is 6500 x 1.4388/1.4380 =
-// 6503.6 K, D50 5002.8 K.  Source: CIE 15:2018 4.1.2, note on c2. The seed (6.5) gives the bare
-// names.
+// 6503.6 K, D50 5002.8 K.  Source: CIE 15:2018 4.1.2, note on c2.
 [[nodiscard]] Kelvin DaylightTemperatureOfName(Kelvin named);
 
 // Weights of the components S1 and S2 in CIE daylight of chromaticity xy, unrounded,

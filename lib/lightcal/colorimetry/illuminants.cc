@@ -9,6 +9,7 @@
 #include "lightcal/colorimetry/cie_tables/tables.h"
 #include "lightcal/colorimetry/daylight.h"
 #include "lightcal/colorimetry/planckian.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal {
@@ -96,10 +97,8 @@ Result<Spectrum> IlluminantSpectrum(std::string_view name) {
   for (const IlluminantTable& table : IlluminantTables()) {
     if (LowerAscii(table.name) == wanted) return FromTable(table);
   }
-  std::string known;
-  for (const std::string& each : IlluminantNames()) known += (known.empty() ? "" : ", ") + each;
   return Refused("unknown_illuminant", std::string(name),
-                 "is no illuminant of the CIE; known are " + known +
+                 "is no illuminant of the CIE; known are " + Joined(IlluminantNames()) +
                      ", any daylight such as D56 and any black body such as P3200");
 }
 

@@ -31,8 +31,7 @@ struct RgbPrimaries {
 
 // M with XYZ = M rgb, such that rgb = (1,1,1) is the space's white at Y = 1: the columns are the
 // primaries' XYZ, scaled to that sum. The exact sRGB matrix differs from IEC's four decimals
-// by 3.9e-5; its last entry is 0.950532 (the seed, 6.3, prints 0.0950536, which moves white to xy
-// .435 .458). Source: SMPTE RP 177.
+// by 3.9e-5; its last entry is 0.950532. Source: SMPTE RP 177.
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(RgbSpace space);
 // The same of any primaries that SpanColors (a picture file's).
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(const RgbPrimaries& primaries);

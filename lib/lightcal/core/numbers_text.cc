@@ -32,6 +32,10 @@ std::string RoundedText(double value, int significant_digits) {
   return {buffer.data(), end};
 }
 
+std::string PercentText(double relative, int significant_digits) {
+  return RoundedText(100.0 * relative, significant_digits) + " %";
+}
+
 std::string_view TrimBlanks(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   const auto first = text.find_first_not_of(kBlanks);

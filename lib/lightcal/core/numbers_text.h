@@ -13,6 +13,8 @@ namespace lightcal {
 [[nodiscard]] std::string ShortestText(double value);
 // Text with a fixed number of significant digits, for tables people read ("5585", "0.0671").
 [[nodiscard]] std::string RoundedText(double value, int significant_digits);
+// "4.2 %" of 0.042.
+[[nodiscard]] std::string PercentText(double relative, int significant_digits = 2);
 
 // The whole text as one finite number: surrounding blanks allowed, '.' decimal point, exponent
 // allowed. decimal_comma reads "1,34E+00". Absent when anything else is there.

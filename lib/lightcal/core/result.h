@@ -10,10 +10,10 @@
 
 namespace lightcal {
 
-// Which promise of the command line the failure belongs to; main turns it into the exit code.
+// Whose fault it is.
 enum class ErrorKind {
   kFailed = 1,   // I/O, device, internal
-  kUsage = 2,    // wrong command line
+  kUsage = 2,    // what is asked for makes no sense
   kRefused = 3,  // the data cannot support an answer
 };
 
@@ -21,7 +21,7 @@ struct Error {
   ErrorKind kind = ErrorKind::kFailed;
   std::string code;     // stable snake_case word, e.g. "underdetermined"
   std::string subject;  // what it is about: a light, a file:line, a device
-  std::string message;  // what is wrong and what to do
+  std::string message;  // what is wrong and what to do; fields in braces: "give {merge.noise}"
 };
 
 // Something the answer survives but the person should know.
@@ -46,8 +46,7 @@ using Result = tl::expected<T, Error>;
       Error{ErrorKind::kFailed, std::move(code), std::move(subject), std::move(message)});
 }
 [[nodiscard]] inline tl::unexpected<Error> WrongUsage(std::string subject, std::string message) {
-  return tl::unexpected(
-      Error{ErrorKind::kUsage, "usage", std::move(subject), std::move(message)});
+  return tl::unexpected(Error{ErrorKind::kUsage, "usage", std::move(subject), std::move(message)});
 }
 // Hands an error of one Result on as the error of another.
 template <class T>

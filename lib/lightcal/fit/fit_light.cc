@@ -125,9 +125,7 @@ std::string SayOfSampling(const fit::LightEstimate& estimate, const std::string&
   const fit::SampledParameter& ln = estimate.sampled->parameters[kLnIntensity];
   const double middle = estimate.theta[kLnIntensity];
   const double linear = kZ95 * Sd(estimate.covariance, kLnIntensity);
-  const auto percent = [](double ln_ratio) {
-    return RoundedText(100.0 * std::expm1(ln_ratio), 3) + " %";
-  };
+  const auto percent = [](double ln_ratio) { return PercentText(std::expm1(ln_ratio), 3); };
   return light + ": " + std::to_string(estimate.sampled->samples) + " samples" +
          (estimate.sampled->stable ? "" : " (two digits would take more)") + ": 95 % from " +
          percent(ln.low - middle) + " to +" + percent(ln.high - middle) +
@@ -199,8 +197,8 @@ void ReportCalibration(const fit::Observations& observations, std::vector<Effect
   report.state = EffectState::kOn;
   report.bound = kZ95 * calibration;
   report.cost_ns = 1.0;
-  report.reason = "the meter's own scale, within " + RoundedText(100.0 * report.bound, 2) +
-                  " %, widens the interval: repeating does not lower it, and it cancels in the "
+  report.reason = "the meter's own scale, within " + PercentText(report.bound) +
+                  ", widens the interval: repeating does not lower it, and it cancels in the "
                   "ratio of two lamps read with one meter";
   effects.push_back(std::move(report));
 }
@@ -305,7 +303,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
     return observations->rejected.empty()
                ? Refused("no_readings", light.name,
                          "the session holds no illuminance reading of this light; add one with "
-                         "`lightcal read`, or give flux_lm from its data sheet")
+                         "`{ReadMeter}`, or give flux_lm from its data sheet")
                : Refused("no_valid_readings", light.name,
                          "every reading of this light was rejected; the first because " +
                              observations->warnings.front().message);

@@ -13,8 +13,6 @@
 namespace lightcal {
 namespace {
 
-std::string Percent(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
-
 std::string_view TreatmentText(Treatment treatment) {
   switch (treatment) {
     case Treatment::kModelled:
@@ -35,7 +33,7 @@ void SwitchOn(GatedEffect& effect) {
   const Treatment treatment = effect.finding.treatment;
   effect.ignored = false;
   effect.state = treatment == Treatment::kFitted ? GateState::kFitted : GateState::kOn;
-  effect.reason = "up to " + Percent(effect.finding.bound) + ", " +
+  effect.reason = "up to " + PercentText(effect.finding.bound) + ", " +
                   std::string(TreatmentText(treatment)) + ": " + effect.finding.reason;
   if (treatment == Treatment::kUnknown) effect.state = GateState::kOff;
 }
@@ -69,8 +67,8 @@ void Decide(std::vector<GatedEffect>& effects, const std::vector<double>& slack,
                Compounded(kept * (1.0 - std::min(1.0, key(i)))) <= tolerance) {
       kept *= 1.0 - bound;
       effect.ignored = true;
-      SwitchOff(effect, "at most " + Percent(bound) + ", and all effects left off together " +
-                            Percent(Compounded(kept)) + ": " + effect.finding.reason);
+      SwitchOff(effect, "at most " + PercentText(bound) + ", and all effects left off together " +
+                            PercentText(Compounded(kept)) + ": " + effect.finding.reason);
     } else {
       SwitchOn(effect);
     }

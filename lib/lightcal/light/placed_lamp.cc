@@ -92,21 +92,6 @@ double LuxPerUnit(const LampSource& source, const LampPose& pose, const SurfaceP
   return std::visit([&](const auto& s) { return DirectLux(s, pose, at, detail); }, source);
 }
 
-double RelativeIntensity(const LampSource& source, const SourceFrame& frame,
-                         const Vec3& direction) {
-  const Vec3 d = frame.Of(direction) * (1.0 / Length(direction));
-  if (const auto* spot = std::get_if<SpotSource>(&source)) {
-    return SpotProfile(HalfVersine(d), HalfVersine(spot->cone.inner.value()),
-                       HalfVersine(spot->cone.outer.value()), spot->falloff);
-  }
-  if (const auto* table = std::get_if<TableSource>(&source)) return TablePart(*table, d);
-  if (std::holds_alternative<TubeSource>(source)) return std::hypot(d[1], d[2]);
-  if (std::holds_alternative<DiskSource>(source) || std::holds_alternative<RectSource>(source)) {
-    return std::max(0.0, d[2]);
-  }
-  return 1.0;
-}
-
 double SolidAngleOf(const LampSource& source) {
   if (const auto* spot = std::get_if<SpotSource>(&source)) {
     return SolidAngleOfSpot(spot->cone, spot->falloff).value();

@@ -74,10 +74,7 @@ struct SurfacePoint {
   return lamp.strength * LuxPerUnit(lamp.source, lamp.pose, at, detail);
 }
 
-// Relative intensity along a direction, any length above 0, far away; and its integral over all
-// directions [sr].
-[[nodiscard]] double RelativeIntensity(const LampSource& source, const SourceFrame& frame,
-                                       const Vec3& direction);
+// The integral over all directions of the intensity far away, relative to its peak [sr].
 [[nodiscard]] double SolidAngleOf(const LampSource& source);
 
 // Sun and sky: the same everywhere, no distance law, no walls.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the photometric files IES LM-63 and EULUMDAT hold: intensity by direction. (The seed, 5.2.5,
-// calls it a spectral distribution; no wavelength is in them.)
+// What the photometric files IES LM-63 and EULUMDAT hold: intensity by direction. No
+// wavelength is in them.
 #pragma once
 
 #include <span>

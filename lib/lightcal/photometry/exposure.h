@@ -14,7 +14,7 @@ struct CameraSettings {
   double iso = 100.0;
 };
 
-// N = f/D and back.   Source: ISO 517. The seed (3) calls N "the aperture diameter value".
+// N = f/D and back.   Source: ISO 517. The larger N, the smaller the hole.
 [[nodiscard]] constexpr double FNumber(Metres focal_length, Metres pupil_diameter) {
   return focal_length / pupil_diameter;
 }
@@ -37,8 +37,8 @@ struct CameraSettings {
 [[nodiscard]] double Ev100FromLuminance(Nits l);
 [[nodiscard]] double Ev100FromIlluminance(Lux e);
 
-// The lens between the scene and the sensor:  q = (pi/4) T v cos^4(theta)      (seed 7.3)
-// T transmittance, v vignetting factor, theta angle off the axis.
+// The lens between the scene and the sensor:  q = (pi/4) T v cos^4(theta).   Source: ISO
+// 12232:2006, annex A. T transmittance, v vignetting factor, theta angle off the axis.
 struct LensTransmission {
   double transmittance = 0.9;
   double vignetting = 0.98;
@@ -48,8 +48,7 @@ struct LensTransmission {
 // ISO 12232:2006's rounded value of the above (0.6516).
 inline constexpr double kIsoLensConstant = 0.65;
 
-// H = q t L / N^2  [lx s].   Source: ISO 12232:2006, annex A. The seed (7.3) prints q t/N L, four
-// times too much at f/4.
+// H = q t L / N^2  [lx s].   Source: ISO 12232:2006, annex A.
 struct LuxSeconds {
   double value = 0.0;
 };
@@ -60,8 +59,8 @@ struct LuxSeconds {
 [[nodiscard]] LuxSeconds SaturatingExposure(double iso);
 // The luminance that just saturates, and the factor that maps it to 1:
 //   L_max = 78/(q S) N^2/t        exposure = 1/L_max
-// With S = 100 and q = 0.65 this is 1.2 2^EV100, the only case in which the seed's
-// 2^EV100 78/(q S) holds: it counts S twice. Infinite where no light reaches the sensor.
+// With S = 100 and q = 0.65 this is 1.2 2^EV100. Infinite where no light reaches the sensor.
+// Source: ISO 12232:2006, 6.2; Lagarde & de Rousiers 2014, 5.1.
 [[nodiscard]] Nits MaximumLuminance(const CameraSettings& camera, double q = kIsoLensConstant);
 [[nodiscard]] double ExposureScale(const CameraSettings& camera, double q = kIsoLensConstant);
 

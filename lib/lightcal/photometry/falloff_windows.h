@@ -4,7 +4,7 @@
 //
 // Window: w = clamp(1 - (d/r)^4, 0, 1), 0 from d = r on. Every law here is finite and defined for
 // every d (|d| is used) and every r: r <= 0 or infinite means no range, w = 1, as Filament and
-// three.js treat 0. (The seed says "set a tiny value for r", 5.2.2: that makes the light vanish.)
+// three.js treat 0. A tiny range makes the light vanish.
 #pragma once
 
 #include <limits>
@@ -32,8 +32,8 @@ inline constexpr Metres kNoRange{std::numeric_limits<double>::infinity()};
 // w / d^2, the window not squared; d below 0.1 mm counts as 0.1 mm so that it stays finite.
 // Source: KHR_lights_punctual, "range property".
 [[nodiscard]] double GltfFalloff(Metres d, Metres r);
-// w^2 / (d^2 + 1 cm^2). The seed's 1/(d^2 + 1) is this with the centimetres forgotten: half the
-// light at 1 m.   Source: Karis, Real Shading in Unreal Engine 4 (2013), eq. 9, in centimetres.
+// w^2 / (d^2 + 1 cm^2). In metres the 1 would be 1 m^2: half the light at 1 m.   Source: Karis,
+// Real Shading in Unreal Engine 4 (2013), eq. 9, in centimetres.
 [[nodiscard]] double UnrealFalloff(Metres d, Metres r);
 
 // Smallest range r that takes at most `loss` (0 < loss < 1) from a light at d_max:

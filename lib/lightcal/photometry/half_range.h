@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether a number survives in a half float (IEEE 754 binary16), the format of render targets and
-// OpenEXR. A 32-bit float reaches 3.4e38: it is the half that the sun overflows (seed 7 says 32
-// bit).
+// OpenEXR. A 32-bit float reaches 3.4e38: it is the half that the sun overflows.
 #pragma once
 
 #include <string_view>

@@ -19,8 +19,7 @@ struct ReceiverPose {
 // Intensity of a small source from the illuminance it casts at normal incidence.
 //   I = E d^2                                   [cd] = [lx] [m]^2 (per unit solid angle)
 // Holds while d is at least five times the source's largest side (1 % for a disk), and exactly for
-// a sphere when d is measured to its centre. Source: CIE e-ILV 17-25-104. The seed (5.5) prints I =
-// E/d^2, a misprint.   Fails: never.
+// a sphere when d is measured to its centre. Source: CIE e-ILV 17-25-104.   Fails: never.
 [[nodiscard]] constexpr Candela CandelaFromLux(Lux e, Metres d) {
   return Candela(e.value() * d.value() * d.value());
 }
@@ -40,9 +39,5 @@ struct ReceiverPose {
 [[nodiscard]] constexpr Lux LuxFromCandela(Candela i, const ReceiverPose& at) {
   return LuxOnTiltedPlane(LuxFromCandela(i, at.distance + at.offset), at.cos_incidence);
 }
-
-// The distance at which a source of intensity I casts E at normal incidence: d = sqrt(I/E).
-// Holds for I >= 0, E > 0.
-[[nodiscard]] Metres DistanceFromCandelaAndLux(Candela i, Lux e);
 
 }  // namespace lightcal

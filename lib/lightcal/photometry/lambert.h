@@ -14,22 +14,19 @@ namespace lightcal {
 [[nodiscard]] constexpr LumensPerSquareMetre ExitanceFromLuminance(Nits l) {
   return LumensPerSquareMetre(std::numbers::pi * l.value());
 }
-[[nodiscard]] constexpr Nits LuminanceFromExitance(LumensPerSquareMetre m) {
-  return Nits(m.value() / std::numbers::pi);
-}
 
 // Exitance of a lit surface, M = rho E; its luminance where the surface is matt, L = rho E/pi.
-// Holds for 0 <= rho <= 1.   The seed's chapter 4 example.
+// Holds for 0 <= rho <= 1.   Source: CIE e-ILV, "reflectance" and "Lambertian surface".
 [[nodiscard]] constexpr LumensPerSquareMetre ExitanceOfLitSurface(Lux e, double reflectance) {
   return LumensPerSquareMetre(reflectance * e.value());
 }
 [[nodiscard]] constexpr Nits LuminanceOfLitSurface(Lux e, double reflectance) {
-  return LuminanceFromExitance(ExitanceOfLitSurface(e, reflectance));
+  return Nits(ExitanceOfLitSurface(e, reflectance).value() / std::numbers::pi);
 }
 
 // What one small solid angle d omega of incident luminance adds to the luminance a surface sends to
 // the eye:  dL_out = f L_in cos(theta_in) d omega_in,  f the BRDF [1/sr], rho/pi for a matt
-// surface. The cosine is that of the incident direction; the seed (5.2) prints the outgoing one.
+// surface. The cosine is that of the incident direction, not of the outgoing one.
 // Source: Nicodemus et al., NBS Monograph 160 (1977).   Light from behind adds nothing.
 [[nodiscard]] constexpr Nits LuminanceReflectedFrom(double brdf_per_sr, Nits incident,
                                                     double cos_incident, Steradians solid_angle) {
@@ -39,8 +36,8 @@ namespace lightcal {
 
 // Luminance from the flux in an element of area and solid angle, the second-order derivative
 //   L = d^2 Phi / (dA cos(theta) d omega)
-// The seed (4) prints dPhi; the flux must shrink with both elements.   Source: CIE e-ILV,
-// "luminance". Holds for dA, cos, d omega > 0.
+// Source: CIE e-ILV, "luminance". The flux shrinks with both elements. Holds for dA, cos, d omega >
+// 0.
 [[nodiscard]] constexpr Nits LuminanceFromFluxElement(Lumens flux, SquareMetres area,
                                                       double cos_angle, Steradians solid_angle) {
   return Nits(flux.value() / (area.value() * cos_angle * solid_angle.value()));

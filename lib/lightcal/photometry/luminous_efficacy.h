@@ -42,7 +42,7 @@ inline constexpr PhotopicWeight kPhotopicWeightAt540THz{683.0 / 683.002};
 }
 
 // Luminous flux of a lamp: Phi = eta P, P the electrical power, eta the lamp's luminous efficacy.
-// The seed (5.1.5) multiplies the radiant flux by it.
+// Source: CIE e-ILV, "luminous efficacy of a source". The radiant flux is not P.
 [[nodiscard]] constexpr Lumens LumensFromElectrical(ElectricalWatts power, LumensPerWatt efficacy) {
   return Lumens(efficacy.value() * power.value());
 }
@@ -50,7 +50,7 @@ inline constexpr PhotopicWeight kPhotopicWeightAt540THz{683.0 / 683.002};
 [[nodiscard]] constexpr ElectricalWatts ElectricalFromLumens(Lumens flux, LumensPerWatt efficacy) {
   return ElectricalWatts(flux.value() / efficacy.value());
 }
-// eta/K_m, and back: what the seed (5.1.5) calls V and gives in percent.
+// eta/K_m, and back.   Source: CIE e-ILV, "luminous efficiency"; data sheets give it in percent.
 [[nodiscard]] constexpr OverallEfficiency EfficiencyFromEfficacy(LumensPerWatt efficacy) {
   return OverallEfficiency(efficacy / kMaximumEfficacy);
 }

@@ -23,15 +23,4 @@ Steradians SolidAngleOfZone(Radians inner, Radians outer) {
   return Steradians(4.0 * std::numbers::pi * std::sin(sum) * std::sin(difference));
 }
 
-Steradians SolidAngleOfSphere(Metres radius, Metres distance) {
-  return SolidAngleOfCone(Radians(std::asin(radius / distance)));
-}
-
-Steradians SolidAngleOfRectOnAxis(Metres width, Metres height, Metres distance) {
-  const double w = width.value();
-  const double h = height.value();
-  const double d = distance.value();
-  return Steradians(4.0 * std::atan2(w * h, 2.0 * d * std::hypot(2.0 * d, w, h)));
-}
-
 }  // namespace lightcal

@@ -17,16 +17,7 @@ namespace lightcal {
 //   Omega = 2 pi (cos a - cos b) = 4 pi sin((a+b)/2) sin((b-a)/2)
 [[nodiscard]] Steradians SolidAngleOfZone(Radians inner, Radians outer);
 
-// Solid angle of a sphere of radius R seen from distance d > R to its centre: the cone of half
-// angle asin(R/d).
-[[nodiscard]] Steradians SolidAngleOfSphere(Metres radius, Metres distance);
-
-// Solid angle of a rectangle seen from the point on its axis at distance d > 0:
-//   Omega = 4 atan( w h / (2 d sqrt(4 d^2 + w^2 + h^2)) )
-[[nodiscard]] Steradians SolidAngleOfRectOnAxis(Metres width, Metres height, Metres distance);
-
-// Cone angles are half angles everywhere in lightcal. Data sheets and the seed (5.2.3, in places)
-// give the full apex angle.
+// Cone angles are half angles everywhere in lightcal. Data sheets give the full apex angle.
 [[nodiscard]] constexpr Radians HalfAngleFromFull(Radians full) { return full / 2.0; }
 [[nodiscard]] constexpr Radians FullAngleFromHalf(Radians half) { return half * 2.0; }
 

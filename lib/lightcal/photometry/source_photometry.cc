@@ -167,7 +167,7 @@ Result<PerUnit> PerUnitOf(const SourceGeometry& g) {
   }
   return WrongUsage("photometric",
                     "the distribution stands in an IES or LDT file; ask "
-                    "lightcal photometric FILE");
+                    "{ReadDistribution}");
 }
 
 std::optional<double> Amount(const PerUnit& unit, SourceQuantity quantity) {

@@ -56,6 +56,5 @@ Candela AxialCandelaOfSpot(Lumens flux, const SpotCone& cone, SpotFalloff fallof
 }
 
 Lumens FluxOfSpotByPiConvention(Candela axial) { return FluxOfFlatSource(axial); }
-Candela AxialCandelaOfSpotByPiConvention(Lumens flux) { return AxialCandelaOfFlatSource(flux); }
 
 }  // namespace lightcal

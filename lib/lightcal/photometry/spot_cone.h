@@ -19,12 +19,12 @@ struct SpotCone {
 enum class SpotFalloff {
   kHard,           // 1 inside outer; inner is ignored
   kLinear,         // t
-  kSquaredLinear,  // t^2: Frostbite, Filament, glTF, and the seed's code (its formula omits both)
+  kSquaredLinear,  // t^2: Frostbite, Filament, glTF
   kSmoothstep,     // t^2 (3 - 2t): three.js, pbrt
 };
 
 // Relative intensity at an angle from the axis, 0..1.   Sources: glTF KHR_lights_punctual; Lagarde
-// & de Rousiers 2014, 4.7. The seed (5.2.3) prints t neither clamped nor squared.
+// & de Rousiers 2014, 4.7.
 [[nodiscard]] double SpotAttenuation(Radians from_axis, const SpotCone& cone, SpotFalloff falloff);
 
 // Angle between a lamp's aim and the direction from the lamp to a point; any lengths above 0.
@@ -36,7 +36,7 @@ enum class SpotFalloff {
 //   squared linear   2 pi [(1 - ci) + (ci - co)/3]
 //   linear           2 pi [(1 - ci) + (ci - co)/2]
 //   smoothstep       2 pi [(1 - ci) + (ci - co)/2]
-// The seed (5.2.3) uses 2 pi (1 - co) for a squared penumbra: three times too much at inner = 0.
+// 2 pi (1 - co) for a squared penumbra would be three times too much at inner = 0.
 [[nodiscard]] Steradians SolidAngleOfSpot(const SpotCone& cone, SpotFalloff falloff);
 [[nodiscard]] Lumens FluxOfSpot(Candela axial, const SpotCone& cone, SpotFalloff falloff);
 [[nodiscard]] Candela AxialCandelaOfSpot(Lumens flux, const SpotCone& cone, SpotFalloff falloff);
@@ -45,6 +45,5 @@ enum class SpotFalloff {
 //   Phi = pi I, whatever the cone.   Source: Lagarde & de Rousiers 2014; Filament SPOT, Godot.
 // As physics it is true only of a hard cone of 60 degrees half angle or of a Lambertian lobe.
 [[nodiscard]] Lumens FluxOfSpotByPiConvention(Candela axial);
-[[nodiscard]] Candela AxialCandelaOfSpotByPiConvention(Lumens flux);
 
 }  // namespace lightcal

@@ -36,7 +36,7 @@ void WarnOfResidual(const Light& light, const FalloffRefit& refit, Metres needed
   warnings.push_back({"falloff_residual", NameOf(light),
                       "with a range of " + RoundedText(refit.range.value(), 3) +
                           " m the engine's falloff misses readings by up to " +
-                          RoundedText(100.0 * refit.residual, 2) + " %; --range " +
+                          RoundedText(100.0 * refit.residual, 2) + " %; {preset.range} " +
                           RoundedText(needed.value(), 3) + "m or more would not"});
 }
 

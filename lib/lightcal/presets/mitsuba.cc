@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // <stem>.mitsuba.xml for Mitsuba 3 in its RGB variants. The renderer has no photometric unit: what
 // it is given is candela, lux and nits as R, G, B whose luminance is that number. The exposed rig
-// multiplies them by the exposure, so that the picture shows the cards as they are; --bare does
-// not.   Sources: Mitsuba 3 plugin reference; src/emitters/{point,spot}.cpp.
+// multiplies them by the exposure, so that the picture shows the cards as they are; the bare one
+// does not.   Sources: Mitsuba 3 plugin reference; src/emitters/{point,spot}.cpp.
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"

@@ -187,30 +187,6 @@ double TableLux(const PresetLight& light, const Vec3& to_point, const Vec3& norm
 
 }  // namespace
 
-std::string_view LightFormName(LightForm form) {
-  switch (form) {
-    case LightForm::kPoint:
-      return "point";
-    case LightForm::kSpot:
-      return "spot";
-    case LightForm::kDirectional:
-      return "directional";
-    case LightForm::kSphere:
-      return "sphere";
-    case LightForm::kDisk:
-      return "disk";
-    case LightForm::kRect:
-      return "rect";
-    case LightForm::kTube:
-      return "tube";
-    case LightForm::kTable:
-      return "photometric";
-    case LightForm::kDome:
-      return "dome";
-  }
-  return {};
-}
-
 Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const EngineForms& forms,
                                                   const PresetOptions& options,
                                                   Warnings& warnings) {

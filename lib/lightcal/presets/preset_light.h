@@ -29,7 +29,6 @@ enum class LightForm : std::uint8_t {
   kTable,  // a photometric file
   kDome,   // one luminance from every direction
 };
-[[nodiscard]] std::string_view LightFormName(LightForm form);
 
 // The forms an engine has beside point, spot and directional light.
 struct EngineForms {

@@ -190,7 +190,7 @@ Result<PresetTarget> FindPresetTarget(std::string_view name) {
     list += (list.empty() ? "" : ", ") + std::string(target.name);
   }
   const std::string nearest = NearestWord(name, known);
-  return WrongUsage("--to " + std::string(name),
+  return WrongUsage("{preset.target} " + std::string(name),
                     "is no preset target" +
                         (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
                         " (there are: " + list + ")");

@@ -34,7 +34,7 @@ struct Renderer {
 };
 
 struct PresetTarget {
-  std::string_view name;  // the word a person chooses it by
+  std::string_view name;  // the word it is asked for by
   Exporter* exporter;
   std::string_view verified;  // how the output was checked, for people
 

@@ -4,6 +4,7 @@
 // meaning depends on the light. Neither ran in the engine: the script runs against a strict
 // stand-in of the documented names, the T3D is parsed. Sources: Unreal 5.6 Python API and
 // LightComponent.h.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,7 +12,6 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
@@ -21,7 +21,14 @@ namespace lightcal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using json_pieces::Array;
+
+// -0 is written 0.
+template <std::size_t N>
+Json Array(const std::array<double, N>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(v == 0.0 ? 0.0 : v);
+  return list;
+}
 
 struct Pose {
   Vec3 location_cm{};
@@ -87,9 +94,14 @@ Json RigJson(const Rig& rig) {
   return json;
 }
 
+bool AllFinite(const Json& json) {
+  if (json.is_number_float()) return std::isfinite(json.get<double>());
+  return !json.is_structured() || std::ranges::all_of(json, &AllFinite);
+}
+
 // JSON inside a raw triple-quoted Python string.
 Result<std::string> ScriptText(const Json& data, const std::string& name) {
-  if (!json_pieces::AllFinite(data)) {
+  if (!AllFinite(data)) {
     return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
   }
   const std::string text = data.dump(1, ' ', true, Json::error_handler_t::replace);

@@ -67,15 +67,15 @@ void CheckCounts(FieldReader& reader, const AccuracyProfile& profile) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile) {
+records::Node DocumentOf(const AccuracyProfile& profile) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kProfileSchema));
+  writer.Put("schema", kProfileSchema);
   records::VisitProfile(writer, profile);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  return writer.TakeTable();
+}
+
+Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile) {
+  return records::FiniteJson(DocumentOf(profile));
 }
 
 Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text, std::string_view where) {
@@ -92,7 +92,7 @@ Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text, std::stri
   reader.Text("schema", schema);
   if (schema != kProfileSchema) {
     reader.Fail("schema", "a profile.json has \"schema\": \"" + std::string(kProfileSchema) +
-                              "\"; `lightcal tradeoff SESSION -o DIR` writes one");
+                              "\"; `{MakeStudy}` writes one");
   }
   records::VisitProfile(reader, profile);
   reader.Ignore("measured");

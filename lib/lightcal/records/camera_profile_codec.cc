@@ -135,7 +135,7 @@ void ReadSchema(FieldReader& reader) {
   } else if (schema != kCameraSchema) {
     reader.Fail("schema", "schema = " + Quoted(schema) + ": this program reads " +
                               std::string(kCameraSchema) +
-                              "; make the profile again with lightcal camera");
+                              "; make the profile again with {CalibrateCamera}");
   }
 }
 
@@ -168,15 +168,15 @@ void CheckProfile(FieldReader& reader, const CameraProfile& profile) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+records::Node DocumentOf(const CameraProfile& profile) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kCameraSchema));
+  writer.Put("schema", kCameraSchema);
   records::VisitProfile(writer, profile);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  return writer.TakeTable();
+}
+
+Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+  return records::FiniteJson(DocumentOf(profile));
 }
 
 Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_view where) {
@@ -191,7 +191,7 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
   CameraProfile profile;
   records::ReadSchema(reader);
   records::VisitProfile(reader, profile);
-  reader.Ignore("warnings");  // `camera --json` adds them to the same document
+  reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   records::CheckProfile(reader, profile);
   if (reading.error) return tl::unexpected(*std::move(reading.error));
@@ -211,7 +211,7 @@ Result<CameraFile> CameraFileFromJson(std::string_view text, std::string_view wh
   auto sensitivities = CameraSensitivitiesFromJson(text, where);
   if (!sensitivities) {
     Error error = std::move(sensitivities).error();
-    error.message += ". A profile written by lightcal camera is the other kind of file";
+    error.message += ". A profile written by {CalibrateCamera} is the other kind of file";
     return tl::unexpected(std::move(error));
   }
   file.sensitivities = std::move(*sensitivities);

@@ -13,7 +13,7 @@ namespace lightcal {
 
 // The result of comparing one meter with a better one: true illuminance = factor x shown.
 struct MeterCalibration {
-  std::string device;                    // as `lightcal devices` prints it: "sekonic:J0123"
+  std::string device;                    // the id of a found meter: "sekonic:J0123"
   double factor = 1.0;                   // > 0
   std::string date;                      // "2026-03-01", "" = unknown
   std::optional<double> sigma_relative;  // 1 sigma of the corrected reading; replaces the driver's

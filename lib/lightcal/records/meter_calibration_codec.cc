@@ -22,7 +22,7 @@ void ReadCalibration(FieldReader& reader, MeterCalibration& calibration) {
   reader.Require({"device", "factor"});
   if (reader.Has("device") && calibration.device.find(':') == std::string::npos) {
     reader.Fail("device",
-                "device is a driver and its serial number, as `lightcal devices` prints it: "
+                "device is a driver and its serial number, as `{FindMeters}` prints it: "
                 "sekonic:J0123");
   }
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "lightcal/core/statistics.h"
 #include "lightcal/report/text.h"
 
 namespace lightcal::report {
@@ -71,9 +72,7 @@ NitsRange RangeOf(View2d<const float> values) {
   }
   if (lit.empty()) return {0.0, 1.0};
   const double bright = *std::max_element(lit.begin(), lit.end());
-  const auto twentieth = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 20);
-  std::nth_element(lit.begin(), twentieth, lit.end());
-  return {*twentieth, bright};
+  return {AtRank(lit, lit.size() / 20), bright};
 }
 
 }  // namespace

@@ -82,8 +82,6 @@ class Canvas {
   std::string body_;
 };
 
-std::string PercentTick(double relative) { return RoundedText(100.0 * relative, 1) + " %"; }
-
 void DrawRow(Canvas& canvas, const Row& row, double y, const Axis& cost, const Axis& error) {
   const auto placed = [](const Axis& axis, double value) {
     return axis.At(std::clamp(value, axis.low, axis.high));
@@ -158,11 +156,11 @@ std::string GateFigure(const std::vector<FittedLight>& lights, double tolerance,
   for (const double relative : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     canvas.Line("grid", error.At(relative), kBarsTop, error.At(relative), bottom);
     canvas.Text("tick", error.At(relative), bottom + 18.0, "middle",
-                relative <= kLeastError ? "≤ 0.01 %" : PercentTick(relative));
+                relative <= kLeastError ? "≤ 0.01 %" : PercentText(relative, 1));
   }
   canvas.Line("gate-tolerance", error.At(tolerance), kBarsTop - 6.0, error.At(tolerance), bottom);
   canvas.Text("gate-tolerance-label", error.At(tolerance) + 5.0, bottom + 36.0, "middle",
-              "tolerance " + PercentTick(tolerance));
+              "tolerance " + PercentText(tolerance, 1));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (rows[i].own && (i == 0 || !rows[i - 1].own)) {
       const double y = kBarsTop + kRow * static_cast<double>(i);

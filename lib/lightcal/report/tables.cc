@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
@@ -21,15 +22,11 @@ std::string Words(const std::string& name) {
 }
 
 std::string List(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + Words(name);
-  return text.empty() ? "—" : text;
+  return names.empty() ? "—" : Joined(names, ", ", Words);
 }
 
 std::string Numbers(const std::vector<int>& numbers) {
-  std::string text;
-  for (const int n : numbers) text += (text.empty() ? "" : ", ") + std::to_string(n);
-  return text;
+  return Joined(numbers, ", ", [](int n) { return std::to_string(n); });
 }
 
 std::string Cell(std::string_view html, bool number = false) {

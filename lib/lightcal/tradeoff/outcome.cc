@@ -32,7 +32,7 @@ LightFigures FiguresOfLight(const FittedLight& light) {
   }
   if (!light.budget.empty()) {
     const BudgetPart& part = light.budget.front();
-    out.limit = part.name + " (" + RoundedText(100.0 * part.share, 2) + " % of the variance)" +
+    out.limit = part.name + " (" + PercentText(part.share) + " of the variance)" +
                 (part.halve.empty() ? "" : "; what halves it: " + part.halve);
   }
   if (const auto& cct = light.color.cct_K) {

@@ -29,7 +29,6 @@ constexpr double kAsCheap = 1.2;
 
 using Levels = std::vector<std::size_t>;
 
-std::string PercentText(double relative) { return RoundedText(100.0 * relative, 2) + " %"; }
 std::string MillisecondsText(double seconds) { return RoundedText(1e3 * seconds, 3) + " ms"; }
 
 std::string WhereText(const SettingError& error) {
@@ -56,8 +55,8 @@ Result<std::vector<bool>> KnobsToMove(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) {
-      return WrongUsage("--knobs " + name, "is no knob; did you mean \"" +
-                                               std::string(NearestWord(name, known)) + "\"?");
+      return WrongUsage("{study.knobs} " + name, "is no knob; did you mean \"" +
+                                                     std::string(NearestWord(name, known)) + "\"?");
     }
     moved[static_cast<std::size_t>(found - known.begin())] = true;
   }
@@ -91,7 +90,7 @@ Result<void> CheckReference(const Measured& reference, const Measured& check, do
                  "the strictest setting and its check, by another solver and other quadrature, "
                  "differ by " +
                      PercentText(apart.relative) + " in the " + WhereText(apart) +
-                     ", more than a hundredth of --tol: nothing finer than " +
+                     ", more than a hundredth of {study.tolerance}: nothing finer than " +
                      PercentText(apart.relative / kReferenceShare) + " can be judged here");
 }
 

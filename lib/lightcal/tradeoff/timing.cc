@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal::tradeoff {
 namespace {
 
@@ -15,13 +17,6 @@ constexpr double kPatience = 5.0;  // times the time asked for
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// The value below which `share` of the values lie; values not empty.
-double Quantile(std::vector<double> values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
 }
 
 struct Series {

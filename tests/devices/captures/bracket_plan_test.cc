@@ -60,17 +60,17 @@ TEST(RawFormat, IsTheOneThatMakesRawAlone) {
 TEST(Bracket, IsHalfARangeAndAStep) {
   for (const char* text :
        {"±4EV/1EV", "+-4EV/1EV", "+/-4EV/1EV", "4EV/1EV", "4/1", "4 ev / 1 ev"}) {
-    const auto wish = ParseBracket(text);
-    ASSERT_TRUE(wish) << text << ": " << wish.error().message;
-    EXPECT_EQ(wish->half_range_ev, 4.0);
-    EXPECT_EQ(wish->step_ev, 1.0);
+    const auto range = ParseBracket(text);
+    ASSERT_TRUE(range) << text << ": " << range.error().message;
+    EXPECT_EQ(range->half_range_ev, 4.0);
+    EXPECT_EQ(range->step_ev, 1.0);
   }
   EXPECT_DOUBLE_EQ(ParseBracket("2EV/1/3EV")->step_ev, 1.0 / 3.0);
   for (const char* text :
        {"", "4", "4EV", "4EV/0EV", "0/1", "4/-1", "30/1", "10/0.1", "a/b", "1/2"}) {
-    const auto wish = ParseBracket(text);
-    ASSERT_FALSE(wish) << text;
-    EXPECT_EQ(wish.error().kind, ErrorKind::kUsage);
+    const auto range = ParseBracket(text);
+    ASSERT_FALSE(range) << text;
+    EXPECT_EQ(range.error().kind, ErrorKind::kUsage);
   }
 }
 
@@ -97,9 +97,9 @@ TEST(BracketPlan, TakesTheNearestChoiceOfEachStep) {
 
 // On 50 Hz mains whole periods of 10 ms; none is that short below 1/125.
 TEST(BracketPlan, PrefersWholePeriodsOfTheLamp) {
-  BracketWish wish = *ParseBracket("3EV/3EV");
-  wish.lamps = {{.frequency_hz = 100.0}};
-  const auto plan = PlanBracket(kDial, Seconds(std::exp2(-6)), wish);
+  BracketRange range = *ParseBracket("3EV/3EV");
+  range.lamps = {{.frequency_hz = 100.0}};
+  const auto plan = PlanBracket(kDial, Seconds(std::exp2(-6)), range);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->frames[1].shutter, "1/50");
   EXPECT_LE(plan->frames[1].flicker, kFlickerSafe);

@@ -39,8 +39,8 @@ TEST(Gm1020Frame, CommandsEndWithTheirSum) {
   const auto is = [](const Command& command, const std::string& hex) {
     return Bytes(command.begin(), command.end()) == FromHex(hex);
   };
-  EXPECT_TRUE(is(StartLive(), "3C 01 00 00 00 00 00 3D"));
-  EXPECT_TRUE(is(StopLive(), "3C 02 00 00 00 00 00 3E"));
+  EXPECT_TRUE(is(kStartLive, "3C 01 00 00 00 00 00 3D"));
+  EXPECT_TRUE(is(kStopLive, "3C 02 00 00 00 00 00 3E"));
   EXPECT_TRUE(is(EncodeCommand(0x1E, 0), "1E 00 00 00 00 00 00 1E"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dialogue, on a line in memory: no waiting, every fault.
-#include "lightcal_devices/meters/gm1020/meter.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
 namespace lightcal::gm1020 {
@@ -11,6 +11,8 @@ using test::Spoken;
 using test::StreamFake;
 using testing::EndsWith;
 using testing::HasSubstr;
+
+constexpr test::Make kMake = MakeDisplayMeter<kProtocol>;
 
 const std::string kStart = Hex("3C 01 00 00 00 00 00 3D");
 const std::string kStop = Hex("3C 02 00 00 00 00 00 3E");
@@ -32,7 +34,7 @@ test::Speak Live(std::vector<std::string> frames) {
 
 TEST(Gm1020Meter, StartsReadsAndStops) {
   StreamFake line(Live({k123lx}));
-  const auto reading = test::MeasuredOn(line, MakeMeter);
+  const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   EXPECT_EQ(reading->reading.device, "gm1020:GM1020");
@@ -41,14 +43,14 @@ TEST(Gm1020Meter, StartsReadsAndStops) {
 
 TEST(Gm1020Meter, CommandsGoOutByteByByte) {
   StreamFake line(Live({k123lx}));
-  EXPECT_TRUE(test::MeasuredOn(line, MakeMeter));
+  EXPECT_TRUE(test::MeasuredOn(line, kMake));
   for (const std::string& write : line.writes()) EXPECT_EQ(write.size(), 1U);
 }
 
 TEST(Gm1020Meter, NoiseAnEchoAndHalfAFrameBeforeTheFrameDoNoHarm) {
   for (const std::string& before :
        {std::string("\xFF\x33"), kStart, k123lx.substr(3), std::string("\x33\x22\x33")}) {
-    const auto reading = test::Measured(Live({before + k123lx}), MakeMeter);
+    const auto reading = test::Measured(Live({before + k123lx}), kMake);
     ASSERT_TRUE(reading) << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   }
@@ -56,11 +58,11 @@ TEST(Gm1020Meter, NoiseAnEchoAndHalfAFrameBeforeTheFrameDoNoHarm) {
 
 TEST(Gm1020Meter, FramesOfAnEarlierRunAreForgotten) {
   StreamFake line(Live({k123lx}), Hex("33 22 00 00 01 00 FD 11") + Hex("33 22 00"));
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter)->reading.illuminance->value(), 123.4);
+  EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
 TEST(Gm1020Meter, AboveItsHighestRangeItIsCensored) {
-  const auto reading = test::Measured(Live({Hex("33 22 CF FF 01 00 FD 11")}), MakeMeter);
+  const auto reading = test::Measured(Live({Hex("33 22 CF FF 01 00 FD 11")}), kMake);
   EXPECT_TRUE(reading->reading.over_range);
   EXPECT_EQ(reading->reading.illuminance->value(), 200000.0);
 }
@@ -75,7 +77,7 @@ void PrintTo(const FaultCase& fault_case, std::ostream* os) { *os << fault_case.
 class Fault : public testing::TestWithParam<FaultCase> {};
 TEST_P(Fault, IsNamedAndTheMeterIsStopped) {
   StreamFake line(Live(GetParam().frames));
-  const auto reading = test::MeasuredOn(line, MakeMeter);
+  const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_FALSE(reading);
   EXPECT_EQ(reading.error().code, GetParam().code) << reading.error().message;
   EXPECT_THAT(line.received(), EndsWith(kStop));
@@ -90,11 +92,11 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& fault_case) { return std::string(fault_case.param.name); });
 
 TEST(Gm1020Meter, OneFrameWithUnknownBitsIsPassedOver) {
-  EXPECT_TRUE(test::Measured(Live({Hex("33 22 14 D2 01 00 FD 11"), k123lx}), MakeMeter));
+  EXPECT_TRUE(test::Measured(Live({Hex("33 22 14 D2 01 00 FD 11"), k123lx}), kMake));
 }
 
 TEST(Gm1020Meter, SilenceSaysWhatToDo) {
-  EXPECT_THAT(test::Measured(Live({}), MakeMeter).error().message,
+  EXPECT_THAT(test::Measured(Live({}), kMake).error().message,
               HasSubstr("switch the meter off, plug its cable in"));
 }
 
@@ -102,7 +104,7 @@ TEST(Gm1020Meter, CtrlCStopsTheMeter) {
   StreamFake line(Live({}));
   Cancellation cancellation;
   test::CancelAtRead cancelling(line, cancellation, 2);
-  const auto reading = MakeMeter(cancelling, test::QuickSetup())->Measure(cancellation);
+  const auto reading = kMake(cancelling, test::QuickSetup())->Measure(cancellation);
   EXPECT_EQ(reading.error().code, "interrupted");
   EXPECT_EQ(line.received(), kStart + kStop);
 }
@@ -110,21 +112,21 @@ TEST(Gm1020Meter, CtrlCStopsTheMeter) {
 TEST(Gm1020Meter, AnUnpluggedMeterIsNotSpokenToAgain) {
   const auto speak = [](std::string&) { return Spoken{k123lx.substr(0, 5), true}; };
   StreamFake line(speak);
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter).error().code, "unplugged");
+  EXPECT_EQ(test::MeasuredOn(line, kMake).error().code, "unplugged");
   EXPECT_EQ(line.received(), kStart);
 }
 
 TEST(Gm1020Meter, AReadingSurvivesAMeterThatCannotBeStopped) {
   const auto speak = [](std::string&) { return Spoken{k123lx, true}; };
-  const auto reading = test::Measured(speak, MakeMeter);
+  const auto reading = test::Measured(speak, kMake);
   ASSERT_TRUE(reading);
   EXPECT_THAT(test::CodesOf(*reading), testing::ElementsAre("not_restored"));
 }
 
 TEST(Gm1020Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Live({"\xFF" + k123lx}), MakeMeter);
-  test::ExpectReplaysToTheSame(Live({k123lx.substr(0, 5), ""}), MakeMeter);
-  test::ExpectReplaysToTheSame(Live({}), MakeMeter);
+  test::ExpectReplaysToTheSame(Live({"\xFF" + k123lx}), kMake);
+  test::ExpectReplaysToTheSame(Live({k123lx.substr(0, 5), ""}), kMake);
+  test::ExpectReplaysToTheSame(Live({}), kMake);
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST(Mcp2221Meter, AnAnonymousChipIsNamedByThePersonNotGuessed) {
   const auto identity = Mcp2221Meter(line, With()).Identify();
   EXPECT_EQ(identity.error().code, "no_sensor");
   EXPECT_THAT(identity.error().message, HasSubstr("at 0x23"));
-  EXPECT_THAT(identity.error().message, HasSubstr("--set sensor=bh1750"));
+  EXPECT_THAT(identity.error().message, HasSubstr("{meter.option} sensor=bh1750"));
 }
 
 TEST(Mcp2221Meter, ANackOfTheNamedAddressIsSaid) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dialogue, on a line in memory: no waiting, every fault.
-#include "lightcal_devices/meters/pce174/meter.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
 namespace lightcal::pce174 {
@@ -12,6 +12,8 @@ using test::StreamFake;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+constexpr test::Make kMake = MakeDisplayMeter<kProtocol>;
 
 const std::string kRead = Hex("87 83 11");
 
@@ -32,13 +34,13 @@ test::Speak Answering(std::vector<std::string> replies) {
 }
 
 std::string CodeOf(std::vector<std::string> replies) {
-  const auto reading = test::Measured(Answering(std::move(replies)), MakeMeter);
+  const auto reading = test::Measured(Answering(std::move(replies)), kMake);
   return reading ? "" : reading.error().code;
 }
 
 TEST(Pce174Meter, AsksOnceAndReads) {
   StreamFake line(Answering({Reply()}));
-  const auto reading = test::MeasuredOn(line, MakeMeter);
+  const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   EXPECT_EQ(reading->reading.device, "pce174:PCE-174");
@@ -51,7 +53,7 @@ TEST(Pce174Meter, EveryModeButTheNormalOneIsRefusedByName) {
       {"C1 00", "HOLD"}, {"91 00", "PMIN"}, {"99 00", "PMAX"}, {"A1 00", "MAX"},
       {"A9 00", "MIN"},  {"B1 00", "REL"},  {"81 02", "LOAD"}};
   for (const auto& [status, name] : modes) {
-    const auto reading = test::Measured(Answering({Reply("0C 22", status)}), MakeMeter);
+    const auto reading = test::Measured(Answering({Reply("0C 22", status)}), kMake);
     ASSERT_FALSE(reading) << name;
     EXPECT_EQ(reading.error().code, "hold");
     EXPECT_THAT(reading.error().message, HasSubstr("shows " + name));
@@ -59,19 +61,19 @@ TEST(Pce174Meter, EveryModeButTheNormalOneIsRefusedByName) {
 }
 
 TEST(Pce174Meter, ALowBatteryWarns) {
-  const auto reading = test::Measured(Answering({Reply("0C 22", "81 20")}), MakeMeter);
+  const auto reading = test::Measured(Answering({Reply("0C 22", "81 20")}), kMake);
   EXPECT_THAT(test::CodesOf(*reading), ElementsAre("battery_low"));
 }
 
 // 4000 counts, in decimal pairs 40 00, end every range.
 TEST(Pce174Meter, BeyondTheRangeIsCensoredAtItsEnd) {
-  const auto inside = test::Measured(Answering({Reply("28 00", "81 00")}), MakeMeter);
+  const auto inside = test::Measured(Answering({Reply("28 00", "81 00")}), kMake);
   EXPECT_FALSE(inside->reading.over_range);
   EXPECT_EQ(inside->reading.illuminance->value(), 400.0);
-  const auto beyond = test::Measured(Answering({Reply("28 01", "81 00")}), MakeMeter);
+  const auto beyond = test::Measured(Answering({Reply("28 01", "81 00")}), kMake);
   EXPECT_TRUE(beyond->reading.over_range);
   EXPECT_EQ(beyond->reading.illuminance->value(), 400.0);
-  const auto highest = test::Measured(Answering({Reply("63 63", "80 00")}), MakeMeter);
+  const auto highest = test::Measured(Answering({Reply("63 63", "80 00")}), kMake);
   EXPECT_TRUE(highest->reading.over_range);
   EXPECT_EQ(highest->reading.illuminance->value(), 400000.0);
 }
@@ -81,34 +83,34 @@ TEST(Pce174Meter, LessThanNoLightIsRefused) {
 }
 
 TEST(Pce174Meter, NoiseBeforeTheReplyDoesNoHarm) {
-  const auto reading = test::Measured(Answering({"\xFF\xAA" + Reply()}), MakeMeter);
+  const auto reading = test::Measured(Answering({"\xFF\xAA" + Reply()}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
 }
 
 TEST(Pce174Meter, ALateReplyIsNotTakenForTheNext) {
   StreamFake line(Answering({Reply()}), Reply("00 00"));
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter)->reading.illuminance->value(), 123.4);
+  EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
 TEST(Pce174Meter, OneDamagedReplyIsAskedForOnceMore) {
   StreamFake line(Answering({Reply("7F 7F"), Reply()}));
-  ASSERT_TRUE(test::MeasuredOn(line, MakeMeter));
+  ASSERT_TRUE(test::MeasuredOn(line, kMake));
   EXPECT_THAT(line.writes(), ElementsAre(kRead, kRead));
   StreamFake torn(Answering({Reply().substr(0, 9), Reply()}));
-  EXPECT_TRUE(test::MeasuredOn(torn, MakeMeter));
+  EXPECT_TRUE(test::MeasuredOn(torn, kMake));
 }
 
 TEST(Pce174Meter, TwoDamagedRepliesAreAnError) {
   StreamFake line(Answering({Reply("7F 7F")}));
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter).error().code, "bad_reply");
+  EXPECT_EQ(test::MeasuredOn(line, kMake).error().code, "bad_reply");
   EXPECT_THAT(line.writes(), ElementsAre(kRead, kRead));
   EXPECT_EQ(CodeOf({std::string(300, 'x')}), "bad_reply");
 }
 
 TEST(Pce174Meter, SilenceIsNotAskedAgain) {
   StreamFake line(Answering({}));
-  const auto reading = test::MeasuredOn(line, MakeMeter);
+  const auto reading = test::MeasuredOn(line, kMake);
   EXPECT_EQ(reading.error().code, "timeout");
   EXPECT_THAT(reading.error().message, HasSubstr("switches itself off"));
   EXPECT_THAT(line.writes(), ElementsAre(kRead));
@@ -116,22 +118,22 @@ TEST(Pce174Meter, SilenceIsNotAskedAgain) {
 
 TEST(Pce174Meter, UnpluggedInMidReplyIsUnplugged) {
   const auto speak = [](std::string&) { return Spoken{Reply().substr(0, 7), true}; };
-  EXPECT_EQ(test::Measured(speak, MakeMeter).error().code, "unplugged");
+  EXPECT_EQ(test::Measured(speak, kMake).error().code, "unplugged");
 }
 
 TEST(Pce174Meter, CtrlCEndsTheWaiting) {
   StreamFake line(Answering({"\xAA"}));
   Cancellation cancellation;
   test::CancelAtRead cancelling(line, cancellation, 2);
-  const auto reading = MakeMeter(cancelling, test::QuickSetup())->Measure(cancellation);
+  const auto reading = kMake(cancelling, test::QuickSetup())->Measure(cancellation);
   EXPECT_EQ(reading.error().code, "interrupted");
 }
 
 TEST(Pce174Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Answering({"\xFF" + Reply()}), MakeMeter);
-  test::ExpectReplaysToTheSame(Answering({Reply("7F 7F"), Reply("28 01")}), MakeMeter);
-  test::ExpectReplaysToTheSame(Answering({Reply().substr(0, 4)}), MakeMeter);
-  test::ExpectReplaysToTheSame(Answering({}), MakeMeter);
+  test::ExpectReplaysToTheSame(Answering({"\xFF" + Reply()}), kMake);
+  test::ExpectReplaysToTheSame(Answering({Reply("7F 7F"), Reply("28 01")}), kMake);
+  test::ExpectReplaysToTheSame(Answering({Reply().substr(0, 4)}), kMake);
+  test::ExpectReplaysToTheSame(Answering({}), kMake);
 }
 
 }  // namespace

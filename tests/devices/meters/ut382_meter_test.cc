@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Listening, on a line in memory: no waiting, every fault.
-#include "lightcal_devices/meters/ut382/meter.h"
+#include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
 namespace lightcal::ut382 {
@@ -13,6 +13,8 @@ using test::StreamFake;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+constexpr test::Make kMake = MakeDisplayMeter<kProtocol>;
 
 // Nibble pairs of a frame and the byte after it, which means nothing to us.
 std::string Frame(const std::string& pairs, const std::string& after = "00") {
@@ -29,7 +31,7 @@ const std::string kOverloadAuto = Frame(kOverload + "32 3E 30 30 30 30 30 30 30 
 const std::string kOverloadManual = Frame(kOverload + "30 38 30 30 30 30 30 30 30 30");
 
 TEST(Ut382Meter, ReadsWhatTheDisplayShows) {
-  const auto reading = Measured(Saying({k123lx}), MakeMeter);
+  const auto reading = Measured(Saying({k123lx}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   EXPECT_EQ(reading->reading.device, "ut382:UT382");
@@ -41,13 +43,13 @@ TEST(Ut382Meter, ReadsWhatTheDisplayShows) {
 
 TEST(Ut382Meter, NothingIsEverSentToIt) {
   StreamFake line(Saying({k123lx}));
-  EXPECT_TRUE(test::MeasuredOn(line, MakeMeter));
+  EXPECT_TRUE(test::MeasuredOn(line, kMake));
   EXPECT_THAT(line.writes(), IsEmpty());
 }
 
 TEST(Ut382Meter, JoinsTheStreamAnywhere) {
   for (std::size_t cut = 0; cut <= k123lx.size(); ++cut) {
-    const auto reading = Measured(Saying({k123lx.substr(cut) + k123lx + k123lx}), MakeMeter);
+    const auto reading = Measured(Saying({k123lx.substr(cut) + k123lx + k123lx}), kMake);
     ASSERT_TRUE(reading) << cut << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4) << cut;
   }
@@ -58,7 +60,7 @@ TEST(Ut382Meter, TheByteAfterAFrameMayBeAnything) {
   for (const std::string after : {"00", "30", "3F", "0D", "0A", "FF"}) {
     const std::string frame = Frame(kDigits1234 + "38 32 32 3E 30 30 30 30 30 30 30 30", after);
     StreamFake line(Saying({frame}));
-    const auto meter = MakeMeter(line, test::QuickSetup());
+    const auto meter = kMake(line, test::QuickSetup());
     for (int i = 0; i < 4; ++i) {
       const auto reading = meter->Measure(Cancellation());
       ASSERT_TRUE(reading) << after << ": " << reading.error().message;
@@ -71,21 +73,21 @@ TEST(Ut382Meter, WhatWasSentBeforeIsForgotten) {
   const std::string zero = Frame(
       "30 30 3B 37 3B 3F 30 30 30 30 30 30 30 30 30 30 30 30 38 32 32 3E 30 30 30 30 30 30 30 30");
   StreamFake line(Saying({k123lx}), zero + zero + zero);
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter)->reading.illuminance->value(), 123.4);
+  EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
 TEST(Ut382Meter, ADamagedFrameIsPassedOver) {
   std::string bad_digit = k123lx;
   bad_digit[2] = '\x31';
   std::string torn = k123lx.substr(0, 17);
-  const auto reading = Measured(Saying({bad_digit, torn, k123lx}), MakeMeter);
+  const auto reading = Measured(Saying({bad_digit, torn, k123lx}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
 }
 
 TEST(Ut382Meter, NoiseEndsAfterABoundedNumberOfBytes) {
   StreamFake line(Saying({std::string(64, 'x')}));
-  const auto reading = test::MeasuredOn(line, MakeMeter);
+  const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_FALSE(reading);
   EXPECT_EQ(reading.error().code, "bad_reply");
   EXPECT_LT(line.reads(), 20);
@@ -95,63 +97,62 @@ TEST(Ut382Meter, EndlessDamagedFramesEndToo) {
   std::string bad_digit = k123lx;
   bad_digit[2] = '\x31';
   StreamFake line(Saying({bad_digit}));
-  EXPECT_EQ(test::MeasuredOn(line, MakeMeter).error().code, "bad_reply");
+  EXPECT_EQ(test::MeasuredOn(line, kMake).error().code, "bad_reply");
   EXPECT_LT(line.reads(), 60);
 }
 
 TEST(Ut382Meter, SilenceSaysHowToSwitchItsUsbOn) {
-  const auto reading = Measured(Saying({}), MakeMeter);
+  const auto reading = Measured(Saying({}), kMake);
   ASSERT_FALSE(reading);
   EXPECT_EQ(reading.error().code, "timeout");
   EXPECT_THAT(reading.error().message, HasSubstr("switch the meter's USB on"));
 }
 
 TEST(Ut382Meter, AFrozenDisplayIsRefusedByItsName) {
-  const auto reading = Measured(Saying({kHold}), MakeMeter);
+  const auto reading = Measured(Saying({kHold}), kMake);
   ASSERT_FALSE(reading);
   EXPECT_EQ(reading.error().code, "hold");
   EXPECT_THAT(reading.error().message, HasSubstr("HOLD"));
 }
 
 TEST(Ut382Meter, AMenuIsWaitedForAndThenNamed) {
-  EXPECT_TRUE(Measured(Saying({kMenu, kMenu, k123lx}), MakeMeter));
-  EXPECT_EQ(Measured(Saying({kMenu}), MakeMeter).error().code, "in_menu");
+  EXPECT_TRUE(Measured(Saying({kMenu, kMenu, k123lx}), kMake));
+  EXPECT_EQ(Measured(Saying({kMenu}), kMake).error().code, "in_menu");
 }
 
 TEST(Ut382Meter, OverloadOnTheHighestRangeIsACensoredReading) {
-  const auto reading = Measured(Saying({kOverloadAuto}), MakeMeter);
+  const auto reading = Measured(Saying({kOverloadAuto}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_TRUE(reading->reading.over_range);
   EXPECT_EQ(reading->reading.illuminance->value(), 20000.0);
 }
 
 TEST(Ut382Meter, OverloadOnARangeChosenByHandIsNoNumberAtAll) {
-  EXPECT_EQ(Measured(Saying({kOverloadManual}), MakeMeter).error().code, "overload");
+  EXPECT_EQ(Measured(Saying({kOverloadManual}), kMake).error().code, "overload");
 }
 
 TEST(Ut382Meter, ALowBatteryWarns) {
-  EXPECT_THAT(test::CodesOf(*Measured(Saying({kBatteryLow}), MakeMeter)),
-              ElementsAre("battery_low"));
+  EXPECT_THAT(test::CodesOf(*Measured(Saying({kBatteryLow}), kMake)), ElementsAre("battery_low"));
 }
 
 TEST(Ut382Meter, UnpluggedInMidFrameIsUnplugged) {
   const auto speak = [](std::string&) { return test::Spoken{k123lx.substr(0, 11), true}; };
-  EXPECT_EQ(Measured(speak, MakeMeter).error().code, "unplugged");
+  EXPECT_EQ(Measured(speak, kMake).error().code, "unplugged");
 }
 
 TEST(Ut382Meter, CtrlCEndsTheListening) {
   StreamFake line(Saying({kMenu}));
   Cancellation cancellation;
   test::CancelAtRead cancelling(line, cancellation, 3);
-  const auto reading = MakeMeter(cancelling, test::QuickSetup())->Measure(cancellation);
+  const auto reading = kMake(cancelling, test::QuickSetup())->Measure(cancellation);
   EXPECT_EQ(reading.error().code, "interrupted");
 }
 
 TEST(Ut382Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Saying({k123lx.substr(9), k123lx}), MakeMeter);
-  test::ExpectReplaysToTheSame(Saying({kMenu, k123lx.substr(0, 5), kOverloadAuto}), MakeMeter);
-  test::ExpectReplaysToTheSame(Saying({}), MakeMeter);
-  test::ExpectReplaysToTheSame(Saying({std::string(40, 'x')}), MakeMeter);
+  test::ExpectReplaysToTheSame(Saying({k123lx.substr(9), k123lx}), kMake);
+  test::ExpectReplaysToTheSame(Saying({kMenu, k123lx.substr(0, 5), kOverloadAuto}), kMake);
+  test::ExpectReplaysToTheSame(Saying({}), kMake);
+  test::ExpectReplaysToTheSame(Saying({std::string(40, 'x')}), kMake);
 }
 
 }  // namespace

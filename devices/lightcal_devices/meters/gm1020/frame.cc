@@ -9,10 +9,6 @@
 namespace lightcal::gm1020 {
 namespace {
 
-constexpr unsigned kLive = 0x3C;
-constexpr unsigned kStart = 1;
-constexpr unsigned kStop = 2;
-
 struct Mark {
   std::size_t at;
   std::byte value;
@@ -31,17 +27,6 @@ unsigned BigEndian16(std::span<const std::byte> bytes, std::size_t at) {
 
 }  // namespace
 
-Command EncodeCommand(unsigned code, unsigned argument) {
-  Command command{};
-  command[0] = static_cast<std::byte>(code);
-  command[1] = static_cast<std::byte>(argument);
-  command.back() = static_cast<std::byte>(code + argument);
-  return command;
-}
-
-Command StartLive() { return EncodeCommand(kLive, kStart); }
-Command StopLive() { return EncodeCommand(kLive, kStop); }
-
 bool MayBeginFrame(std::span<const std::byte> bytes) {
   if (bytes.size() > kFrameBytes) return false;
   for (const Mark& mark : kMarks) {
@@ -57,9 +42,10 @@ Result<LiveMeasurement> DecodeLive(std::span<const std::byte> bytes) {
   }
   const unsigned light = BigEndian16(bytes, 2);
   if ((light & kUnknownBits) != 0) {
-    return Failed(std::string(kBadReply), "gm1020",
-                  "the illuminance has bits whose meaning is unknown; please send a tape (--record)"
-                  " with what the display shows");
+    return Failed(
+        std::string(kBadReply), "gm1020",
+        "the illuminance has bits whose meaning is unknown; please send a tape ({meter.tape})"
+        " with what the display shows");
   }
   LiveMeasurement measurement;
   measurement.shown.counts = static_cast<int>(light & kCountsMask);

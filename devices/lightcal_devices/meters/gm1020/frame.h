@@ -15,9 +15,15 @@ inline constexpr std::size_t kFrameBytes = 8;
 using Command = std::array<std::byte, kFrameBytes>;
 
 // code, argument, five zeros, and the sum of the seven modulo 256.
-[[nodiscard]] Command EncodeCommand(unsigned code, unsigned argument);
-[[nodiscard]] Command StartLive();  // 3C 01 .. 3D: from now on two measurements a second
-[[nodiscard]] Command StopLive();   // 3C 02 .. 3E
+[[nodiscard]] constexpr Command EncodeCommand(unsigned code, unsigned argument) {
+  Command command{};
+  command[0] = static_cast<std::byte>(code);
+  command[1] = static_cast<std::byte>(argument);
+  command.back() = static_cast<std::byte>(code + argument);
+  return command;
+}
+inline constexpr Command kStartLive = EncodeCommand(0x3C, 1);  // from now on two a second
+inline constexpr Command kStopLive = EncodeCommand(0x3C, 2);
 
 // Whether these could be the first bytes of a live frame.
 [[nodiscard]] bool MayBeginFrame(std::span<const std::byte> bytes);

@@ -11,7 +11,6 @@
 
 namespace lightcal::gossen {
 
-inline constexpr std::size_t kLongestCommandBytes = 32;  // with its line feed
 inline constexpr std::size_t kLongestReplyBytes = 128;
 
 // "ERROR = 19" -> 19; absent where the line is none.

@@ -62,7 +62,7 @@ auto GossenMeter::Ask(std::string_view command, Decode decode, int timeouts)
 
 Result<MeterIdentity> GossenMeter::Identify() {
   if (!class_.empty() && class_ != "B" && class_ != "C") {
-    return WrongUsage("--set class=" + class_, "give the meter's accuracy class, B or C");
+    return WrongUsage("{meter.option} class=" + class_, "give the meter's accuracy class, B or C");
   }
   const auto echo = Ask("ECH ON", [](std::string line) { return Result<std::string>(AsIs(line)); });
   if (!echo) return tl::unexpected(echo.error());

@@ -8,7 +8,6 @@
 namespace lightcal::i2c::opt3001 {
 
 inline constexpr double kHighestLx = 83865.60;
-inline constexpr double kLowestLx = 0.01;
 
 // E = 0.01 * 2^exponent * mantissa   [lx]; result = exponent (4 bits), mantissa (12 bits)
 // The overflow bit of the configuration means over range; a mantissa of 0 under.

@@ -30,7 +30,7 @@ struct SensorContext {
 };
 
 struct Sensor {
-  std::string_view name;  // "opt4048", as --set sensor= spells it
+  std::string_view name;  // "opt4048", as the option sensor spells it
   std::string_view model;
   std::span<const Address> addresses;
   // Whether the chip at this address says it is this sensor; nullptr = it cannot say.

@@ -63,7 +63,7 @@ Result<void> Link::Connect() {
   if (!head_text_.empty()) {
     const auto head = ParseNumber(head_text_);
     if (!head || *head < 0 || *head > kHighestHead || *head != static_cast<int>(*head)) {
-      return WrongUsage("--set head=" + head_text_, "give a receptor head from 0 to 29");
+      return WrongUsage("{meter.option} head=" + head_text_, "give a receptor head from 0 to 29");
     }
     head_ = static_cast<int>(*head);
   }

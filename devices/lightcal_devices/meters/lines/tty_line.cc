@@ -24,7 +24,7 @@ Result<std::vector<FoundMeter>> FindTty(const MeterRow& row) {
     if (port.permitted) {
       meter.remedy =
           "a serial port does not tell which meter hangs on it; if it is this one, name it: "
-          "lightcal read --device " +
+          "{ReadMeter} {meter.device} " +
           std::string(row.driver) + ":" + port.path;
     } else {
       meter.access = MeterAccess::kNoPermission;

@@ -70,7 +70,8 @@ Result<void> Mcp2221Meter::NoSensor() {
       if (!here) return tl::unexpected(here.error());
       if (*here) {
         hint += "; a chip answers at " + Hex(address) + ": if it is a " +
-                std::string(sensor.model) + ", add --set sensor=" + std::string(sensor.name);
+                std::string(sensor.model) +
+                ", add {meter.option} sensor=" + std::string(sensor.name);
       }
     }
   }
@@ -84,7 +85,8 @@ Result<void> Mcp2221Meter::ChooseSensor() {
   const auto where = options_.find("address");
   if (name == options_.end()) {
     if (where != options_.end()) {
-      return WrongUsage("--set address", "says where, not what: add --set sensor=bh1750");
+      return WrongUsage("{meter.option} address",
+                        "says where, not what: add {meter.option} sensor=bh1750");
     }
     for (const i2c::Sensor& sensor : i2c::SensorTable()) {
       if (sensor.is_here == nullptr) continue;
@@ -97,12 +99,12 @@ Result<void> Mcp2221Meter::ChooseSensor() {
   if (sensor == nullptr) {
     std::string known;
     for (const i2c::Sensor& row : i2c::SensorTable()) known += " " + std::string(row.name);
-    return WrongUsage("--set sensor=" + name->second, "is none of" + known);
+    return WrongUsage("{meter.option} sensor=" + name->second, "is none of" + known);
   }
   if (where != options_.end()) {
     const auto address = ParseAddress(where->second);
     if (!address) {
-      return WrongUsage("--set address=" + where->second, "give 0x08 to 0x77, as 0x23");
+      return WrongUsage("{meter.option} address=" + where->second, "give 0x08 to 0x77, as 0x23");
     }
     sensor_ = sensor;
     address_ = *address;
@@ -110,9 +112,10 @@ Result<void> Mcp2221Meter::ChooseSensor() {
   }
   if (auto looked = FindAmong({sensor, 1}); !looked) return looked;
   if (sensor_ != nullptr) return {};
-  return Failed("no_sensor", "mcp2221",
-                "no " + std::string(sensor->model) + " answers at " + Hex(sensor->addresses[0]) +
-                    "; check the wires (SDA, SCL, power), or name its address: --set address=0x..");
+  return Failed(
+      "no_sensor", "mcp2221",
+      "no " + std::string(sensor->model) + " answers at " + Hex(sensor->addresses[0]) +
+          "; check the wires (SDA, SCL, power), or name its address: {meter.option} address=0x..");
 }
 
 Result<MeterIdentity> Mcp2221Meter::Identify() {

@@ -96,7 +96,8 @@ bool Agrees(double a, double b, double relative) {
 Warning Disagreement(std::string_view subject, const std::string& what) {
   return {
       "self_check", std::string(subject),
-      what + "; the reading may be damaged: measure again, and keep a tape (--record) to report"};
+      what +
+          "; the reading may be damaged: measure again, and keep a tape ({meter.tape}) to report"};
 }
 
 }  // namespace

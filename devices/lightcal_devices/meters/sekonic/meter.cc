@@ -86,7 +86,7 @@ Result<MeterIdentity> SekonicMeter::Identify() {
     identity.warnings.push_back({"untested_model", DeviceName(),
                                  "is a " + model_ +
                                      ", a model this driver was never tried with; please send a "
-                                     "tape (--record)"});
+                                     "tape ({meter.tape})"});
   }
   return identity;
 }
@@ -200,7 +200,7 @@ Result<MeterReading> SekonicMeter::ReadMemory(int index, const Cancellation& can
   MeterReading reading = ReadingFromMeasurement(*measurement, DeviceName());
   reading.warnings.push_back({"experimental", DeviceName(),
                               "reading a C-7000's memory was never tried on one; compare with its "
-                              "display, and please send a tape (--record)"});
+                              "display, and please send a tape ({meter.tape})"});
   return reading;
 }
 

@@ -21,7 +21,7 @@ constexpr int kRenderingIndices = 14;
 
 tl::unexpected<Error> BadReply(std::string what) {
   return Failed(std::string(kBadReply), "spotread",
-                std::move(what) + "; try again, and keep a tape (--record) to report it");
+                std::move(what) + "; try again, and keep a tape ({meter.tape}) to report it");
 }
 
 bool Contains(std::string_view text, std::string_view piece) {

@@ -52,18 +52,19 @@ Result<void> SpotreadMeter::ReadOptions() {
   for (const auto& [name, value] : options_) {
     if (name == "port") {
       if (!IsPortNumber(value)) {
-        return WrongUsage("--set port=" + value, "give a number of the list spotread -? prints");
+        return WrongUsage("{meter.option} port=" + value,
+                          "give a number of the list spotread -? prints");
       }
       chosen_.insert(chosen_.end(), {"-c", value});
     } else if (name == "ccss") {
       if (value.empty() || value.find_first_of("\n\r") != std::string::npos ||
           value.find('\0') != std::string::npos) {
-        return WrongUsage("--set ccss", "give a .ccss or .ccmx file");
+        return WrongUsage("{meter.option} ccss", "give a .ccss or .ccmx file");
       }
       chosen_.insert(chosen_.end(), {"-X", value});
     } else if (name == "hires") {
       if (!IsYes(value) && !IsNo(value)) {
-        return WrongUsage("--set hires=" + value, "give yes or no");
+        return WrongUsage("{meter.option} hires=" + value, "give yes or no");
       }
       if (IsYes(value)) chosen_.emplace_back("-H");
     } else if (name == "spotread") {
@@ -116,7 +117,7 @@ Result<std::string> SpotreadMeter::Listen(const Cancellation& cancellation) {
       if (++silent < kSlicesPerReply * kSilentReplies) continue;
       return Failed(std::string(fault::kTimeout), std::string(kModel),
                     "spotread answered nothing for long; unplug other USB-serial adapters (it "
-                    "talks to each), or name the instrument's port: --set port=1");
+                    "talks to each), or name the instrument's port: {meter.option} port=1");
     }
     silent = 0;
     text.append(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -136,7 +137,7 @@ Result<std::string> SpotreadMeter::RunOnce(const Cancellation& cancellation) {
   if (!started && started.error().code == fault::kNoDevice) {
     return Failed(std::string(fault::kNoDevice), transport_.Name(),
                   "is not there; install ArgyllCMS (apt install argyll), or give its path: "
-                  "--set spotread=PATH");
+                  "{meter.option} spotread=PATH");
   }
   if (!started) return tl::unexpected(started.error());
   auto text = Listen(cancellation);
@@ -180,14 +181,14 @@ tl::unexpected<Error> SpotreadMeter::Explain(Ending ending, std::string_view tex
     case Ending::kNoInstrument:
       return Failed(std::string(fault::kNoDevice), subject,
                     "spotread finds no instrument it knows; plug it in, see whether this version "
-                    "of ArgyllCMS knows it, or name its port: --set port=1");
+                    "of ArgyllCMS knows it, or name its port: {meter.option} port=1");
     case Ending::kNoConnection:
       return Failed("communication", subject,
                     "the instrument is there but does not answer; close other programs that use it "
-                    "and see lightcal devices for its permission (" +
+                    "and see {FindMeters} for its permission (" +
                         Quoted(text, ending) + ")");
     case Ending::kBadOption:
-      return WrongUsage("--set ccss", Quoted(text, ending));
+      return WrongUsage("{meter.option} ccss", Quoted(text, ending));
     case Ending::kFatal:
       return Failed("instrument_error", subject, Quoted(text, ending) + "; plug it in again");
     case Ending::kNoSpectrum:

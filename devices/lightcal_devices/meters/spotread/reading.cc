@@ -59,7 +59,7 @@ void AddSpectrum(const Report& report, MeterReading& result) {
     result.warnings.push_back({"self_check", result.reading.device,
                                "spotread says " + RoundedText(lux, 5) +
                                    " lx but its spectrum integrates to " + found +
-                                   "; measure again, and keep a tape (--record) to report"});
+                                   "; measure again, and keep a tape ({meter.tape}) to report"});
   }
   result.spectrum = report.spectrum;
 }

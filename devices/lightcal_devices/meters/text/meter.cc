@@ -45,13 +45,14 @@ Result<MeterIdentity> TextMeter::Identify() {
   if (const auto given = setup_.options.find("sigma"); given != setup_.options.end()) {
     kind_.sigma = ParseSigma(given->second);
     if (!kind_.sigma) {
-      return WrongUsage("--set sigma=" + given->second, "give more than 0 and less than 1, or 5%");
+      return WrongUsage("{meter.option} sigma=" + given->second,
+                        "give more than 0 and less than 1, or 5%");
     }
   }
   if (const auto given = setup_.options.find("quality"); given != setup_.options.end()) {
     const auto* known = std::ranges::find(kQualities, given->second, &NamedQuality::name);
     if (known == kQualities.end()) {
-      return WrongUsage("--set quality=" + given->second,
+      return WrongUsage("{meter.option} quality=" + given->second,
                         "give photometer, colorimeter, spectral or bare_sensor");
     }
     kind_.quality = known->quality;

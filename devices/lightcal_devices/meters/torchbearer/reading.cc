@@ -36,7 +36,7 @@ MeterReading ReadingFromMeasurement(const Measurement& measurement, const Wavele
       {"experimental", device,
        "is experimental: the driver follows a description of the protocol and was never tried "
        "on a device; compare it with a meter you trust, and please send a "
-       "tape (--record)"});
+       "tape ({meter.tape})"});
   Spectrum spectrum{{}, measurement.irradiance_W_m2_nm, SpectralQuantity::kIrradiance};
   for (int nm = range.start_nm; nm <= range.end_nm; ++nm) spectrum.wavelengths_nm.push_back(nm);
   if (!CoversVisibleRange(spectrum)) {

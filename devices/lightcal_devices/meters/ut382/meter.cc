@@ -1,31 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal_devices/meters/ut382/meter.h"
-
-#include "lightcal_devices/meters/display.h"
 #include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/ut382/frame.h"
 
 namespace lightcal::ut382 {
 namespace {
 
-constexpr DisplayMeterName kName{.driver = "ut382", .model = "UT382"};
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 20000.0};
-constexpr int kMostFrames = 16;  // 2 s
-constexpr int kSilences = 3;
-constexpr std::size_t kMostBytes = 4 * (kFrameBytes + 1);
 constexpr const char* kInMenu = "in_menu";
-
-FrameSearch Search(const MeterTiming& timing) {
-  return {.frame_bytes = kFrameBytes,
-          .may_begin = MayBeginFrame,
-          .most_bytes = kMostBytes,
-          .waits = kSilences,
-          .wait = timing.reply,
-          .hint =
-              "switch the meter's USB on (hold the menu button, press +, then menu five "
-              "times): USB must show on its display",
-          .passing = kInMenu};
-}
 
 Result<MeterReading> ReadingFrom(const Bytes& frame, const std::string& device) {
   const auto display = DecodeDisplay(frame);
@@ -46,11 +27,17 @@ Result<MeterReading> ReadingFrom(const Bytes& frame, const std::string& device) 
 
 }  // namespace
 
-std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) {
-  return std::make_unique<StreamMeter>(
-      transport, setup, kName,
-      DisplayStream{
-          .search = Search(setup.timing), .most_frames = kMostFrames, .reading = ReadingFrom});
-}
+constexpr DisplayProtocol kProtocol{
+    .driver = "ut382",
+    .model = "UT382",
+    .search = {.frame_bytes = kFrameBytes,
+               .may_begin = MayBeginFrame,
+               .most_bytes = 4 * (kFrameBytes + 1),
+               .waits = 3,
+               .hint = "switch the meter's USB on (hold the menu button, press +, then menu five "
+                       "times): USB must show on its display",
+               .passing = kInMenu},
+    .most_frames = 16,  // 2 s
+    .reading = ReadingFrom};
 
 }  // namespace lightcal::ut382

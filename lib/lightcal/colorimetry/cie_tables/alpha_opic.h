@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CIE's action spectrum of the cells that set the body clock. The numbers in alpha_opic.cc are
-// (c) CIE, CC BY-SA 4.0: see LICENSE here.
+// The CIE's action spectrum of the cells that set the body clock, (c) CIE, CC BY-SA 4.0: see
+// LICENSE here.
 #pragma once
 
 #include <array>

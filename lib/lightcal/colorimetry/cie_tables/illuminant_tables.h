@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CIE's tabulated illuminants. The numbers in illuminant_tables.cc are (c) CIE, CC BY-SA 4.0:
-// see LICENSE here.
+// The CIE's tabulated illuminants, (c) CIE, CC BY-SA 4.0: see LICENSE here.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CIE's test colour samples and the observer they are judged by. The numbers in samples.cc are
-// (c) CIE, CC BY-SA 4.0: see LICENSE here.
+// The CIE's test colour samples and the observer they are judged by, (c) CIE, CC BY-SA 4.0: see
+// LICENSE here.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CIE's published tables. The numbers in tables.cc are (c) CIE, CC BY-SA 4.0: see LICENSE here.
+// The CIE's published tables, (c) CIE, CC BY-SA 4.0: see LICENSE here.
 #pragma once
 
 #include <array>

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/core/units.h"
 #include "lightcal/fit/distribution/intensity_surface.h"
 #include "lightcal/light/lamp_axes.h"
@@ -68,10 +69,7 @@ double RoughPeak(const std::vector<IntensitySample>& samples) {
     if (s.sigma_cd > 0.0) values.push_back(s.intensity_cd);
   }
   if (values.empty()) return 0.0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / 200);
-  std::ranges::nth_element(values, at);
-  return *at;
+  return AtRank(values, values.size() - 1 - values.size() / 200);
 }
 
 // Half angle of the widest cone whose rim has samples beyond it at every azimuth.
@@ -145,12 +143,6 @@ Surface ChooseSurface(const std::vector<ChartSample>& chart) {
   return *std::move(best);
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 // Takes the weight of samples that lie off the surface; returns how many.
 int Reject(const Surface& surface, std::vector<ChartSample>& chart) {
   std::vector<double> off;
@@ -160,7 +152,7 @@ int Reject(const Surface& surface, std::vector<ChartSample>& chart) {
                     std::sqrt(s.weight));
     }
   }
-  const double sigma = 1.4826 * Median(off);
+  const double sigma = 1.4826 * UpperMedian(off);
   int rejected = 0;
   for (ChartSample& s : chart) {
     if (!(s.weight > 0.0)) continue;
@@ -357,8 +349,8 @@ void WarnOf(const std::string& light, FittedDistribution& out) {
   if (out.interpolated_share > kNoticed) {
     out.warnings.push_back(
         {"interpolated_directions", light,
-         RoundedText(100.0 * out.interpolated_share, 2) +
-             " % of the flux lies in directions that were never seen (the board, masks, what was "
+         PercentText(out.interpolated_share) +
+             " of the flux lies in directions that were never seen (the board, masks, what was "
              "saturated); hang the board beside the beam, or take it down for the frames and name "
              "its picture with board_frame"});
   }

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal::fit {
 namespace {
 
@@ -98,12 +100,8 @@ Figures FiguresOf(std::vector<double>& samples) {
   const double mean = sum / n;
   double squares = 0.0;
   for (const double x : samples) squares += (x - mean) * (x - mean);
-  const auto quantile = [&](double p) {
-    const auto at = samples.begin() + static_cast<std::ptrdiff_t>(p * (n - 1.0) + 0.5);
-    std::nth_element(samples.begin(), at, samples.end());
-    return *at;
-  };
-  return {mean, std::sqrt(squares / (n - 1.0)), quantile(kTail), quantile(1.0 - kTail)};
+  return {mean, std::sqrt(squares / (n - 1.0)), Quantile(samples, kTail),
+          Quantile(samples, 1.0 - kTail)};
 }
 
 // Half of the last of `digits` significant digits of u.

@@ -280,9 +280,9 @@ void CheckDrift(const Session& session, const FittedLight& light, Warnings& warn
   const auto change = DriftOf(rows, light);
   if (!change) return;
   warnings.push_back({"drift", light.name,
-                      "its light changed by " + RoundedText(100.0 * std::expm1(*change), 2) +
-                          " % from the first reading to the last, beyond what distance explains: "
-                          "let the lamp warm up (lightcal read --settle) and measure again"});
+                      "its light changed by " + PercentText(std::expm1(*change)) +
+                          " from the first reading to the last, beyond what distance explains: "
+                          "let the lamp warm up ({ReadMeter} {meter.settle}) and measure again"});
 }
 
 }  // namespace lightcal::fit

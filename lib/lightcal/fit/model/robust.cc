@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/core/statistics.h"
 #include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
@@ -24,11 +25,7 @@ std::vector<double> Residuals(const Estimation& estimation, const Theta& theta) 
 
 double MedianAbsolute(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  const double upper = *middle;
-  return 0.5 * (upper + *std::max_element(values.begin(), middle));
+  return Median(values);
 }
 
 double RobustScale(const Estimation& estimation, const Theta& theta) {

@@ -67,7 +67,7 @@ std::optional<std::string> AboutPlace(const Session& session, const FittedLight&
   const auto plan = PlanReadings(session, light.name, {}, 1);
   if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
   const PlannedReading& step = plan->steps.front();
-  const auto percent = [](double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; };
+  const auto percent = [](double part) { return "± " + PercentText(part); };
   return SayPlannedReading(step) + ": it leaves " + percent(step.u95_relative) + " instead of " +
          percent(*plan->u95_relative);
 }

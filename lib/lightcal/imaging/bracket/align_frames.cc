@@ -33,7 +33,7 @@ Result<FrameAlignment::Moved> MovedBetween(const Blocks& a, const Blocks& b,
   if (certain) return FrameAlignment::Moved{-found->dx, -found->dy, found->sd, 0, 0};
   if (!found && still.share() < kHalf) return FrameAlignment::Moved{};
   return Refused("misaligned", name,
-                 RoundedText(100.0 * still.share(), 2) + " % of it differs from " + other +
+                 PercentText(still.share()) + " of it differs from " + other +
                      ", and no shift explains that for certain: the camera turned, zoomed, or the "
                      "scene changed. Leave this frame out, or shoot again on a tripod");
 }

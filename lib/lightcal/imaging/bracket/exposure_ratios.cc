@@ -13,6 +13,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/noise.h"
 
 namespace lightcal {
@@ -49,9 +50,7 @@ std::optional<double> RoughRatio(std::span<const float> a, std::span<const float
       if (clear) ratios.push_back(b[i] / a[i]);
     }
     if (static_cast<double>(ratios.size()) < kLeastSamples) continue;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
+    return UpperMedian(ratios);
   }
   return std::nullopt;
 }
@@ -217,9 +216,8 @@ Result<void> CompareWithLabels(std::span<const double> label, std::span<const st
     if (answer.measured[i]) joined.push_back(off.back());
   }
   const std::vector<double>& trusted = joined.empty() ? off : joined;
-  std::vector<double> sorted = trusted;
-  std::sort(sorted.begin(), sorted.end());
-  const double median = sorted[sorted.size() / 2];
+  std::vector<double> ranked = trusted;
+  const double median = UpperMedian(ranked);
   double sum = 0.0, count = 0.0;
   for (const double o : trusted) {
     if (std::abs(o - median) > kWarnEv * std::numbers::ln2) continue;
@@ -231,10 +229,11 @@ Result<void> CompareWithLabels(std::span<const double> label, std::span<const st
     answer.ln_exposure[i] -= gauge;
     const double ev = std::abs(off[i] - gauge) / std::numbers::ln2;
     if (ev > kRefuseEv) {
-      return Refused("exposures_disagree", names[i],
-                     "its picture was exposed " + EvText(off[i] - gauge) +
-                         " from what its tags or --exposures say, beside the other frames; give "
-                         "the exposures in the order of the files, or leave this frame out");
+      return Refused(
+          "exposures_disagree", names[i],
+          "its picture was exposed " + EvText(off[i] - gauge) +
+              " from what its tags or {merge.exposures} say, beside the other frames; give "
+              "the exposures in the order of the files, or leave this frame out");
     }
     if (ev > kWarnEv) {
       answer.warnings.push_back({"exposure_off", names[i],

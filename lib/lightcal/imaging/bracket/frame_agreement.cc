@@ -22,7 +22,8 @@ constexpr std::size_t kAtOnce = 4;  // frames in memory as blocks
 Warning Misaligned(const FoundShift& found, const std::string& name, const std::string& other) {
   return {"misaligned", name,
           "the camera moved by " + RoundedText(found.length(), 2) + " pixels between " + other +
-              " and this frame; edges are wrong and wide in sigma. Use a tripod, or --align auto"};
+              " and this frame; edges are wrong and wide in sigma. Use a tripod, or {merge.align} "
+              "auto"};
 }
 
 // Mean relative difference along rows (or columns).
@@ -54,8 +55,8 @@ std::optional<Warning> Flicker(const Differences& d, const Blocks& blocks, const
   const double columns = ProfileRms(d, blocks.width, blocks.height, false);
   if (rows < kBandRms || rows < kBandOverColumns * columns) return std::nullopt;
   return Warning{"flicker", name,
-                 "its rows differ from those of " + other + " by " + RoundedText(100.0 * rows, 2) +
-                     " % rms: a pulsed lamp under a rolling shutter. Use a shutter time that is a "
+                 "its rows differ from those of " + other + " by " + PercentText(rows) +
+                     " rms: a pulsed lamp under a rolling shutter. Use a shutter time that is a "
                      "whole number of mains half periods (1/100 or 1/120 s), or an ND filter"};
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -157,10 +159,9 @@ Blocks AtLevelOf(std::span<const float> expected, const Blocks& b) {
   }
   Blocks level = b;
   if (ratios.empty()) return level;
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  for (float& mean : level.mean) mean /= *middle;
-  for (float& variance : level.variance) variance /= *middle * *middle;
+  const float middle = UpperMedian(ratios);
+  for (float& mean : level.mean) mean /= middle;
+  for (float& variance : level.variance) variance /= middle * middle;
   return level;
 }
 

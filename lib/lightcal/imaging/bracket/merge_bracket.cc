@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/signal_kernels.h"
 
 namespace lightcal {
@@ -189,9 +190,8 @@ double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_w
     }
   }
   if (upper.size() < kLeastTiles) return usual;
-  const auto quartile = upper.begin() + static_cast<std::ptrdiff_t>(upper.size() / 4);
-  std::nth_element(upper.begin(), quartile, upper.end());
-  return std::min(kLargestFixedPattern * usual, std::sqrt(std::max(0.0, *quartile)));
+  const double quartile = AtRank(upper, upper.size() / 4);
+  return std::min(kLargestFixedPattern * usual, std::sqrt(std::max(0.0, quartile)));
 }
 
 }  // namespace lightcal

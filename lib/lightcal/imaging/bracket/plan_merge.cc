@@ -73,7 +73,7 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
            "the frames scatter " + RoundedText(ratio, 2) + " times what the " +
                (request.noise_of_camera ? "camera's profile" : "file's NoiseProfile") +
                " says (variance), which is used: the scene moved, or the profile is wrong; "
-               "--noise replaces it"});
+               "{merge.noise} replaces it"});
     }
     return {};
   }

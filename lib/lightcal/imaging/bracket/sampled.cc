@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -60,10 +62,8 @@ PairClips ClipsOfPair(const SampledSignals& signals, std::size_t a, std::size_t 
   float level = 0.0F;
   for (const std::size_t frame : {a, b}) {
     std::vector<float> values = signals.frames[frame];
-    const auto high = values.begin() + static_cast<std::ptrdiff_t>(
-                                           kOrdinary * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), high, values.end());
-    level = std::max(level, kAboveOrdinary * *high);
+    const auto rank = static_cast<std::size_t>(kOrdinary * static_cast<double>(values.size() - 1));
+    level = std::max(level, kAboveOrdinary * AtRank(values, rank));
   }
   for (float& clip : pair.clip) {
     if (unknown(clip)) clip = level;

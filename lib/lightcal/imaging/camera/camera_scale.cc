@@ -72,8 +72,8 @@ Result<CameraScale> CombineScaleReadings(std::span<const WeighedScaleReading> re
     });
     const double off = worst->reading.full_scale_constant / std::exp(mean) - 1.0;
     warnings.push_back({"scale_readings_disagree", worst->reading.frames,
-                        "is " + RoundedText(100.0 * std::abs(off), 2) +
-                            " % from the mean of all readings of the scale, more than their "
+                        "is " + PercentText(std::abs(off)) +
+                            " from the mean of all readings of the scale, more than their "
                             "uncertainties allow; the interval is widened. Read one again"});
   }
   scale.full_scale_constant = std::exp(mean);

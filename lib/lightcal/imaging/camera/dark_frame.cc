@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/statistics.h"
 
 namespace lightcal {
 namespace {
@@ -17,12 +18,6 @@ constexpr double kMostHot = 0.01;
 constexpr double kPictureFrom = 0.002;  // of full scale between blocks
 constexpr int kBlocks = 8;              // a side
 constexpr double kSameIso = 0.02;
-
-double MedianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Mean of the frames, sample by sample.
 std::vector<float> MeanOf(std::span<const SignalFrame> frames) {
@@ -66,10 +61,11 @@ std::array<Level, 3> LevelsOf(const SignalFrame& frame, const std::vector<float>
   std::array<Level, 3> levels;
   for (std::size_t c = 0; c < 3; ++c) {
     if (values[c].empty()) continue;
-    levels[c].median = MedianOf(values[c]);
+    levels[c].median = UpperMedian(values[c]);
     for (float& v : values[c]) v = static_cast<float>(std::abs(v - levels[c].median));
     // Codes of a quiet sensor may all be one value: then rounding is the spread.
-    levels[c].sd = std::max(kMadToSd * MedianOf(values[c]), 0.3 * double{frame.scale[0][0]});
+    levels[c].sd =
+        std::max(kMadToSd * double{UpperMedian(values[c])}, 0.3 * double{frame.scale[0][0]});
   }
   return levels;
 }
@@ -137,8 +133,7 @@ Result<CameraDark> MeasureDark(std::span<const SignalFrame> frames, double iso, 
   for (std::size_t c = 0; c < 3; ++c) {
     dark.black[c] = channels[c].Mean();
     if (dark.black[c] > kMostBlack) {
-      return WithLight(frame.name,
-                       "it shows " + RoundedText(100.0 * dark.black[c], 2) + " % of full scale");
+      return WithLight(frame.name, "it shows " + PercentText(dark.black[c]) + " of full scale");
     }
   }
   const double pixels = static_cast<double>(frame.width) * frame.height;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -23,10 +25,8 @@ constexpr float kOutlineWidth = 16.75F, kOutlineHeight = 11.25F, kFirst = 1.5F, 
 // The value that kWhiteShare of a channel's samples lie below.
 float WhiteOf(const cv::Mat& channel) {
   std::vector<float> values(channel.begin<float>(), channel.end<float>());
-  const auto at = values.begin() +
-                  static_cast<std::ptrdiff_t>(kWhiteShare * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  return AtRank(values,
+                static_cast<std::size_t>(kWhiteShare * static_cast<double>(values.size() - 1)));
 }
 
 // Small, white balanced by the brightest samples, encoded as pictures for looking at are. Empty

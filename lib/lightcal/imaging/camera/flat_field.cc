@@ -189,8 +189,8 @@ Result<CameraFlat> FitFlatField(View2d<const float> raw, double f_number,
   if (!(flat.sigma_relative < kMostUneven)) {
     return Refused("flat_uneven", "flat",
                    "what is left after a round loss of light is " +
-                       RoundedText(100.0 * flat.sigma_relative, 2) +
-                       " %: the surface is not evenly lit, or does not fill the picture");
+                       PercentText(flat.sigma_relative) +
+                       ": the surface is not evenly lit, or does not fill the picture");
   }
   if (!LetsLightThrough(flat, raw.width(), raw.height())) {
     return Refused("flat_uneven", "flat", "no round loss of light explains this picture");
@@ -240,7 +240,7 @@ Result<CameraFlat> FlatFor(std::span<const CameraFlat> flats, double f_number,
                      ? "the camera's flat fields were taken at another focal length"
                      : "the camera's flat fields were taken at " + known +
                            "; how a lens loses light outside of these is not known: take one at "
-                           "this aperture, or leave flat fields out (--no-flat)");
+                           "this aperture, or leave flat fields out ({camera.flat})");
 }
 
 }  // namespace lightcal

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -105,9 +107,7 @@ class LightMeasurer {
     if (ring.empty()) return {};
     std::vector<double> levels;
     for (const Index i : ring) levels.push_back(Nits(i));
-    const auto middle = levels.begin() + static_cast<std::ptrdiff_t>(levels.size() / 2);
-    std::nth_element(levels.begin(), middle, levels.end());
-    const double most = kRingOutlier * std::max(0.0, *middle);
+    const double most = kRingOutlier * std::max(0.0, UpperMedian(levels));
     const Vec3 centre = Middle(body);
     const Frame2d frame = FrameAcross(centre);
     const int count = std::min(kMostArcs, static_cast<int>(ring.size()));

@@ -19,16 +19,16 @@ double ByLight(const DomeLight& light, const Vec3& normal) {
 }
 
 tl::unexpected<Error> NoLight() {
-  return Refused("no_light", "--lux",
+  return Refused("no_light", "{dome.illuminance}",
                  "the panorama shows nothing bright on the side the meter faced; check "
-                 "--lux-direction and that the picture is not black");
+                 "{dome.normal} and that the picture is not black");
 }
 
 Result<void> CheckFacing(const DomeLight& light, const Vec3& normal) {
   if (Dot(light.direction, normal) >= kLeastCosine) return {};
-  return Refused("lux_misses_light", "--lux",
+  return Refused("lux_misses_light", "{dome.illuminance}",
                  "the meter faced away from the light that is to be solved from its reading; turn "
-                 "it towards the light and say so with --lux-direction");
+                 "it towards the light and say so with {dome.normal}");
 }
 
 void Multiply(double factor, Dome& dome, std::vector<DomeLight>& lights) {
@@ -45,7 +45,7 @@ void Multiply(double factor, Dome& dome, std::vector<DomeLight>& lights) {
 Result<DomeScale> ByShading(const DomeReading& reading, double all, Dome& dome,
                             std::vector<DomeLight>& lights) {
   if (lights.empty()) {
-    return Refused("no_light", "--lux-shaded",
+    return Refused("no_light", "{dome.shaded}",
                    "the panorama shows no light that a card could have shaded");
   }
   if (auto facing = CheckFacing(lights[0], reading.normal); !facing) {
@@ -55,7 +55,7 @@ Result<DomeScale> ByShading(const DomeReading& reading, double all, Dome& dome,
   if (!(rest > 0.0)) return NoLight();
   const double direct = reading.illuminance.value() - reading.shaded->value();
   if (!(direct > 0.0)) {
-    return Refused("lux_below_rest", "--lux",
+    return Refused("lux_below_rest", "{dome.illuminance}",
                    LuxText(reading.illuminance.value()) + " is not above the shaded reading of " +
                        LuxText(reading.shaded->value()));
   }
@@ -83,7 +83,7 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
   }
   const double missing = reading.illuminance.value() - rest;
   if (!(missing > 0.0)) {
-    return Refused("lux_below_rest", "--lux",
+    return Refused("lux_below_rest", "{dome.illuminance}",
                    "everything but the clipped light gives " + LuxText(rest) +
                        " already, more than the reading of " +
                        LuxText(reading.illuminance.value()) +
@@ -108,10 +108,11 @@ Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute, Dome& dom
       std::ranges::any_of(lights, [](const DomeLight& light) { return light.body.clipped; });
   if (clipped && absolute) return ByRest(reading, all, lights);
   if (clipped) {
-    return Refused("clipped_scale_unknown", "--lux",
-                   "one reading cannot give both the picture's scale and the clipped light; read "
-                   "again with a card shading the light (--lux-shaded), or give a picture in cd/m2 "
-                   "(lightcal merge writes one)");
+    return Refused(
+        "clipped_scale_unknown", "{dome.illuminance}",
+        "one reading cannot give both the picture's scale and the clipped light; read "
+        "again with a card shading the light ({dome.shaded}), or give a picture in cd/m2 "
+        "({MergeBracket} writes one)");
   }
   if (!(all > 0.0)) return NoLight();
   DomeScale scale;

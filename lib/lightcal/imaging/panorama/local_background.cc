@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/statistics.h"
 
 namespace lightcal {
 namespace {
@@ -15,12 +16,6 @@ namespace {
 constexpr int kCellRows = 60;  // of 3 degrees
 constexpr double kPercentile = 0.7;
 const double kNeighbourhoodCosine = std::cos(25.0 * std::numbers::pi / 180.0);
-
-double MedianOf(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Rows or columns [from, to) of the picture that cell i of n covers; never none.
 std::pair<int, int> Extent(int i, int n, int size) {
@@ -39,7 +34,7 @@ std::vector<double> CellMedians(View2d<const float> nits, const LatLongGrid& cel
       for (int y = top; y < bottom; ++y) {
         for (int x = left; x < right; ++x) values.push_back(nits(x, y));
       }
-      medians[static_cast<std::size_t>(cells.Index(cx, cy))] = MedianOf(values);
+      medians[static_cast<std::size_t>(cells.Index(cx, cy))] = UpperMedian(values);
     }
   });
   return medians;

@@ -49,7 +49,8 @@ Result<void> CheckView(const PictureView& view) {
       return {};
     case Projection::kRectilinear:
       if (!(degrees > 0.0 && degrees < 180.0)) {
-        return refuse("an ordinary lens sees between 0 and 180 degrees across; give --fov");
+        return refuse(
+            "an ordinary lens sees between 0 and 180 degrees across; give {view.field_of_view}");
       }
       return {};
     case Projection::kEquidistant:
@@ -57,7 +58,7 @@ Result<void> CheckView(const PictureView& view) {
       break;
   }
   if (!(degrees > 0.0 && degrees <= 360.0)) {
-    return refuse("a fisheye sees up to 360 degrees across its circle; give --fov");
+    return refuse("a fisheye sees up to 360 degrees across its circle; give {view.field_of_view}");
   }
   return {};
 }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/imaging/panorama/latlong_grid.h"
 
 namespace lightcal {
@@ -193,12 +194,6 @@ class Normal {
   Eigen::MatrixXd matrix_;
 };
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Robust sd of what is left: in units of the sights' own sd, or of ln L.
 double SdOfRest(const Normal& normal, const std::vector<Cell>& cells, bool in_own_sd) {
   std::vector<double> off;
@@ -209,7 +204,7 @@ double SdOfRest(const Normal& normal, const std::vector<Cell>& cells, bool in_ow
       off.push_back(std::abs(normal.Left(sight) - mean) / unit);
     }
   }
-  return kNormalMad * Median(std::move(off));
+  return kNormalMad * UpperMedian(off);
 }
 
 void Reweigh(const Normal& normal, std::vector<Cell>& cells) {

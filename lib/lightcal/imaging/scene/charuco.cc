@@ -10,6 +10,7 @@
 #include <string>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/statistics.h"
 
 namespace lightcal {
 namespace {
@@ -127,18 +128,12 @@ void ForEachSide(const CornersByNumber& corners, const CharucoBoard& board, cons
   }
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 double SquareInPixels(const CornersByNumber& corners, const CharucoBoard& board) {
   std::vector<double> sides;
   ForEachSide(corners, board, [&](const cv::Point2f& a, const cv::Point2f& b) {
     sides.push_back(cv::norm(b - a));
   });
-  return sides.empty() ? 0.0 : Median(sides);
+  return sides.empty() ? 0.0 : UpperMedian(sides);
 }
 
 double CodeAt(const cv::Mat& codes, double x, double y) {
@@ -171,7 +166,7 @@ double EdgeWidth(const cv::Mat& codes, const CornersByNumber& corners, const Cha
     }
     if (steepest > 0.0) widths.push_back((high - low) / steepest * 2.0 * kReach / kSteps);
   });
-  return widths.empty() ? 0.0 : Median(widths);
+  return widths.empty() ? 0.0 : UpperMedian(widths);
 }
 
 tl::unexpected<Error> NotFound(std::size_t corners, std::size_t all) {
@@ -228,8 +223,8 @@ Result<std::vector<BoardCorner>> FindBoard(View2d<const float> luminance,
   const double edge = EdgeWidth(codes, corners, board);
   if (edge > kWidestEdge && edge * square > kSharpEdge) {
     return Refused("board_blurred", "ChArUco board",
-                   "its edges are " + RoundedText(100.0 * edge, 2) +
-                       " % of a square wide; focus on the wall and use a tripod");
+                   "its edges are " + PercentText(edge) +
+                       " of a square wide; focus on the wall and use a tripod");
   }
   std::vector<BoardCorner> out;
   for (const auto& [number, pixel] : corners) {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -40,9 +42,7 @@ float MedianInside(const Means& means) {
   for (std::size_t i = 0; i < means.value.size(); ++i) {
     if (means.inside[i] != 0) all.push_back(means.value[i]);
   }
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  return UpperMedian(all);
 }
 
 // The pixels above `level` that hang together with `start`, marked.

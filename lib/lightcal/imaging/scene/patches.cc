@@ -8,17 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
-namespace {
-
-double Median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 != 0) return *middle;
-  return (double{*middle} + double{*std::max_element(values.begin(), middle)}) / 2.0;
-}
-
-}  // namespace
 
 Result<void> CheckRegion(const Region& region, int width, int height) {
   const bool inside = region.width > 0 && region.height > 0 && region.x >= 0 && region.y >= 0 &&

@@ -46,7 +46,8 @@ double Scale(const FrameInfo& info, LuminanceConvention convention, PictureLumin
   luminance.warnings.push_back(
       {"relative_scale", info.file,
        "the file does not say which luminance 1.0 is (no whiteLuminance); its numbers are taken as "
-       "cd/m^2: calibrate it by a lux reading (lightcal dome --lux), or name the convention"});
+       "cd/m^2: calibrate it by a lux reading ({MakeDome} {dome.illuminance}), or name the "
+       "convention"});
   return 1.0;
 }
 
@@ -70,7 +71,7 @@ Result<PictureLuminance> LuminanceOfPicture(const Frame& frame, LuminanceConvent
   const auto* const samples = std::get_if<View2d<const float>>(&frame.samples);
   if (info.meaning != SampleMeaning::kLinear || samples == nullptr) {
     return Refused("not_linear", info.file,
-                   "its samples are no luminance yet; merge its bracket first (lightcal merge)");
+                   "its samples are no luminance yet; merge its bracket first ({MergeBracket})");
   }
   PictureLuminance luminance;
   const double scale = Scale(info, convention, luminance) / info.radiance_exposure;

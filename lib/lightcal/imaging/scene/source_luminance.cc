@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "lightcal/core/statistics.h"
 #include "lightcal/core/vec3.h"
 
 namespace lightcal {
@@ -58,9 +59,7 @@ double MedianOfRim(const Parts& parts) {
     if (parts.OnRim(i) && parts[i].seen) rim.push_back(parts[i].nits);
   }
   if (rim.empty()) return 0.0;
-  const auto middle = rim.begin() + static_cast<std::ptrdiff_t>(rim.size() / 2);
-  std::nth_element(rim.begin(), middle, rim.end());
-  return *middle;
+  return UpperMedian(rim);
 }
 
 // A tenth of the mean of what is brighter than half of the peak, above the rim; and half as much

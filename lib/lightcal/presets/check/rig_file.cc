@@ -1,41 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/check/rig_file.h"
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "lightcal/records/json_codec.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::json;
+using records::Node;
 
 // Looks things up and remembers the first that is not there.
 class Finder {
  public:
-  double Number(const Json& from, const char* key) {
-    const auto it = from.is_object() ? from.find(key) : from.end();
-    if (!from.is_object() || it == from.end() || !it->is_number()) return Missing(key), 0.0;
-    return it->get<double>();
+  double Number(const Node& from, const char* key) {
+    const Node& node = Part(from, key);
+    if (!node.IsNumber()) Missing(key);
+    return node.number;
   }
-  std::string Text(const Json& from, const char* key) {
-    const auto it = from.is_object() ? from.find(key) : from.end();
-    if (!from.is_object() || it == from.end() || !it->is_string()) return Missing(key), "";
-    return it->get<std::string>();
+  std::string Text(const Node& from, const char* key) {
+    const Node& node = Part(from, key);
+    if (node.kind != Node::Kind::kText) Missing(key);
+    return node.text;
   }
-  std::array<double, 3> Triple(const Json& from, const char* key) {
-    const auto it = from.is_object() ? from.find(key) : from.end();
-    if (!from.is_object() || it == from.end() || !it->is_array() || it->size() != 3 ||
-        !(*it)[0].is_number() || !(*it)[1].is_number() || !(*it)[2].is_number()) {
-      return Missing(key), std::array<double, 3>{};
+  Vec3 Triple(const Node& from, const char* key) {
+    const std::vector<Node>& items = Part(from, key).items;
+    if (items.size() != 3 || !std::ranges::all_of(items, &Node::IsNumber)) {
+      Missing(key);
+      return {};
     }
-    return {(*it)[0].get<double>(), (*it)[1].get<double>(), (*it)[2].get<double>()};
+    return {items[0].number, items[1].number, items[2].number};
   }
-  const Json& Part(const Json& from, const char* key) {
-    static const Json kNothing;
-    const auto it = from.is_object() ? from.find(key) : from.end();
-    if (!from.is_object() || it == from.end()) return Missing(key), kNothing;
-    return *it;
+  const Node& Part(const Node& from, const char* key) {
+    static const Node kNothing;
+    const Node* node = from.Find(key);
+    if (node == nullptr) Missing(key);
+    return node == nullptr ? kNothing : *node;
   }
   [[nodiscard]] const std::string& missing() const { return missing_; }
   void Missing(const std::string& key) {
@@ -46,7 +48,7 @@ class Finder {
   std::string missing_;
 };
 
-CheckedCard CardFrom(Finder& find, const Json& rig, const Json& json) {
+CheckedCard CardFrom(Finder& find, const Node& rig, const Node& json) {
   CheckedCard card;
   card.name = find.Text(json, "name");
   card.reflectance = find.Number(json, "reflectance");
@@ -62,21 +64,19 @@ CheckedCard CardFrom(Finder& find, const Json& rig, const Json& json) {
   return card;
 }
 
-CheckedLamp LampFrom(Finder& find, const Json& json) {
+CheckedLamp LampFrom(Finder& find, const Node& json) {
   CheckedLamp lamp;
   lamp.name = find.Text(json, "name");
   lamp.kind = find.Text(json, "kind");
-  const Json& rgb = find.Part(find.Part(json, "color"), "rec709_linear");
+  const Node& rgb = find.Part(find.Part(json, "color"), "rec709_linear");
   lamp.color = find.Triple(rgb, "max_normalised");
   lamp.color_luminance = find.Number(rgb, "luminance_of_max_normalised");
-  const Json& geometry = find.Part(json, "geometry");
-  if (geometry.is_object() && geometry.contains("outer_deg")) {
-    lamp.outer_deg = find.Number(geometry, "outer_deg");
-  }
+  const Node& geometry = find.Part(json, "geometry");
+  if (geometry.Find("outer_deg") != nullptr) lamp.outer_deg = find.Number(geometry, "outer_deg");
   return lamp;
 }
 
-void FindCamera(Finder& find, const Json& json, CheckedRig& rig) {
+void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
   rig.camera_m = find.Triple(json, "position_m");
   rig.target_m = find.Triple(json, "target_m");
   rig.up = find.Triple(json, "up");
@@ -92,27 +92,28 @@ bool IsUsable(const CheckedRig& rig) {
 }  // namespace
 
 Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& path) {
-  const Json root = Json::parse(text, nullptr, false);
-  if (!root.is_object()) {
+  const auto root = records::ParseJson(text);
+  if (!root || root->kind != Node::Kind::kTable) {
     return Refused("bad_rig", path, "is no JSON; give the <stem>.preset.json that export wrote");
   }
-  if (!root.contains("rig")) {
-    return Refused("no_rig", path, "has no rig; export it without --bare, with --to json");
+  if (root->Find("rig") == nullptr) {
+    return Refused("no_rig", path,
+                   "has no rig; export it without {preset.bare}, with {preset.json}");
   }
   Finder find;
   CheckedRig rig;
-  const Json& json = root["rig"];
-  rig.scale = find.Number(find.Part(root, "exposure"), "exposure");
+  const Node& json = *root->Find("rig");
+  rig.scale = find.Number(find.Part(*root, "exposure"), "exposure");
   rig.separation_m = find.Number(json, "separation_m");
-  const Json& cards = find.Part(json, "cards");
-  if (cards.is_array() && cards.size() == 2) {
-    rig.cards = {CardFrom(find, json, cards[0]), CardFrom(find, json, cards[1])};
+  const Node& cards = find.Part(json, "cards");
+  if (cards.items.size() == 2) {
+    rig.cards = {CardFrom(find, json, cards.items[0]), CardFrom(find, json, cards.items[1])};
   } else {
     find.Missing("cards");
   }
   FindCamera(find, find.Part(json, "camera"), rig);
   const std::string chosen = find.Text(json, "light");
-  for (const Json& lamp : find.Part(root, "lights")) {
+  for (const Node& lamp : find.Part(*root, "lights").items) {
     rig.lamps.push_back(LampFrom(find, lamp));
     if (rig.lamps.back().name == chosen) rig.lamp = rig.lamps.size() - 1;
   }

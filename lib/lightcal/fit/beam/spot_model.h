@@ -58,14 +58,4 @@ template <class T>
          SpotProfile(s, HalfVersine(inner), HalfVersine(outer), SpotFalloff::kSquaredLinear);
 }
 
-//   r = (m - E)/sigma
-struct SpotIlluminanceCost {
-  const SpotReading* reading;
-  template <class T>
-  bool operator()(const T* p, T* residual) const {
-    residual[0] = (reading->measured - SpotIlluminance(*reading, p)) / reading->sigma;
-    return true;
-  }
-};
-
 }  // namespace lightcal::fit

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "option_words.h"
+
+#include <algorithm>
+#include <array>
+
+namespace lightcal::app {
+namespace {
+
+struct FieldRow {
+  std::string_view field;
+  std::string_view words;
+};
+
+// The whole list.
+constexpr auto kFields = std::to_array<FieldRow>({
+    {"CalibrateCamera", "lightcal camera"},
+    {"FindMeters", "lightcal devices"},
+    {"MakeDome", "lightcal dome"},
+    {"MakeStudy", "lightcal tradeoff SESSION -o DIR"},
+    {"MergeBracket", "lightcal merge"},
+    {"ReadDistribution", "lightcal photometric FILE"},
+    {"ReadMeter", "lightcal read"},
+    {"ShootBracket", "lightcal shoot"},
+    {"camera.flat", "--no-flat"},
+    {"dome.illuminance", "--lux"},
+    {"dome.normal", "--lux-direction"},
+    {"dome.shaded", "--lux-shaded"},
+    {"exposure.f_number", "--f-number"},
+    {"exposure.t_stop", "--t-stop"},
+    {"merge.align", "--align"},
+    {"merge.exposures", "--exposures"},
+    {"merge.noise", "--noise"},
+    {"meter.count", "-n"},
+    {"meter.device", "--device"},
+    {"meter.option", "--set"},
+    {"meter.settle", "--settle"},
+    {"meter.tape", "--record"},
+    {"preset.bare", "--bare"},
+    {"preset.json", "--to json"},
+    {"preset.range", "--range"},
+    {"preset.target", "--to"},
+    {"reading.illuminance", "--lux"},
+    {"render.engine", "--engine"},
+    {"shoot.aperture", "--aperture"},
+    {"shoot.bracket", "--bracket"},
+    {"shoot.center", "--center"},
+    {"shoot.iso", "--iso"},
+    {"shoot.resume", "--resume"},
+    {"study.knobs", "--knobs"},
+    {"study.tolerance", "--tol"},
+    {"view.field_of_view", "--fov"},
+});
+
+}  // namespace
+
+std::string InOptionWords(std::string_view text) {
+  std::string out;
+  while (true) {
+    const auto brace = text.find('{');
+    out += text.substr(0, brace);
+    if (brace == std::string_view::npos) return out;
+    text.remove_prefix(brace + 1);
+    const auto end = std::min(text.find('}'), text.size());
+    const auto row = std::ranges::find(kFields, text.substr(0, end), &FieldRow::field);
+    out += row == kFields.end() ? "{" : row->words;
+    if (row != kFields.end()) text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Answers of the posterior on a grid to the sessions that lightcal is asked."""
+import math
+
+import numpy as np
+
+from grid_posterior import (BEAM_OVER_FLUX, IN_ROOM, PRIORS, UNKNOWN_KIND, offsets_of,
+                            posterior)
+from traced_table import area
+
+
+def prior_of(kind, lamp):
+    """The prior of the walls' light of one kind of lamp; a stated reflectance is known to 20 %."""
+    prior = PRIORS[kind]
+    beam = kind == "beam" and math.isfinite(lamp.power)
+    if beam:
+        flux = 2 * math.pi / (lamp.power + 1)
+        prior = (math.log(BEAM_OVER_FLUX * flux), 0.75, *prior[2:])
+    if not lamp.room or (kind == "beam" and not beam):
+        return prior
+    factor, spread, stated_flux = IN_ROOM[kind]
+    rho = lamp.room["reflectance"]
+    centre = math.log(factor * (stated_flux or flux) * rho / (area(lamp.room["size_m"]) * (1 - rho)))
+    return (centre, math.hypot(spread, 0.1 / (1 - rho)), *prior[2:])
+
+
+def walls_of(lamp):
+    if lamp.exact_kind != "point":
+        return [(1.0, prior_of(lamp.exact_kind, lamp))]
+    return [(weight, prior_of(kind, lamp)) for kind, weight in UNKNOWN_KIND]
+
+
+def answer_exactly(lamp):
+    direct = [r for r in lamp.readings if not r.get("shadow_card")]
+    cards = {r["distance_m"]: r["illuminance_lx"] for r in lamp.readings if r.get("shadow_card")}
+    distances = [r["distance_m"] for r in direct]
+    return (*posterior(
+        distances, [r["illuminance_lx"] for r in direct],
+        card=np.array([cards.get(d, math.nan) for d in distances]) if cards else None,
+        size=lamp.keys.get("size_m"), offsets=offsets_of(lamp.fixture),
+        walls=walls_of(lamp)), 0)

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "random_rooms.h"
+
+#include <algorithm>
+
+namespace traced_rooms {
+namespace {
+
+constexpr std::uint64_t kOrdinarySeed = 20261122;
+constexpr std::uint64_t kUnseenSeed = 77003141;
+constexpr double kFree = 0.2;  // m between a meter or a lamp and any surface
+
+// Whether the way from the lamp to `to` keeps clear of walls and furniture.
+bool Clear(const Room& room, const Vec3& from, const Vec3& to) {
+  for (int step = 0; step <= 60; ++step) {
+    const Vec3 at = from + (step / 60.0) * (to - from);
+    for (int i = 0; i < 3; ++i) {
+      if (step > 0 && (at[i] < kFree || at[i] > room.size[i] - kFree)) return false;
+    }
+    for (const Box& box : room.boxes) {
+      bool outside = false;
+      for (int i = 0; i < 3; ++i) {
+        outside = outside || at[i] < box.low[i] - kFree || at[i] > box.high[i] + kFree;
+      }
+      if (!outside) return false;
+    }
+  }
+  return true;
+}
+
+void PaintRoom(Random& random, Room* room) {
+  room->size = {random.Between(3.0, 8.0), random.Between(3.0, 7.0), random.Between(2.4, 3.4)};
+  const double walls = random.Between(0.25, 0.8);
+  for (int wall = 0; wall < 4; ++wall) {
+    room->albedo[wall] = std::clamp(walls + random.Between(-0.08, 0.08), 0.25, 0.8);
+  }
+  room->albedo[4] = random.Between(0.1, 0.45);
+  room->albedo[5] = random.Between(0.5, 0.85);
+}
+
+void AddFurniture(Random& random, Room* room) {
+  const int count = random.Below(6);
+  for (int i = 0; i < count; ++i) {
+    Box box;
+    const Vec3 sides = {random.Between(0.4, 1.8), random.Between(0.4, 1.8),
+                        random.LogBetween(0.4, 2.1)};
+    for (int k = 0; k < 2; ++k) {
+      box.low[k] = random.Between(0.0, room->size[k] - sides[k]);
+      // Two in three stand at a wall.
+      if (random.Share() < 0.4) box.low[k] = random.Share() < 0.5 ? 0.0 : room->size[k] - sides[k];
+    }
+    box.low[2] = 0.0;
+    box.high = box.low + sides;
+    box.albedo = random.Between(0.1, 0.7);
+    room->boxes.push_back(box);
+  }
+}
+
+void AddLShape(Random& random, Room* room) {
+  Box corner;
+  for (int k = 0; k < 2; ++k) {
+    const double side = room->size[k] * random.Between(0.25, 0.5);
+    corner.low[k] = random.Share() < 0.5 ? 0.0 : room->size[k] - side;
+    corner.high[k] = corner.low[k] + side;
+  }
+  corner.low[2] = 0.0;
+  corner.high[2] = room->size[2];
+  corner.albedo = room->albedo[0];
+  room->boxes.push_back(corner);
+}
+
+void AddWindow(Random& random, Room* room) {
+  Window window;
+  window.wall = random.Below(4);
+  const int along = 1 - window.wall / 2;
+  const double width = random.Between(0.25, 0.8) * room->size[along];
+  const double left = random.Between(0.0, room->size[along] - width);
+  window.low = {0, 0, random.Between(0.1, 1.0)};
+  window.high = room->size;
+  window.low[along] = left;
+  window.high[along] = left + width;
+  window.high[2] = room->size[2] - random.Between(0.1, 0.5);
+  window.albedo = random.Share() < 0.6 ? random.Between(0.04, 0.12) : random.Between(0.65, 0.85);
+  room->window = window;
+}
+
+void AddGloss(Random& random, Room* room) {
+  room->glossy_wall = random.Below(4);
+  room->glossy_f0 = random.LogBetween(0.04, 0.3);  // lacquer to metal paint
+}
+
+// Where the lamp is, and which way its meter stands. False: not so in this room.
+bool PlaceLamp(Random& random, bool in_corner, LitRoom* lit) {
+  const Room& room = lit->room;
+  Lamp& lamp = lit->lamp;
+  const bool down = !in_corner && random.Share() < 0.15;
+  const double from_wall = in_corner ? 0.25 : 0.45;
+  for (int k = 0; k < 2; ++k) {
+    const double near = random.Between(0.22, 0.4);
+    lamp.place[k] = random.Between(from_wall, room.size[k] - from_wall);
+    if (in_corner) lamp.place[k] = random.Share() < 0.5 ? near : room.size[k] - near;
+  }
+  double lowest = 0.0, highest = 0.0;  // elevation of the meter's line, degrees
+  if (lamp.kind == LampKind::kBulb) {
+    const bool pendant = random.Share() < 0.6;
+    lamp.place[2] =
+        pendant || down ? room.size[2] - random.Between(0.25, 0.9) : random.Between(0.6, 1.6);
+    lowest = pendant ? -45.0 : -15.0;
+    highest = pendant ? 0.0 : 20.0;
+    lamp.base = {0, 0, pendant || down ? 1.0 : -1.0};
+    if (random.Share() < 0.2) {  // screwed in sideways
+      const double turn = random.Between(0.0, 2.0 * kPi);
+      lamp.base = {std::cos(turn), std::sin(turn), 0.0};
+    }
+    lamp.base_angle = random.Between(15.0, 50.0) * kPi / 180.0;
+    lamp.slope = random.Between(-0.1, 0.5);
+  } else {
+    lamp.place[2] = down ? room.size[2] - 0.05 : random.Between(0.7, room.size[2] - 0.4);
+    lowest = lamp.place[2] > 1.6 ? -35.0 : -10.0;
+    highest = lamp.place[2] > 1.6 ? 5.0 : 15.0;
+    if (lamp.kind == LampKind::kPanel) {
+      lamp.width = random.LogBetween(0.1, 0.5);
+      lamp.height = lamp.width * random.Between(0.5, 1.0);
+    } else {
+      lamp.power = random.LogBetween(3.0, 60.0);
+    }
+  }
+  const double azimuth = random.Between(0.0, 2.0 * kPi);
+  const double elevation = down ? -kPi / 2.0 : random.Between(lowest, highest) * kPi / 180.0;
+  lamp.towards = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                  std::sin(elevation)};
+  if (down) lamp.towards = {0, 0, -1};
+  // Nobody reads a bulb from behind its base.
+  if (lamp.kind == LampKind::kBulb && Dot(lamp.towards, lamp.base) > 0.0 &&
+      std::acos(Dot(lamp.towards, lamp.base)) < lamp.base_angle + 20.0 * kPi / 180.0) {
+    return false;
+  }
+  lit->reach = 0.0;
+  for (const double d : kDistances) {
+    if (Clear(room, lamp.place, lamp.place + d * lamp.towards)) lit->reach = d;
+  }
+  return lit->reach >= (down ? 1.5 : 2.0);
+}
+
+}  // namespace
+
+LitRoom RandomRoom(Family family, int number) {
+  const bool unseen = family == Family::kUnseen;
+  Random random((unseen ? kUnseenSeed : kOrdinarySeed) + 1000003ULL * number);
+  for (;;) {
+    LitRoom lit;
+    lit.lamp.kind = static_cast<LampKind>(number % 3);
+    PaintRoom(random, &lit.room);
+    AddFurniture(random, &lit.room);
+    if (unseen) {
+      lit.l_shaped = random.Share() < 0.45;
+      lit.corner = random.Share() < 0.4;
+      const bool window = random.Share() < 0.5;
+      const bool gloss = random.Share() < 0.4;
+      if (!lit.l_shaped && !lit.corner && !window && !gloss) continue;
+      if (lit.l_shaped) AddLShape(random, &lit.room);
+      if (window) AddWindow(random, &lit.room);
+      if (gloss) AddGloss(random, &lit.room);
+    }
+    // Most lines are read to 3 m, as far as the room has the place.
+    for (int attempt = 0; attempt < 60; ++attempt) {
+      if (PlaceLamp(random, lit.corner, &lit) && (lit.reach >= 3.0 || attempt > 20)) return lit;
+    }
+  }
+}
+
+}  // namespace traced_rooms

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two families of random rooms with a lamp in each; the same on every machine, by number.
+#pragma once
+
+#include <vector>
+
+#include "lamp.h"
+#include "room.h"
+
+namespace traced_rooms {
+
+enum class Family {
+  // 3-8 x 3-7 x 2.4-3.4 m, walls .25-.8, floor .1-.45, ceiling .5-.85, 0-5 boxes as furniture.
+  kOrdinary,
+  // Each has at least one of: L-shaped, a window (black glass or a white blind), a glossy wall, the
+  // lamp in a corner. Priors are chosen on the other family.
+  kUnseen,
+};
+
+struct LitRoom {
+  Room room;
+  Lamp lamp;
+  double reach = 3.0;  // m: how far along lamp.towards a meter can stand
+  bool l_shaped = false, corner = false;
+};
+
+// Room `number` of a family: bulb, panel, beam in turn.
+LitRoom RandomRoom(Family family, int number);
+
+// Metres from the lamp at which the table has readings; those beyond `reach` are left out.
+inline const std::vector<double> kDistances = {0.5, 0.7, 1.0, 1.5, 2.0, 3.0};
+
+}  // namespace traced_rooms

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Illuminance in random rooms, traced: truth for the intervals of `lightcal fit` that comes from
+// outside. Nothing here includes a header of lightcal. See README.md here.
+//   traced_rooms ORDINARY UNSEEN       a table of so many rooms of each family, to standard output
+//   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
+//   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "closed_forms.h"
+#include "random_rooms.h"
+#include "trace.h"
+
+namespace traced_rooms {
+namespace {
+
+constexpr const char* kHead =
+    "family,room,kind,width_m,height_m,power,size_x_m,size_y_m,size_z_m,reflectance,"
+    "flux_over_intensity,error";
+
+TraceAnswer TraceRoom(const LitRoom& lit, std::uint64_t seed, const TraceEffort& effort) {
+  std::vector<double> distances;
+  for (const double d : kDistances) {
+    if (d <= lit.reach) distances.push_back(d);
+  }
+  Random random(seed);
+  return TraceLight(lit.room, lit.lamp, MetersAlong(lit.lamp, distances), effort, random);
+}
+
+void PrintRoom(Family family, int number) {
+  const LitRoom lit = RandomRoom(family, number);
+  const Lamp& lamp = lit.lamp;
+  const TraceAnswer answer = TraceRoom(lit, 5000000ULL + number, {});
+  double error = 0.0;
+  for (const WallLight& light : answer.meters) error = std::fmax(error, light.error);
+  const bool panel = lamp.kind == LampKind::kPanel;
+  std::printf("%s,%d,%s,", family == Family::kOrdinary ? "ordinary" : "unseen", number,
+              std::string(NameOf(lamp.kind)).c_str());
+  if (panel) {
+    std::printf("%.4g,%.4g,,", lamp.width, lamp.height);
+  } else if (lamp.kind == LampKind::kBeam) {
+    std::printf(",,%.4g,", lamp.power);
+  } else {
+    std::printf(",,,");
+  }
+  std::printf("%.3f,%.3f,%.3f,%.3f,%.4g,%.1g", lit.room.size[0], lit.room.size[1], lit.room.size[2],
+              lit.room.MeanAlbedo(), lamp.FluxOverIntensity(), error);
+  for (std::size_t k = 0; k < kDistances.size(); ++k) {
+    if (k >= answer.meters.size()) {
+      std::printf(",,,");
+      continue;
+    }
+    const WallLight& light = answer.meters[k];
+    std::printf(",%.5g,%.4g,%.4g", lamp.Direct(kDistances[k]), light.wall, light.behind_card);
+  }
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+int PrintTable(int ordinary, int unseen) {
+  std::printf("%s", kHead);
+  for (const double d : kDistances) std::printf(",direct_%g,wall_%g,card_%g", d, d, d);
+  std::printf("\n");
+  for (int i = 0; i < ordinary; ++i) PrintRoom(Family::kOrdinary, i);
+  for (int i = 0; i < unseen; ++i) PrintRoom(Family::kUnseen, i);
+  return 0;
+}
+
+int Compare(const char* path, int every) {
+  std::ifstream table(path);
+  std::string line;
+  std::getline(table, line);
+  int row = 0, compared = 0, off = 0;
+  while (std::getline(table, line)) {
+    if (row++ % every != 0) continue;
+    std::vector<std::string> cells;
+    std::stringstream cut(line);
+    for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
+    const Family family = cells[0] == "ordinary" ? Family::kOrdinary : Family::kUnseen;
+    const int number = std::atoi(cells[1].c_str());
+    const TraceAnswer answer =
+        TraceRoom(RandomRoom(family, number), 9000000ULL + number, {0.02, 1 << 14, 1 << 17});
+    for (std::size_t k = 0; k < answer.meters.size(); ++k) {
+      const double expected = std::atof(cells[13 + 3 * k].c_str());
+      const WallLight& light = answer.meters[k];
+      const double allowed = 4.5 * std::hypot(light.error, 0.01) * expected + 1e-7;
+      ++compared;
+      if (std::abs(light.wall - expected) > allowed) {
+        ++off;
+        std::printf("%s %d at %g m: %g, in the table %g\n", cells[0].c_str(), number, kDistances[k],
+                    light.wall, expected);
+      }
+    }
+  }
+  std::printf("%d figures traced again, %d differ\n", compared, off);
+  return compared > 0 && off == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace traced_rooms
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::strcmp(argv[1], "--check") == 0) {
+    return traced_rooms::ClosedFormsHold() ? 0 : 1;
+  }
+  if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
+    return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
+  }
+  if (argc == 3 && argv[1][0] != '-') {
+    return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]));
+  }
+  std::fprintf(stderr, "traced_rooms ORDINARY UNSEEN | --check | --compare TABLE EVERY\n");
+  return 2;
+}
