@@ -20,7 +20,7 @@ namespace lightcal {
 // -0 is written 0.
 template <std::size_t N>
 [[nodiscard]] records::Node NodeOf(const std::array<double, N>& values) {
-  return Node::List(values, [](double v) { return records::Node(v == 0.0 ? 0.0 : v); });
+  return records::Node::List(values, [](double v) { return records::Node(v == 0.0 ? 0.0 : v); });
 }
 [[nodiscard]] records::Node NodeOf(const Rgb& color);
 [[nodiscard]] records::Node NodeOf(const RigExposure& exposure);
@@ -34,12 +34,12 @@ template <std::size_t N>
 [[nodiscard]] records::Node MeasuredNode(const FittedLight& lamp, const PresetLight& light);
 
 // The numbers of an exported light, for audit: those of its members that are one or up to four.
-[[nodiscard]] DerivedLight DerivedFrom(const Node& light);
+[[nodiscard]] DerivedLight DerivedFrom(const records::Node& light);
 
 // The rig in an engine's axes: every place and direction through `map`, which is linear.
 [[nodiscard]] Rig Turned(Rig rig, Vec3 (*map)(const Vec3&));
 
 // Indented text with a final newline.   Fails: not_finite, rather than write null for a number.
-[[nodiscard]] Result<std::string> JsonText(const Node& document, const std::string& subject);
+[[nodiscard]] Result<std::string> JsonText(const records::Node& document, const std::string& subject);
 
 }  // namespace lightcal

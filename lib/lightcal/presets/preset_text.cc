@@ -62,6 +62,22 @@ std::string XmlEscaped(std::string_view text) {
   return out;
 }
 
+std::string UriOf(const std::string& name) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  std::string uri;
+  for (const char c : name) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
+    if (plain) {
+      uri += c;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(c);
+    uri += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
+  }
+  return uri;
+}
+
 std::string GeneratorOf(const LightFile& file) {
   return file.provenance.generator.empty() ? "lightcal" : file.provenance.generator;
 }

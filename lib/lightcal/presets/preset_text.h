@@ -25,6 +25,9 @@ namespace lightcal::preset_text {
 // Text for XML attributes and element contents.
 [[nodiscard]] std::string XmlEscaped(std::string_view text);
 
+// A file's name as a relative URI.
+[[nodiscard]] std::string UriOf(const std::string& name);
+
 // "lightcal 0.1.0"
 [[nodiscard]] std::string GeneratorOf(const LightFile& file);
 

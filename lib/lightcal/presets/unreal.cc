@@ -49,9 +49,9 @@ Pose PoseOf(const PresetLight& light) {
 
 Json PoseJson(const std::string& name, const Pose& pose) {
   return {{"name", name},
-          {"location_cm", Array<Json>(pose.location_cm)},
+          {"location_cm", Array(pose.location_cm)},
           {"pitch_yaw_roll_deg",
-           Array<Json>(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
+           Array(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
                                              pose.rotation.roll_deg})}};
 }
 
