@@ -8,11 +8,11 @@
 #include <numbers>
 #include <set>
 
+#include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/godot_temperature.h"
 #include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
@@ -38,7 +38,7 @@ struct GodotColor {
 
 GodotColor ColorFor(const EmittedColor& color) {
   const Rgb& m = color.max_normalised;
-  const Rgb tint = GodotTemperatureColor(kTemperature);
+  const Rgb tint = KrystekRgbAtUnitPeak(Kelvin(kTemperature));
   const Rgb ratio = {m.r / tint.r, m.g / tint.g, m.b / tint.b};
   const double largest = std::max({ratio.r, ratio.g, ratio.b});
   GodotColor out;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/presets/exporters.h"
 
@@ -86,7 +87,9 @@ constexpr std::array kTargets = {
                  .title = "Godot",
                  .numbers = kGodotNumbers,
                  .notes = kGodotNotes,
-                 .renderers = kGodotRenderers},
+                 .renderers = kGodotRenderers,
+                 .kelvin = KelvinSetting{"godot_rgb", "Godot's linear RGB at this CCT",
+                                         &KrystekRgbAtUnitPeak, "Godot"}},
     PresetTarget{.name = "mitsuba",
                  .exporter = &ExportMitsuba,
                  .verified = "schema-checked, not executed in Mitsuba",
@@ -120,7 +123,9 @@ constexpr std::array kTargets = {
                  .emission = &EmittedInUnreal,
                  .numbers = kUnrealNumbers,
                  .notes = kUnrealNotes,
-                 .renderers = kUnrealRenderers},
+                 .renderers = kUnrealRenderers,
+                 .kelvin = KelvinSetting{"unreal_rgb", "Unreal's linear RGB at this CCT",
+                                         &KrystekRgbAtUnitY, "Unreal"}},
     PresetTarget{.name = "usd",
                  .exporter = &ExportUsd,
                  .verified = "tinyusdz 0.9.0-rc10 loads it; not executed in a renderer",
@@ -144,7 +149,9 @@ constexpr std::array kTargets = {
                  .title = "Blender",
                  .numbers = kBlenderNumbers,
                  .notes = kColorNotes,
-                 .renderers = kBlenderRenderers},
+                 .renderers = kBlenderRenderers,
+                 .kelvin = KelvinSetting{"blender_usdlux_rgb", "Blender's and UsdLux's at this CCT",
+                                         &PlanckianRgbAtUnitY}},
     PresetTarget{.name = "three",
                  .exporter = &ExportThree,
                  .verified = "rendered in three.js 0.187 and Babylon.js 9.34: 0.2 %",

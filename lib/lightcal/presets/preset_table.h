@@ -3,11 +3,14 @@
 // file in this room and one row here.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/core/units.h"
 #include "lightcal/presets/check/engine_light.h"
 #include "lightcal/presets/emission.h"
 #include "lightcal/presets/preset.h"
@@ -33,6 +36,14 @@ struct Renderer {
   PixelUnit linear_pixels = PixelUnit::kExposed;
 };
 
+// What a program makes of a Kelvin setting.
+struct KelvinSetting {
+  std::string_view key;    // "unreal_rgb", of documents
+  std::string_view label;  // "Unreal's linear RGB at this CCT"
+  Rgb (*color)(Kelvin) = nullptr;
+  std::string_view krystek{};  // its name where the setting is on Krystek's locus
+};
+
 struct PresetTarget {
   std::string_view name;  // the word it is asked for by
   Exporter* exporter;
@@ -50,6 +61,7 @@ struct PresetTarget {
   std::span<const TypedNote> notes{};
 
   std::span<const Renderer> renderers{};
+  std::optional<KelvinSetting> kelvin{};
 };
 
 [[nodiscard]] std::span<const PresetTarget> PresetTargets();

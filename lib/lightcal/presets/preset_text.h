@@ -15,8 +15,7 @@ namespace lightcal::preset_text {
 // "1, 2.5, 3": shortest numbers that read back the same.
 [[nodiscard]] std::string Numbers(std::span<const double> values, std::string_view between = ", ");
 
-// Between double quotes: backslash, quote and control characters escaped as C, Python, USD and
-// Godot read them.
+// Between double quotes: backslash, quote and control characters escaped as C and Python read them.
 [[nodiscard]] std::string Quoted(std::string_view text);
 
 // Letters, digits and underscores, no digit first, not in `taken` yet (and then in it).
