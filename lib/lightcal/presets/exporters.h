@@ -15,7 +15,6 @@ Exporter ExportGltf, ExportGodot, ExportMitsuba, ExportPbrt, ExportUnity, Export
 PresetReader ReadGltf, ReadGodot, ReadUsd, ReadJson, ReadBlender, ReadThree, ReadFilament,
     ReadPhotometricTable;
 
-// Of engines whose files are not read back.
-EmissionLaw EmittedInMitsuba, EmittedInPbrt, EmittedInUnity, EmittedInUnreal;
+EmissionLaw EmittedInGodot, EmittedInMitsuba, EmittedInPbrt, EmittedInUnity, EmittedInUnreal;
 
 }  // namespace lightcal

@@ -10,6 +10,7 @@
 
 #include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
@@ -298,6 +299,27 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
   preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
                  ".tscn into a project with physical light units and open it";
   return preset;
+}
+
+Emission EmittedInGodot(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
+  const bool dome = light.type == "Environment";
+  const std::vector<double>& c = light.Find(dome ? "background_color" : "light_color")->values;
+  const Rgb tint = dome ? Rgb{1.0, 1.0, 1.0}
+                        : KrystekRgbAtUnitPeak(Kelvin(NumberIn(light, "light_temperature")));
+  const double luminance = Rec709Luminance(
+      Vec3{SrgbDecoded(c[0]) * tint.r, SrgbDecoded(c[1]) * tint.g, SrgbDecoded(c[2]) * tint.b});
+  if (dome) {
+    return {.lux = kPi * NumberIn(light, "background_intensity") *
+                   NumberIn(light, "background_energy_multiplier") * luminance};
+  }
+  if (light.type == "DirectionalLight3D") {
+    return {.lux = NumberIn(light, "light_intensity_lux") * luminance};
+  }
+  const bool spot = light.type == "SpotLight3D";
+  return {
+      .candela = NumberIn(light, "light_intensity_lumens") * luminance / (spot ? kPi : 4.0 * kPi),
+      .falloff = kFalloff,
+      .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
 }
 
 }  // namespace lightcal

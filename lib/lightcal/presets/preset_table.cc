@@ -85,6 +85,7 @@ constexpr std::array kTargets = {
                  .reader = &ReadGodot,
                  .place_in_report = 3,
                  .title = "Godot",
+                 .emission = &EmittedInGodot,
                  .numbers = kGodotNumbers,
                  .notes = kGodotNotes,
                  .renderers = kGodotRenderers,

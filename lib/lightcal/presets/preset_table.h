@@ -56,7 +56,7 @@ struct PresetTarget {
   // In reports, from 1 on in the order people look for engines; 0 = not there.
   int place_in_report = 0;
   std::string_view title{};         // "Unreal Engine"
-  EmissionLaw* emission = nullptr;  // where no file is read back
+  EmissionLaw* emission = nullptr;  // absent: what the file says that is read back
   std::span<const TypedNumber> numbers{};
   std::span<const TypedNote> notes{};
 

@@ -92,7 +92,7 @@ std::vector<EngineExport> ExportsOf(const LightFile& lights) {
     auto preset = engine->exporter(lights, "report", {});
     if (!preset || preset->derived.size() != lights.lights.size()) continue;
     EngineExport one{engine, std::move(preset->derived), {}};
-    if (engine->reader != nullptr) one.read_back = ReadBack(*engine, *preset);
+    if (engine->emission == nullptr) one.read_back = ReadBack(*engine, *preset);
     all.push_back(std::move(one));
   }
   return all;

@@ -12,8 +12,8 @@ namespace lightcal {
 //   figures  the one number by which an engine's light is as bright as the lamp
 //   parity   one row a light and engine, on the axis, facing the lamp, at the distance of its
 //   median
-//            used reading (1 m where none has one): files that are read back give lux by their own
-//            meaning; of the others the engine's emission law makes it from the numbers they hold.
+//            used reading (1 m where none has one): the engine's emission law makes lux of the
+//            numbers that its file holds; where there is none, the file is read back.
 //            Lights without an intensity or illuminance are left out.
 [[nodiscard]] EngineAnswers EngineAnswersOf(const LightFile& lights);
 

@@ -93,22 +93,14 @@ std::optional<Lit> LitBy(const EngineLight& light, const Place& place) {
   }
 }
 
-// By its name; surroundings have none.
-const EngineLight* FindReadBack(const std::vector<EngineLight>& lights, const FittedLight& lamp) {
-  const auto is_it = [&](const EngineLight& light) {
-    const bool surroundings = light.name.empty() && light.kind == EngineLightKind::kDome;
-    return light.name == lamp.name || (surroundings && lamp.kind == LightKind::kDome);
-  };
-  const auto found = std::ranges::find_if(lights, is_it);
-  return found == lights.end() ? nullptr : &*found;
-}
-
 std::optional<Lit> LitIn(const EngineExport& exported, std::size_t index, const FittedLight& lamp,
                          const Place& place) {
-  if (const EngineLight* read = FindReadBack(exported.read_back, lamp)) return LitBy(*read, place);
-  if (exported.engine->emission == nullptr) return std::nullopt;
-  const DerivedLight& derived = exported.derived[index];
-  return LitBy(exported.engine->emission(derived, lamp.kind, place.axial_part), place);
+  if (EmissionLaw* emission = exported.engine->emission) {
+    return LitBy(emission(exported.derived[index], lamp.kind, place.axial_part), place);
+  }
+  const auto read = std::ranges::find(exported.read_back, lamp.name, &EngineLight::name);
+  if (read == exported.read_back.end()) return std::nullopt;
+  return LitBy(*read, place);
 }
 
 }  // namespace

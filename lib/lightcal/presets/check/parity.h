@@ -14,7 +14,7 @@ namespace lightcal {
 struct EngineExport {
   const PresetTarget* engine = nullptr;
   std::vector<DerivedLight> derived;   // one a light
-  std::vector<EngineLight> read_back;  // by the file's own meaning; empty where it is not read
+  std::vector<EngineLight> read_back;  // by the file's own meaning; empty beside an emission law
 };
 
 // See EngineAnswers.
