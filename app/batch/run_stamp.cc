@@ -6,11 +6,11 @@
 #include <iterator>
 #include <span>
 
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {

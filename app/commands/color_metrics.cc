@@ -52,12 +52,12 @@ std::string OneDecimal(const std::optional<double>& value) {
   return value ? OneDecimal(*value) : std::string();
 }
 
-std::string Joined(std::span<const double> values) {
+std::string OneDecimals(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : "  ") + OneDecimal(value);
   return text;
 }
-std::string Joined(std::span<const std::optional<double>> values) {
+std::string OneDecimals(std::span<const std::optional<double>> values) {
   std::string text;
   for (const auto& value : values) {
     if (value) text += (text.empty() ? "" : "  ") + OneDecimal(*value);
@@ -140,14 +140,14 @@ std::vector<MetricRow> MetricRows(const ColorMetrics& metrics, const ReportedCol
     const std::span<const double> r(rendering->cri.R);
     const std::span<const std::optional<double>> claimed(reported.cri_R);
     rows.push_back({"CRI Ra", RaText(rendering->cri), OneDecimal(reported.cri_Ra)});
-    rows.push_back({"R1 to R8", Joined(r.first(8)), Joined(claimed.first(8))});
-    rows.push_back({"R9 to R15", Joined(r.subspan(8)), Joined(claimed.subspan(8))});
+    rows.push_back({"R1 to R8", OneDecimals(r.first(8)), OneDecimals(claimed.first(8))});
+    rows.push_back({"R9 to R15", OneDecimals(r.subspan(8)), OneDecimals(claimed.subspan(8))});
     rows.push_back(
         {"CIE 224, TM-30 Rf", OneDecimal(rendering->fidelity.Rf), OneDecimal(reported.tm30_rf)});
     rows.push_back({"TM-30 Rg", OneDecimal(rendering->gamut.Rg), OneDecimal(reported.tm30_rg)});
     if (reported.tm30_rf) {
       const double edition_2015[] = {rendering->rf_2015, rendering->rg_2015};
-      rows.push_back({"Rf, Rg by TM-30-15", Joined(edition_2015), ""});
+      rows.push_back({"Rf, Rg by TM-30-15", OneDecimals(edition_2015), ""});
     }
   }
   if (const std::string text = SimilarityText(metrics); !text.empty()) {

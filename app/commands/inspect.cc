@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bracket_merge.h"
 #include "commands.h"
+#include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
@@ -21,8 +20,7 @@
 #include "lightcal/imaging/panorama/panorama.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
-#include "lightcal_devices/captures/bracket.h"
-#include "lightcal_devices/captures/masked_picture.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "picture_words.h"
 
@@ -30,22 +28,10 @@ namespace lightcal::app {
 namespace {
 
 constexpr int kTableDigits = 5;
-// What a single RAW without a noise profile is taken for: 30,000 electrons, 12 bits of read noise.
-// Its statistics do not depend on it.
-constexpr NoiseProfile kMiddlingSensor{1.0 / 30000.0, 1.0 / (4096.0 * 4096.0)};
-
 struct Options {
   std::string image, projection, fov, convention = "photometric";
   std::vector<int> rect;
   std::string exposure, f_number, iso;
-};
-
-// A picture as luminances, and where its scale is from.
-struct Inspected {
-  FrameInfo info;
-  PictureLuminance luminance;  // NaN where masked
-  std::optional<double> scale_u95_relative;
-  std::vector<std::size_t> masked{};  // pixels, y * width + x
 };
 
 struct Answer {
@@ -82,62 +68,13 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
   return overrides;
 }
 
-// A single RAW is a bracket of one frame: its luminance by the ISO prior.
-Result<Inspected> InspectRaw(const Options& options, FrameInfo info, Console& console) {
-  const auto overrides = OverridesOf(options);
-  if (!overrides) return tl::unexpected(overrides.error());
-  const auto bracket = OpenBracket(std::vector<std::string>{options.image}, *overrides);
-  if (!bracket) return tl::unexpected(bracket.error());
-  BracketMergeRequest request;
-  if (info.noise.empty()) request.noise = kMiddlingSensor;
-  auto merged = MergeBracket(*bracket, request);
-  if (!merged) return Propagate(std::move(merged));
-  for (const Warning& warning : merged->warnings) {
-    if (warning.code != "one_frame") console.Warn(warning);  // asked for one
-  }
-  Inspected inspected;
-  inspected.info = std::move(info);
-  inspected.luminance.width = merged->width;
-  inspected.luminance.height = merged->height;
-  inspected.luminance.nits = std::move(merged->picture);
-  inspected.luminance.scale = merged->scale_source;
-  inspected.scale_u95_relative = merged->scale_u95_relative;
-  return inspected;
-}
-
-// What our own merge wrote beside the samples.
-void TakeOwnScale(Inspected& inspected) {
-  for (const auto& [name, text] : inspected.info.lightcal_attributes) {
-    if (name == "scale_source") inspected.luminance.scale = text;
-    if (name == "scale_u95_relative") inspected.scale_u95_relative = ParseNumber(text);
-  }
-}
-
-Result<Inspected> Inspect(const Options& options, Console& console) {
+Result<InspectedPicture> Inspect(const Options& options, Console& console) {
   const auto convention = ParseConvention("--luminance-convention", options.convention);
   if (!convention) return tl::unexpected(convention.error());
-  auto info = ReadFrameInfo(options.image);
-  if (!info) return Propagate(std::move(info));
-  if (info->meaning == SampleMeaning::kMosaic || info->meaning == SampleMeaning::kSensor) {
-    return InspectRaw(options, std::move(*info), console);
-  }
-  if (info->meaning == SampleMeaning::kEncoded) {
-    return Refused("no_response", options.image,
-                   "its codes are no luminance without the camera's response curve; merge the "
-                   "bracket it belongs to (lightcal merge), or use the RAW");
-  }
-  auto picture = ReadMaskedPicture(options.image);
-  if (!picture) return Propagate(std::move(picture));
-  auto luminance = LuminanceOfPicture(picture->frame, *convention);
-  if (!luminance) return Propagate(std::move(luminance));
-  for (const std::size_t pixel : picture->masked) {
-    luminance->nits[pixel] = std::numeric_limits<float>::quiet_NaN();
-  }
-  console.Warn(picture->frame.info.warnings);
-  console.Warn(luminance->warnings);
-  Inspected inspected{std::move(picture->frame.info), std::move(*luminance), std::nullopt,
-                      std::move(picture->masked)};
-  if (*convention == LuminanceConvention::kPhotometric) TakeOwnScale(inspected);
+  const auto overrides = OverridesOf(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  auto inspected = InspectPicture(options.image, DiskSources(), *overrides, *convention);
+  if (inspected) console.Warn(inspected->warnings);
   return inspected;
 }
 
@@ -152,7 +89,8 @@ Result<Region> RegionOf(const Options& options, const PictureLuminance& picture)
 }
 
 // Those of the region that hold no number, counted and named.
-std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Console& console) {
+std::size_t WarnOfMasked(const InspectedPicture& inspected, const Region& region,
+                         Console& console) {
   std::size_t count = 0;
   std::string first;
   for (const std::size_t pixel : inspected.masked) {
@@ -174,7 +112,7 @@ std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Conso
 
 // Absent: nobody says how the picture was projected.
 Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
-                                                 const Inspected& inspected) {
+                                                 const InspectedPicture& inspected) {
   PictureView view;
   view.width = inspected.luminance.width;
   view.height = inspected.luminance.height;
@@ -228,7 +166,7 @@ std::optional<Xy> AsShotWhite(const FrameInfo& info) {
   return white ? std::optional(*white) : std::nullopt;
 }
 
-Node ToJson(const Inspected& inspected, const Region& region, const Answer& answer,
+Node ToJson(const InspectedPicture& inspected, const Region& region, const Answer& answer,
             std::size_t masked) {
   const LuminanceStatistics& s = answer.statistics;
   Node peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max}};
@@ -261,7 +199,7 @@ Node ToJson(const Inspected& inspected, const Region& region, const Answer& answ
        {{"source", inspected.luminance.scale}, {"u95_relative", inspected.scale_u95_relative}}}};
 }
 
-std::string Table(const Inspected& inspected, const Region& region, const Answer& answer,
+std::string Table(const InspectedPicture& inspected, const Region& region, const Answer& answer,
                   bool is_latlong) {
   const LuminanceStatistics& s = answer.statistics;
   const auto text = [](double v) { return RoundedText(v, kTableDigits); };

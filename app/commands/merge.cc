@@ -5,16 +5,18 @@
 #include <cmath>
 #include <memory>
 
-#include "bracket_merge.h"
 #include "color_words.h"
 #include "commands.h"
+#include "lightcal/calibrate/camera/read_camera_profile.h"
+#include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/bracket/shutter_check.h"
 #include "lightcal_devices/captures/picture.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
 #include "picture_words.h"
-#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {
@@ -98,7 +100,8 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
 }
 
 // --camera with what belongs to it.
-Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
+Result<void> AddCamera(const Options& options, const Sources& sources,
+                       BracketMergeRequest& request) {
   if (!options.cos4.empty()) {
     const auto width = ParseLength(options.cos4);
     if (!width) return tl::unexpected(width.error());
@@ -111,7 +114,7 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
     if (options.nd.empty() && options.lamp_class.empty() && !options.no_flat) return {};
     return WrongUsage("--nd, --lamp-class, --no-flat", "belong to a profile: add --camera");
   }
-  auto profile = ReadCameraProfile(options.camera);
+  auto profile = ReadCameraProfile(options.camera, sources);
   if (!profile) return Propagate(std::move(profile));
   LampClass lamp = LampClass::kUnknown;
   if (!options.lamp_class.empty()) {
@@ -121,12 +124,12 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
   const auto factor = CameraMismatch(*profile, lamp);
   if (!factor) return tl::unexpected(factor.error());
   request.lamp = *factor;
-  request.camera = CameraUse{std::make_shared<const CameraProfile>(std::move(*profile)), options.nd,
-                             !options.no_flat};
+  request.camera = KnownCamera{std::make_shared<const CameraProfile>(std::move(*profile)),
+                               options.nd, !options.no_flat};
   return {};
 }
 
-Result<BracketMergeRequest> RequestOf(const Options& options) {
+Result<BracketMergeRequest> RequestOf(const Options& options, const Sources& sources) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
   request.align = options.align == "auto";
@@ -150,7 +153,7 @@ Result<BracketMergeRequest> RequestOf(const Options& options) {
   if (!colors) return tl::unexpected(colors.error());
   request.space = colors->space;
   request.white = colors->white;
-  if (auto added = AddCamera(options, request); !added) return Propagate(std::move(added));
+  if (auto added = AddCamera(options, sources, request); !added) return Propagate(std::move(added));
   return request;
 }
 
@@ -181,7 +184,7 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
   return {{"generator", GeneratorName()},
           {"quantity", quantity},
           {"frames", sources},
-          {"scale_source", merged.scale_source},
+          {"scale_source", std::string(WordOf(merged.scale_source))},
           {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
           {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
 }
@@ -260,7 +263,7 @@ Node ToJson(const MergedBracket& merged) {
   return {{"frames", Node::List(merged.frames, FrameNode)},
           {"scale",
            {{"nits_per_unit", merged.nits_per_unit},
-            {"source", merged.scale_source},
+            {"source", WordOf(merged.scale_source)},
             {"u95_relative", merged.scale_u95_relative}}},
           {"clipped_fraction", merged.clipped_fraction},
           {"noise",
@@ -275,9 +278,9 @@ Node ToJson(const MergedBracket& merged) {
           {"height", merged.height}};
 }
 
-std::string ScaleWords(const std::string& source) {
-  if (source == "anchor") return "the spot reading";
-  return source == kCameraScale ? "the camera's profile" : "the ISO speed (prior)";
+std::string ScaleText(ScaleSource source) {
+  if (source == ScaleSource::kAnchor) return "the spot reading";
+  return source == ScaleSource::kCamera ? "the camera's profile" : "the ISO speed (prior)";
 }
 
 std::string Table(const MergedBracket& merged) {
@@ -296,21 +299,22 @@ std::string Table(const MergedBracket& merged) {
   const auto [low, high] = std::minmax_element(merged.picture.begin(), merged.picture.end());
   text += "luminance up to " + RoundedText(*high, 4) + " cd/m2 (lowest " + RoundedText(*low, 2) +
           "), scale ± " + RoundedText(100.0 * merged.scale_u95_relative, 2) + " % from " +
-          ScaleWords(merged.scale_source) + "\n";
+          ScaleText(merged.scale_source) + "\n";
   return text;
 }
 
 Result<void> RunMerge(const Options& options, Console& console) {
-  const auto request = RequestOf(options);
+  const Sources sources = DiskSources();
+  const auto request = RequestOf(options, sources);
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
   const auto lamps = ParseLamps(options.mains, options.pwm);
   if (!lamps) return tl::unexpected(lamps.error());
-  const auto bracket = OpenBracket(options.frames, *overrides);
+  const auto bracket = sources.open_bracket(options.frames, *overrides);
   if (!bracket) return tl::unexpected(bracket.error());
   if (auto safe = RefuseHopelessShutter(bracket->frames, *lamps); !safe) return safe;
-  const auto merged = MergeBracket(*bracket, *request);
+  const auto merged = MergeBracket(*bracket, sources, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);
   console.Warn(CheckShutters(bracket->frames, *lamps));
@@ -322,7 +326,7 @@ Result<void> RunMerge(const Options& options, Console& console) {
   console.PrintDocument(ToJson(*merged));
   console.Note("wrote " + options.output +
                (request->want_sigma ? " and " + options.sigma : std::string()));
-  if (merged->scale_source == "iso_prior") {
+  if (merged->scale_source == ScaleSource::kIsoPrior) {
     console.Note(
         "next: read one spot with a luminance meter and pass --anchor x,y,w,h=NITS; the "
         "scale is a prior until then");

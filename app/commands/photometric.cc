@@ -9,9 +9,10 @@
 
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/photometric_type_c.h"
 #include "lightcal/report/polar_plot.h"
+#include "lightcal_devices/files/read_photometric.h"
 #include "output_files.h"
-#include "photometric_input.h"
 #include "picture_file.h"
 
 namespace lightcal::app {

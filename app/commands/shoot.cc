@@ -11,8 +11,8 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "one_of.h"
+#include "picture_words.h"
 #include "shooting/bracket_shoot.h"
-#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {

@@ -112,7 +112,7 @@ constexpr auto kVisitSensitivities = [](auto& archive, auto& sensitivities) {
 };
 
 template <class Archive, class SomeProfile>
-void VisitProfile(Archive& archive, SomeProfile& profile) {
+void VisitCameraProfile(Archive& archive, SomeProfile& profile) {
   archive.Text("camera", profile.camera);
   archive.Integer("width", profile.width);
   archive.Integer("height", profile.height);
@@ -171,7 +171,7 @@ void CheckProfile(FieldReader& reader, const CameraProfile& profile) {
 records::Node DocumentOf(const CameraProfile& profile) {
   records::FieldWriter writer;
   writer.Put("schema", kCameraSchema);
-  records::VisitProfile(writer, profile);
+  records::VisitCameraProfile(writer, profile);
   return writer.TakeTable();
 }
 
@@ -190,7 +190,7 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
   records::FieldReader reader(*node, "", reading);
   CameraProfile profile;
   records::ReadSchema(reader);
-  records::VisitProfile(reader, profile);
+  records::VisitCameraProfile(reader, profile);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   records::CheckProfile(reader, profile);

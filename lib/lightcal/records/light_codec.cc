@@ -199,7 +199,7 @@ Result<LightFile> LightsOfPreset(const Node& root, std::string_view where) {
   reader.Finish();
   if (!reading.error) return file;
   reading.error->message = "is not as lightcal writes it: " + reading.error->message +
-                           "; export it again with --to json";
+                           "; export it again with {preset.target} json";
   return tl::unexpected(*std::move(reading.error));
 }
 

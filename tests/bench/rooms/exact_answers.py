@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from grid_posterior import (BEAM_OVER_FLUX, IN_ROOM, PRIORS, UNKNOWN_KIND, offsets_of,
-                            posterior)
+from grid_posterior import (BEAM_OVER_FLUX, IN_ROOM, ORDINARY_ROOM, PRIORS, ROOM_POWER,
+                            UNKNOWN_KIND, offsets_of, posterior)
 from traced_table import area
 
 
@@ -18,16 +18,17 @@ def prior_of(kind, lamp):
         prior = (math.log(BEAM_OVER_FLUX * flux), 0.75, *prior[2:])
     if not lamp.room or (kind == "beam" and not beam):
         return prior
-    factor, spread, stated_flux = IN_ROOM[kind]
+    k, spread, stated_flux = IN_ROOM[kind]
     rho = lamp.room["reflectance"]
-    centre = math.log(factor * (stated_flux or flux) * rho / (area(lamp.room["size_m"]) * (1 - rho)))
-    return (centre, math.hypot(spread, 0.1 / (1 - rho)), *prior[2:])
+    formula = rho / (area(lamp.room["size_m"]) * (1 - rho))
+    centre = math.log(k * (stated_flux or flux)) + ROOM_POWER * math.log(formula / ORDINARY_ROOM)
+    return (centre, math.hypot(spread, ROOM_POWER * 0.1 / (1 - rho)), *prior[2:])
 
 
 def walls_of(lamp):
     if lamp.exact_kind != "point":
-        return [(1.0, prior_of(lamp.exact_kind, lamp))]
-    return [(weight, prior_of(kind, lamp)) for kind, weight in UNKNOWN_KIND]
+        return [(1.0, prior_of(lamp.exact_kind, lamp), lamp.keys.get("size_m"))]
+    return [(weight, prior_of(kind, lamp), size) for weight, kind, size in UNKNOWN_KIND]
 
 
 def answer_exactly(lamp):
@@ -37,5 +38,4 @@ def answer_exactly(lamp):
     return (*posterior(
         distances, [r["illuminance_lx"] for r in direct],
         card=np.array([cards.get(d, math.nan) for d in distances]) if cards else None,
-        size=lamp.keys.get("size_m"), offsets=offsets_of(lamp.fixture),
-        walls=walls_of(lamp)), 0)
+        offsets=offsets_of(lamp.fixture), walls=walls_of(lamp)), 0)

@@ -19,13 +19,17 @@ PRIORS = {
     "panel": (np.log(0.037), 0.45, -0.45, 0.55, 0.14, -0.37),
     "beam": (np.log(0.0033), 1.25, 0.60, 0.45, 0.25, 0.0),
 }
-UNKNOWN_KIND = (("bulb", 0.5), ("panel", 0.25), ("beam", 0.25))
+# A lamp of unknown kind: weight, kind, size of a panel.
+UNKNOWN_KIND = ((0.5, "bulb", None), (0.1, "panel", (0.12, 0.09)), (0.08, "panel", (0.25, 0.19)),
+                (0.07, "panel", (0.42, 0.32)), (0.25, "beam", None))
 BEAM_OVER_FLUX = 0.0092  # b at 3 m over flux over I, 1/(m^2 sr), of a beam whose angle is known
-# In a stated room: factor over flux rho / (I A (1 - rho)), its sd of ln, flux over I (None: a beam's).
+# In a stated room b = k flux / I (f / .0088)^.7, f = rho / (A (1 - rho)): k, sd of ln, flux / I (None: a
+# beam's). The power is less than 1 as f says only in part what a meter sees.
+ROOM_POWER, ORDINARY_ROOM = 0.7, 0.0088
 IN_ROOM = {
-    "bulb": (1.30, 0.25, 0.86 * 4 * np.pi),
-    "panel": (1.42, 0.36, np.pi),
-    "beam": (0.92, 0.65, None),
+    "bulb": (0.0113, 0.22, 0.86 * 4 * np.pi),
+    "panel": (0.0120, 0.31, np.pi),
+    "beam": (0.0082, 0.63, None),
 }
 CARD_HIDES = 0.04  # sd of ln of what a card keeps away besides the direct light
 UNKNOWN_FIXTURE = ((2 / 3, 0.0, 0.04), (1 / 3, 0.0, 0.15))
@@ -91,14 +95,14 @@ def grid(distances, lux, card, size, offsets, each, walls):
     return (logp - 0.5 * (chi2 + logdet + np.log(a))).ravel(), mean.ravel(), (1 / a).ravel()
 
 
-def posterior(distances, lux, card=None, *, size=None, offsets=UNKNOWN_FIXTURE, common=0.03,
+def posterior(distances, lux, card=None, *, offsets=UNKNOWN_FIXTURE, common=0.03,
               each=0.01, walls=None, at=(0.025, 0.5, 0.975)):
-    """Quantiles of I. `card`: lux behind a card at each distance (nan: not read); `size` of a panel;
-    `walls`: a list of (weight, row of PRIORS), one of which holds; None: a dark room."""
+    """Quantiles of I. `card`: lux behind a card at each distance (nan: not read);
+    `walls`: a list of (weight, row of PRIORS, size), one of which holds; None: a dark room."""
     distances, lux = np.asarray(distances, float), np.asarray(lux, float)
     parts = [(math.log(w) + p, m, v) for w, (p, m, v) in (
         (weight, grid(distances, lux, card, size, offsets, each, row))
-        for weight, row in (walls or [(1.0, None)]))]
+        for weight, row, size in (walls or [(1.0, None, None)]))]
     weight, mean, variance = (np.concatenate(column) for column in zip(*parts))
     weight = np.exp(weight - weight.max())
     weight /= weight.sum()

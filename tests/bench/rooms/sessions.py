@@ -124,3 +124,9 @@ def summary(lamps, answers):
     bias = np.median(value / truth - 1)
     return (f"{len(lamps):9d} {100 * held:6.1f} +- {100 * error:3.1f} {100 * bias:+8.1f} %"
             f" {100 * half:9.1f} % {len(lamps) - len(fitted):8d} {int(np.sum(rejected > 0)):9d}")
+
+
+def below(lamps, answers, bar):
+    """Whether the interval holds the lamp less often than `bar`, beyond chance; a refusal holds nothing."""
+    held = sum(not isinstance(a, str) and a[0] <= lamp.truth <= a[2] for lamp, a in zip(lamps, answers))
+    return held / len(lamps) < bar - 3 * math.sqrt(bar * (1 - bar) / len(lamps))
