@@ -8,11 +8,11 @@
 #include "color_words.h"
 #include "commands.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "one_of.h"
 #include "output_files.h"
-#include "preset_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -64,16 +64,21 @@ Result<PresetOptions> OptionsOf(const Options& options) {
   return preset;
 }
 
-Result<PresetOutputs> PresetsOfInput(const std::string& input, const Options& options,
-                                     const PresetOptions& preset, Warnings& warnings) {
+Result<ExportedPresets> PresetsOfInput(const std::string& input, const Options& options,
+                                       const PresetOptions& preset) {
   const auto text = ReadWholeFile(input);
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightFileFromJson(*text, input);
   if (!lights) return tl::unexpected(lights.error());
-  auto outputs =
-      PresetFiles(*lights, fs::path(input).stem().string(), options.targets, preset, warnings);
-  if (outputs) PlaceUnder(options.output, *outputs);
-  return outputs;
+  return ExportPresets(*lights, options.targets, fs::path(input).stem().string(), preset);
+}
+
+std::string WithDirectory(std::string line, const std::string& directory) {
+  for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
+    line.replace(at, kPasteDirectory.size(), directory);
+    at += directory.size();
+  }
+  return line;
 }
 
 Result<void> RunExport(const Options& options, Console& console) {
@@ -83,13 +88,17 @@ Result<void> RunExport(const Options& options, Console& console) {
   std::vector<OutputFile> all;
   std::vector<std::string> pastes;
   for (const std::string& input : options.inputs) {
-    Warnings warnings;
-    auto outputs = PresetsOfInput(input, options, *preset, warnings);
-    if (!outputs) return Propagate(std::move(outputs));
-    console.Warn(warnings);
-    for (OutputFile& file : outputs->files) all.push_back(std::move(file));
-    pastes.insert(pastes.end(), outputs->pastes.begin(), outputs->pastes.end());
+    auto presets = PresetsOfInput(input, options, *preset);
+    if (!presets) return Propagate(std::move(presets));
+    console.Warn(presets->warnings);
+    for (PresetFile& file : presets->files) {
+      all.push_back({std::move(file.name), std::move(file.contents)});
+    }
+    for (const std::string& line : presets->pastes) {
+      pastes.push_back(WithDirectory(line, options.output));
+    }
   }
+  PlaceUnder(options.output, all);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(all, options.force); !written) return written;
   for (const OutputFile& file : all) console.Print("wrote " + file.path + "\n");

@@ -10,11 +10,11 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "one_of.h"
 #include "output_files.h"
-#include "preset_files.h"
 #include "session_input.h"
 
 namespace lightcal::app {
@@ -223,13 +223,14 @@ Result<void> RunQuick(const Options& options, Console& console) {
   console.Warn(fitted->warnings);
   std::vector<OutputFile> files;
   if (!options.targets.empty()) {
-    Warnings warnings;
-    auto presets = PresetFiles(fitted->lights, session->stem, options.targets,
-                               {.bare = options.bare}, warnings);
+    auto presets =
+        ExportPresets(fitted->lights, options.targets, session->stem, {.bare = options.bare});
     if (!presets) return Propagate(std::move(presets));
-    console.Warn(warnings);
-    PlaceUnder(options.output, *presets);
-    files = std::move(presets->files);
+    console.Warn(presets->warnings);
+    for (PresetFile& file : presets->files) {
+      files.push_back({std::move(file.name), std::move(file.contents)});
+    }
+    PlaceUnder(options.output, files);
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;

@@ -14,12 +14,12 @@
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "one_of.h"
 #include "output_files.h"
-#include "preset_files.h"
 #include "report_html.h"
 
 namespace lightcal::app {
@@ -62,14 +62,14 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
   const Session& session = calibrated.session;
-  Warnings warnings;
-  auto presets =
-      PresetFiles(lights, session.stem, options.targets, {.bare = options.bare}, warnings);
+  auto presets = ExportPresets(lights, options.targets, session.stem, {.bare = options.bare});
   if (!presets) return Propagate(std::move(presets));
-  console.Warn(warnings);
+  console.Warn(presets->warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
                                    {"report.html", ReportHtml(calibrated, pictures)}};
-  for (OutputFile& file : presets->files) files.push_back(std::move(file));
+  for (PresetFile& file : presets->files) {
+    files.push_back({std::move(file.name), std::move(file.contents)});
+  }
   PlaceUnder(directory, files);
   return files;
 }

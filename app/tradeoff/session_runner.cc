@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tradeoff/session_runner.h"
 
-#include "preset_files.h"
+#include "lightcal/presets/export_presets.h"
 
 namespace lightcal::app {
 
@@ -10,8 +10,7 @@ Console MutedConsole() {
 }
 
 Result<tradeoff::Outcome> OutcomeOf(const CalibratedSession& calibrated, StageClock& clock) {
-  Warnings warnings;
-  const auto presets = PresetFiles(calibrated.lights, calibrated.session.stem, {}, {}, warnings);
+  const auto presets = ExportPresets(calibrated.lights, {}, calibrated.session.stem);
   if (!presets) return tl::unexpected(presets.error());
   clock.Lap(tradeoff::Stage::kExport);
   return tradeoff::Outcome{tradeoff::FiguresOf(calibrated.lights), clock.seconds()};

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights as the files of several engines at once: names and texts, nothing is written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/presets/preset.h"
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal {
+
+struct ExportedPresets {
+  std::vector<PresetFile> files;    // each name once
+  std::vector<std::string> pastes;  // one a target that has one, "unreal: py \"%DIR%/...\""
+  Warnings warnings;                // each once, whoever said it
+};
+
+// The files of every target named (none named = every target there is), in that order; `stem`
+// begins their names. Of targets that nobody named, warnings of what their format cannot hold are
+// left out.   Wrong usage: an unknown target (names the nearest). Refuses and fails as Exporter.
+[[nodiscard]] Result<ExportedPresets> ExportPresets(const LightFile& lights,
+                                                    const std::vector<std::string>& targets = {},
+                                                    const std::string& stem = "lights",
+                                                    const PresetOptions& options = {});
+
+}  // namespace lightcal
