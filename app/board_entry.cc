@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The module's side of board_module.h.
-#include "board_module.h"
+// The module's side of lightcal_devices/captures/board_module.h.
+#include "lightcal/imaging/camera/find_chart.h"
+#include "lightcal/imaging/scene/charuco.h"
+#include "lightcal_devices/captures/board_module.h"
 
-extern "C" __attribute__((visibility("default"))) const lightcal::app::BoardFunctions*
+extern "C" __attribute__((visibility("default"))) const lightcal::BoardFunctions*
 lightcal_board_functions() noexcept {
-  static constexpr lightcal::app::BoardFunctions kFunctions = {
+  static constexpr lightcal::BoardFunctions kFunctions = {
       &lightcal::LayOutBoard, &lightcal::FindBoard, &lightcal::FindColorChart};
   return &kFunctions;
 }

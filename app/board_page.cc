@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "board_module.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal_devices/captures/board_module.h"
 #include "output_files.h"
 
 namespace lightcal::app {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/json_codec.h"
 #include "option_words.h"
 
 namespace lightcal::app {
@@ -15,6 +15,10 @@ namespace {
 void Write(std::FILE* stream, std::string_view text) {
   const std::string words = InOptionWords(text);
   std::fwrite(words.data(), 1, words.size(), stream);
+}
+
+void WriteDocument(const Node& document) {
+  Write(stdout, PrintJson(document, records::JsonLayout::kPretty) + "\n");
 }
 
 std::string Sentence(std::string_view kind, const std::string& subject,
@@ -50,16 +54,12 @@ void Console::Print(std::string_view text) {
   if (!flags_.json) Write(stdout, text);
 }
 
-void Console::PrintJson(const nlohmann::ordered_json& document) {
+void Console::PrintDocument(Node document) {
   if (!flags_.json) return;
-  nlohmann::ordered_json whole = document;
-  if (!warnings_.empty()) {
-    auto& list = whole["warnings"] = nlohmann::ordered_json::array();
-    for (const Warning& w : warnings_) {
-      list.push_back({{"code", w.code}, {"subject", w.subject}, {"message", w.message}});
-    }
-  }
-  Write(stdout, whole.dump(2) + "\n");
+  document.Put("warnings", Node::UnlessEmpty(Node::List(warnings_, [](const Warning& w) {
+                 return DocumentOf(Error{{}, w.code, w.subject, w.message});
+               })));
+  WriteDocument(document);
 }
 
 void Console::Note(std::string_view text) {
@@ -82,12 +82,14 @@ Result<void> Console::RefuseIfStrict() const {
   return Refused(first.code, first.subject, first.message + " (refused because of --strict)");
 }
 
+Node DocumentOf(const Error& error) {
+  return {{"code", error.code}, {"subject", error.subject}, {"message", error.message}};
+}
+
 void PrintError(const Error& error, bool json) {
   if (error.code.empty()) return;  // told already, see told_error.h
   if (json) {
-    const nlohmann::ordered_json document = {
-        {"error", {{"code", error.code}, {"subject", error.subject}, {"message", error.message}}}};
-    Write(stdout, document.dump(2) + "\n");
+    WriteDocument({{"error", DocumentOf(error)}});
   }
   Write(stderr, Sentence("", error.subject, error.message));
 }

@@ -3,14 +3,16 @@
 // document), notes and warnings on stderr.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/document.h"
 
 namespace lightcal::app {
+
+using records::Node;
 
 class Console {
  public:
@@ -30,7 +32,7 @@ class Console {
   void Print(std::string_view text);
   // The command's one JSON document; silent without --json. Warnings given so far are added under
   // "warnings". Call it last and once.
-  void PrintJson(const nlohmann::ordered_json& document);
+  void PrintDocument(Node document);
   // A note on stderr (progress, next step); silent with --quiet.
   void Note(std::string_view text);
   // A warning on stderr and in the JSON document.
@@ -46,6 +48,8 @@ class Console {
   Warnings warnings_;
 };
 
+// {"code","subject","message"}
+[[nodiscard]] Node DocumentOf(const Error& error);
 // Prints an error as people or machines read it.
 void PrintError(const Error& error, bool json);
 

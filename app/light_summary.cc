@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light_summary.h"
 
-#include <nlohmann/json.hpp>
-#include <optional>
-
 namespace lightcal::app {
 
-nlohmann::ordered_json LightSummary(const FittedLight& light) {
-  nlohmann::ordered_json json = {{"name", light.name}, {"kind", LightKindName(light.kind)}};
+Node ValueAndU95(const Uncertain& u) { return {{"value", u.value}, {"u95", u.u95}}; }
+
+Node LightSummary(const FittedLight& light) {
+  Node node = {{"name", light.name}, {"kind", LightKindName(light.kind)}};
   const auto put = [&](const char* key, const std::optional<Uncertain>& u) {
-    if (u) json[key] = {{"value", u->value}, {"u95", u->u95}};
+    if (u) node.Put(key, ValueAndU95(*u));
   };
   put("intensity_cd", light.intensity_cd);
   put("illuminance_lx", light.illuminance_lx);
@@ -17,7 +16,7 @@ nlohmann::ordered_json LightSummary(const FittedLight& light) {
   put("flux_lm", light.flux_lm);
   put("cct_K", light.color.cct_K);
   put("duv", light.color.duv);
-  return json;
+  return node;
 }
 
 }  // namespace lightcal::app

@@ -209,6 +209,12 @@ void RemoveLeftovers(const std::string& directory) {
   RemoveTemporaries(directory, [](const std::string&) { return true; });
 }
 
+std::vector<std::string> PathsOf(const std::vector<OutputFile>& files) {
+  std::vector<std::string> paths;
+  for (const OutputFile& file : files) paths.push_back(file.path);
+  return paths;
+}
+
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {
   for (OutputFile& file : files) file.path = (fs::path(directory) / file.path).string();
 }

@@ -40,6 +40,8 @@ void RemoveLeftovers(const std::string& directory);
 // Paths relative to a directory become paths below it.
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);
 
+[[nodiscard]] std::vector<std::string> PathsOf(const std::vector<OutputFile>& files);
+
 // Whole file as bytes. Fails: not_found, unreadable.
 [[nodiscard]] Result<std::string> ReadWholeFile(const std::string& path);
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/bracket/shutter_check.h"
 #include "lightcal/imaging/panorama/panorama.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
 
@@ -28,5 +29,9 @@ inline constexpr const char* kConventionHelp =
 
 // "2%" or "0.02": above 0 and below 1.
 [[nodiscard]] Result<double> ParseShare(const std::string& option, const std::string& text);
+
+inline constexpr std::array<std::string_view, 3> kMainsWords = {"50", "60", "none"};
+// --mains, one of kMainsWords, and --pwm HZ[,DUTY], empty = not given.
+[[nodiscard]] Result<LampsOnSet> ParseLamps(const std::string& mains, const std::string& pwm);
 
 }  // namespace lightcal::app

@@ -61,8 +61,8 @@ void WarnOutOfRange(const Reading& reading, Warnings& warnings) {
 
 // A reading the journal would not take back is refused before anything is written.
 Result<void> CheckReading(const Reading& reading) {
-  const auto read_back = ReadingFromJson(ReadingToJson(reading), "this reading");
-  if (!read_back) return tl::unexpected(read_back.error());
+  const auto fault = FaultOf(reading);
+  if (fault) return Refused("bad_reading", "this reading", fault->message);
   return {};
 }
 

@@ -5,15 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/rendering_input.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/punctual_light.h"
 #include "lightcal/report/page.h"
+#include "lightcal_devices/disk_sources.h"
 #include "raster_png.h"
 #include "report/engines.h"
 #include "report/parity.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -67,7 +68,7 @@ void AddSpectrum(const Session& session, const std::string& light, const std::st
   if (file.empty() || std::ranges::find(spectra, light, &LightSpectrum::light) != spectra.end()) {
     return;
   }
-  auto one = ReadTheOneSpectrum(PathInSession(session, file), file);
+  auto one = ReadTheOneSpectrum(DiskSources(), PathInSession(session, file), file);
   if (!one) return;
   auto rendering = RenderingOf(one->imported.spectrum);
   spectra.push_back({light, file, std::move(one->imported.spectrum), std::move(rendering)});

@@ -5,10 +5,11 @@
 #include <system_error>
 #include <utility>
 
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/thin_table.h"
-#include "photometric_input.h"
-#include "session_files.h"
+#include "lightcal/records/photometric_type_c.h"
+#include "lightcal_devices/files/read_photometric.h"
 #include "session_names.h"
 
 namespace lightcal::app {

@@ -11,14 +11,15 @@
 #include "captures/capture_readings.h"
 #include "captures/wall_capture.h"
 #include "clock.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
 #include "session_distributions.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -64,7 +65,7 @@ Result<void> ResolveSpectrum(Session& session, SessionReading& row, double step_
   Reading& reading = row.reading;
   if (reading.spectrum_file.empty()) return {};
   const std::string path = PathInSession(session, reading.spectrum_file);
-  const auto one = ReadTheOneSpectrum(path, row.where);
+  const auto one = ReadTheOneSpectrum(DiskSources(), path, row.where);
   if (!one) return tl::unexpected(one.error());
   console.Warn(one->warnings);
   const Spectrum spectrum = ThinnedTo(one->imported.spectrum, step_nm);

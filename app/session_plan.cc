@@ -2,7 +2,6 @@
 #include "session_plan.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,8 +14,6 @@
 namespace lightcal::app {
 namespace {
 
-using nlohmann::ordered_json;
-
 constexpr double kAdvisedSpan = 8.0;
 constexpr std::size_t kCandidatesShown = 8;
 
@@ -25,15 +22,11 @@ const char* WordOf(PlannedAction action) {
   return action == PlannedAction::kLampOff ? "lamp_off" : "read";
 }
 
-ordered_json JsonOf(const PlannedReading& reading) {
-  ordered_json json = {{"action", WordOf(reading.action)}};
-  if (reading.distance) json["distance_m"] = reading.distance->value();
-  if (reading.position_m) json["position_m"] = *reading.position_m;
-  if (reading.normal) json["normal"] = *reading.normal;
-  json["expected_lx"] = reading.expected.value();
-  json["u95_relative"] = reading.u95_relative;
-  json["say"] = SayPlannedReading(reading);
-  return json;
+Node NodeOf(const PlannedReading& reading) {
+  return {{"action", WordOf(reading.action)}, {"distance_m", reading.distance},
+          {"position_m", reading.position_m}, {"normal", reading.normal},
+          {"expected_lx", reading.expected},  {"u95_relative", reading.u95_relative},
+          {"say", SayPlannedReading(reading)}};
 }
 
 struct PlannedLight {
@@ -67,23 +60,21 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
 
 std::string Percent(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
 
-ordered_json JsonOf(const PlannedLight& planned, const Session& session) {
-  ordered_json json = {{"name", planned.light->name}};
+Node NodeOf(const PlannedLight& planned, const Session& session) {
+  Node node = {{"name", planned.light->name}};
   if (!planned.plan) {
     const Error& error = planned.plan.error();
-    json["refused"] = {{"code", error.code}, {"message", error.message}};
-    return json;
+    node.Put("refused", {{"code", error.code}, {"message", error.message}});
+    return node;
   }
   const ReadingPlan& plan = *planned.plan;
-  if (plan.u95_relative) json["u95_relative"] = *plan.u95_relative;
-  if (plan.span) json["span"] = *plan.span;
-  json["steps"] = ordered_json::array();
-  for (const PlannedReading& step : plan.steps) json["steps"].push_back(JsonOf(step));
-  json["candidates"] = ordered_json::array();
-  for (const PlannedReading& one : plan.candidates) json["candidates"].push_back(JsonOf(one));
-  const std::string advice = AdviceOf(planned, session);
-  if (!advice.empty()) json["advice"] = advice;
-  return json;
+  const auto reading = [](const PlannedReading& one) { return NodeOf(one); };
+  node.Put({{"u95_relative", plan.u95_relative},
+            {"span", plan.span},
+            {"steps", Node::List(plan.steps, reading)},
+            {"candidates", Node::List(plan.candidates, reading)},
+            {"advice", Node::UnlessEmpty(AdviceOf(planned, session))}});
+  return node;
 }
 
 std::string TextOf(const PlannedLight& planned, const Session& session, bool verbose) {
@@ -135,13 +126,13 @@ Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   if (!any && !planned.empty()) refused = &planned.front().plan.error();
   if (refused != nullptr) return tl::unexpected(*refused);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  ordered_json document = {{"lights", ordered_json::array()}};
+  std::vector<Node> lights;
   for (const PlannedLight& light : planned) {
     console.Print((&light == planned.data() ? "" : "\n") +
                   TextOf(light, *session, console.verbose()));
-    document["lights"].push_back(JsonOf(light, *session));
+    lights.push_back(NodeOf(light, *session));
   }
-  console.PrintJson(document);
+  console.PrintDocument({{"lights", lights}});
   return {};
 }
 

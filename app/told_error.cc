@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "told_error.h"
 
-#include <nlohmann/json.hpp>
-
 namespace lightcal::app {
 
-Result<void> EndTold(Console& console, nlohmann::ordered_json document, const Error& error) {
-  document["error"] = {
-      {"code", error.code}, {"subject", error.subject}, {"message", error.message}};
-  console.PrintJson(document);
+Result<void> EndTold(Console& console, records::Node document, const Error& error) {
+  document.Put("error", DocumentOf(error));
+  console.PrintDocument(std::move(document));
   PrintError(error, false);
   return tl::unexpected(Error{error.kind, "", "", ""});
 }

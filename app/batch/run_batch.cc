@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -20,6 +19,7 @@
 #include "light_summary.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
 #include "told_error.h"
@@ -28,8 +28,6 @@ namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 enum class Status { kDone, kUpToDate, kRefused, kFailed, kCrashed, kNotRun };
 constexpr std::array<std::string_view, 6> kStatusWords = {"done",   "up_to_date", "refused",
                                                           "failed", "crashed",    "not_run"};
@@ -47,8 +45,6 @@ std::size_t Count(const std::vector<Outcome>& outcomes, Status status) {
   return static_cast<std::size_t>(std::ranges::count(outcomes, status, &Outcome::status));
 }
 
-std::string TextOf(const Json& json, const char* key) { return json.value(key, std::string()); }
-
 std::string LastLine(std::string_view text) {
   text = TrimBlanks(text);
   return std::string(text.substr(text.rfind('\n') + 1));
@@ -65,23 +61,21 @@ Outcome OutcomeOf(const JobResult& result) {
                   (said.empty() ? "" : " (" + said + ")") + "; run it alone to see more"};
     return outcome;
   }
-  const Json document = Json::parse(result.out, nullptr, false);
-  const bool object = document.is_object();
-  for (const Json& warning : object ? document.value("warnings", Json::array()) : Json::array()) {
-    outcome.warnings.push_back(
-        {TextOf(warning, "code"), TextOf(warning, "subject"), TextOf(warning, "message")});
+  const Node document = records::ParseJson(result.out).value_or(Node());
+  if (const Node* warnings = document.Find("warnings")) {
+    for (const Node& w : warnings->items) {
+      outcome.warnings.push_back({w.TextAt("code"), w.TextAt("subject"), w.TextAt("message")});
+    }
   }
   if (result.exit_code == 0) {
-    const bool nothing_to_do = object && document.value("up_to_date", false);
+    const bool nothing_to_do = document.Find("up_to_date") != nullptr;
     outcome.status = nothing_to_do ? Status::kUpToDate : Status::kDone;
     return outcome;
   }
   const auto kind = static_cast<ErrorKind>(result.exit_code);
   outcome.status = kind == ErrorKind::kRefused ? Status::kRefused : Status::kFailed;
-  if (object && document.contains("error")) {
-    const Json& error = document["error"];
-    outcome.error =
-        Error{kind, TextOf(error, "code"), TextOf(error, "subject"), TextOf(error, "message")};
+  if (const Node* e = document.Find("error")) {
+    outcome.error = Error{kind, e->TextAt("code"), e->TextAt("subject"), e->TextAt("message")};
   } else {
     outcome.error = Error{ErrorKind::kFailed, "failed", "", LastLine(result.err)};
   }
@@ -126,38 +120,34 @@ bool HasOutputs(const Outcome& outcome) {
   return outcome.status == Status::kDone || outcome.status == Status::kUpToDate;
 }
 
-Json SessionJson(const BatchItem& item, const Outcome& outcome) {
-  Json json = {{"session", item.session},
-               {"output", item.directory},
-               {"status", kStatusWords[static_cast<std::size_t>(outcome.status)]}};
-  if (outcome.error) {
-    json["error"] = {{"code", outcome.error->code},
-                     {"subject", outcome.error->subject},
-                     {"message", outcome.error->message}};
-  }
-  if (!HasOutputs(outcome)) return json;
-  auto& lights = json["lights"] = Json::array();
-  for (const FittedLight& light : LightsOf(item)) lights.push_back(LightSummary(light));
-  return json;
+Node SessionNode(const BatchItem& item, const Outcome& outcome) {
+  const bool done = HasOutputs(outcome);
+  return {{"session", item.session},
+          {"output", item.directory},
+          {"status", kStatusWords[static_cast<std::size_t>(outcome.status)]},
+          {"error", outcome.error ? DocumentOf(*outcome.error) : Node()},
+          {"lights", done ? Node::List(LightsOf(item), LightSummary) : Node()}};
 }
 
-Json Summary(const std::vector<BatchItem>& items, const std::vector<Outcome>& outcomes) {
-  Json document = {{"schema", "lightcal.batch/1"}, {"generator", GeneratorName()}};
-  auto& sessions = document["sessions"] = Json::array();
+Node Summary(const std::vector<BatchItem>& items, const std::vector<Outcome>& outcomes) {
+  Node sessions = Node::Array();
   for (std::size_t i = 0; i < items.size(); ++i) {
-    sessions.push_back(SessionJson(items[i], outcomes[i]));
+    sessions.items.push_back(SessionNode(items[i], outcomes[i]));
   }
-  auto& counts = document["counts"] = Json::object();
+  Node counts = Node::Table();
   for (std::size_t s = 0; s < kStatusWords.size(); ++s) {
-    counts[std::string(kStatusWords[s])] = Count(outcomes, static_cast<Status>(s));
+    counts.Put(kStatusWords[s], Count(outcomes, static_cast<Status>(s)));
   }
-  return document;
+  return {{"schema", "lightcal.batch/1"},
+          {"generator", GeneratorName()},
+          {"sessions", sessions},
+          {"counts", counts}};
 }
 
 Result<void> WriteSummary(const BatchRequest& request, const std::vector<Outcome>& outcomes) {
   if (request.summary.empty()) return {};
-  const Json document = Summary(request.items, outcomes);
-  const std::string text = document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const Node summary = Summary(request.items, outcomes);
+  const std::string text = PrintJson(summary, records::JsonLayout::kPretty) + "\n";
   return WriteOutputs({{request.summary, text}}, false);
 }
 
@@ -324,11 +314,11 @@ Result<void> RunBatch(const BatchRequest& request, const Console& console) {
   }
   Console answer = Warned(request, outcomes, console);
   if (auto written = WriteSummary(request, outcomes); !written) return written;
-  const Json document = Summary(request.items, outcomes);
+  const Node document = Summary(request.items, outcomes);
   answer.Print(Table(request.items, outcomes) + "\n");
   if (const auto worst = WorstOf(outcomes)) return EndTold(answer, document, *worst);
   answer.Print(Counted(outcomes) + "\n");
-  answer.PrintJson(document);
+  answer.PrintDocument(document);
   return {};
 }
 

@@ -4,22 +4,30 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <span>
 
-#include "lightcal/presets/json_pieces.h"
+#include "lightcal/calibrate/session_files.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-using json_pieces::FilesAt;
-using json_pieces::TextAt;
+using records::Node;
+
+Node FileNode(const InputFile& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }
+
+std::vector<InputFile> FilesAt(const Node& document, std::string_view key) {
+  std::vector<InputFile> files;
+  if (const Node* list = document.Find(key)) {
+    for (const Node& file : list->items)
+      files.push_back({file.TextAt("path"), file.TextAt("sha256")});
+  }
+  return files;
+}
 
 bool StillTheSame(const fs::path& directory, const std::vector<InputFile>& files) {
   return std::ranges::all_of(files, [&](const InputFile& file) {
@@ -47,26 +55,27 @@ std::vector<std::string> MatchedFrames(const Session& session) {
 }  // namespace
 
 std::string RunStampToJson(const RunStamp& stamp) {
-  const Json json = {{"schema", kRunStampSchema},
-                     {"generator", stamp.generator},
-                     {"settings_sha256", stamp.settings},
-                     {"session_sha256", stamp.session},
-                     {"inputs", json_pieces::FilesJson<Json>(stamp.inputs)},
-                     {"outputs", json_pieces::FilesJson<Json>(stamp.outputs)}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const Node document = {{"schema", kRunStampSchema},
+                         {"generator", stamp.generator},
+                         {"settings_sha256", stamp.settings},
+                         {"session_sha256", stamp.session},
+                         {"inputs", Node::List(stamp.inputs, FileNode)},
+                         {"outputs", Node::List(stamp.outputs, FileNode)}};
+  return PrintJson(document, records::JsonLayout::kPretty) + "\n";
 }
 
 Result<RunStamp> RunStampFromJson(std::string_view text, std::string_view where) {
   const auto bad = [&](const std::string& what) {
     return Refused("bad_run", std::string(where), what + "; delete it, and run the session again");
   };
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return bad("is no JSON object");
-  if (TextAt(json, "schema") != kRunStampSchema) {
+  const auto document = records::ParseJson(text);
+  if (!document || document->kind != Node::Kind::kTable) return bad("is no JSON object");
+  if (document->TextAt("schema") != kRunStampSchema) {
     return bad("\"schema\" is not " + std::string(kRunStampSchema));
   }
-  RunStamp stamp{TextAt(json, "generator"), TextAt(json, "settings_sha256"),
-                 TextAt(json, "session_sha256"), FilesAt(json, "inputs"), FilesAt(json, "outputs")};
+  RunStamp stamp{document->TextAt("generator"), document->TextAt("settings_sha256"),
+                 document->TextAt("session_sha256"), FilesAt(*document, "inputs"),
+                 FilesAt(*document, "outputs")};
   for (const auto* key : {&stamp.generator, &stamp.settings, &stamp.session}) {
     if (key->empty()) return bad("generator, settings_sha256 or session_sha256 is missing");
   }

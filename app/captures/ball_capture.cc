@@ -8,12 +8,12 @@
 #include <variant>
 
 #include "capture_reading.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/scene/highlight.h"
 #include "lightcal/imaging/scene/mirror_ball.h"
 #include "lightcal_devices/captures/bracket.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "lamp_luminance.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
+#include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 
@@ -59,7 +60,7 @@ Result<void> UseCameraOfCapture(const Session& session, const CaptureDescription
                        " holds spectral sensitivities, which know no filters; give a "
                        "profile made by lightcal camera");
   }
-  CameraUse use;
+  KnownCamera use;
   use.profile = std::make_shared<const CameraProfile>(std::move(*file->profile));
   use.nd = capture.nd;
   request.camera = std::move(use);
@@ -84,7 +85,7 @@ void NoteCapture(const CaptureDescription& capture, const MergedBracket& merged,
   for (const std::string& name : {capture.camera, capture.spectrum_file}) {
     if (!name.empty()) NoteInputFile(PathInSession(session, name), session);
   }
-  if (capture.anchor_illuminance || merged.scale_source == kCameraScale) return;
+  if (capture.anchor_illuminance || merged.scale_source == ScaleSource::kCamera) return;
   warnings.push_back(
       {"scale_prior", capture.where,
        "its absolute scale is what the ISO speed promises, +-" +
@@ -100,9 +101,9 @@ Reading ReadingOfPicture(const CaptureDescription& capture, const FrameInfo& inf
   reading.color_source = lamp.xy ? ColorSource::kCamera : ColorSource::kUnknown;
   if (lamp.xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
   reading.quality = MeterQuality::kDerived;
-  reading.device =
-      (merged.scale_source == kCameraScale ? kCalibratedDevicePrefix : kCameraDevicePrefix) +
-      (info.camera.empty() ? info.format : info.camera);
+  reading.device = (merged.scale_source == ScaleSource::kCamera ? kCalibratedDevicePrefix
+                                                                : kCameraDevicePrefix) +
+                   (info.camera.empty() ? info.format : info.camera);
   reading.time = info.time;
   return reading;
 }

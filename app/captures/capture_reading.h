@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bracket_merge.h"
+#include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/records/session.h"

@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal_devices/disk_sources.h"
 #include "picture_record.h"
 
 namespace lightcal::app {
@@ -98,7 +99,7 @@ Result<CaptureReading> ReadCard(Session& session, const CaptureDescription& capt
     return AtCapture(capture, used.error());
   }
   if (request.camera && request.camera->profile->color) request.space = RgbSpace::kSrgb;
-  const auto merged = MergeBracket(*bracket, request);
+  const auto merged = MergeBracket(*bracket, DiskSources(), request);
   if (!merged) return AtCapture(capture, merged.error());
   warnings.insert(warnings.end(), merged->warnings.begin(), merged->warnings.end());
   const auto patch = MeasureCard(*merged, card);

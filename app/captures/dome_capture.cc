@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "dome/dome_work.h"
+#include "lightcal/calibrate/dome/read_dome.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "lightcal_devices/disk_sources.h"
 #include "picture_record.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {
@@ -66,7 +67,7 @@ Result<CaptureReading> ReadDomeCapture(Session& session, const CaptureDescriptio
   }
   const auto request = RequestOf(session, capture);
   if (!request) return AtCapture(capture, request.error());
-  const auto measured = MeasureDome(*request);
+  const auto measured = MeasureDome(*request, DiskSources());
   if (!measured) return AtCapture(capture, measured.error());
   const DomeInput& input = measured->input;
   if (!capture.anchor_illuminance && !input.absolute) {

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "camera/camera_use.h"
 #include "capture_reading.h"
+#include "lightcal/calibrate/session_files.h"
+#include "lightcal/imaging/camera/known_camera.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
-#include "session_files.h"
+#include "lightcal_devices/disk_sources.h"
 
 namespace lightcal::app {
 namespace {
@@ -26,8 +27,8 @@ template <class Camera>
 Result<MismatchFactor> FactorOf(const Session& session, const CaptureDescription& capture,
                                 const Camera& camera) {
   if (capture.spectrum_file.empty()) return camera.FactorFor(capture.lamp_class);
-  const auto one =
-      ReadTheOneSpectrum(PathInSession(session, capture.spectrum_file), capture.spectrum_file);
+  const auto one = ReadTheOneSpectrum(DiskSources(), PathInSession(session, capture.spectrum_file),
+                                      capture.spectrum_file);
   if (!one) return tl::unexpected(one.error());
   return camera.FactorFor(one->imported.spectrum);
 }

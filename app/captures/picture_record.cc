@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "bracket_merge.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/imaging/bracket/merge_frames.h"
 #include "lightcal/report/contours.h"
 
 namespace lightcal::app {

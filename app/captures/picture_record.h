@@ -10,9 +10,11 @@
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/session.h"
 
-namespace lightcal::app {
-
+namespace lightcal {
 struct MergedBracket;
+}
+
+namespace lightcal::app {
 
 // In cd/m^2; no side longer than kLongestRecordedSide.
 struct RecordedPicture {

@@ -11,6 +11,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
 #include "lightcal/imaging/scene/source_luminance.h"
+#include "lightcal_devices/disk_sources.h"
 #include "picture_record.h"
 
 namespace lightcal::app {
@@ -153,7 +154,7 @@ Result<CaptureReading> ReadSource(Session& session, const CaptureDescription& ca
     return AtCapture(capture, used.error());
   }
   if (request.camera && request.camera->profile->color) request.space = RgbSpace::kSrgb;
-  const auto merged = MergeBracket(*bracket, request);
+  const auto merged = MergeBracket(*bracket, DiskSources(), request);
   if (!merged) return AtCapture(capture, merged.error());
   for (const Warning& warning : merged->warnings) {
     // A clipped lamp is refused; what else is clipped here does not count.

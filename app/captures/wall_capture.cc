@@ -7,18 +7,18 @@
 #include <string>
 #include <utility>
 
-#include "board_module.h"
 #include "capture_reading.h"
 #include "capture_readings.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/distribution/fit_distribution.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/wall_samples.h"
+#include "lightcal_devices/captures/board_module.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "picture_record.h"
-#include "session_files.h"
 #include "wall_pictures.h"
 
 namespace lightcal::app {
@@ -242,7 +242,8 @@ FittedLight LightOf(const LightDescription& light, const Wall& wall, FittedDistr
   out.fit.degrees_of_freedom = found.degrees_of_freedom;
   if (found.degrees_of_freedom > 0) out.fit.rms_relative = found.rms_relative;
   out.fit.learned = {"distribution"};
-  if (wall.picture.scale_source == "iso_prior") out.fit.prior.emplace_back(kCameraScalePrior);
+  if (wall.picture.scale_source == ScaleSource::kIsoPrior)
+    out.fit.prior.emplace_back(kCameraScalePrior);
   return out;
 }
 

@@ -11,12 +11,14 @@
 
 #include "capture_reading.h"
 #include "lamp_luminance.h"
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
-#include "session_files.h"
+#include "lightcal_devices/captures/bracket.h"
+#include "lightcal_devices/disk_sources.h"
 
 namespace lightcal::app {
 namespace {
@@ -83,7 +85,7 @@ Result<WallPicture> FromAbsolutePicture(Session& session, const CaptureDescripti
   out.whole_width = info.width;
   out.whole_height = info.height;
   out.scale_sd = StatedScaleSd(info);
-  out.scale_source = "picture";
+  out.scale_source = ScaleSource::kPicture;
   out.camera = info.camera;
   out.time = info.time;
   if (!capture.anchor_illuminance) return out;
@@ -95,7 +97,7 @@ Result<WallPicture> FromAbsolutePicture(Session& session, const CaptureDescripti
   const auto factor = static_cast<float>(AnchorLuminance(capture) / spot->mean);
   for (float& value : out.nits.values) value *= factor;
   out.scale_sd = AnchorSigma(session, capture);
-  out.scale_source = "anchor";
+  out.scale_source = ScaleSource::kAnchor;
   return out;
 }
 
@@ -148,7 +150,7 @@ Result<WallPicture> FromBracket(Session& session, const CaptureDescription& capt
     return Propagate(std::move(used));
   }
   if (request.camera && request.camera->profile->color) request.space = RgbSpace::kSrgb;
-  auto merged = MergeBracket(bracket, request);
+  auto merged = MergeBracket(bracket, DiskSources(), request);
   if (!merged) return Propagate(std::move(merged));
   warnings.insert(warnings.end(), merged->warnings.begin(), merged->warnings.end());
   const Xyz seen = MeanColor(*merged);

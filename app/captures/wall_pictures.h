@@ -11,6 +11,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/records/scale_source.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {
@@ -34,7 +35,7 @@ struct WallPicture {
   int whole_width = 0, whole_height = 0;  // which has this size
   std::vector<float> sigma;  // 1 standard deviation of each pixel; empty where the file has none
   double scale_sd = 0.0;     // relative, common to all pixels, reflectance left out
-  std::string scale_source;  // "picture" "anchor" "iso_prior" ...
+  ScaleSource scale_source = ScaleSource::kIsoPrior;
   bool flat = false;         // the camera's profile took the lens's falloff out
   std::optional<Xy> xy;      // of the wall's light, by the camera
   std::string camera, time;  // "" = unknown

@@ -3,14 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "camera/calibrate_camera.h"
 #include "commands.h"
+#include "lightcal/calibrate/camera/calibrate_camera.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/records/camera_profile.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
 #include "session_input.h"
 
@@ -85,7 +85,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
   console.Warn(loaded->warnings);
   Session& session = loaded->session;
   Warnings warnings;
-  auto profile = CalibrateCamera(session, warnings);
+  auto profile = CalibrateCamera(session, DiskSources(), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
   auto provenance = ProvenanceOf(session);
@@ -100,7 +100,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
           : options.output;
   if (auto written = WriteOutputs({{path, *json}}, options.force); !written) return written;
   console.Print(Table(*profile));
-  console.PrintJson(nlohmann::ordered_json::parse(*json));
+  console.PrintDocument(DocumentOf(*profile));
   console.Note("wrote " + path);
   if (profile->scale.readings.empty()) {
     console.Note(

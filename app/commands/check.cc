@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,8 +21,6 @@
 namespace lightcal::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Options {
   std::string preset, session, render, rig, engine;
 };
@@ -38,7 +35,7 @@ Result<PixelUnit> UnitOf(const Options& options, const FrameInfo& info) {
   return PixelUnit::kExposed;
 }
 
-Json CauseJson(const RenderCause& cause) {
+Node CauseNode(const RenderCause& cause) {
   return {{"code", cause.code}, {"message", cause.message}, {"factor", cause.factor}};
 }
 
@@ -88,22 +85,19 @@ Result<void> CheckRender(const Options& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   PrintVerdict(*rig, *verdict, console);
-  Json document = {{"illuminance_lx", verdict->lux},
-                   {"expected_lx", verdict->expected_lx},
-                   {"stops_off", std::log2(verdict->lux / verdict->expected_lx)},
-                   {"cause", CauseJson(verdict->cause)},
-                   {"alternatives", Json::array()},
-                   {"cards", Json::array()}};
-  for (const RenderCause& other : verdict->alternatives) {
-    document["alternatives"].push_back(CauseJson(other));
-  }
+  Node measured = Node::Array();
   for (std::size_t i = 0; i < 2; ++i) {
-    document["cards"].push_back({{"name", rig->cards[i].name},
-                                 {"expected_lx", rig->cards[i].expected_lx},
-                                 {"illuminance_lx", verdict->card_lx[i]},
-                                 {"pixel", (*cards)[i].rgb}});
+    measured.items.push_back({{"name", rig->cards[i].name},
+                              {"expected_lx", rig->cards[i].expected_lx},
+                              {"illuminance_lx", verdict->card_lx[i]},
+                              {"pixel", (*cards)[i].rgb}});
   }
-  console.PrintJson(document);
+  console.PrintDocument({{"illuminance_lx", verdict->lux},
+                         {"expected_lx", verdict->expected_lx},
+                         {"stops_off", std::log2(verdict->lux / verdict->expected_lx)},
+                         {"cause", CauseNode(verdict->cause)},
+                         {"alternatives", Node::List(verdict->alternatives, CauseNode)},
+                         {"cards", measured}});
   return {};
 }
 
@@ -237,30 +231,28 @@ Result<void> CheckPreset(const Options& options, Console& console) {
                    "gives no finite illuminance at a reading; look at its numbers");
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  Json document = {{"readings", Json::array()}};
+  std::vector<Node> readings;
   std::vector<std::vector<std::string>> table;
   for (const Compared& row : rows) {
-    Json json = {{"light", row.light},
-                 {"index", row.index},
-                 {"measured_lx", row.measured_lx},
-                 {"predicted_lx", row.predicted_lx},
-                 {"used", row.used}};
-    if (row.distance_m) json["distance_m"] = *row.distance_m;
+    readings.push_back({{"light", row.light},
+                        {"index", row.index},
+                        {"measured_lx", row.measured_lx},
+                        {"predicted_lx", row.predicted_lx},
+                        {"used", row.used},
+                        {"distance_m", row.distance_m}});
     std::string error = "-";
     if (row.measured_lx > 0.0) {
-      json["error"] = row.predicted_lx / row.measured_lx - 1.0;
+      readings.back().Put("error", row.predicted_lx / row.measured_lx - 1.0);
       error = RoundedText(100.0 * (row.predicted_lx / row.measured_lx - 1.0), 2) + " %";
     }
-    document["readings"].push_back(std::move(json));
     table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : "-",
                      RoundedText(row.measured_lx, 4) + " lx",
                      RoundedText(row.predicted_lx, 4) + " lx",
                      error + (row.used ? "" : " (rejected)")});
   }
-  document["rms_relative"] = RmsOf(rows);
   console.Print(TextTable({"light", "distance", "meter", "preset", "error"}, table));
   console.Print("\nrms " + RoundedText(100.0 * RmsOf(rows), 2) + " %\n");
-  console.PrintJson(document);
+  console.PrintDocument({{"readings", readings}, {"rms_relative", RmsOf(rows)}});
   return {};
 }
 

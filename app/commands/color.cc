@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,8 +31,6 @@
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> xy, xyz;
@@ -166,7 +163,7 @@ Result<void> RunTyped(const Options& options, const ColorExtras& extras, Console
     if (auto written = WriteOutputs({*picture}, options.force); !written) return written;
   }
   console.Print(TableOfOne(*answer));
-  console.PrintJson(ToJson(*answer));
+  console.PrintDocument(ToJson(*answer));
   return {};
 }
 
@@ -240,7 +237,7 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
   if (!chosen) return tl::unexpected(chosen.error());
   console.Warn(file->warnings);
   std::vector<ColorAnswer> answers;
-  Json spectra = Json::array();
+  std::vector<Node> spectra;
   for (const ImportedSpectrum& imported : *chosen) {
     const std::string subject =
         imported.name.empty() ? options.spectrum : options.spectrum + ": " + imported.name;
@@ -274,10 +271,10 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
   if (auto written = WriteOutputs(*pictures, options.force); !written) return written;
   if (chosen->size() == 1) {
     console.Print(TableOfOne(answers.front()));
-    console.PrintJson(spectra.front());
+    console.PrintDocument(spectra.front());
   } else {
     console.Print(TableOfMany(answers));
-    console.PrintJson({{"spectra", std::move(spectra)}});
+    console.PrintDocument({{"spectra", spectra}});
   }
   return {};
 }

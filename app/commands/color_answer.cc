@@ -4,19 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "color_spaces.h"
-#include "console.h"
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string_view StatusWord(CctStatus status) {
   switch (status) {
@@ -49,33 +45,26 @@ std::string_view WhyNoCct(const ColorAnswer& answer) {
 
 // ---- JSON ----
 
-Json Pair(double a, double b) { return Json::array({a, b}); }
-Json Triple(double a, double b, double c) { return Json::array({a, b, c}); }
-
-Json RgbJson(const ColorAnswer& answer) {
-  Json rgb;
+Node RgbNode(const ColorAnswer& answer) {
+  Node rgb = Node::Table();
   for (const NamedSpace& space : kSpaces) {
     const Rgb c = RgbOf(answer.xy, space.space, answer.extras);
-    rgb[std::string(space.key)] = Triple(c.r, c.g, c.b);
+    rgb.Put(space.key, {c.r, c.g, c.b});
   }
   return rgb;
 }
 
-Json MelanopicJson(double der, const std::optional<Lux>& illuminance) {
-  Json json = {{"der", der}};
-  if (illuminance) json["edi_lx"] = der * illuminance->value();
-  return json;
-}
+Node Pair(Xy xy) { return {xy.x, xy.y}; }
+Node Triple(const std::optional<Xyz>& c) { return c ? Node{c->X, c->Y, c->Z} : Node(); }
 
-Json ReportedJson(const ReportedColor& reported) {
-  Json json = Json::object();
-  if (reported.illuminance_lx) json["illuminance_lx"] = *reported.illuminance_lx;
-  if (reported.cct_K) json["cct_K"] = *reported.cct_K;
-  if (reported.duv) json["duv"] = *reported.duv;
-  if (reported.xy) json["xy"] = Pair(reported.xy->x, reported.xy->y);
-  if (reported.xyz) json["XYZ"] = Triple(reported.xyz->X, reported.xyz->Y, reported.xyz->Z);
-  AddReportedMetrics(json, reported);
-  return json;
+Node ReportedNode(const ReportedColor& reported) {
+  Node node = {{"illuminance_lx", reported.illuminance_lx},
+               {"cct_K", reported.cct_K},
+               {"duv", reported.duv},
+               {"xy", reported.xy ? Pair(*reported.xy) : Node()},
+               {"XYZ", Triple(reported.xyz)}};
+  node.Put(ReportedMetricsNode(reported));
+  return node;
 }
 
 // ---- Tables ----
@@ -98,33 +87,34 @@ std::string Claimed(const std::optional<double>& value) {
 
 }  // namespace
 
-Json ToJson(const ColorAnswer& answer) {
+Node ToJson(const ColorAnswer& answer) {
   const Uv1960 uv = Uv1960FromXy(answer.xy);
   const Uv1976 uv76 = Uv1976FromXy(answer.xy);
-  Json json;
-  if (!answer.name.empty()) json["name"] = answer.name;
-  json["xy"] = Pair(answer.xy.x, answer.xy.y);
-  json["uv1960"] = Pair(uv.u, uv.v);
-  json["uv1976"] = Pair(uv76.u, uv76.v);
-  if (answer.has_cct()) json["cct_K"] = answer.cct.temperature.value();
-  json["duv"] = answer.cct.duv;
-  json["cct_valid"] = answer.has_cct();
-  json["cct_status"] = answer.findings.too_noisy() ? "too_noisy" : StatusWord(answer.cct.status);
-  json["rgb"] = RgbJson(answer);
-  if (answer.xyz) json["XYZ"] = Triple(answer.xyz->X, answer.xyz->Y, answer.xyz->Z);
-  if (answer.illuminance) json["illuminance_lx"] = answer.illuminance->value();
-  if (answer.efficacy) json["ler_lm_per_W"] = answer.efficacy->value();
-  if (const auto& der = answer.melanopic_der) {
-    json["melanopic"] = MelanopicJson(*der, answer.illuminance);
-  }
-  AddMetrics(json, answer.metrics);
+  const auto& der = answer.melanopic_der;
+  const auto& lux = answer.illuminance;
+  Node node = {
+      {"name", Node::UnlessEmpty(answer.name)},
+      {"xy", Pair(answer.xy)},
+      {"uv1960", {uv.u, uv.v}},
+      {"uv1976", {uv76.u, uv76.v}},
+      {"cct_K", answer.has_cct() ? Node(answer.cct.temperature) : Node()},
+      {"duv", answer.cct.duv},
+      {"cct_valid", answer.has_cct()},
+      {"cct_status", answer.findings.too_noisy() ? "too_noisy" : StatusWord(answer.cct.status)},
+      {"rgb", RgbNode(answer)},
+      {"XYZ", Triple(answer.xyz)},
+      {"illuminance_lx", lux},
+      {"ler_lm_per_W", answer.efficacy}};
+  if (der) node.Put("melanopic", {{"der", *der}, {"edi_lx", lux ? *der * *lux : lux}});
+  node.Put(MetricsNode(answer.metrics));
   if (const auto& tlci = answer.tlci) {
-    json["tlci"] = {{"Qa", tlci->qa}, {"by", tlci->by}};
-    if (tlci->far_from_white) json["tlci"]["far_from_white"] = true;
+    node.Put("tlci", {{"Qa", tlci->qa},
+                      {"by", tlci->by},
+                      {"far_from_white", tlci->far_from_white ? Node(true) : Node()}});
   }
-  AddColorExtras(json, answer.xy, answer.extras, answer.findings);
-  if (answer.reported) json["reported"] = ReportedJson(*answer.reported);
-  return json;
+  node.Put(ColorExtrasNode(answer.xy, answer.extras, answer.findings));
+  if (answer.reported) node.Put("reported", ReportedNode(*answer.reported));
+  return node;
 }
 
 std::string TableOfOne(const ColorAnswer& answer) {

@@ -2,7 +2,6 @@
 // What `lightcal color` says about a colour, as JSON and as a table.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "color_extras.h"
 #include "color_metrics.h"
 #include "color_tlci.h"
+#include "console.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/units.h"
 #include "lightcal_devices/files/import_file.h"
@@ -33,7 +33,7 @@ struct ColorAnswer {
   [[nodiscard]] bool has_cct() const { return cct.valid() && !findings.too_noisy(); }
 };
 
-[[nodiscard]] nlohmann::ordered_json ToJson(const ColorAnswer& answer);
+[[nodiscard]] Node ToJson(const ColorAnswer& answer);
 // Every quantity of one colour, a row each.
 [[nodiscard]] std::string TableOfOne(const ColorAnswer& answer);
 // One row for each spectrum.

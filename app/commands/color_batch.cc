@@ -9,7 +9,6 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -158,10 +157,9 @@ class Writer {
   }
   void Add(const Row& row) {
     if (console_.json()) {
-      nlohmann::ordered_json json = {{"xy", {row.xy.x, row.xy.y}}};
-      if (row.cct.valid()) json["cct_K"] = row.cct.temperature.value();
-      json["duv"] = row.cct.duv;
-      rows_.push_back(std::move(json));
+      rows_.push_back({{"xy", {row.xy.x, row.xy.y}},
+                       {"cct_K", row.cct.valid() ? Node(row.cct.temperature) : Node()},
+                       {"duv", row.cct.duv}});
       return;
     }
     buffer_.append(row.typed).append(1, ',');
@@ -176,7 +174,7 @@ class Writer {
   }
   void Finish() {
     Flush();
-    console_.PrintJson({{"rows", std::move(rows_)}});
+    console_.PrintDocument({{"rows", rows_}});
   }
 
  private:
@@ -193,7 +191,7 @@ class Writer {
 
   Console& console_;
   std::string buffer_;
-  nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
+  std::vector<Node> rows_;
 };
 
 Result<void> WriteRows(std::istream& stream, const std::string& name, Console& console) {

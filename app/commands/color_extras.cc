@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_extras.h"
 
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
@@ -12,8 +11,6 @@
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Result<double> ParseSigma(const std::string& text) {
   std::string_view digits = TrimBlanks(text);
@@ -56,34 +53,33 @@ std::vector<std::string> SpacesWithout(Xy xy, const ColorExtras& extras) {
   return names;
 }
 
-Json SpectralErrorJson(const SpectralError& error) {
-  Json json = {{"from_nm", error.first.value()},
-               {"to_nm", error.last.value()},
-               {"step_nm", error.step.value()},
-               {"roughness", error.roughness}};
-  if (error.undersampled) json["code"] = "undersampled";
-  if (!error.bound) return json;
-  if (error.bound->temperature) json["cct_K"] = error.bound->temperature->value();
-  if (error.bound->duv) json["duv"] = *error.bound->duv;
-  json["illuminance_relative"] = error.bound->illuminance_relative;
-  return json;
+Node SpectralErrorNode(const SpectralError& error) {
+  Node node = {{"from_nm", error.first},
+               {"to_nm", error.last},
+               {"step_nm", error.step},
+               {"roughness", error.roughness},
+               {"code", error.undersampled ? Node("undersampled") : Node()}};
+  if (!error.bound) return node;
+  node.Put({{"cct_K", error.bound->temperature},
+            {"duv", error.bound->duv},
+            {"illuminance_relative", error.bound->illuminance_relative}});
+  return node;
 }
 
-Json Triple(const Rgb& c) { return Json::array({c.r, c.g, c.b}); }
+Node Triple(const Rgb& c) { return {c.r, c.g, c.b}; }
 
 // What programs with a kelvin setting make of the colour; approximations all.
-Json EnginesJson(Xy xy) {
+Node EnginesNode(Xy xy) {
   const Uv1960 uv = Uv1960FromXy(xy);
   const CctResult cct = CctFromXy(xy);
-  Json json;
-  if (const auto setting = KrystekKelvinFrom(uv)) json["krystek_setting_K"] = setting->value();
+  Node node = {{"krystek_setting_K", KrystekKelvinFrom(uv)}};
   if (cct.valid()) {
-    json["unreal_rgb"] = Triple(UnrealColorOfKelvin(cct.temperature));
-    json["godot_rgb"] = Triple(GodotColorOfKelvin(cct.temperature));
-    json["blender_usdlux_rgb"] = Triple(UnitLuminanceColorOfKelvin(cct.temperature));
+    node.Put({{"unreal_rgb", Triple(UnrealColorOfKelvin(cct.temperature))},
+              {"godot_rgb", Triple(GodotColorOfKelvin(cct.temperature))},
+              {"blender_usdlux_rgb", Triple(UnitLuminanceColorOfKelvin(cct.temperature))}});
   }
-  json["approximation"] = true;
-  return json;
+  node.Put("approximation", true);
+  return node;
 }
 
 std::string Rounded(double value) { return RoundedText(value, 3); }
@@ -220,25 +216,27 @@ std::optional<SpectralError> SpectralErrorFound(const Spectrum& spectrum, const 
   return *std::move(error);
 }
 
-void AddColorExtras(Json& json, Xy xy, const ColorExtras& extras, const ColorFindings& findings) {
+Node ColorExtrasNode(Xy xy, const ColorExtras& extras, const ColorFindings& findings) {
+  Node node = Node::Table();
   if (const auto& noise = findings.noise) {
-    Json& uncertainty = json["uncertainty"];
-    if (!noise->too_noisy()) {
-      uncertainty["u_cct_K"] = noise->temperature.value();
-      uncertainty["u_mired"] = noise->mireds.value();
-    }
-    uncertainty["u_duv"] = noise->duv;
-    uncertainty["snr"] = noise->snr;
+    const bool told = !noise->too_noisy();
+    node.Put("uncertainty", {{"u_cct_K", told ? Node(noise->temperature) : Node()},
+                             {"u_mired", told ? Node(noise->mireds) : Node()},
+                             {"u_duv", noise->duv},
+                             {"snr", noise->snr}});
   }
-  if (findings.spectral_error) json["spectral_error"] = SpectralErrorJson(*findings.spectral_error);
+  if (findings.spectral_error) {
+    node.Put("spectral_error", SpectralErrorNode(*findings.spectral_error));
+  }
   if (const auto outside = SpacesWithout(xy, extras); !outside.empty()) {
-    json["rgb_gamut"] = {{"policy", WordOf(extras.gamut)}, {"outside", outside}};
+    node.Put("rgb_gamut", {{"policy", WordOf(extras.gamut)}, {"outside", outside}});
   }
-  if (extras.white) json["rgb_white"] = {extras.white->x, extras.white->y};
-  if (extras.engines) json["engines"] = EnginesJson(xy);
+  if (extras.white) node.Put("rgb_white", {extras.white->x, extras.white->y});
+  if (extras.engines) node.Put("engines", EnginesNode(xy));
   if (const auto adobe = extras.adobe ? AdobeReadoutFrom(Uv1960FromXy(xy)) : std::nullopt) {
-    json["adobe"] = {{"temperature_K", adobe->temperature.value()}, {"tint", adobe->tint}};
+    node.Put("adobe", {{"temperature_K", adobe->temperature}, {"tint", adobe->tint}});
   }
+  return node;
 }
 
 std::vector<ExtraRow> ColorExtraRows(Xy xy, const ColorExtras& extras,

@@ -5,11 +5,11 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "console.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/cct_noise.h"
 #include "lightcal/colorimetry/gamut.h"
@@ -57,9 +57,8 @@ struct ColorFindings {
                                                               const ColorExtras& extras,
                                                               const std::string& subject,
                                                               Warnings& warnings);
-// Adds "uncertainty", "spectral_error", "rgb_gamut", "rgb_white", "engines", "adobe".
-void AddColorExtras(nlohmann::ordered_json& json, Xy xy, const ColorExtras& extras,
-                    const ColorFindings& findings);
+// "uncertainty", "spectral_error", "rgb_gamut", "rgb_white", "engines", "adobe".
+[[nodiscard]] Node ColorExtrasNode(Xy xy, const ColorExtras& extras, const ColorFindings& findings);
 
 // Rows for the table of one colour.
 struct ExtraRow {

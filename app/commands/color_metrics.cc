@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <span>
 
 #include "lightcal/colorimetry/illuminants.h"
@@ -14,8 +13,6 @@
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::optional<double> SimilarityTo(const Spectrum& light, const Result<Spectrum>& reference) {
   if (!reference) return std::nullopt;
@@ -34,24 +31,14 @@ RenderingMetrics RenderingOf(const RenderingInput& input) {
   return metrics;
 }
 
-Json BinJson(const HueBin& bin) {
-  Json json = {{"samples", bin.samples}};
-  if (bin.samples == 0) return json;
-  json["rf"] = bin.Rf;
-  json["rcs"] = bin.chroma_shift;
-  json["rhs_rad"] = bin.hue_shift_rad;
-  json["test_ab"] = {bin.test_a, bin.test_b};
-  json["reference_ab"] = {bin.reference_a, bin.reference_b};
-  return json;
-}
-
-Json Tm30Json(const RenderingMetrics& metrics) {
-  Json json;
-  json["rf"] = metrics.fidelity.Rf;
-  json["rg"] = metrics.gamut.Rg;
-  json["bins"] = Json::array();
-  for (const HueBin& bin : metrics.gamut.bins) json["bins"].push_back(BinJson(bin));
-  return json;
+Node BinNode(const HueBin& bin) {
+  if (bin.samples == 0) return {{"samples", 0}};
+  return {{"samples", bin.samples},
+          {"rf", bin.Rf},
+          {"rcs", bin.chroma_shift},
+          {"rhs_rad", bin.hue_shift_rad},
+          {"test_ab", {bin.test_a, bin.test_b}},
+          {"reference_ab", {bin.reference_a, bin.reference_b}}};
 }
 
 // One decimal, as meters print them; 0 never as "-0.0".
@@ -65,12 +52,12 @@ std::string OneDecimal(const std::optional<double>& value) {
   return value ? OneDecimal(*value) : std::string();
 }
 
-std::string Joined(std::span<const double> values) {
+std::string OneDecimals(std::span<const double> values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : "  ") + OneDecimal(value);
   return text;
 }
-std::string Joined(std::span<const std::optional<double>> values) {
+std::string OneDecimals(std::span<const std::optional<double>> values) {
   std::string text;
   for (const auto& value : values) {
     if (value) text += (text.empty() ? "" : "  ") + OneDecimal(*value);
@@ -116,31 +103,35 @@ ColorMetrics ColorMetricsOf(const Spectrum& spectrum, const std::string& subject
   return metrics;
 }
 
-void AddMetrics(Json& json, const ColorMetrics& metrics) {
+Node MetricsNode(const ColorMetrics& metrics) {
+  Node node = Node::Table();
   if (const auto& rendering = metrics.rendering) {
-    json["cri"] = {{"Ra", rendering->cri.Ra},
-                   {"R", rendering->cri.R},
-                   {"reference_distance_uv", rendering->cri.chromaticity_difference}};
-    json["cie2017_rf"] = rendering->fidelity.Rf;
-    json["tm30"] = Tm30Json(*rendering);
-    json["tm30_2015"] = {{"rf", rendering->rf_2015}, {"rg", rendering->rg_2015}};
+    node.Put({{"cri",
+               {{"Ra", rendering->cri.Ra},
+                {"R", rendering->cri.R},
+                {"reference_distance_uv", rendering->cri.chromaticity_difference}}},
+              {"cie2017_rf", rendering->fidelity.Rf},
+              {"tm30",
+               {{"rf", rendering->fidelity.Rf},
+                {"rg", rendering->gamut.Rg},
+                {"bins", Node::List(rendering->gamut.bins, BinNode)}}},
+              {"tm30_2015", {{"rf", rendering->rf_2015}, {"rg", rendering->rg_2015}}}});
   }
-  Json ssi = Json::object();
-  if (metrics.ssi_P3200) ssi["P3200"] = *metrics.ssi_P3200;
-  if (metrics.ssi_D55) ssi["D55"] = *metrics.ssi_D55;
-  if (metrics.ssi_matching) ssi["matching"] = *metrics.ssi_matching;
-  if (!ssi.empty()) json["ssi"] = std::move(ssi);
+  node.Put("ssi", Node::UnlessEmpty({{"P3200", metrics.ssi_P3200},
+                                     {"D55", metrics.ssi_D55},
+                                     {"matching", metrics.ssi_matching}}));
+  return node;
 }
 
-void AddReportedMetrics(Json& json, const ReportedColor& reported) {
-  if (reported.cri_Ra) json["cri_Ra"] = *reported.cri_Ra;
-  Json indices = Json::object();
+Node ReportedMetricsNode(const ReportedColor& reported) {
+  Node indices = Node::Table();
   for (std::size_t i = 0; i < reported.cri_R.size(); ++i) {
-    if (reported.cri_R[i]) indices["R" + std::to_string(i + 1)] = *reported.cri_R[i];
+    indices.Put("R" + std::to_string(i + 1), reported.cri_R[i]);
   }
-  if (!indices.empty()) json["cri_R"] = std::move(indices);
-  if (reported.tm30_rf) json["tm30_rf"] = *reported.tm30_rf;
-  if (reported.tm30_rg) json["tm30_rg"] = *reported.tm30_rg;
+  return {{"cri_Ra", reported.cri_Ra},
+          {"cri_R", Node::UnlessEmpty(indices)},
+          {"tm30_rf", reported.tm30_rf},
+          {"tm30_rg", reported.tm30_rg}};
 }
 
 std::vector<MetricRow> MetricRows(const ColorMetrics& metrics, const ReportedColor& reported) {
@@ -149,14 +140,14 @@ std::vector<MetricRow> MetricRows(const ColorMetrics& metrics, const ReportedCol
     const std::span<const double> r(rendering->cri.R);
     const std::span<const std::optional<double>> claimed(reported.cri_R);
     rows.push_back({"CRI Ra", RaText(rendering->cri), OneDecimal(reported.cri_Ra)});
-    rows.push_back({"R1 to R8", Joined(r.first(8)), Joined(claimed.first(8))});
-    rows.push_back({"R9 to R15", Joined(r.subspan(8)), Joined(claimed.subspan(8))});
+    rows.push_back({"R1 to R8", OneDecimals(r.first(8)), OneDecimals(claimed.first(8))});
+    rows.push_back({"R9 to R15", OneDecimals(r.subspan(8)), OneDecimals(claimed.subspan(8))});
     rows.push_back(
         {"CIE 224, TM-30 Rf", OneDecimal(rendering->fidelity.Rf), OneDecimal(reported.tm30_rf)});
     rows.push_back({"TM-30 Rg", OneDecimal(rendering->gamut.Rg), OneDecimal(reported.tm30_rg)});
     if (reported.tm30_rf) {
       const double edition_2015[] = {rendering->rf_2015, rendering->rg_2015};
-      rows.push_back({"Rf, Rg by TM-30-15", Joined(edition_2015), ""});
+      rows.push_back({"Rf, Rg by TM-30-15", OneDecimals(edition_2015), ""});
     }
   }
   if (const std::string text = SimilarityText(metrics); !text.empty()) {

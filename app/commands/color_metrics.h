@@ -2,11 +2,11 @@
 // What `lightcal color --spectrum` says about how a light renders colours.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "console.h"
 #include "lightcal/colorimetry/color_fidelity.h"
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/spectrum.h"
@@ -33,10 +33,10 @@ struct ColorMetrics {
 [[nodiscard]] ColorMetrics ColorMetricsOf(const Spectrum& spectrum, const std::string& subject,
                                           Warnings& warnings);
 
-// Adds "cri", "cie2017_rf", "tm30", "tm30_2015" and "ssi".
-void AddMetrics(nlohmann::ordered_json& json, const ColorMetrics& metrics);
-// Adds what the file's header claims of them.
-void AddReportedMetrics(nlohmann::ordered_json& json, const ReportedColor& reported);
+// "cri", "cie2017_rf", "tm30", "tm30_2015" and "ssi".
+[[nodiscard]] Node MetricsNode(const ColorMetrics& metrics);
+// What the file's header claims of them.
+[[nodiscard]] Node ReportedMetricsNode(const ReportedColor& reported);
 
 // Rows for the table of one colour: what, value, what the file says.
 struct MetricRow {

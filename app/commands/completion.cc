@@ -2,7 +2,6 @@
 // lightcal completion: what a shell completes of lightcal, as a script for that shell.
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "one_of.h"
@@ -23,7 +22,7 @@ Result<void> RunCompletion(const std::string& name, Console& console) {
     if (shell.name != name) continue;
     const std::string script = shell.script(DescribeCommands());
     console.Print(script);
-    console.PrintJson({{"shell", name}, {"script", script}});
+    console.PrintDocument({{"shell", name}, {"script", script}});
   }
   return {};
 }

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -245,15 +244,15 @@ Result<void> RunConvert(const Options& o, Console& console) {
   const auto answer = Convert(o, console);
   if (!answer) return tl::unexpected(answer.error());
   if (auto refused = console.RefuseIfStrict(); !refused) return refused;
-  nlohmann::ordered_json document = nlohmann::ordered_json::object();
+  Node document = Node::Table();
   std::vector<std::vector<std::string>> rows;
   ForEachQuantity(*answer, [&](const char* key, const char* name, const char* unit, const char* of,
                                double value) {
-    document[key] = value;
+    document.Put(key, value);
     rows.push_back({name, RoundedText(value, kTableDigits), unit, of});
   });
   console.Print(TextTable({"quantity", "value", "unit", "of"}, rows));
-  console.PrintJson(document);
+  console.PrintDocument(document);
   return {};
 }
 

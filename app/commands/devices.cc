@@ -2,7 +2,6 @@
 // lightcal devices: the meters and cameras that are plugged in, whether we may use them, and how
 // far each driver has been verified.
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "lightcal_devices/captures/tether.h"
@@ -23,19 +22,19 @@ std::string StatusName(MeterAccess access) {
   return "";
 }
 
-nlohmann::ordered_json ToJson(const FoundMeter& meter) {
-  nlohmann::ordered_json json = {{"id", meter.id},
-                                 {"driver", meter.row->driver},
-                                 {"models", meter.row->models},
-                                 {"transport", meter.row->line->name}};
-  if (!meter.usb.empty()) json["usb"] = meter.usb;
-  if (!meter.serial.empty()) json["serial"] = meter.serial;
-  json["status"] = StatusName(meter.access);
-  json["verified"] = VerifiedName(meter.row->verified);
-  if (meter.row->describe != nullptr) json["about"] = meter.row->describe(meter);
-  if (const std::string remedy = Remedy(meter); !remedy.empty()) json["remedy"] = remedy;
-  if (meter.access == MeterAccess::kNoPermission) json["udev_rules"] = UdevRules(*meter.row);
-  return json;
+Node ToJson(const FoundMeter& meter) {
+  const bool locked = meter.access == MeterAccess::kNoPermission;
+  return {{"id", meter.id},
+          {"driver", meter.row->driver},
+          {"models", meter.row->models},
+          {"transport", meter.row->line->name},
+          {"usb", Node::UnlessEmpty(meter.usb)},
+          {"serial", Node::UnlessEmpty(meter.serial)},
+          {"status", StatusName(meter.access)},
+          {"verified", VerifiedName(meter.row->verified)},
+          {"about", meter.row->describe != nullptr ? Node(meter.row->describe(meter)) : Node()},
+          {"remedy", Node::UnlessEmpty(Remedy(meter))},
+          {"udev_rules", locked ? Node(UdevRules(*meter.row)) : Node()}};
 }
 
 std::vector<std::string> ToRow(const FoundMeter& meter) {
@@ -60,17 +59,16 @@ std::string StatusName(CameraAccess access) {
   return "";
 }
 
-nlohmann::ordered_json ToJson(const FoundCamera& camera) {
-  nlohmann::ordered_json json = {{"id", camera.id},
-                                 {"driver", kCameraDriver},
-                                 {"models", camera.model},
-                                 {"transport", kCameraTransport},
-                                 {"usb", camera.usb}};
-  if (!camera.serial.empty()) json["serial"] = camera.serial;
-  json["status"] = StatusName(camera.access);
-  json["verified"] = VerifiedName(kCameraVerified);
-  if (!camera.remedy.empty()) json["remedy"] = camera.remedy;
-  return json;
+Node ToJson(const FoundCamera& camera) {
+  return {{"id", camera.id},
+          {"driver", kCameraDriver},
+          {"models", camera.model},
+          {"transport", kCameraTransport},
+          {"usb", camera.usb},
+          {"serial", Node::UnlessEmpty(camera.serial)},
+          {"status", StatusName(camera.access)},
+          {"verified", VerifiedName(kCameraVerified)},
+          {"remedy", Node::UnlessEmpty(camera.remedy)}};
 }
 
 std::vector<std::string> ToRow(const FoundCamera& camera) {
@@ -115,15 +113,15 @@ std::string NothingFound() {
 Result<void> RunDevices(Console& console) {
   const auto found = FindMeters();
   if (!found) return tl::unexpected(found.error());
-  nlohmann::ordered_json document = {{"devices", nlohmann::ordered_json::array()}};
+  std::vector<Node> devices;
   std::vector<std::vector<std::string>> rows;
   for (const FoundMeter& meter : *found) {
-    document["devices"].push_back(ToJson(meter));
+    devices.push_back(ToJson(meter));
     rows.push_back(ToRow(meter));
   }
   const std::vector<FoundCamera> cameras = FindCameras();
   for (const FoundCamera& camera : cameras) {
-    document["devices"].push_back(ToJson(camera));
+    devices.push_back(ToJson(camera));
     rows.push_back(ToRow(camera));
   }
   if (rows.empty()) {
@@ -132,7 +130,7 @@ Result<void> RunDevices(Console& console) {
     console.Print(TextTable({"id", "models", "transport", "status", "verified"}, rows));
     console.Print(Remedies(*found, cameras));
   }
-  console.PrintJson(document);
+  console.PrintDocument({{"devices", devices}});
   return {};
 }
 

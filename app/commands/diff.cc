@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "commands.h"
@@ -14,8 +13,6 @@
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string a, b;
@@ -33,49 +30,39 @@ std::string_view Word(const std::array<std::string_view, 4>& words, Change chang
   return words[static_cast<std::size_t>(change)];
 }
 
-Json UncertainJson(const Uncertain& u) {
-  Json json = {{"value", u.value}};
-  if (u.u95 > 0.0) json["u95"] = u.u95;
-  return json;
+Node WithU(const Uncertain& u) {
+  return {{"value", u.value}, {"u95", u.u95 > 0.0 ? Node(u.u95) : Node()}};
 }
 
-Json QuantityJson(const QuantityChange& change) {
-  Json json = {{"quantity", change.quantity}};
-  if (!change.unit.empty()) json["unit"] = change.unit;
-  if (change.has_values) {
-    json["old"] = UncertainJson(change.before);
-    json["new"] = UncertainJson(change.after);
-  }
-  json["difference"] = change.difference;
-  if (change.u95 > 0.0) json["u95"] = change.u95;
-  if (change.has_values && change.before.value != 0.0) {
-    json["relative"] = change.difference / change.before.value;
-  }
-  json["verdict"] = Word(kChangeWords, change.change);
-  return json;
+Node QuantityNode(const QuantityChange& change) {
+  const bool values = change.has_values;
+  const bool relative = values && change.before.value != 0.0;
+  return {{"quantity", change.quantity},
+          {"unit", Node::UnlessEmpty(change.unit)},
+          {"old", values ? WithU(change.before) : Node()},
+          {"new", values ? WithU(change.after) : Node()},
+          {"difference", change.difference},
+          {"u95", change.u95 > 0.0 ? Node(change.u95) : Node()},
+          {"relative", relative ? Node(change.difference / change.before.value) : Node()},
+          {"verdict", Word(kChangeWords, change.change)}};
 }
 
-Json LightJson(const LightChange& light) {
-  const char* const in = light.before && light.after ? "both" : (light.before ? "old" : "new");
-  Json json = {{"name", light.name}, {"in", in}, {"changed", light.Changed()}};
-  if (light.kind_changed) json["kind_changed"] = true;
-  json["quantities"] = Json::array();
-  for (const QuantityChange& change : light.quantities) {
-    json["quantities"].push_back(QuantityJson(change));
-  }
-  return json;
+Node LightNode(const LightChange& light) {
+  return {{"name", light.name},
+          {"in", light.before && light.after ? "both" : (light.before ? "old" : "new")},
+          {"changed", light.Changed()},
+          {"kind_changed", light.kind_changed ? Node(true) : Node()},
+          {"quantities", Node::List(light.quantities, QuantityNode)}};
 }
 
-Json ToJson(const Options& options, const LightComparison& comparison) {
-  Json document = {{"old", options.a},
-                   {"new", options.b},
-                   {"coverage", 0.95},
-                   {"correlation", options.correlation},
-                   {"shared_inputs", comparison.shared_inputs},
-                   {"changed", comparison.Changed()},
-                   {"lights", Json::array()}};
-  for (const LightChange& light : comparison.lights) document["lights"].push_back(LightJson(light));
-  return document;
+Node ToJson(const Options& options, const LightComparison& comparison) {
+  return {{"old", options.a},
+          {"new", options.b},
+          {"coverage", 0.95},
+          {"correlation", options.correlation},
+          {"shared_inputs", comparison.shared_inputs},
+          {"changed", comparison.Changed()},
+          {"lights", Node::List(comparison.lights, LightNode)}};
 }
 
 std::string ValueText(const Uncertain& u, const std::string& unit) {
@@ -148,14 +135,14 @@ Result<void> RunDiff(const Options& options, Console& console) {
   const auto b = LightsIn(options.b);
   if (!b) return tl::unexpected(b.error());
   const LightComparison comparison = CompareLights(*a, *b, options.correlation);
-  const Json document = ToJson(options, comparison);
+  const Node document = ToJson(options, comparison);
   console.Print(Table(comparison) + "\n" + Assumption(options, comparison));
   if (options.fail_on_change && comparison.Changed()) {
     return EndTold(console, document,
                    {ErrorKind::kFailed, "changed", options.b,
                     "differs from " + options.a + " beyond what both are unsure of"});
   }
-  console.PrintJson(document);
+  console.PrintDocument(document);
   return {};
 }
 

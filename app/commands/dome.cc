@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal dome: a panorama as a calibrated environment, its lights as lights.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,37 +9,35 @@
 #include "clock.h"
 #include "color_words.h"
 #include "commands.h"
-#include "dome/dome_files.h"
-#include "dome/dome_session.h"
-#include "dome/dome_words.h"
+#include "dome/dome_options.h"
+#include "dome/dome_outputs.h"
+#include "lightcal/calibrate/dome/make_dome.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/panorama/turn_north.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr std::size_t kMostListed = 32;
-
 struct Options {
-  DomeWords words;
+  DomeOptions dome;
   std::string extract = "0", plate, output, space, white;
   bool force = false;
 };
 
 struct Plan {
   DomeRequest request;
-  DomeColors colors;
-  std::optional<CameraSettings> plate;
-  std::size_t extract = 0;
+  DomeSettings settings;
 };
 
 Result<std::size_t> ParseExtract(const std::string& text) {
-  if (text == "all") return kMostListed;
+  if (text == "all") return kEveryLight;
   const auto number = ParseNumber(text);
   if (!number || *number < 0.0 || *number != static_cast<double>(static_cast<int>(*number))) {
     return WrongUsage("--extract", "\"" + text + "\" is neither a count of lights nor all");
@@ -51,33 +47,23 @@ Result<std::size_t> ParseExtract(const std::string& text) {
 
 Result<Plan> PlanOf(const Options& options) {
   Plan plan;
-  auto request = DomeRequestOf(options.words);
+  auto request = DomeRequestOf(options.dome);
   if (!request) return Propagate(std::move(request));
   plan.request = std::move(*request);
   const auto extract = ParseExtract(options.extract);
   if (!extract) return tl::unexpected(extract.error());
-  plan.extract = *extract;
+  plan.settings.extract = *extract;
   if (!options.plate.empty()) {
     const auto plate = ParsePlateExposure("--plate-exposure", options.plate);
     if (!plate) return tl::unexpected(plate.error());
-    plan.plate = *plate;
+    plan.settings.plate = *plate;
   }
   const auto colors = ParseColorWords(options.space, options.white);
   if (!colors) return tl::unexpected(colors.error());
-  plan.colors = {colors->space, colors->white};
+  plan.settings.space = colors->space;
+  plan.settings.white = colors->white;
+  plan.settings.time = SourceDateIso8601().value_or("");
   return plan;
-}
-
-Result<Provenance> ProvenanceOf(const std::vector<std::string>& files) {
-  Provenance provenance;
-  provenance.generator = GeneratorName();
-  for (const std::string& file : files) {
-    const auto bytes = ReadWholeFile(file);
-    if (!bytes) return tl::unexpected(bytes.error());
-    provenance.inputs.push_back({file, Sha256Hex(*bytes)});
-  }
-  provenance.time = SourceDateIso8601().value_or("");
-  return provenance;
 }
 
 const char* SourceOf(const DomeLight& light) {
@@ -85,83 +71,46 @@ const char* SourceOf(const DomeLight& light) {
   return light.body.clipped ? "lower_bound" : "pixels";
 }
 
-nlohmann::ordered_json LightJson(const MeasuredDome& measured, std::size_t i,
-                                 const std::string& name, bool taken) {
+Node ColorNode(Xy xy) {
+  const CctResult cct = CctFromXy(xy);
+  return {{"xy", {xy.x, xy.y}},
+          {"cct_K", cct.valid() ? Node(cct.temperature) : Node()},
+          {"duv", cct.valid() ? Node(cct.duv) : Node()}};
+}
+
+Node LightNode(const MeasuredDome& measured, std::size_t i, const std::string& name, bool taken) {
   const DomeLight& light = measured.lights[i];
   const Vec3 direction = TurnedNorth(light.direction, measured.north);
   const AzimuthElevation at = AnglesOf(direction);
-  nlohmann::ordered_json row;
-  row["name"] = name;
-  row["illuminance_lx"] = {{"value", light.illuminance.value()},
-                           {"u95", kZ95 * measured.sd_relative[i] * light.illuminance.value()}};
-  row["source"] = SourceOf(light);
-  row["direction"] = direction;
-  row["azimuth_deg"] = at.azimuth_deg;
-  row["elevation_deg"] = at.elevation_deg;
-  row["angular_diameter_deg"] = DegreesFromRadians(light.angular_diameter);
-  row["luminance_nits"] = light.luminance.value();
-  if (light.xy) {
-    auto& color = row["color"];
-    color["xy"] = {light.xy->x, light.xy->y};
-    const CctResult cct = CctFromXy(*light.xy);
-    if (cct.valid()) {
-      color["cct_K"] = cct.temperature.value();
-      color["duv"] = cct.duv;
-    }
-  }
-  row["extracted"] = taken;
-  return row;
+  const double lux = light.illuminance.value();
+  return {{"name", name},
+          {"illuminance_lx", {{"value", lux}, {"u95", kZ95 * measured.sd_relative[i] * lux}}},
+          {"source", SourceOf(light)},
+          {"direction", direction},
+          {"azimuth_deg", at.azimuth_deg},
+          {"elevation_deg", at.elevation_deg},
+          {"angular_diameter_deg", DegreesFromRadians(light.angular_diameter)},
+          {"luminance_nits", light.luminance},
+          {"color", light.xy ? ColorNode(*light.xy) : Node()},
+          {"extracted", taken}};
 }
 
-// What planes in the middle get, before and after the lights left.
-struct Balance {
-  std::string name;
-  Vec3 normal;
-  double total = 0.0, lights = 0.0, remaining = 0.0;
-};
-
-std::vector<Balance> PlanesOf(const DomeRequest& request) {
-  std::vector<Balance> planes = {{"up", {0.0, 0.0, 1.0}},    {"down", {0.0, 0.0, -1.0}},
-                                 {"front", {0.0, 1.0, 0.0}}, {"right", {1.0, 0.0, 0.0}},
-                                 {"back", {0.0, -1.0, 0.0}}, {"left", {-1.0, 0.0, 0.0}}};
-  if (request.reading) planes.push_back({"reading", request.reading->normal});
-  return planes;
-}
-
-void CountLights(const MeasuredDome& measured, std::size_t extracted,
-                 std::vector<Balance>& planes) {
-  for (Balance& plane : planes) {
-    for (std::size_t i = 0; i < extracted; ++i) {
-      plane.lights +=
-          std::max(0.0, Dot(TurnedNorth(measured.lights[i].flow, measured.north), plane.normal));
-    }
-  }
-}
-
-// After the dome was finished: its luminances are those of the answer's frame.
-void CountDome(const MeasuredDome& measured, std::vector<Balance>& planes) {
-  const Dome& dome = measured.input.dome;
-  for (Balance& plane : planes) {
-    plane.remaining = IlluminanceOn(dome.luminance(), dome.grid(), plane.normal).value();
-    plane.total = plane.lights + plane.remaining;
-  }
-}
-
-std::string Table(const MeasuredDome& measured, const std::vector<std::string>& names,
-                  std::size_t extracted, const Balance& up) {
+std::string Table(const MadeDome& made) {
+  const MeasuredDome& measured = made.measured;
+  const DomePlane& up = made.planes.front();
   std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < made.names.size(); ++i) {
     const DomeLight& light = measured.lights[i];
     const AzimuthElevation at = AnglesOf(TurnedNorth(light.direction, measured.north));
     const CctResult cct = light.xy ? CctFromXy(*light.xy) : CctResult{};
     rows.push_back(
-        {names[i],
+        {made.names[i],
          ValueWithPercent(light.illuminance.value(),
                           kZ95 * measured.sd_relative[i] * light.illuminance.value(), "lx"),
          RoundedText(at.azimuth_deg, 4) + "°", RoundedText(at.elevation_deg, 4) + "°",
          RoundedText(DegreesFromRadians(light.angular_diameter), 2) + "°",
          cct.valid() ? RoundedText(cct.temperature.value(), 3) + " K" : "-", SourceOf(light),
-         i < extracted ? "taken out" : "stays"});
+         i < made.extracted ? "taken out" : "stays"});
   }
   std::string text = TextTable({"light", "lux at normal incidence", "azimuth", "elevation",
                                 "diameter", "CCT", "from", "dome"},
@@ -175,18 +124,8 @@ std::string Table(const MeasuredDome& measured, const std::vector<std::string>& 
          "\n";
 }
 
-void AddViews(const DomeInput& input, nlohmann::ordered_json& document) {
-  if (input.views.empty()) return;
-  auto& views = document["views"] = nlohmann::ordered_json::array();
-  for (const DomeViewScale& view : input.views) {
-    views.push_back(
-        {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}});
-  }
-  if (input.views.size() > 1) {
-    document["rim_transmission"] = input.rim_transmission;
-    document["agreement_sd_relative"] = input.agreement_sd;
-  }
-  document["seen_fraction"] = input.seen_share;
+Node ViewNode(const DomeViewScale& view) {
+  return {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}};
 }
 
 std::string ViewsTable(const DomeInput& input) {
@@ -200,85 +139,72 @@ std::string ViewsTable(const DomeInput& input) {
          RoundedText(100.0 * input.rim_transmission, 3) + " % at its rim\n\n";
 }
 
-nlohmann::ordered_json ToJson(const Plan& plan, const MeasuredDome& measured,
-                              const std::vector<std::string>& names, std::size_t extracted,
-                              const std::vector<Balance>& planes,
-                              const std::vector<std::string>& written) {
-  nlohmann::ordered_json document;
-  auto& lights = document["lights"] = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    lights.push_back(LightJson(measured, i, names[i], i < extracted));
+Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::string>& written) {
+  const MeasuredDome& measured = made.measured;
+  Node lights = Node::Array();
+  for (std::size_t i = 0; i < made.names.size(); ++i) {
+    lights.items.push_back(LightNode(measured, i, made.names[i], i < made.extracted));
   }
-  auto& illuminance = document["illuminance_lx"];
-  for (const Balance& plane : planes) {
-    illuminance[plane.name] = {
-        {"total", plane.total}, {"lights", plane.lights}, {"remaining", plane.remaining}};
+  Node illuminance = Node::Table();
+  for (const DomePlane& plane : made.planes) {
+    illuminance.Put(
+        plane.name,
+        {{"total", plane.total}, {"lights", plane.lights}, {"remaining", plane.remaining}});
   }
-  auto& scale = document["scale"];
-  scale["factor"] = measured.scale.factor;
-  scale["source"] = measured.scale_source;
-  if (measured.scale_u95_relative) scale["u95_relative"] = *measured.scale_u95_relative;
-  document["width"] = measured.input.dome.width;
-  document["height"] = measured.input.dome.height;
-  const Nits white = plan.plate ? MaximumLuminance(*plan.plate) : Nits(1.0);
-  document["white_luminance_nits"] = white.value();
-  if (plan.plate) {
-    document["plate"] = {{"ev100", Ev100(*plan.plate)}, {"exposure", ExposureScale(*plan.plate)}};
+  Node plate;
+  const auto& asked = plan.settings.plate;
+  if (asked) {
+    plate = {{"ev100", Ev100(*asked)}, {"exposure", ExposureScale(*asked)}};
   }
-  AddViews(measured.input, document);
-  document["files"] = written;
-  return document;
+  const DomeInput& input = measured.input;
+  const bool several = input.views.size() > 1;
+  return {{"lights", lights},
+          {"illuminance_lx", illuminance},
+          {"scale",
+           {{"factor", measured.scale.factor},
+            {"source", measured.scale_source},
+            {"u95_relative", measured.scale_u95_relative}}},
+          {"width", input.dome.width},
+          {"height", input.dome.height},
+          {"white_luminance_nits", asked ? MaximumLuminance(*asked) : Nits(1.0)},
+          {"plate", plate},
+          {"views", Node::UnlessEmpty(Node::List(input.views, ViewNode))},
+          {"rim_transmission", several ? Node(input.rim_transmission) : Node()},
+          {"agreement_sd_relative", several ? Node(input.agreement_sd) : Node()},
+          {"seen_fraction", input.views.empty() ? Node() : Node(input.seen_share)},
+          {"files", written}};
 }
 
 Result<void> RunDome(const Options& options, Console& console) {
   const auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
-  auto measured = MeasureDome(plan->request);
+  const Sources sources = DiskSources();
+  auto measured = MeasureDome(plan->request, sources);
   if (!measured) return Propagate(std::move(measured));
   console.Warn(measured->warnings);
-  const std::size_t found = measured->lights.size();
-  const std::size_t extracted = std::min(plan->extract, found);
-  if (options.extract != "all" && plan->extract > found) {
-    console.Warn({"fewer_lights", plan->request.input.files.front(),
-                  std::to_string(plan->extract) + " lights asked for, " + std::to_string(found) +
-                      " stand out of their surroundings"});
-  }
-  for (DomeLight& light : measured->lights) {
-    light.xy = ColorInOutput(*measured, plan->colors, light.xy);
-  }
-  const auto names = NamesOfLights(*measured, std::max(extracted, kMostListed));
+  const auto made = MakeDome(*std::move(measured), plan->request, sources, plan->settings);
+  if (!made) return tl::unexpected(made.error());
+  console.Warn(made->warnings);
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
 
   std::vector<OutputFile> texts;
-  if (extracted > 0) {
-    Warnings warnings;
-    auto lights = LightFileOfDome(*measured, extracted, warnings);
-    if (!lights) return Propagate(std::move(lights));
-    console.Warn(warnings);
-    auto provenance = ProvenanceOf(measured->input.files);
-    if (!provenance) return Propagate(std::move(provenance));
-    lights->provenance = std::move(*provenance);
-    auto json = LightFileToJson(*lights);
+  if (made->light_file) {
+    auto json = LightFileToJson(*made->light_file);
     if (!json) return Propagate(std::move(json));
     texts.push_back({"light.json", std::move(*json)});
   }
-  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  auto preview = DomePreview("dome.png", *measured, names, extracted);
+  auto preview = DomePreview("dome.png", *made);
   if (!preview) return Propagate(std::move(preview));
   texts.push_back(std::move(*preview));
   PlaceUnder(options.output, texts);
-
-  auto planes = PlanesOf(plan->request);
-  CountLights(*measured, extracted, planes);
-  FinishDome(extracted, plan->colors, plan->plate, *measured);
-  CountDome(*measured, planes);
   std::vector<OutputWriter> writers = {
-      DomeExr(options.output + "/dome.exr", *measured, plan->colors, plan->plate, extracted)};
+      DomeExr(options.output + "/dome.exr", *made, plan->settings)};
   for (const OutputFile& file : texts) writers.push_back(WriterOf(file));
   if (auto written = WriteOutputsWith(writers, options.force); !written) return written;
   std::vector<std::string> paths;
   for (const OutputWriter& writer : writers) paths.push_back(writer.path);
-  console.Print(ViewsTable(measured->input) + Table(*measured, names, extracted, planes.front()));
-  console.PrintJson(ToJson(*plan, *measured, names, extracted, planes, paths));
+  console.Print(ViewsTable(made->measured.input) + Table(*made));
+  console.PrintDocument(ToJson(*plan, *made, paths));
   for (const std::string& path : paths) console.Note("wrote " + path);
   return {};
 }
@@ -288,7 +214,7 @@ Result<void> RunDome(const Options& options, Console& console) {
 Run BuildDome(CLI::App& parser) {
   auto options = std::make_shared<Options>();
   Options& o = *options;
-  AddDomeWords(parser, o.words);
+  AddDomeOptions(parser, o.dome);
   parser
       .add_option("--extract", o.extract,
                   "Take out the N brightest lights (or all): they leave the dome and go to "

@@ -2,7 +2,6 @@
 // lightcal explain: which effects this scene calls for, and what each costs and contributes.
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "calibration_options.h"
 #include "commands.h"
@@ -30,22 +29,12 @@ Result<void> WritePlot(const Options& options, const LightFile& lights) {
   return WriteOutputs({*std::move(picture)}, options.force);
 }
 
-nlohmann::ordered_json PartOf(const nlohmann::ordered_json& light) {
-  nlohmann::ordered_json part = {{"name", light["name"]}, {"effects", light["effects"]}};
-  if (light.contains("budget")) part["budget"] = light["budget"];
-  return part;
-}
-
 Result<void> RunExplain(const Options& options, Console& console) {
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  const auto json = LightFileToJson(calibrated->lights);
-  if (!json) return tl::unexpected(json.error());
-  const auto whole = nlohmann::ordered_json::parse(*json);
-  nlohmann::ordered_json document = {{"lights", nlohmann::ordered_json::array()}};
-  for (const auto& light : whole["lights"]) {
-    document["lights"].push_back(PartOf(light));
+  if (const auto json = LightFileToJson(calibrated->lights); !json) {
+    return tl::unexpected(json.error());
   }
   if (!options.plot.empty()) {
     if (auto written = WritePlot(options, calibrated->lights); !written) return written;
@@ -55,7 +44,7 @@ Result<void> RunExplain(const Options& options, Console& console) {
                   EffectsOfNoConcern(light) + "\n" + BudgetTable(light) +
                   "next: " + NextStep(calibrated->session, light) + "\n\n");
   }
-  console.PrintJson(document);
+  console.PrintDocument({{"lights", Node::List(calibrated->lights.lights, ExplanationOf)}});
   return {};
 }
 

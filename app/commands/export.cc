@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "color_words.h"
 #include "commands.h"
@@ -93,17 +92,10 @@ Result<void> RunExport(const Options& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(all, options.force); !written) return written;
-  nlohmann::ordered_json document = {{"files", nlohmann::ordered_json::array()}};
-  for (const OutputFile& file : all) {
-    console.Print("wrote " + file.path + "\n");
-    document["files"].push_back(file.path);
-  }
-  if (!pastes.empty()) {
-    console.Print("\nto open them:\n");
-    document["paste"] = pastes;
-  }
+  for (const OutputFile& file : all) console.Print("wrote " + file.path + "\n");
+  if (!pastes.empty()) console.Print("\nto open them:\n");
   for (const std::string& line : pastes) console.Print("  " + line + "\n");
-  console.PrintJson(document);
+  console.PrintDocument({{"files", PathsOf(all)}, {"paste", Node::UnlessEmpty(pastes)}});
   return {};
 }
 

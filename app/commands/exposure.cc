@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -195,16 +194,12 @@ Result<std::vector<PreExposedLight>> PreExpose(const std::vector<std::string>& t
   return lights;
 }
 
-nlohmann::ordered_json LightsJson(const std::vector<PreExposedLight>& lights) {
-  auto list = nlohmann::ordered_json::array();
-  for (const PreExposedLight& light : lights) {
-    list.push_back({{"value", light.light.value},
-                    {"unit", LightUnitText(light.light.unit)},
-                    {"pre_exposed", light.pre_exposed},
-                    {"fits_fp16", light.Fits()},
-                    {"fp16", HalfRangeName(light.range)}});
-  }
-  return list;
+Node LightNode(const PreExposedLight& light) {
+  return {{"value", light.light.value},
+          {"unit", LightUnitText(light.light.unit)},
+          {"pre_exposed", light.pre_exposed},
+          {"fits_fp16", light.Fits()},
+          {"fp16", HalfRangeName(light.range)}};
 }
 
 std::string LightsTable(const std::vector<PreExposedLight>& lights) {
@@ -232,13 +227,6 @@ Result<void> RunExposure(const Options& o, Console& console) {
   if (!lights) return tl::unexpected(lights.error());
   if (auto refused = console.RefuseIfStrict(); !refused) return refused;
 
-  nlohmann::ordered_json document = {{"ev", Ev(*camera)},
-                                     {"ev100", Ev100(*camera)},
-                                     {"l_max_nits", maximum.value()},
-                                     {"exposure", exposure},
-                                     {"q", *q},
-                                     {"shutter_s", camera->shutter.value()}};
-  if (!lights->empty()) document["lights"] = LightsJson(*lights);
   console.Print(
       TextTable({"quantity", "value", "unit"},
                 {{"EV", RoundedText(Ev(*camera), kTableDigits), ""},
@@ -248,7 +236,13 @@ Result<void> RunExposure(const Options& o, Console& console) {
                  {"saturating luminance", RoundedText(maximum.value(), kTableDigits), "cd/m²"},
                  {"exposure", RoundedText(exposure, kTableDigits), "m²/cd"}}));
   if (!lights->empty()) console.Print("\n" + LightsTable(*lights));
-  console.PrintJson(document);
+  console.PrintDocument({{"ev", Ev(*camera)},
+                         {"ev100", Ev100(*camera)},
+                         {"l_max_nits", maximum},
+                         {"exposure", exposure},
+                         {"q", *q},
+                         {"shutter_s", camera->shutter},
+                         {"lights", Node::UnlessEmpty(Node::List(*lights, LightNode))}});
   return {};
 }
 

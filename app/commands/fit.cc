@@ -2,7 +2,6 @@
 // lightcal fit: the estimate, as light.json.
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "calibration_options.h"
 #include "commands.h"
@@ -30,7 +29,7 @@ Result<void> RunFit(const Options& options, Console& console) {
                                : options.output;
   if (auto written = WriteOutputs({{path, *json}}, options.force); !written) return written;
   console.Print(LightTable(calibrated->lights) + "\n" + FitTable(calibrated->lights));
-  console.PrintJson(nlohmann::ordered_json::parse(*json));
+  console.PrintDocument(DocumentOf(calibrated->lights));
   console.Note("wrote " + path);
   return {};
 }

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "import_plan.h"
@@ -54,23 +53,29 @@ std::string ReadingsTable(const ImportPlan& plan) {
   return text;
 }
 
-nlohmann::ordered_json ToJson(const ImportPlan& plan, const std::string& journal) {
-  nlohmann::ordered_json document;
-  document["journal"] = journal;
-  auto& files = document["files"] = nlohmann::ordered_json::array();
-  auto readings = nlohmann::ordered_json::array();
+Node ToJson(const ImportPlan& plan, const std::string& journal,
+            const std::vector<PlannedDistribution>& distributions) {
+  std::vector<Node> readings;
   for (const PlannedFile& file : plan.files) {
-    files.push_back({{"file", file.path},
-                     {"format", file.format},
-                     {"readings", file.found},
-                     {"imported", file.readings.size()}});
-    for (const Reading& reading : file.readings) {
-      readings.push_back(nlohmann::ordered_json::parse(ReadingToJson(reading)));
-    }
+    for (const Reading& reading : file.readings) readings.push_back(DocumentOf(reading));
   }
-  document["imported"] = readings.size();
-  document["readings"] = std::move(readings);
-  return document;
+  const auto file_node = [](const PlannedFile& file) -> Node {
+    return {{"file", file.path},
+            {"format", file.format},
+            {"readings", file.found},
+            {"imported", file.readings.size()}};
+  };
+  const auto distribution_node = [](const PlannedDistribution& one) -> Node {
+    return {{"light", one.light},
+            {"flux_lm", one.flux_lm},
+            {"peak_cd", one.peak_cd},
+            {"written", !one.files.empty()}};
+  };
+  return {{"journal", journal},
+          {"files", Node::List(plan.files, file_node)},
+          {"imported", readings.size()},
+          {"readings", readings},
+          {"distributions", Node::UnlessEmpty(Node::List(distributions, distribution_node))}};
 }
 
 std::size_t CountReadings(const ImportPlan& plan) {
@@ -98,17 +103,6 @@ Result<ImportSettings> SettingsOf(const Options& options) {
   }
   settings.distance = *distance;
   return settings;
-}
-
-nlohmann::ordered_json ToJson(const std::vector<PlannedDistribution>& distributions) {
-  auto all = nlohmann::ordered_json::array();
-  for (const PlannedDistribution& one : distributions) {
-    all.push_back({{"light", one.light},
-                   {"flux_lm", one.flux_lm},
-                   {"peak_cd", one.peak_cd},
-                   {"written", !one.files.empty()}});
-  }
-  return all;
 }
 
 // Photometric files describe a light and hold no reading; they go beside the journal.
@@ -151,9 +145,7 @@ Result<void> RunImport(const Options& options, Console& console) {
   if (auto appended = AppendAll(*plan, journal); !appended) return appended;
   const std::size_t count = CountReadings(*plan);
   if (count > 0) console.Print(ReadingsTable(*plan));
-  auto document = ToJson(*plan, journal);
-  if (!distributions->empty()) document["distributions"] = ToJson(*distributions);
-  console.PrintJson(document);
+  console.PrintDocument(ToJson(*plan, journal, *distributions));
   if (with_readings.empty()) return {};
   console.Note(count == 0 ? "nothing new; " + journal + " is unchanged"
                           : std::to_string(count) + (count == 1 ? " reading" : " readings") +

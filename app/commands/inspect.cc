@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bracket_merge.h"
 #include "commands.h"
+#include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
@@ -22,8 +20,7 @@
 #include "lightcal/imaging/panorama/panorama.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
-#include "lightcal_devices/captures/bracket.h"
-#include "lightcal_devices/captures/masked_picture.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "picture_words.h"
 
@@ -31,22 +28,10 @@ namespace lightcal::app {
 namespace {
 
 constexpr int kTableDigits = 5;
-// What a single RAW without a noise profile is taken for: 30,000 electrons, 12 bits of read noise.
-// Its statistics do not depend on it.
-constexpr NoiseProfile kMiddlingSensor{1.0 / 30000.0, 1.0 / (4096.0 * 4096.0)};
-
 struct Options {
   std::string image, projection, fov, convention = "photometric";
   std::vector<int> rect;
   std::string exposure, f_number, iso;
-};
-
-// A picture as luminances, and where its scale is from.
-struct Inspected {
-  FrameInfo info;
-  PictureLuminance luminance;  // NaN where masked
-  std::optional<double> scale_u95_relative;
-  std::vector<std::size_t> masked{};  // pixels, y * width + x
 };
 
 struct Answer {
@@ -83,62 +68,13 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
   return overrides;
 }
 
-// A single RAW is a bracket of one frame: its luminance by the ISO prior.
-Result<Inspected> InspectRaw(const Options& options, FrameInfo info, Console& console) {
-  const auto overrides = OverridesOf(options);
-  if (!overrides) return tl::unexpected(overrides.error());
-  const auto bracket = OpenBracket(std::vector<std::string>{options.image}, *overrides);
-  if (!bracket) return tl::unexpected(bracket.error());
-  BracketMergeRequest request;
-  if (info.noise.empty()) request.noise = kMiddlingSensor;
-  auto merged = MergeBracket(*bracket, request);
-  if (!merged) return Propagate(std::move(merged));
-  for (const Warning& warning : merged->warnings) {
-    if (warning.code != "one_frame") console.Warn(warning);  // asked for one
-  }
-  Inspected inspected;
-  inspected.info = std::move(info);
-  inspected.luminance.width = merged->width;
-  inspected.luminance.height = merged->height;
-  inspected.luminance.nits = std::move(merged->picture);
-  inspected.luminance.scale = merged->scale_source;
-  inspected.scale_u95_relative = merged->scale_u95_relative;
-  return inspected;
-}
-
-// What our own merge wrote beside the samples.
-void TakeOwnScale(Inspected& inspected) {
-  for (const auto& [name, text] : inspected.info.lightcal_attributes) {
-    if (name == "scale_source") inspected.luminance.scale = text;
-    if (name == "scale_u95_relative") inspected.scale_u95_relative = ParseNumber(text);
-  }
-}
-
-Result<Inspected> Inspect(const Options& options, Console& console) {
+Result<InspectedPicture> Inspect(const Options& options, Console& console) {
   const auto convention = ParseConvention("--luminance-convention", options.convention);
   if (!convention) return tl::unexpected(convention.error());
-  auto info = ReadFrameInfo(options.image);
-  if (!info) return Propagate(std::move(info));
-  if (info->meaning == SampleMeaning::kMosaic || info->meaning == SampleMeaning::kSensor) {
-    return InspectRaw(options, std::move(*info), console);
-  }
-  if (info->meaning == SampleMeaning::kEncoded) {
-    return Refused("no_response", options.image,
-                   "its codes are no luminance without the camera's response curve; merge the "
-                   "bracket it belongs to (lightcal merge), or use the RAW");
-  }
-  auto picture = ReadMaskedPicture(options.image);
-  if (!picture) return Propagate(std::move(picture));
-  auto luminance = LuminanceOfPicture(picture->frame, *convention);
-  if (!luminance) return Propagate(std::move(luminance));
-  for (const std::size_t pixel : picture->masked) {
-    luminance->nits[pixel] = std::numeric_limits<float>::quiet_NaN();
-  }
-  console.Warn(picture->frame.info.warnings);
-  console.Warn(luminance->warnings);
-  Inspected inspected{std::move(picture->frame.info), std::move(*luminance), std::nullopt,
-                      std::move(picture->masked)};
-  if (*convention == LuminanceConvention::kPhotometric) TakeOwnScale(inspected);
+  const auto overrides = OverridesOf(options);
+  if (!overrides) return tl::unexpected(overrides.error());
+  auto inspected = InspectPicture(options.image, DiskSources(), *overrides, *convention);
+  if (inspected) console.Warn(inspected->warnings);
   return inspected;
 }
 
@@ -153,7 +89,8 @@ Result<Region> RegionOf(const Options& options, const PictureLuminance& picture)
 }
 
 // Those of the region that hold no number, counted and named.
-std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Console& console) {
+std::size_t WarnOfMasked(const InspectedPicture& inspected, const Region& region,
+                         Console& console) {
   std::size_t count = 0;
   std::string first;
   for (const std::size_t pixel : inspected.masked) {
@@ -175,7 +112,7 @@ std::size_t WarnOfMasked(const Inspected& inspected, const Region& region, Conso
 
 // Absent: nobody says how the picture was projected.
 Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
-                                                 const Inspected& inspected) {
+                                                 const InspectedPicture& inspected) {
   PictureView view;
   view.width = inspected.luminance.width;
   view.height = inspected.luminance.height;
@@ -229,46 +166,40 @@ std::optional<Xy> AsShotWhite(const FrameInfo& info) {
   return white ? std::optional(*white) : std::nullopt;
 }
 
-nlohmann::ordered_json ToJson(const Inspected& inspected, const Region& region,
-                              const Answer& answer, std::size_t masked) {
+Node ToJson(const InspectedPicture& inspected, const Region& region, const Answer& answer,
+            std::size_t masked) {
   const LuminanceStatistics& s = answer.statistics;
-  nlohmann::ordered_json document;
-  document["picture"] = {{"file", inspected.info.file},
-                         {"format", inspected.info.format},
-                         {"width", inspected.luminance.width},
-                         {"height", inspected.luminance.height}};
-  document["rect"] = {region.x, region.y, region.width, region.height};
-  document["luminance_nits"] = {{"min", s.min.value()},
-                                {"mean", s.mean.value()},
-                                {"median", s.median.value()},
-                                {"max", s.max.value()}};
-  document["sigma_relative"] = s.sd_relative;
-  if (masked > 0) document["masked_pixels"] = masked;
-  if (answer.illuminance) {
-    document["illuminance_lx"] = answer.illuminance->illuminance.value();
-    document["solid_angle_sr"] = answer.illuminance->solid_angle.value();
-  }
-  auto& peak = document["peak"];
-  peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max.value()}};
+  Node peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max}};
   if (answer.peak_direction) {
     const auto [azimuth, elevation] = AzimuthAndElevation(*answer.peak_direction);
-    peak["azimuth_deg"] = azimuth;
-    peak["elevation_deg"] = elevation;
+    peak.Put({{"azimuth_deg", azimuth}, {"elevation_deg", elevation}});
   }
+  Node as_shot;
   if (const auto white = AsShotWhite(inspected.info)) {
-    auto& as_shot = document["as_shot"];
-    as_shot["xy"] = {white->x, white->y};
-    if (const CctResult cct = CctFromXy(*white); cct.valid()) {
-      as_shot["cct_K"] = cct.temperature.value();
-    }
+    const CctResult cct = CctFromXy(*white);
+    as_shot = {{"xy", {white->x, white->y}},
+               {"cct_K", cct.valid() ? Node(cct.temperature) : Node()}};
   }
-  auto& scale = document["scale"];
-  scale["source"] = inspected.luminance.scale;
-  if (inspected.scale_u95_relative) scale["u95_relative"] = *inspected.scale_u95_relative;
-  return document;
+  const auto& lux = answer.illuminance;
+  return {
+      {"picture",
+       {{"file", inspected.info.file},
+        {"format", inspected.info.format},
+        {"width", inspected.luminance.width},
+        {"height", inspected.luminance.height}}},
+      {"rect", {region.x, region.y, region.width, region.height}},
+      {"luminance_nits", {{"min", s.min}, {"mean", s.mean}, {"median", s.median}, {"max", s.max}}},
+      {"sigma_relative", s.sd_relative},
+      {"masked_pixels", masked > 0 ? Node(masked) : Node()},
+      {"illuminance_lx", lux ? Node(lux->illuminance) : Node()},
+      {"solid_angle_sr", lux ? Node(lux->solid_angle) : Node()},
+      {"peak", peak},
+      {"as_shot", as_shot},
+      {"scale",
+       {{"source", inspected.luminance.scale}, {"u95_relative", inspected.scale_u95_relative}}}};
 }
 
-std::string Table(const Inspected& inspected, const Region& region, const Answer& answer,
+std::string Table(const InspectedPicture& inspected, const Region& region, const Answer& answer,
                   bool is_latlong) {
   const LuminanceStatistics& s = answer.statistics;
   const auto text = [](double v) { return RoundedText(v, kTableDigits); };
@@ -314,7 +245,7 @@ Result<void> RunInspect(const Options& options, Console& console) {
   const bool is_latlong =
       angles->has_value() && (*angles)->view().projection == Projection::kLatLong;
   console.Print(Table(*inspected, *region, *answer, is_latlong));
-  console.PrintJson(ToJson(*inspected, *region, *answer, masked));
+  console.PrintDocument(ToJson(*inspected, *region, *answer, masked));
   return {};
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "commands.h"
@@ -25,8 +24,6 @@ namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct Options {
   std::string library;
   SearchWords search;
@@ -53,11 +50,11 @@ Result<std::vector<LibraryLight>> Found(const Options& options, Console& console
   return Search(*std::move(lights), options.search);
 }
 
-Json ToJson(const LibraryLight& entry) {
-  Json json = LightSummary(entry.light);
-  json["file"] = entry.path;
-  if (!entry.provenance.time.empty()) json["time"] = entry.provenance.time;
-  return json;
+Node ToJson(const LibraryLight& entry) {
+  Node node = LightSummary(entry.light);
+  node.Put("file", entry.path);
+  node.Put("time", Node::UnlessEmpty(entry.provenance.time));
+  return node;
 }
 
 // "2026-05-01" of an ISO 8601 time.
@@ -82,10 +79,8 @@ Result<void> List(const Options& options, Console& console) {
   const auto lights = Found(options, console);
   if (!lights) return tl::unexpected(lights.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  Json document = {{"lights", Json::array()}};
-  for (const LibraryLight& entry : *lights) document["lights"].push_back(ToJson(entry));
   console.Print(lights->empty() ? "no light fits\n" : Table(*lights));
-  console.PrintJson(document);
+  console.PrintDocument({{"lights", Node::List(*lights, ToJson)}});
   return {};
 }
 
@@ -107,16 +102,16 @@ Result<void> Add(const Options& options, Console& console) {
     }
     files.front().lights.front().name = options.as;
   }
-  Json document = {{"files", Json::array()}};
+  std::vector<std::string> written;
   for (const LightFile& file : files) {
     const auto paths = AddToLibrary(file, *folder);
     if (!paths) return tl::unexpected(paths.error());
     for (const std::string& path : *paths) {
-      document["files"].push_back(path);
+      written.push_back(path);
       console.Print("wrote " + path + "\n");
     }
   }
-  console.PrintJson(document);
+  console.PrintDocument({{"files", written}});
   return {};
 }
 
@@ -149,16 +144,15 @@ Result<void> Show(const Options& options, Console& console) {
   const auto entry = OneCalled(options.name, *std::move(lights));
   if (!entry) return tl::unexpected(entry.error());
   const LightFile file{{entry->light}, entry->provenance};
-  const auto json = LightFileToJson(file);
-  if (!json) return tl::unexpected(json.error());
+  if (const auto json = LightFileToJson(file); !json) return tl::unexpected(json.error());
   console.Print(LightTable(file) + "\n" + FitTable(file) + "\n" + BudgetTable(entry->light));
   for (const InputFile& input : entry->provenance.inputs) {
     console.Print("from " + input.path + "\n");
   }
   console.Print("file " + entry->path + "\n");
-  Json document = Json::parse(*json);
-  document["file"] = entry->path;
-  console.PrintJson(document);
+  Node document = DocumentOf(file);
+  document.Put("file", entry->path);
+  console.PrintDocument(document);
   return {};
 }
 
@@ -203,7 +197,7 @@ Result<void> Sheet(const Options& options, Console& console) {
   if (!sheet) return Propagate(std::move(sheet));
   if (auto written = WriteOutputs({*sheet}, options.force); !written) return written;
   console.Print("wrote " + sheet->path + "\n");
-  console.PrintJson({{"files", Json::array({sheet->path})}, {"lights", tiles.size()}});
+  console.PrintDocument({{"files", std::vector{sheet->path}}, {"lights", tiles.size()}});
   return {};
 }
 

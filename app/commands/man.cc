@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal man: the manual page, of every command and option there is.
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
 
 #include "clock.h"
 #include "commands.h"
@@ -16,7 +15,7 @@ Run BuildMan(CLI::App& /*parser*/) {
     const std::string page =
         ManPage(DescribeCommands(), NowIso8601().substr(0, kDate), GeneratorName());
     console.Print(page);
-    console.PrintJson({{"page", page}});
+    console.PrintDocument({{"page", page}});
     return {};
   };
 }

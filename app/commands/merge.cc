@@ -4,18 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "bracket_merge.h"
 #include "color_words.h"
 #include "commands.h"
+#include "lightcal/calibrate/camera/read_camera_profile.h"
+#include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/bracket/shutter_check.h"
 #include "lightcal_devices/captures/picture.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
 #include "picture_words.h"
-#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {
@@ -99,7 +100,8 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
 }
 
 // --camera with what belongs to it.
-Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
+Result<void> AddCamera(const Options& options, const Sources& sources,
+                       BracketMergeRequest& request) {
   if (!options.cos4.empty()) {
     const auto width = ParseLength(options.cos4);
     if (!width) return tl::unexpected(width.error());
@@ -112,7 +114,7 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
     if (options.nd.empty() && options.lamp_class.empty() && !options.no_flat) return {};
     return WrongUsage("--nd, --lamp-class, --no-flat", "belong to a profile: add --camera");
   }
-  auto profile = ReadCameraProfile(options.camera);
+  auto profile = ReadCameraProfile(options.camera, sources);
   if (!profile) return Propagate(std::move(profile));
   LampClass lamp = LampClass::kUnknown;
   if (!options.lamp_class.empty()) {
@@ -122,12 +124,12 @@ Result<void> AddCamera(const Options& options, BracketMergeRequest& request) {
   const auto factor = CameraMismatch(*profile, lamp);
   if (!factor) return tl::unexpected(factor.error());
   request.lamp = *factor;
-  request.camera = CameraUse{std::make_shared<const CameraProfile>(std::move(*profile)), options.nd,
-                             !options.no_flat};
+  request.camera = KnownCamera{std::make_shared<const CameraProfile>(std::move(*profile)),
+                               options.nd, !options.no_flat};
   return {};
 }
 
-Result<BracketMergeRequest> RequestOf(const Options& options) {
+Result<BracketMergeRequest> RequestOf(const Options& options, const Sources& sources) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
   request.align = options.align == "auto";
@@ -151,7 +153,7 @@ Result<BracketMergeRequest> RequestOf(const Options& options) {
   if (!colors) return tl::unexpected(colors.error());
   request.space = colors->space;
   request.white = colors->white;
-  if (auto added = AddCamera(options, request); !added) return Propagate(std::move(added));
+  if (auto added = AddCamera(options, sources, request); !added) return Propagate(std::move(added));
   return request;
 }
 
@@ -182,7 +184,7 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
   return {{"generator", GeneratorName()},
           {"quantity", quantity},
           {"frames", sources},
-          {"scale_source", merged.scale_source},
+          {"scale_source", std::string(WordOf(merged.scale_source))},
           {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
           {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
 }
@@ -217,61 +219,68 @@ OutputWriter SigmaWriter(const Options& options, const MergedBracket& merged) {
           }};
 }
 
-nlohmann::ordered_json ToJson(const MergedBracket& merged) {
-  nlohmann::ordered_json document;
-  auto& frames = document["frames"] = nlohmann::ordered_json::array();
-  for (const MergedFrame& frame : merged.frames) {
-    nlohmann::ordered_json row = {{"file", frame.info.file}};
-    const FrameExposure& exposure = frame.info.exposure;
-    if (exposure.time) row["exposure_s"] = exposure.time->value();
-    if (exposure.f_number) row["f_number"] = *exposure.f_number;
-    if (exposure.t_stop) row["t_stop"] = *exposure.t_stop;
-    if (exposure.iso) row["iso"] = *exposure.iso;
-    if (const auto& angle = exposure.written.shutter_angle_deg) row["shutter_angle_deg"] = *angle;
-    if (const auto& rate = exposure.written.frames_per_second) row["frames_per_second"] = *rate;
-    if (frame.info.image_counter) row["image_counter"] = *frame.info.image_counter;
-    if (frame.ratio_ev) row["ratio_ev"] = *frame.ratio_ev;
-    row["used"] = frame.used;
-    if (frame.moved) {
-      row["shift_px"] = {frame.moved->x, frame.moved->y};
-      row["shift_sd_px"] = frame.moved->sd;
-      row["taken_back_px"] = {frame.moved->taken_back_x, frame.moved->taken_back_y};
-    }
-    frames.push_back(std::move(row));
+Node FrameNode(const MergedFrame& frame) {
+  const FrameExposure& exposure = frame.info.exposure;
+  Node node = {{"file", frame.info.file},
+               {"exposure_s", exposure.time},
+               {"f_number", exposure.f_number},
+               {"t_stop", exposure.t_stop},
+               {"iso", exposure.iso},
+               {"shutter_angle_deg", exposure.written.shutter_angle_deg},
+               {"frames_per_second", exposure.written.frames_per_second},
+               {"image_counter", frame.info.image_counter},
+               {"ratio_ev", frame.ratio_ev},
+               {"used", frame.used}};
+  if (const auto& moved = frame.moved) {
+    node.Put({{"shift_px", {moved->x, moved->y}},
+              {"shift_sd_px", moved->sd},
+              {"taken_back_px", {moved->taken_back_x, moved->taken_back_y}}});
   }
-  document["scale"] = {{"nits_per_unit", merged.nits_per_unit},
-                       {"source", merged.scale_source},
-                       {"u95_relative", merged.scale_u95_relative}};
-  document["clipped_fraction"] = merged.clipped_fraction;
-  document["noise"] = {{"source", NoiseWord(merged.noise_source)},
-                       {"scale", merged.plan.noise.front().scale},
-                       {"offset", merged.plan.noise.front().offset},
-                       {"fixed_pattern", merged.plan.fixed_pattern}};
-  if (const auto& crop = merged.crop) {
-    document["crop"] = {crop->x, crop->y, crop->width, crop->height};
-  }
-  const SampleCorrections& corrections = merged.corrections;
-  if (merged.masked_pixels > 0) document["masked_pixels"] = merged.masked_pixels;
-  if (corrections.flat() || corrections.black_sd() > 0.0 ||
-      corrections.hot_pixels() > merged.masked_pixels) {
-    auto& camera =
-        document["camera"] = {{"hot_pixels", corrections.hot_pixels()},
-                              {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};
-    if (const auto& flat = corrections.flat()) {
-      const bool prior = corrections.flat_source() == SampleCorrections::FlatSource::kCosineFourth;
-      camera["flat"] = {{"source", prior ? "cos4_prior" : "measured"},
-                        {"f_number", flat->f_number},
-                        {"sigma_relative", flat->sigma_relative}};
-    }
-  }
-  document["width"] = merged.width;
-  document["height"] = merged.height;
-  return document;
+  return node;
 }
 
-std::string ScaleWords(const std::string& source) {
-  if (source == "anchor") return "the spot reading";
-  return source == kCameraScale ? "the camera's profile" : "the ISO speed (prior)";
+// What the camera's profile took out; absent where it did nothing.
+Node CorrectionsNode(const MergedBracket& merged) {
+  const SampleCorrections& corrections = merged.corrections;
+  const auto& flat = corrections.flat();
+  if (!flat && !(corrections.black_sd() > 0.0) &&
+      corrections.hot_pixels() <= merged.masked_pixels) {
+    return {};
+  }
+  Node node = {{"hot_pixels", corrections.hot_pixels()},
+               {"black_sigma_nits", corrections.black_sd() * merged.nits_per_unit}};
+  if (flat) {
+    const bool prior = corrections.flat_source() == SampleCorrections::FlatSource::kCosineFourth;
+    node.Put("flat", {{"source", prior ? "cos4_prior" : "measured"},
+                      {"f_number", flat->f_number},
+                      {"sigma_relative", flat->sigma_relative}});
+  }
+  return node;
+}
+
+Node ToJson(const MergedBracket& merged) {
+  const auto& crop = merged.crop;
+  return {{"frames", Node::List(merged.frames, FrameNode)},
+          {"scale",
+           {{"nits_per_unit", merged.nits_per_unit},
+            {"source", WordOf(merged.scale_source)},
+            {"u95_relative", merged.scale_u95_relative}}},
+          {"clipped_fraction", merged.clipped_fraction},
+          {"noise",
+           {{"source", NoiseWord(merged.noise_source)},
+            {"scale", merged.plan.noise.front().scale},
+            {"offset", merged.plan.noise.front().offset},
+            {"fixed_pattern", merged.plan.fixed_pattern}}},
+          {"crop", crop ? Node{crop->x, crop->y, crop->width, crop->height} : Node()},
+          {"masked_pixels", merged.masked_pixels > 0 ? Node(merged.masked_pixels) : Node()},
+          {"camera", CorrectionsNode(merged)},
+          {"width", merged.width},
+          {"height", merged.height}};
+}
+
+std::string ScaleText(ScaleSource source) {
+  if (source == ScaleSource::kAnchor) return "the spot reading";
+  return source == ScaleSource::kCamera ? "the camera's profile" : "the ISO speed (prior)";
 }
 
 std::string Table(const MergedBracket& merged) {
@@ -290,21 +299,22 @@ std::string Table(const MergedBracket& merged) {
   const auto [low, high] = std::minmax_element(merged.picture.begin(), merged.picture.end());
   text += "luminance up to " + RoundedText(*high, 4) + " cd/m2 (lowest " + RoundedText(*low, 2) +
           "), scale ± " + RoundedText(100.0 * merged.scale_u95_relative, 2) + " % from " +
-          ScaleWords(merged.scale_source) + "\n";
+          ScaleText(merged.scale_source) + "\n";
   return text;
 }
 
 Result<void> RunMerge(const Options& options, Console& console) {
-  const auto request = RequestOf(options);
+  const Sources sources = DiskSources();
+  const auto request = RequestOf(options, sources);
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
   const auto lamps = ParseLamps(options.mains, options.pwm);
   if (!lamps) return tl::unexpected(lamps.error());
-  const auto bracket = OpenBracket(options.frames, *overrides);
+  const auto bracket = sources.open_bracket(options.frames, *overrides);
   if (!bracket) return tl::unexpected(bracket.error());
   if (auto safe = RefuseHopelessShutter(bracket->frames, *lamps); !safe) return safe;
-  const auto merged = MergeBracket(*bracket, *request);
+  const auto merged = MergeBracket(*bracket, sources, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);
   console.Warn(CheckShutters(bracket->frames, *lamps));
@@ -313,10 +323,10 @@ Result<void> RunMerge(const Options& options, Console& console) {
   if (request->want_sigma) outputs.push_back(SigmaWriter(options, *merged));
   if (auto written = WriteOutputsWith(outputs, options.force); !written) return written;
   console.Print(Table(*merged));
-  console.PrintJson(ToJson(*merged));
+  console.PrintDocument(ToJson(*merged));
   console.Note("wrote " + options.output +
                (request->want_sigma ? " and " + options.sigma : std::string()));
-  if (merged->scale_source == "iso_prior") {
+  if (merged->scale_source == ScaleSource::kIsoPrior) {
     console.Note(
         "next: read one spot with a luminance meter and pass --anchor x,y,w,h=NITS; the "
         "scale is a prior until then");

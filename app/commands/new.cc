@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "guide/drawings.h"
@@ -40,14 +39,13 @@ Result<void> CheckFree(const std::string& directory, bool force) {
                 "session.toml anew (its readings stay)");
 }
 
-nlohmann::ordered_json DocumentOf(const NewSession& session) {
-  nlohmann::ordered_json document = {{"session", SessionFile(session.directory)},
-                                     {"light", session.light.name},
-                                     {"kind", std::string(LightKindName(session.light.kind))},
-                                     {"next", {ReadLine(session), RunLine(session)}}};
-  if (!session.device.empty()) document["device"] = session.device;
-  if (!session.targets.empty()) document["to"] = session.targets;
-  return document;
+Node DocumentOf(const NewSession& session) {
+  return {{"session", SessionFile(session.directory)},
+          {"light", session.light.name},
+          {"kind", LightKindName(session.light.kind)},
+          {"next", std::vector{ReadLine(session), RunLine(session)}},
+          {"device", Node::UnlessEmpty(session.device)},
+          {"to", Node::UnlessEmpty(session.targets)}};
 }
 
 Result<void> RunNew(const Options& options, Console& console) {
@@ -77,7 +75,7 @@ Result<void> RunNew(const Options& options, Console& console) {
   console.Print("\nSwitch the lamp on and let it warm up for ten minutes. Then\n  " +
                 ReadLine(*session) + "\nsays where to put the meter, and after it\n  " +
                 RunLine(*session) + "\nwrites the presets and the report.\n");
-  console.PrintJson(DocumentOf(*session));
+  console.PrintDocument(DocumentOf(*session));
   return {};
 }
 

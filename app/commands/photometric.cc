@@ -3,16 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/photometric_type_c.h"
 #include "lightcal/report/polar_plot.h"
+#include "lightcal_devices/files/read_photometric.h"
 #include "output_files.h"
-#include "photometric_input.h"
 #include "picture_file.h"
 
 namespace lightcal::app {
@@ -67,52 +67,56 @@ Result<OutputFile> Converted(const Options& options, PhotometricFile file, Conso
   return OutputFile{options.output, std::move(*text)};
 }
 
-nlohmann::ordered_json ToJson(const PhotometricFile& file) {
+Node ToJson(const PhotometricFile& file) {
   const PhotometricHeader& header = file.header;
   const IntensityTable& table = file.table;
   const auto word = [](const auto& words, auto value) {
-    return std::string(words[static_cast<std::size_t>(value)]);
+    return words[static_cast<std::size_t>(value)];
   };
-  nlohmann::ordered_json json = {{"format", word(kPhotometricFormatWords, header.format)},
-                                 {"version", header.version},
-                                 {"type", word(kGoniometerTypeWords, table.grid().type)},
-                                 {"flux_lm", table.Flux().value()},
-                                 {"flux_cubic_lm", table.Flux(TableInterpolation::kCubic).value()},
-                                 {"peak_cd", table.peak().intensity.value()},
-                                 {"peak_at",
-                                  {{"c_deg", DegreesFromRadians(table.peak().c)},
-                                   {"gamma_deg", DegreesFromRadians(table.peak().gamma)}}}};
-  if (header.lamp_flux) json["lamp_lumens"] = header.lamp_flux->value();
-  if (header.lamp_flux) json["light_output_ratio"] = table.Flux() / *header.lamp_flux;
-  json["absolute"] = header.absolute;
-  json["planes"] = table.grid().horizontal_deg.size();
-  json["vertical_angles"] = table.grid().vertical_deg.size();
-  json["symmetry"] = word(kTableSymmetryWords, table.symmetry());
   const LobeWidths beam = LobeWidthsAt(table, 0.5);
   const LobeWidths field = LobeWidthsAt(table, 0.1);
-  json["beam_deg"] = DegreesFromRadians(beam.mean);
-  json["field_deg"] = DegreesFromRadians(field.mean);
-  json["beam_by_plane_deg"] = {DegreesFromRadians(beam.c0), DegreesFromRadians(beam.c90)};
-  json["field_by_plane_deg"] = {DegreesFromRadians(field.c0), DegreesFromRadians(field.c90)};
-  json["power_W"] = header.power.value();
-  json["opening"] = {{"shape", word(kOpeningShapeWords, header.opening.shape)},
-                     {"along_c0_m", header.opening.along_c0.value()},
-                     {"along_c90_m", header.opening.along_c90.value()},
-                     {"height_m", header.opening.height.value()}};
-  const std::pair<const char*, const std::string&> texts[] = {
-      {"manufacturer", header.manufacturer}, {"luminaire", header.luminaire},
-      {"catalogue", header.catalogue},       {"report", header.report},
-      {"laboratory", header.laboratory},     {"date", header.date},
-      {"generation", header.generation}};
-  for (const auto& [key, text] : texts) {
-    if (!text.empty()) json[key] = text;
-  }
+  const auto by_plane = [](const LobeWidths& lobe) -> Node {
+    return {DegreesFromRadians(lobe.c0), DegreesFromRadians(lobe.c90)};
+  };
+  Node node = {
+      {"format", word(kPhotometricFormatWords, header.format)},
+      {"version", header.version},
+      {"type", word(kGoniometerTypeWords, table.grid().type)},
+      {"flux_lm", table.Flux()},
+      {"flux_cubic_lm", table.Flux(TableInterpolation::kCubic)},
+      {"peak_cd", table.peak().intensity},
+      {"peak_at",
+       {{"c_deg", DegreesFromRadians(table.peak().c)},
+        {"gamma_deg", DegreesFromRadians(table.peak().gamma)}}},
+      {"lamp_lumens", header.lamp_flux},
+      {"light_output_ratio", header.lamp_flux ? Node(table.Flux() / *header.lamp_flux) : Node()},
+      {"absolute", header.absolute},
+      {"planes", table.grid().horizontal_deg.size()},
+      {"vertical_angles", table.grid().vertical_deg.size()},
+      {"symmetry", word(kTableSymmetryWords, table.symmetry())},
+      {"beam_deg", DegreesFromRadians(beam.mean)},
+      {"field_deg", DegreesFromRadians(field.mean)},
+      {"beam_by_plane_deg", by_plane(beam)},
+      {"field_by_plane_deg", by_plane(field)},
+      {"power_W", header.power},
+      {"opening",
+       {{"shape", word(kOpeningShapeWords, header.opening.shape)},
+        {"along_c0_m", header.opening.along_c0},
+        {"along_c90_m", header.opening.along_c90},
+        {"height_m", header.opening.height}}},
+      {"manufacturer", Node::UnlessEmpty(header.manufacturer)},
+      {"luminaire", Node::UnlessEmpty(header.luminaire)},
+      {"catalogue", Node::UnlessEmpty(header.catalogue)},
+      {"report", Node::UnlessEmpty(header.report)},
+      {"laboratory", Node::UnlessEmpty(header.laboratory)},
+      {"date", Node::UnlessEmpty(header.date)},
+      {"generation", Node::UnlessEmpty(header.generation)}};
   if (header.tilt) {
-    json["tilt"] = {{"geometry", header.tilt->geometry},
-                    {"angle_deg", header.tilt->angle_deg},
-                    {"factor", header.tilt->factor}};
+    node.Put("tilt", {{"geometry", header.tilt->geometry},
+                      {"angle_deg", header.tilt->angle_deg},
+                      {"factor", header.tilt->factor}});
   }
-  return json;
+  return node;
 }
 
 std::string TitleOf(const Options& options, const PhotometricHeader& header) {
@@ -173,7 +177,7 @@ Result<void> RunPhotometric(const Options& options, Console& console) {
   if (auto written = WriteOutputs(files, options.force); !written) return written;
   console.Print(Table(options, read->file));
   for (const OutputFile& file : files) console.Print("wrote " + file.path + "\n");
-  console.PrintJson(ToJson(read->file));
+  console.PrintDocument(ToJson(read->file));
   return {};
 }
 

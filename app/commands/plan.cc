@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "board_page.h"
@@ -88,7 +87,7 @@ Result<void> PrintBoard(const Options& options, Console& console) {
                 "; print it at 100 % on matt paper, measure ten squares, correct square_m, and "
                 "tape it flat to the wall beside the beam:\n\n" +
                 SessionLines(*board));
-  console.PrintJson(
+  console.PrintDocument(
       {{"board",
         {{"file", options.board},
          {"paper", paper->name},

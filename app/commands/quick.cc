@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "light_table.h"
@@ -173,13 +172,6 @@ Result<std::vector<Prediction>> Predict(const Options& options, const FittedLigh
   return predictions;
 }
 
-nlohmann::ordered_json UncertainJson(const Uncertain& u) {
-  nlohmann::ordered_json json = {{"value", u.value}, {"u95", u.u95}};
-  if (u.low) json["low95"] = *u.low;
-  if (u.high) json["high95"] = *u.high;
-  return json;
-}
-
 std::string PredictionTable(const std::vector<Prediction>& predictions) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(predictions.size());
@@ -195,8 +187,7 @@ std::string PredictionTable(const std::vector<Prediction>& predictions) {
 }
 
 void PrintAnswer(const Options& options, const FittedSession& fitted, const std::string& next,
-                 const std::vector<Prediction>& predictions, const std::string& json,
-                 Console& console) {
+                 const std::vector<Prediction>& predictions, Console& console) {
   const FittedLight& light = fitted.lights.lights.front();
   console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
   if (light.intensity_cd && light.intensity_cd->low && light.intensity_cd->high) {
@@ -205,17 +196,15 @@ void PrintAnswer(const Options& options, const FittedSession& fitted, const std:
   }
   if (!predictions.empty()) console.Print("\n" + PredictionTable(predictions));
   console.Print("\nnext: " + next + "\n");
-  auto document = nlohmann::ordered_json::parse(json);
-  document["next_step"] = next;
-  if (!predictions.empty()) {
-    auto& list = document["predictions"] = nlohmann::ordered_json::array();
-    for (const Prediction& p : predictions) {
-      list.push_back({{"distance_m", p.distance.value()},
-                      {"model_lx", UncertainJson(p.predicted.model_lx)},
-                      {"reading_lx", UncertainJson(p.predicted.reading_lx)}});
-    }
-  }
-  console.PrintJson(document);
+  Node document = DocumentOf(fitted.lights);
+  document.Put("next_step", next);
+  document.Put("predictions",
+               Node::UnlessEmpty(Node::List(predictions, [](const Prediction& p) -> Node {
+                 return {{"distance_m", p.distance},
+                         {"model_lx", DocumentOf(p.predicted.model_lx)},
+                         {"reading_lx", DocumentOf(p.predicted.reading_lx)}};
+               })));
+  console.PrintDocument(std::move(document));
   if (options.targets.empty()) {
     console.Note("add --to gltf,json -o DIR to write presets");
   }
@@ -230,8 +219,7 @@ Result<void> RunQuick(const Options& options, Console& console) {
   const FittedLight& light = fitted->lights.lights.front();
   const auto predictions = Predict(options, light);
   if (!predictions) return tl::unexpected(predictions.error());
-  const auto json = LightFileToJson(fitted->lights);
-  if (!json) return tl::unexpected(json.error());
+  if (const auto json = LightFileToJson(fitted->lights); !json) return tl::unexpected(json.error());
   console.Warn(fitted->warnings);
   std::vector<OutputFile> files;
   if (!options.targets.empty()) {
@@ -245,7 +233,7 @@ Result<void> RunQuick(const Options& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;
-  PrintAnswer(options, *fitted, NextStep(*session, light), *predictions, *json, console);
+  PrintAnswer(options, *fitted, NextStep(*session, light), *predictions, console);
   for (const OutputFile& file : files) console.Note("wrote " + file.path);
   return {};
 }

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -27,21 +26,21 @@ bool HasBackground(const Session& session, const std::string& light) {
   });
 }
 
-nlohmann::ordered_json ToJson(const TakenReading& taken, bool with_spectrum) {
+Node ToJson(const TakenReading& taken, bool with_spectrum) {
   const Summary& summary = taken.summary;
-  auto json = nlohmann::ordered_json::parse(ReadingToJson(taken.reading));
-  json["measurements"] = summary.count;
-  if (summary.count > 1) json["spread_relative"] = summary.spread_relative;
   const MeterReading& kept = summary.kept;
-  if (kept.cri_Ra) json["cri_Ra"] = *kept.cri_Ra;
-  if (kept.tlci_Qa) json["tlci_Qa"] = *kept.tlci_Qa;
-  if (kept.tm30_Rf) json["tm30_rf"] = *kept.tm30_Rf;
-  if (kept.tm30_Rg) json["tm30_rg"] = *kept.tm30_Rg;
-  if (with_spectrum && summary.kept.spectrum) {
-    json["spectrum_nm"] = summary.kept.spectrum->wavelengths_nm;
-    json["spectrum_W_m2_nm"] = summary.kept.spectrum->values;
+  Node node = DocumentOf(taken.reading);
+  node.Put({{"measurements", summary.count},
+            {"spread_relative", summary.count > 1 ? Node(summary.spread_relative) : Node()},
+            {"cri_Ra", kept.cri_Ra},
+            {"tlci_Qa", kept.tlci_Qa},
+            {"tm30_rf", kept.tm30_Rf},
+            {"tm30_rg", kept.tm30_Rg}});
+  if (with_spectrum && kept.spectrum) {
+    node.Put({{"spectrum_nm", kept.spectrum->wavelengths_nm},
+              {"spectrum_W_m2_nm", kept.spectrum->values}});
   }
-  return json;
+  return node;
 }
 
 // One run of the command.
@@ -61,7 +60,7 @@ class ReadRun {
     if (done && !finished) return finished;
     if (!done) return done;
     if (auto strict = console_.RefuseIfStrict(); !strict) return strict;
-    console_.PrintJson(Document());
+    console_.PrintDocument(Document());
     return {};
   }
 
@@ -144,10 +143,10 @@ class ReadRun {
     return {};
   }
 
-  [[nodiscard]] nlohmann::ordered_json Document() const {
-    auto json = ToJson(taken_.back(), options_.with_spectrum);
-    if (options_.repeat > 1) json["repeated"] = published_;
-    return json;
+  [[nodiscard]] Node Document() const {
+    Node node = ToJson(taken_.back(), options_.with_spectrum);
+    if (options_.repeat > 1) node.Put("repeated", published_);
+    return node;
   }
 
   const ReadOptions& options_;

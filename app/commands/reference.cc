@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -61,18 +60,17 @@ std::string RangeText(const ReferenceValue& row) {
   return row.low == row.high ? low : low + " - " + ShortText(row.high);
 }
 
-nlohmann::ordered_json RowJson(const ReferenceValue& row) {
-  nlohmann::ordered_json json = {{"quantity", ReferenceQuantityName(row.quantity)},
-                                 {"what", row.what},
-                                 {"low", row.low},
-                                 {"high", row.high},
-                                 {"unit", ReferenceUnit(row.quantity)},
-                                 {"basis", ReferenceBasisName(row.basis)},
-                                 {"source", row.source}};
-  if (row.seed_value) json["seed_value"] = *row.seed_value;
-  if (!row.seed_note.empty()) json["seed_note"] = row.seed_note;
-  json["seed_doubtful"] = !row.seed_note.empty();
-  return json;
+Node RowNode(const ReferenceValue* row) {
+  return {{"quantity", ReferenceQuantityName(row->quantity)},
+          {"what", row->what},
+          {"low", row->low},
+          {"high", row->high},
+          {"unit", ReferenceUnit(row->quantity)},
+          {"basis", ReferenceBasisName(row->basis)},
+          {"source", row->source},
+          {"seed_value", row->seed_value},
+          {"seed_note", Node::UnlessEmpty(row->seed_note)},
+          {"seed_doubtful", !row->seed_note.empty()}};
 }
 
 void PrintRows(const std::vector<const ReferenceValue*>& found, Console& console) {
@@ -100,11 +98,8 @@ Result<void> RunReference(const Options& o, Console& console) {
                       "road, display, LED, halogen, flux, illuminance, luminance, "
                       "efficacy, or no word for all");
   }
-  nlohmann::ordered_json document;
-  auto& list = document["values"] = nlohmann::ordered_json::array();
-  for (const ReferenceValue* row : found) list.push_back(RowJson(*row));
   PrintRows(found, console);
-  console.PrintJson(document);
+  console.PrintDocument({{"values", Node::List(found, RowNode)}});
   return {};
 }
 

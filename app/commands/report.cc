@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "commands.h"
@@ -164,12 +163,8 @@ Result<void> RunReport(const Options& options, Console& console) {
   }
   if (auto distinct = CheckDistinct(files); !distinct) return distinct;
   if (auto written = WriteOutputs(files, options.force); !written) return written;
-  auto written = nlohmann::ordered_json::array();
-  for (const OutputFile& file : files) {
-    console.Print("wrote " + file.path + "\n");
-    written.push_back(file.path);
-  }
-  console.PrintJson({{"files", std::move(written)}});
+  for (const OutputFile& file : files) console.Print("wrote " + file.path + "\n");
+  console.PrintDocument({{"files", PathsOf(files)}});
   return {};
 }
 

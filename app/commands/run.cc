@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "batch/find_sessions.h"
@@ -88,17 +87,17 @@ Result<void> RunSession(const Options& options, const StampSeed& stamp, Console&
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
   console.Print(LightTable(calibrated->lights) + "\n" + FitTable(calibrated->lights) + "\n");
-  auto document = nlohmann::ordered_json::parse(files->front().contents);
-  auto& next = document["next_steps"] = nlohmann::ordered_json::object();
+  Node next = Node::Table();
   for (const FittedLight& light : calibrated->lights.lights) {
     if (light.fit.readings == 0) continue;  // a wall or a data sheet measured it
-    next[light.name] = NextStep(calibrated->session, light);
-    console.Print("next, " + light.name + ": " + std::string(next[light.name]) + "\n");
+    next.Put(light.name, NextStep(calibrated->session, light));
+    console.Print("next, " + light.name + ": " + next.members.back().value.text + "\n");
   }
   for (const OutputFile& file : *files) console.Print("wrote " + file.path + "\n");
-  auto& written = document["files"] = nlohmann::ordered_json::array();
-  for (const OutputFile& file : *files) written.push_back(file.path);
-  console.PrintJson(document);
+  Node document = DocumentOf(calibrated->lights);
+  document.Put("next_steps", std::move(next));
+  document.Put("files", PathsOf(*files));
+  console.PrintDocument(std::move(document));
   return {};
 }
 
@@ -125,7 +124,7 @@ Result<void> RunOfBatch(const Options& options, const std::string& settings, con
   if (!session_hash) return tl::unexpected(session_hash.error());
   const std::string base = fs::path(JournalPath(item.session)).parent_path().string();
   if (options.resume && IsUpToDate(item.directory, base, settings, *session_hash)) {
-    console.PrintJson({{"up_to_date", true}});
+    console.PrintDocument({{"up_to_date", true}});
     return {};
   }
   RemoveLeftovers(item.directory);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,8 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "one_of.h"
+#include "picture_words.h"
 #include "shooting/bracket_shoot.h"
-#include "shutter_check.h"
 
 namespace lightcal::app {
 namespace {
@@ -132,29 +131,26 @@ std::string BlockToPaste(const ShootOutcome& outcome) {
          "# reflectance = 0.18  of the card\n# distance_m = 0.8    from the lamp to the card\n";
 }
 
-nlohmann::ordered_json ToJson(const ShootOutcome& outcome, bool dry_run) {
+Node ToJson(const ShootOutcome& outcome, bool dry_run) {
   const TetheredShoot& shoot = outcome.shoot;
-  nlohmann::ordered_json document = {
-      {"camera", shoot.camera}, {"device", shoot.device}, {"light", shoot.light}};
-  if (dry_run) {
-    document["dry_run"] = true;
-  } else {
-    document["folder"] = outcome.folder;
-    document["in_session"] = shoot.capture.has_value();
-  }
-  for (const NamedSetting& setting : shoot.settings) {
-    document["settings"][setting.name] = setting.value;
-  }
-  document["frames"] = nlohmann::ordered_json::array();
-  for (const ShotFrame& frame : shoot.frames) {
-    nlohmann::ordered_json row = {{"shutter", frame.shutter}, {"planned_s", frame.planned_s}};
-    if (!frame.file.empty()) row["file"] = outcome.folder + "/" + frame.file;
-    if (frame.exposure) row["exposure_s"] = frame.exposure->value();
-    if (frame.f_number) row["f_number"] = *frame.f_number;
-    if (frame.iso) row["iso"] = *frame.iso;
-    document["frames"].push_back(std::move(row));
-  }
-  return document;
+  Node settings = Node::Table();
+  for (const NamedSetting& setting : shoot.settings) settings.Put(setting.name, setting.value);
+  const auto frame_node = [&](const ShotFrame& frame) -> Node {
+    return {{"shutter", frame.shutter},
+            {"planned_s", frame.planned_s},
+            {"file", frame.file.empty() ? Node() : Node(outcome.folder + "/" + frame.file)},
+            {"exposure_s", frame.exposure},
+            {"f_number", frame.f_number},
+            {"iso", frame.iso}};
+  };
+  return {{"camera", shoot.camera},
+          {"device", shoot.device},
+          {"light", shoot.light},
+          {"dry_run", dry_run ? Node(true) : Node()},
+          {"folder", dry_run ? Node() : Node(outcome.folder)},
+          {"in_session", dry_run ? Node() : Node(shoot.capture.has_value())},
+          {"settings", Node::UnlessEmpty(settings)},
+          {"frames", Node::List(shoot.frames, frame_node)}};
 }
 
 Result<void> RunShoot(const Options& options, Console& console) {
@@ -168,7 +164,7 @@ Result<void> RunShoot(const Options& options, Console& console) {
     console.Note(outcome->shoot.capture ? "The session holds it: lightcal run " + request->session
                                         : "The frames are in " + outcome->folder);
   }
-  console.PrintJson(ToJson(*outcome, request->dry_run));
+  console.PrintDocument(ToJson(*outcome, request->dry_run));
   return {};
 }
 

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "lightcal/core/nearest_word.h"
@@ -239,7 +238,7 @@ Result<void> RunSimulate(const Options& options, Console& console) {
   if (auto written = WriteOutputsWith(*writers, options.force); !written) return written;
   simulated->files = options.outputs;
   console.Print(AnswerText(*simulated));
-  console.PrintJson(AnswerJson(*simulated));
+  console.PrintDocument(AnswerNode(*simulated));
   for (const std::string& file : options.outputs) console.Note("wrote " + file);
   return {};
 }

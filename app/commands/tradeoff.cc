@@ -8,7 +8,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "calibration_options.h"
 #include "commands.h"
@@ -133,7 +132,7 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
     console.Print("next: lightcal run " + options.session + " --profile " + options.output +
                   "/profile.json\n");
   }
-  console.PrintJson(TradeoffJson(study, truth, question->tolerance_relative));
+  console.PrintDocument(TradeoffNode(study, truth, question->tolerance_relative));
   return {};
 }
 

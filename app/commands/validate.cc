@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "batch/find_sessions.h"
@@ -15,20 +14,15 @@
 namespace lightcal::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kNone = "-";
 
-Json ToJson(const FileVerdict& verdict) {
-  Json json = {{"file", verdict.path}, {"ok", !verdict.error}};
-  if (!verdict.format.empty()) json["format"] = verdict.format;
-  if (!verdict.version.empty()) json["version"] = verdict.version;
-  if (!verdict.holds.empty()) json["holds"] = verdict.holds;
-  if (!verdict.error) return json;
-  json["error"] = {{"code", verdict.error->code},
-                   {"subject", verdict.error->subject},
-                   {"message", verdict.error->message}};
-  return json;
+Node ToJson(const FileVerdict& verdict) {
+  return {{"file", verdict.path},
+          {"ok", !verdict.error},
+          {"format", Node::UnlessEmpty(verdict.format)},
+          {"version", Node::UnlessEmpty(verdict.version)},
+          {"holds", Node::UnlessEmpty(verdict.holds)},
+          {"error", verdict.error ? DocumentOf(*verdict.error) : Node()}};
 }
 
 std::string Verdict(const FileVerdict& verdict) {
@@ -77,8 +71,7 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
       console.Warn(warning);
     }
   }
-  Json document = {{"files", Json::array()}};
-  for (const FileVerdict& verdict : verdicts) document["files"].push_back(ToJson(verdict));
+  const Node document = {{"files", Node::List(verdicts, ToJson)}};
   console.Print(Table(verdicts) + Faults(verdicts));
 
   const auto count = [&](const std::string& word) {
@@ -98,7 +91,7 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
   if (auto strict = console.RefuseIfStrict(); !strict) {
     return EndTold(console, document, strict.error());
   }
-  console.PrintJson(document);
+  console.PrintDocument(document);
   return {};
 }
 

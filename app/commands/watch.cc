@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
@@ -13,6 +12,7 @@
 #include "guide/watch_series.h"
 #include "guide/watch_view.h"
 #include "interrupt.h"
+#include "light_summary.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
@@ -165,29 +165,22 @@ class Watching {
       lines.erase(lines.begin());  // the last reading has its line already
       for (const std::string& line : lines) console_.Print(line + "\n");
     }
-    nlohmann::ordered_json document = {
-        {"readings", series_.count()},
-        {"illuminance_lx",
-         {{"mean", steady.mean_lx},
-          {"min", steady.least_lx},
-          {"max", steady.most_lx},
-          {"last", series_.readings().back().illuminance->value()}}}};
-    const auto add = [&](const char* key, const std::optional<double>& value) {
-      if (value) document[key] = *value;
-    };
-    add("scatter_relative", steady.scatter_relative);
-    add("modulation", steady.modulation);
-    add("drift_per_minute_relative", steady.drift_per_minute_relative);
-    add("rate_hz", steady.rate_hz);
     const Reading& last = series_.readings().back();
-    if (last.cct) document["cct_K"] = last.cct->value();
-    add("duv", last.duv);
-    if (light && light->intensity_cd) {
-      document["light"] = light->name;
-      document["intensity_cd"] = {{"value", light->intensity_cd->value},
-                                  {"u95", light->intensity_cd->u95}};
-    }
-    console_.PrintJson(document);
+    const bool known = light && light->intensity_cd;
+    console_.PrintDocument({{"readings", series_.count()},
+                            {"illuminance_lx",
+                             {{"mean", steady.mean_lx},
+                              {"min", steady.least_lx},
+                              {"max", steady.most_lx},
+                              {"last", *last.illuminance}}},
+                            {"scatter_relative", steady.scatter_relative},
+                            {"modulation", steady.modulation},
+                            {"drift_per_minute_relative", steady.drift_per_minute_relative},
+                            {"rate_hz", steady.rate_hz},
+                            {"cct_K", last.cct},
+                            {"duv", last.duv},
+                            {"light", known ? Node(light->name) : Node()},
+                            {"intensity_cd", known ? ValueAndU95(*light->intensity_cd) : Node()}});
   }
 
   const Options& options_;

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "dome/dome_files.h"
-#include "dome/dome_session.h"
+#include "dome/dome_outputs.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/panorama/turn_north.h"
 #include "picture_file.h"
 #include "raster_png.h"
 #include "srgb.h"
@@ -15,37 +15,9 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kWidth = 1024;
 constexpr double kMiddleGrey = 0.18;
 constexpr double kLeastRadius = 7.0, kRingShare = 1.1;
 constexpr double kTextHeight = 15.0;
-
-// Means of blocks of pixels.
-Dome Reduced(const Dome& dome) {
-  Dome small;
-  const int step = std::max(1, dome.width / kWidth);
-  small.width = dome.width / step;
-  small.height = dome.height / step;
-  small.channels = dome.channels;
-  small.xyz_from_rgb = dome.xyz_from_rgb;
-  const auto reduce = [&](const std::vector<float>& from, int channels, std::vector<float>& to) {
-    const View2d<const float> view(from.data(), dome.width, dome.height, channels);
-    for (int y = 0; y < small.height; ++y) {
-      for (int x = 0; x < small.width; ++x) {
-        for (int c = 0; c < channels; ++c) {
-          double sum = 0.0;
-          for (int i = 0; i < step * step; ++i) {
-            sum += double{view(x * step + i % step, y * step + i / step, c)};
-          }
-          to.push_back(static_cast<float>(sum / (step * step)));
-        }
-      }
-    }
-  };
-  reduce(dome.samples, dome.channels, small.samples);
-  reduce(dome.nits, 1, small.nits);
-  return small;
-}
 
 // The geometric mean becomes middle grey.
 double Exposure(const std::vector<float>& nits) {
@@ -112,10 +84,9 @@ std::string Mark(const LatLongGrid& grid, const Vec3& direction, const DomeLight
 
 }  // namespace
 
-Result<OutputFile> DomePreview(const std::string& path, const MeasuredDome& measured,
-                               const std::vector<std::string>& names, std::size_t extracted) {
-  Dome small = Reduced(measured.input.dome);
-  TurnNorth(measured.north, small);
+Result<OutputFile> DomePreview(const std::string& path, const MadeDome& made) {
+  const MeasuredDome& measured = made.measured;
+  const Dome& small = made.preview;
   const LatLongGrid grid = small.grid();
   const std::string size =
       " width=\"" + std::to_string(small.width) + "\" height=\"" + std::to_string(small.height);
@@ -125,12 +96,13 @@ Result<OutputFile> DomePreview(const std::string& path, const MeasuredDome& meas
       size + "\" viewBox=\"0 0 " + std::to_string(small.width) + " " +
       std::to_string(small.height) + "\">\n<image" + size +
       "\" xlink:href=\"data:image/png;base64," + Base64(PictureOf(small)) + "\"/>\n";
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < made.names.size(); ++i) {
     const DomeLight& light = measured.lights[i];
     svg += Mark(grid, TurnedNorth(light.direction, measured.north), light,
-                i < extracted ? names[i] + ": " + RoundedText(light.illuminance.value(), 3) + " lx"
-                              : std::to_string(i + 1),
-                i < extracted);
+                i < made.extracted
+                    ? made.names[i] + ": " + RoundedText(light.illuminance.value(), 3) + " lx"
+                    : std::to_string(i + 1),
+                i < made.extracted);
   }
   return PictureFile(path, svg + "</svg>\n");
 }

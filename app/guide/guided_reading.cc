@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "guide/drawings.h"
@@ -12,6 +11,7 @@
 #include "guide/shell_word.h"
 #include "guide/step_answer.h"
 #include "interrupt.h"
+#include "light_summary.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/journal.h"
@@ -304,9 +304,9 @@ class Walk {
 
   void Conclude() const {
     static constexpr const char* kWords[] = {"reached", "no_gain", "stopped", "tape_end"};
-    nlohmann::ordered_json document = {{"light", frame_.light},
-                                       {"readings_taken", taken_},
-                                       {"ended", kWords[static_cast<std::size_t>(ending_)]}};
+    Node document = {{"light", frame_.light},
+                     {"readings_taken", taken_},
+                     {"ended", kWords[static_cast<std::size_t>(ending_)]}};
     const auto& light = guide_->light();
     std::string text = "\n" + EndingText();
     if (light) {
@@ -314,13 +314,12 @@ class Walk {
              "Next:\n  lightcal run " + ShellWord(options_.session) + "\n";
       const auto& value = light->intensity_cd ? light->intensity_cd : light->illuminance_lx;
       if (value) {
-        document[light->intensity_cd ? "intensity_cd" : "illuminance_lx"] = {
-            {"value", value->value}, {"u95", value->u95}};
+        document.Put(light->intensity_cd ? "intensity_cd" : "illuminance_lx", ValueAndU95(*value));
       }
     }
-    if (const auto u95 = guide_->u95_relative()) document["u95_relative"] = *u95;
+    document.Put("u95_relative", guide_->u95_relative());
     console_.Print(text);
-    console_.PrintJson(document);
+    console_.PrintDocument(document);
   }
 
   const ReadOptions& options_;

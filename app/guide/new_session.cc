@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "guide/new_session.h"
 
-#include <nlohmann/json.hpp>
-
 #include "guide/shell_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/light_kind.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 
 namespace lightcal::app {
 namespace {
 
 // A JSON string is a TOML basic string.
-std::string TomlText(const std::string& text) { return nlohmann::json(text).dump(); }
+std::string TomlText(const std::string& text) {
+  return PrintJson(records::Node(text), records::JsonLayout::kOneLine);
+}
 
 constexpr std::size_t kCommentColumn = 32;
 constexpr const char* kRoomSize = "width, depth, height in metres";

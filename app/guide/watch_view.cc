@@ -24,7 +24,7 @@ constexpr double kOneLevel = 1e-3;  // of the largest value
 constexpr double kMainsHz = 120.0;
 
 // Below a hundredth of a per cent there is nothing but rounding.
-std::string PercentText(double part) {
+std::string SpreadText(double part) {
   constexpr double kLeast = 1e-4;
   return std::abs(part) < kLeast ? "< 0.01 %" : PercentText(part);
 }
@@ -65,11 +65,11 @@ std::string ReadingText(const Reading& reading) {
 
 std::string FlickerText(const Steadiness& steady) {
   if (!steady.modulation) return "flicker: three readings are needed";
-  std::string text = "flicker " + PercentText(*steady.modulation) + " (scatter " +
-                     PercentText(*steady.scatter_relative) + ")";
+  std::string text = "flicker " + SpreadText(*steady.modulation) + " (scatter " +
+                     SpreadText(*steady.scatter_relative) + ")";
   if (steady.drift_per_minute_relative) {
     const double drift = *steady.drift_per_minute_relative;
-    text += std::string(", drift ") + (drift < 0.0 ? "" : "+") + PercentText(drift) + " a minute";
+    text += std::string(", drift ") + (drift < 0.0 ? "" : "+") + SpreadText(drift) + " a minute";
   }
   return text;
 }

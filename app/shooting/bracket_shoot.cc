@@ -206,8 +206,8 @@ class BracketShoot {
     auto files = Capture(frame);
     if (!files) return Propagate(std::move(files));
     const auto raw = std::ranges::find_if(
-        *files, [](const CameraFile& file) { return LooksLikeRaw(file.name); });
-    const CameraFile& picture = raw == files->end() ? files->front() : *raw;
+        *files, [](const StoredPicture& file) { return LooksLikeRaw(file.name); });
+    const StoredPicture& picture = raw == files->end() ? files->front() : *raw;
     auto name = folder_->Fetch(*camera_, picture, number);
     if (!name) return Propagate(std::move(name));
     ShotFrame taken = frame;
@@ -228,7 +228,7 @@ class BracketShoot {
   }
 
   // The exposure, the dark frame some cameras add to it, and the time to write the card.
-  Result<std::vector<CameraFile>> Capture(const ShotFrame& frame) {
+  Result<std::vector<StoredPicture>> Capture(const ShotFrame& frame) {
     const Seconds patience = Seconds(2.0 * frame.planned_s) + kCardPatience;
     auto files = camera_->Capture(shoot_.pictures, patience);
     for (int i = 0; i < kBusyRetries && !files && files.error().code == fault::kBusy &&
@@ -240,8 +240,8 @@ class BracketShoot {
     return files;
   }
 
-  void DeleteFromCard(const std::vector<CameraFile>& files) {
-    for (const CameraFile& file : files) {
+  void DeleteFromCard(const std::vector<StoredPicture>& files) {
+    for (const StoredPicture& file : files) {
       const auto deleted = camera_->Delete(file);
       if (!deleted) console_.Warn({"not_deleted", file.name, deleted.error().message});
     }

@@ -73,7 +73,7 @@ Result<void> ShootFolder::Save(const TetheredShoot& shoot) const {
                       true);
 }
 
-Result<std::string> ShootFolder::Fetch(TetheredCamera& camera, const CameraFile& file,
+Result<std::string> ShootFolder::Fetch(TetheredCamera& camera, const StoredPicture& file,
                                        int number) const {
   const std::string extension = fs::path(file.name).extension().string();
   const std::string name = "frame_" + TwoDigits(number) +

@@ -29,7 +29,7 @@ class ShootFolder {
   [[nodiscard]] Result<void> Save(const TetheredShoot& shoot) const;
   // Fetches a frame, whole or not at all, as frame_NN with the extension the camera gave it.
   // Returns the file's name.  Fails as TetheredCamera::Download.
-  [[nodiscard]] Result<std::string> Fetch(TetheredCamera& camera, const CameraFile& file,
+  [[nodiscard]] Result<std::string> Fetch(TetheredCamera& camera, const StoredPicture& file,
                                           int number) const;
 
  private:

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
@@ -13,8 +12,6 @@
 
 namespace lightcal::app {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, kMapForms> kFormWords = {
     "dark", "point", "cone", "2x2", "3x3", "4x4", "exact", "even", "at_point", "interpolated"};
@@ -54,7 +51,7 @@ struct Row {
   std::string light, effect, state, where, reason;
   double cost_ns = 0.0;
   std::optional<double> bound;
-  Json points = Json::object();
+  Node points = Node::Table();
   std::int64_t evaluations = 0;
 };
 
@@ -67,7 +64,7 @@ Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
     if (n == 0) continue;
     row.where +=
         (row.where.empty() ? "" : ", ") + std::string(kFormWords[k]) + " " + PercentOf(n, all);
-    row.points[kFormWords[k]] = n;
+    row.points.Put(kFormWords[k], n);
     const auto form = static_cast<MapForm>(k);
     if (form == MapForm::kGauss2 || form == MapForm::kGauss3 || form == MapForm::kGauss4 ||
         form == MapForm::kExact) {
@@ -112,8 +109,8 @@ Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
     if (each + between > 0) {
       row.state = "on";
       row.where = PercentOf(each + between, all);
-      if (each > 0) row.points["at_point"] = each;
-      if (between > 0) row.points["interpolated"] = between;
+      if (each > 0) row.points.Put("at_point", each);
+      if (between > 0) row.points.Put("interpolated", between);
       row.reason = "first bounce of " + std::to_string(account.bounce_evaluated) +
                    " points and the mean of further ones" +
                    (between > 0 ? ", interpolated between" : "");
@@ -202,27 +199,27 @@ std::string PlaneText(const Simulated& s) {
   return out + TextTable({"illuminance", "value", "unit"}, rows);
 }
 
-Json ToJson(const Vec3& v) { return Json::array({v[0], v[1], v[2]}); }
-Json ToJson(double lux, double u95) { return {{"value", lux}, {"u95", u95}}; }
+Node ToJson(double lux, double u95) { return {{"value", lux}, {"u95", u95}}; }
 
-Json PointJson(const Simulated& s, const PredictedPoint& point) {
+Node PointNode(const Simulated& s, const PredictedPoint& point) {
   const Total total = TotalOf(point, s.ambient_lx);
-  Json json = {{"position_m", ToJson(point.at.position_m)},
-               {"normal", ToJson(point.at.normal)},
-               {"illuminance_lx", ToJson(total.lux, total.u95)}};
-  if (s.ambient_lx > 0.0) json["ambient_lx"] = s.ambient_lx;
-  Json& shares = json["lights"] = Json::array();
+  Node shares = Node::Array();
   for (std::size_t k = 0; k < s.lamps.size(); ++k) {
     const LampLux& part = point.parts[k];
-    shares.push_back({{"name", s.lamps[k].name},
-                      {"illuminance_lx", ToJson(part.direct_lx + part.bounce_lx, part.u95_lx)},
-                      {"direct_lx", part.direct_lx},
-                      {"bounce_lx", part.bounce_lx}});
+    shares.items.push_back(
+        {{"name", s.lamps[k].name},
+         {"illuminance_lx", ToJson(part.direct_lx + part.bounce_lx, part.u95_lx)},
+         {"direct_lx", part.direct_lx},
+         {"bounce_lx", part.bounce_lx}});
   }
-  return json;
+  return {{"position_m", point.at.position_m},
+          {"normal", point.at.normal},
+          {"illuminance_lx", ToJson(total.lux, total.u95)},
+          {"ambient_lx", s.ambient_lx > 0.0 ? Node(s.ambient_lx) : Node()},
+          {"lights", shares}};
 }
 
-Json PlaneJson(const Simulated& s) {
+Node PlaneNode(const Simulated& s) {
   const MapPlane& plane = *s.plane;
   const MapSummary summary = Summarize(s.map, plane);
   return {{"name", plane.name},
@@ -233,11 +230,25 @@ Json PlaneJson(const Simulated& s) {
           {"right_m", plane.right},
           {"bottom_m", plane.bottom},
           {"top_m", plane.top},
-          {"normal", ToJson(plane.grid.normal)},
+          {"normal", plane.grid.normal},
           {"illuminance_lx",
            {{"min", summary.least_lx}, {"mean", summary.mean_lx}, {"max", summary.most_lx}}},
-          {"max_at_m", ToJson(summary.brightest_m)},
+          {"max_at_m", summary.brightest_m},
           {"u95_relative_median", summary.median_u95_relative}};
+}
+
+Node LampNode(const PlacedLamp& lamp) {
+  const bool aimed = !std::holds_alternative<EvenSky>(lamp.source);
+  return {{"name", lamp.name},
+          {"position_m", IsEverywhere(lamp.source) ? Node() : Node(lamp.pose.position_m)},
+          {"aim", aimed ? Node(lamp.pose.frame.z) : Node()}};
+}
+
+Node EffectNode(const Row& row) {
+  return {{"light", row.light},          {"name", row.effect},
+          {"state", row.state},          {"evaluations", row.evaluations},
+          {"cost_ns", row.cost_ns},      {"reason", row.reason},
+          {"bound_left_off", row.bound}, {"points", Node::UnlessEmpty(row.points)}};
 }
 
 }  // namespace
@@ -299,33 +310,15 @@ std::string AnswerText(const Simulated& s) {
   return out;
 }
 
-Json AnswerJson(const Simulated& s) {
-  Json document;
-  Json& lights = document["lights"] = Json::array();
-  for (const PlacedLamp& lamp : s.lamps) {
-    Json light = {{"name", lamp.name}};
-    if (!IsEverywhere(lamp.source)) light["position_m"] = ToJson(lamp.pose.position_m);
-    if (!std::holds_alternative<EvenSky>(lamp.source)) light["aim"] = ToJson(lamp.pose.frame.z);
-    lights.push_back(std::move(light));
-  }
-  document["tolerance"] = s.settings.tolerance;
-  if (!s.points.empty()) {
-    Json& points = document["points"] = Json::array();
-    for (const PredictedPoint& point : s.points) points.push_back(PointJson(s, point));
-  }
-  if (s.plane) document["plane"] = PlaneJson(s);
-  Json& effects = document["effects"] = Json::array();
-  for (const Row& row : Rows(s)) {
-    Json effect = {{"light", row.light},     {"name", row.effect},
-                   {"state", row.state},     {"evaluations", row.evaluations},
-                   {"cost_ns", row.cost_ns}, {"reason", row.reason}};
-    if (row.bound) effect["bound_left_off"] = *row.bound;
-    if (!row.points.empty()) effect["points"] = row.points;
-    effects.push_back(std::move(effect));
-  }
-  if (s.elapsed_ms) document["elapsed_ms"] = *s.elapsed_ms;
-  if (!s.files.empty()) document["files"] = s.files;
-  return document;
+Node AnswerNode(const Simulated& s) {
+  const auto point = [&](const PredictedPoint& one) { return PointNode(s, one); };
+  return {{"lights", Node::List(s.lamps, LampNode)},
+          {"tolerance", s.settings.tolerance},
+          {"points", Node::UnlessEmpty(Node::List(s.points, point))},
+          {"plane", s.plane ? PlaneNode(s) : Node()},
+          {"effects", Node::List(Rows(s), EffectNode)},
+          {"elapsed_ms", s.elapsed_ms},
+          {"files", Node::UnlessEmpty(s.files)}};
 }
 
 }  // namespace lightcal::app

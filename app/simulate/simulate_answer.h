@@ -2,12 +2,12 @@
 // What `simulate` found, as tables and as JSON.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lightcal/light/illuminance_map.h"
+#include "lightcal/records/document.h"
 #include "simulate/map_plane.h"
 
 namespace lightcal::app {
@@ -42,6 +42,6 @@ struct Simulated {
 [[nodiscard]] double BounceCost_ns(const LampAccount& account);
 
 [[nodiscard]] std::string AnswerText(const Simulated& simulated);
-[[nodiscard]] nlohmann::ordered_json AnswerJson(const Simulated& simulated);
+[[nodiscard]] records::Node AnswerNode(const Simulated& simulated);
 
 }  // namespace lightcal::app

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "console.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/text.h"
 #include "lightcal/report/work_precision.h"
@@ -17,7 +17,6 @@
 namespace lightcal::app {
 namespace {
 
-using nlohmann::ordered_json;
 using report::Escaped;
 using tradeoff::Setting;
 using tradeoff::Study;
@@ -120,33 +119,31 @@ std::string Effect(const Setting& setting, double times_faster) {
   return Speed(times_faster) + ", " + what + ": " + VerdictWord(setting);
 }
 
-ordered_json TimesJson(const tradeoff::RunTimes& times) {
-  ordered_json json = {{"median", 1e3 * times.total},
-                       {"least", 1e3 * times.least},
-                       {"low", 1e3 * times.low},
-                       {"high", 1e3 * times.high},
-                       {"runs", times.runs}};
+Node TimesNode(const tradeoff::RunTimes& times) {
+  Node stages = Node::Table();
   for (std::size_t i = 0; i < tradeoff::kStages; ++i) {
-    json["stages"][std::string(tradeoff::kStageWords[i])] = 1e3 * times.median[i];
+    stages.Put(tradeoff::kStageWords[i], 1e3 * times.median[i]);
   }
-  return json;
+  return {{"median", 1e3 * times.total}, {"least", 1e3 * times.least}, {"low", 1e3 * times.low},
+          {"high", 1e3 * times.high},    {"runs", times.runs},         {"stages", stages}};
 }
 
-ordered_json SettingJson(const Study& study, const Setting& setting) {
-  ordered_json json = {{"name", tradeoff::NameOf(setting.levels)}, {"label", VerdictWord(setting)}};
-  if (setting.measured.refused) {
-    json["refused"] = setting.measured.refused->code;
-    return json;
+Node SettingNode(const Study& study, const Setting& setting) {
+  Node node = {{"name", tradeoff::NameOf(setting.levels)}, {"label", VerdictWord(setting)}};
+  if (const auto& refused = setting.measured.refused) {
+    node.Put("refused", refused->code);
+    return node;
   }
-  json["time_ms"] = TimesJson(setting.measured.times);
-  json["times_faster"] = TimesFaster(study, setting);
-  json["error_relative"] = setting.error.relative;
-  json["error_over_u"] = setting.error.over_u;
-  json["u_change_relative"] = setting.u_change;
-  if (!setting.error.light.empty()) {
-    json["error_in"] = {{"light", setting.error.light}, {"quantity", setting.error.quantity}};
+  const auto& error = setting.error;
+  node.Put({{"time_ms", TimesNode(setting.measured.times)},
+            {"times_faster", TimesFaster(study, setting)},
+            {"error_relative", error.relative},
+            {"error_over_u", error.over_u},
+            {"u_change_relative", setting.u_change}});
+  if (!error.light.empty()) {
+    node.Put("error_in", {{"light", error.light}, {"quantity", error.quantity}});
   }
-  return json;
+  return node;
 }
 
 report::WorkPoint PointOf(const Setting& setting, report::WorkPointKind kind) {
@@ -270,48 +267,47 @@ std::vector<std::string> TradeoffSentences(const Study& study, const TruthRows& 
   return out;
 }
 
-ordered_json TradeoffJson(const Study& study, const TruthRows& truth, double tolerance_relative) {
-  ordered_json json = {
+Node TradeoffNode(const Study& study, const TruthRows& truth, double tolerance_relative) {
+  const auto knob = [&](const SweepRow& row) {
+    Node node = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
+    node.Put(SettingNode(study, row.setting));
+    node.Put("in_play", row.in_play);
+    return node;
+  };
+  const auto setting = [&](const Setting& one) { return SettingNode(study, one); };
+  return {
       {"tolerance_relative", tolerance_relative},
       {"allowed_relative", study.allowed_relative},
       {"meter_limits", study.meter_limits},
       {"reference",
-       {{"time_ms", TimesJson(study.reference.times)}, {"self_difference", study.self_difference}}},
-      {"usual", SettingJson(study, study.usual)},
-      {"knobs", ordered_json::array()},
-      {"combinations", ordered_json::array()},
-      {"recommended", SettingJson(study, study.recommended)}};
-  for (const SweepRow& row : study.rows) {
-    ordered_json one = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
-    one.update(SettingJson(study, row.setting));
-    one["in_play"] = row.in_play;
-    json["knobs"].push_back(std::move(one));
-  }
-  for (const Setting& one : study.combinations) {
-    json["combinations"].push_back(SettingJson(study, one));
-  }
-  if (!truth.empty()) json["against_truth"] = TruthJson(truth);
-  json["sentences"] = TradeoffSentences(study, truth);
-  return json;
+       {{"time_ms", TimesNode(study.reference.times)}, {"self_difference", study.self_difference}}},
+      {"usual", SettingNode(study, study.usual)},
+      {"knobs", Node::List(study.rows, knob)},
+      {"combinations", Node::List(study.combinations, setting)},
+      {"recommended", SettingNode(study, study.recommended)},
+      {"against_truth", Node::UnlessEmpty(Node::List(truth, TruthNode))},
+      {"sentences", TradeoffSentences(study, truth)}};
 }
 
 Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, const TruthRows& truth,
                                               double tolerance_relative, const std::string& title) {
-  auto profile = AccuracyProfileToJson(study.recommended.measured.profile);
+  Node measured = SettingNode(study, study.recommended);
+  measured.Put("session", title);
+  Node with_figures = DocumentOf(study.recommended.measured.profile);
+  with_figures.Put("measured", std::move(measured));
+  auto profile = records::FiniteJson(with_figures);
   if (!profile) return Propagate(std::move(profile));
-  ordered_json with_figures = ordered_json::parse(*profile);
-  with_figures["measured"] = SettingJson(study, study.recommended);
-  with_figures["measured"]["session"] = title;
-  ordered_json whole = {{"generator", GeneratorName()}};
-  whole.update(TradeoffJson(study, truth, tolerance_relative));
+  Node whole = {{"generator", GeneratorName()}};
+  whole.Put(TradeoffNode(study, truth, tolerance_relative));
   const std::string svg = report::WorkPrecisionPlot(PlotOf(study, tolerance_relative, title));
   auto png = PictureFile("tradeoff.png", svg);
   if (!png) return Propagate(std::move(png));
-  return std::vector<OutputFile>{{"tradeoff.json", whole.dump(2) + "\n"},
-                                 {"profile.json", with_figures.dump(2) + "\n"},
-                                 {"tradeoff.svg", svg},
-                                 std::move(*png),
-                                 {"tradeoff.html", Page(study, truth, title, svg)}};
+  return std::vector<OutputFile>{
+      {"tradeoff.json", PrintJson(whole, records::JsonLayout::kPretty) + "\n"},
+      {"profile.json", *std::move(profile)},
+      {"tradeoff.svg", svg},
+      std::move(*png),
+      {"tradeoff.html", Page(study, truth, title, svg)}};
 }
 
 }  // namespace lightcal::app

@@ -2,11 +2,11 @@
 // A study of accuracy against time as people and machines read it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/document.h"
 #include "lightcal/tradeoff/against_truth.h"
 #include "lightcal/tradeoff/study.h"
 #include "output_files.h"
@@ -23,9 +23,8 @@ using TruthRows = std::vector<tradeoff::TruthRow>;
 // saves time.
 [[nodiscard]] std::vector<std::string> TradeoffSentences(const tradeoff::Study& study,
                                                          const TruthRows& truth);
-[[nodiscard]] nlohmann::ordered_json TradeoffJson(const tradeoff::Study& study,
-                                                  const TruthRows& truth,
-                                                  double tolerance_relative);
+[[nodiscard]] records::Node TradeoffNode(const tradeoff::Study& study, const TruthRows& truth,
+                                         double tolerance_relative);
 
 // tradeoff.json, tradeoff.svg, tradeoff.png, tradeoff.html (figure, table, sentences) and
 // profile.json, names relative to the output directory. Fails as PictureFile.

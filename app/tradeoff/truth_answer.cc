@@ -2,14 +2,12 @@
 #include "truth_answer.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
 namespace {
 
-using nlohmann::ordered_json;
 using tradeoff::TruthRow;
 
 constexpr const char* kStrictest = "strictest";
@@ -62,19 +60,11 @@ std::string TruthSentence(const std::vector<TruthRow>& rows) {
          RoundedText(100.0 * strict.held_share(), 3) + " %).";
 }
 
-ordered_json TruthJson(const std::vector<TruthRow>& rows) {
-  ordered_json json = ordered_json::array();
-  for (const TruthRow& row : rows) {
-    json.push_back({{"name", row.name},
-                    {"replicas", row.replicas},
-                    {"refused", row.refused},
-                    {"light", row.light},
-                    {"mean_relative", row.mean},
-                    {"rms_relative", row.rms},
-                    {"intervals", row.intervals},
-                    {"intervals_that_hold_the_truth", row.held}});
-  }
-  return json;
+records::Node TruthNode(const TruthRow& row) {
+  return {{"name", row.name},           {"replicas", row.replicas},
+          {"refused", row.refused},     {"light", row.light},
+          {"mean_relative", row.mean},  {"rms_relative", row.rms},
+          {"intervals", row.intervals}, {"intervals_that_hold_the_truth", row.held}};
 }
 
 }  // namespace lightcal::app

@@ -2,10 +2,10 @@
 // How far settings stayed from a synthetic twin's truth, as people and machines read it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
+#include "lightcal/records/document.h"
 #include "lightcal/tradeoff/against_truth.h"
 #include "lightcal/tradeoff/study.h"
 
@@ -20,6 +20,6 @@ namespace lightcal::app {
     const std::vector<tradeoff::TruthRow>& rows);
 // What the recommended setting is worth against the truth, beside the strictest.
 [[nodiscard]] std::string TruthSentence(const std::vector<tradeoff::TruthRow>& rows);
-[[nodiscard]] nlohmann::ordered_json TruthJson(const std::vector<tradeoff::TruthRow>& rows);
+[[nodiscard]] records::Node TruthNode(const tradeoff::TruthRow& row);
 
 }  // namespace lightcal::app

@@ -19,9 +19,9 @@
 #include "lightcal/records/meter_calibration.h"
 #include "lightcal/records/tethered_shoot.h"
 #include "lightcal_devices/files/import_file.h"
+#include "lightcal_devices/files/read_photometric.h"
 #include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
-#include "photometric_input.h"
 #include "validate/validate_session.h"
 
 namespace lightcal::app {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/session_files.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
-#include "session_files.h"
 
 namespace lightcal::app {
 namespace {

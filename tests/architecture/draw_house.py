@@ -20,20 +20,21 @@ WIDTH, ROW, BOX_HEIGHT, TOP = 932, 104, 58, 48
 # Room: row from above, centre, width, what it holds.
 ROOMS = {
     "app": (0, 466, 902, "commands, the terminal, every file that is written"),
-    "devices": (1, 100, 168, "wires, pictures, files"),
-    "imaging": (1, 268, 138, "frames to nits"),
-    "fit": (1, 408, 112, "readings to lamp"),
-    "presets": (1, 536, 116, "lamp to engine"),
-    "report": (1, 660, 104, "plots, page"),
-    "tradeoff": (1, 822, 190, "accuracy against time"),
-    "records": (2, 466, 902, "Reading, Frame, Session, FittedLight and their files"),
-    "light": (3, 600, 290, "models of sources, effects, the gate"),
-    "colorimetry": (3, 310, 260, "spectra, XYZ, CCT, CRI, RGB"),
-    "photometry": (4, 600, 290, "I = E d², cones, exposure"),
-    "core": (5, 466, 902, "units, Result, numbers as text"),
+    "calibrate": (1, 558, 718, "session to lights, bracket to luminance, panorama to dome"),
+    "devices": (2, 100, 168, "wires, pictures, files"),
+    "imaging": (2, 268, 138, "frames to nits"),
+    "fit": (2, 408, 112, "readings to lamp"),
+    "presets": (2, 536, 116, "lamp to engine"),
+    "report": (2, 660, 104, "plots, page"),
+    "tradeoff": (2, 822, 190, "accuracy against time"),
+    "records": (3, 466, 902, "Reading, Frame, Session, FittedLight and their files"),
+    "light": (4, 600, 290, "models of sources, effects, the gate"),
+    "colorimetry": (4, 310, 260, "spectra, XYZ, CCT, CRI, RGB"),
+    "photometry": (5, 600, 290, "I = E d², cones, exposure"),
+    "core": (6, 466, 902, "units, Result, numbers as text"),
 }
 # Row: what stands in it, its colour.
-BANDS = [("where verbs meet", "#e8e4db"), ("verbs", "#fbe3b5"), ("nouns", "#cfe3f5"),
+BANDS = [("mouth and ears", "#e8e4db"), ("where verbs meet", "#f7d9c4"), ("verbs", "#fbe3b5"), ("nouns", "#cfe3f5"),
          ("laws: no file, no third party", "#d9ecd2"), ("", "#d9ecd2"), ("", "#ece9e3")]
 
 

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "lightcal/fit/model/costs/normal_prior_cost.h"
 #include "lightcal/fit/model/solve.h"
 
 namespace lightcal::fit {
@@ -96,15 +95,11 @@ TEST(LogIlluminanceCost, IsUndefinedWhereTheModelIsDark) {
   EXPECT_FALSE(std::isfinite(RowResidual(row, {kTruth[0], kTruth[1], -100.0})));
 }
 
-TEST(NormalPriorCost, CountsStandardDeviationsFromItsMean) {
-  const NormalPriorCost prior{0.2, 0.05};
-  double residual = 1.0;
-  const double at_mean = 0.2;
-  ASSERT_TRUE(prior(&at_mean, &residual));
-  EXPECT_EQ(residual, 0.0);
-  const double below = 0.1;
-  ASSERT_TRUE(prior(&below, &residual));
-  EXPECT_NEAR(residual, -2.0, 1e-12);
+TEST(Prior, CountsStandardDeviationsFromItsMean) {
+  Estimation estimation;
+  estimation.rules[kDistanceOffset] = {true, 0.2, 0.05};
+  EXPECT_EQ(HalfChiSquared(estimation, {0.0, 0.2, 0.0}), 0.0);
+  EXPECT_NEAR(HalfChiSquared(estimation, {0.0, 0.1, 0.0}), 0.5 * 4.0, 1e-12);
 }
 
 }  // namespace

@@ -68,17 +68,20 @@ std::string Seconds3(std::optional<Seconds> time) {
 }
 
 // The same bytes under two names, or one file named twice.
-bool SameBytes(const std::string& a, const std::string& b) {
-  const auto one = MapFile(a), other = MapFile(b);
-  return one && other && one->size == other->size &&
-         std::memcmp(one->bytes.get(), other->bytes.get(), one->size) == 0;
+bool SameBytes(const std::string& a, const std::string& b, OpenFiles* files) {
+  const auto one = MapFile(a, files), other = MapFile(b, files);
+  if (!one || !other || one->size != other->size) return false;
+  const bool same = std::memcmp(one->bytes.get(), other->bytes.get(), one->size) == 0;
+  ReleasePages(*one);
+  ReleasePages(*other);
+  return same;
 }
 
-void LeaveOutDuplicates(Bracket& bracket) {
+void LeaveOutDuplicates(Bracket& bracket, OpenFiles* files) {
   std::vector<FrameInfo> kept;
   for (FrameInfo& frame : bracket.frames) {
     const auto twin = std::find_if(kept.begin(), kept.end(), [&](const FrameInfo& k) {
-      return SameBytes(k.file, frame.file);
+      return SameBytes(k.file, frame.file, files);
     });
     if (twin == kept.end()) {
       kept.push_back(std::move(frame));
@@ -227,18 +230,18 @@ Result<std::vector<std::string>> ExpandFiles(std::span<const std::string> patter
 }
 
 Result<Bracket> OpenBracket(std::span<const std::string> patterns,
-                            const BracketOverrides& overrides) {
+                            const BracketOverrides& overrides, OpenFiles* open) {
   auto files = ExpandFiles(patterns);
   if (!files) return Propagate(std::move(files));
   if (files->empty()) return Failed("not_found", "bracket", "no files were named");
   Bracket bracket;
   for (const std::string& file : *files) {
-    auto info = ReadFrameInfo(file);
+    auto info = ReadFrameInfo(file, open);
     if (!info) return Propagate(std::move(info));
     bracket.frames.push_back(std::move(*info));
   }
   if (auto ok = Override(bracket.frames, overrides); !ok) return Propagate(std::move(ok));
-  LeaveOutDuplicates(bracket);
+  LeaveOutDuplicates(bracket, open);
   if (auto ok = MustAgree(bracket.frames); !ok) return Propagate(std::move(ok));
   SortByExposure(bracket.frames);
   WarnOfDifferences(bracket.frames, bracket.warnings);
@@ -259,43 +262,44 @@ Result<void> TakeExposure(const FrameInfo& info, Frame& frame) {
 
 }  // namespace
 
-Result<Frame> LoadFrame(const FrameInfo& info, SampleStore store) {
-  auto frame = ReadFrame(info.file, store);
+Result<Frame> LoadFrame(const FrameInfo& info, SampleStore store, OpenFiles* files) {
+  auto frame = ReadFrame(info.file, store, files);
   if (!frame) return frame;
   if (auto taken = TakeExposure(info, *frame); !taken) return Propagate(std::move(taken));
   return frame;
 }
 
-Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store) {
-  auto picture = ReadMaskedFrame(info.file, store);
+Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store, OpenFiles* files) {
+  auto picture = ReadMaskedFrame(info.file, store, files);
   if (!picture) return picture;
   if (auto taken = TakeExposure(info, picture->frame); !taken) return Propagate(std::move(taken));
   return picture;
 }
 
-Result<MaskedPicture> ReadMaskedFrame(const std::string& path, SampleStore store) {
+Result<MaskedPicture> ReadMaskedFrame(const std::string& path, SampleStore store,
+                                      OpenFiles* files) {
   if (!LooksLikeRaw(path)) {
-    auto picture = ReadMaskedPicture(path, store);
+    auto picture = ReadMaskedPicture(path, store, files);
     if (picture || picture.error().code != "unknown_format") return picture;
   }
-  auto frame = ReadFrame(path, store);
+  auto frame = ReadFrame(path, store, files);
   if (!frame) return Propagate(std::move(frame));
   return MaskedPicture{std::move(*frame), {}};
 }
 
-Result<FrameInfo> ReadFrameInfo(const std::string& path) {
-  if (LooksLikeRaw(path)) return ReadRawInfo(path);
-  auto info = ReadPictureInfo(path);
+Result<FrameInfo> ReadFrameInfo(const std::string& path, OpenFiles* files) {
+  if (LooksLikeRaw(path)) return ReadRawInfo(path, files);
+  auto info = ReadPictureInfo(path, files);
   if (info || info.error().code != "unknown_format") return info;
-  auto raw = ReadRawInfo(path);
+  auto raw = ReadRawInfo(path, files);
   return raw ? raw : info;
 }
 
-Result<Frame> ReadFrame(const std::string& path, SampleStore store) {
-  if (LooksLikeRaw(path)) return ReadRaw(path, store);
-  auto frame = ReadPicture(path, store);
+Result<Frame> ReadFrame(const std::string& path, SampleStore store, OpenFiles* files) {
+  if (LooksLikeRaw(path)) return ReadRaw(path, store, files);
+  auto frame = ReadPicture(path, store, files);
   if (frame || frame.error().code != "unknown_format") return frame;
-  auto raw = ReadRaw(path, store);
+  auto raw = ReadRaw(path, store, files);
   return raw ? raw : frame;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/captures/exr.h"
 
+#include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfRationalAttribute.h>
@@ -16,11 +18,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -243,8 +247,9 @@ void FindHalfClip(const Imf::ChannelList& channels, const Chosen& chosen, FrameI
 }
 
 // OpenEXR's own reconstruction of chroma.
-void ReadLuminanceChroma(const std::string& path, const FrameInfo& info, float* samples) {
-  Imf::RgbaInputFile file(path.c_str());
+void ReadLuminanceChroma(Imf::IStream& bytes, const FrameInfo& info, float* samples) {
+  bytes.seekg(0);
+  Imf::RgbaInputFile file(bytes);
   const Imath::Box2i window = file.dataWindow();
   Imf::Array2D<Imf::Rgba> pixels(info.height, info.width);
   // OpenEXR wants the address pixel (0, 0) would have; it may lie outside the array.
@@ -261,17 +266,43 @@ void ReadLuminanceChroma(const std::string& path, const FrameInfo& info, float* 
   }
 }
 
-// Runs `read(file, chosen, info)` over the opened file; OpenEXR speaks in exceptions.
+// A mapped file as OpenEXR reads files, with the words that its own stream has for a file that is
+// cut short.
+class MappedStream final : public Imf::IStream {
+ public:
+  MappedStream(const std::string& path, const MappedFile& file)
+      : Imf::IStream(path.c_str()), file_(file) {}
+
+  bool read(char bytes[], int count) override {
+    const std::uint64_t left = file_.size - std::min<std::uint64_t>(at_, file_.size);
+    const std::uint64_t wanted = static_cast<std::uint64_t>(count);
+    if (left < wanted) {
+      throw Iex::InputExc("Early end of file: read " + std::to_string(left) + " out of " +
+                          std::to_string(wanted) + " requested bytes.");
+    }
+    std::memcpy(bytes, static_cast<const char*>(file_.bytes.get()) + at_, wanted);
+    at_ += wanted;
+    return at_ < file_.size;
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  const MappedFile& file_;
+  std::uint64_t at_ = 0;
+};
+
+// Runs `read(file, stream, chosen, info)` over the opened file; OpenEXR speaks in exceptions.
 template <class T, class Read>
-Result<T> WithFile(const std::string& path, const Read& read) {
-  if (auto there = MapFile(path); !there) return Propagate(std::move(there));
+Result<T> WithFile(const std::string& path, const MappedFile& mapped, const Read& read) {
   try {
-    Imf::InputFile file(path.c_str());
+    MappedStream stream(path, mapped);
+    Imf::InputFile file(stream);
     FrameInfo info;
     info.file = path;
     auto chosen = DescribeHeader(file.header(), info);
     if (!chosen) return Propagate(std::move(chosen));
-    return read(file, *chosen, std::move(info));
+    return read(file, stream, *chosen, std::move(info));
   } catch (const std::exception& error) {
     return Refused("bad_picture", path,
                    std::string("the file is damaged or cut short (OpenEXR: ") + error.what() + ")");
@@ -280,22 +311,25 @@ Result<T> WithFile(const std::string& path, const Read& read) {
 
 }  // namespace
 
-Result<FrameInfo> ReadExrInfo(const std::string& path) {
-  return WithFile<FrameInfo>(
-      path,
-      [](Imf::InputFile&, const Chosen&, FrameInfo info) -> Result<FrameInfo> { return info; });
+Result<FrameInfo> ReadExrInfo(const std::string& path, const MappedFile& file) {
+  return WithFile<FrameInfo>(path, file,
+                             [](Imf::InputFile&, Imf::IStream&, const Chosen&,
+                                FrameInfo info) -> Result<FrameInfo> { return info; });
 }
 
-Result<Frame> ReadExr(const std::string& path, SampleStore store) {
+Result<Frame> ReadExr(const std::string& path, const MappedFile& mapped, SampleStore store) {
   return WithFile<Frame>(
-      path, [&](Imf::InputFile& file, const Chosen& chosen, FrameInfo info) -> Result<Frame> {
+      path, mapped,
+      [&](Imf::InputFile& file, Imf::IStream& stream, const Chosen& chosen,
+          FrameInfo info) -> Result<Frame> {
         auto room = Room(info, store);
         if (!room) return Propagate(std::move(room));
         if (chosen.luminance_chroma) {
-          ReadLuminanceChroma(path, info, room->data);
+          ReadLuminanceChroma(stream, info, room->data);
         } else {
           ReadPlain(file, chosen, info, room->data);
         }
+        ReleasePages(mapped);
         FindHalfClip(file.header().channels(), chosen, info, {room->data, SamplesOf(info)});
         const View2d<const float> view(room->data, info.width, info.height, info.channels);
         return Frame{std::move(info), view, std::move(room->owner),

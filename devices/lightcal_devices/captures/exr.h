@@ -8,11 +8,13 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
+#include "lightcal_devices/captures/mapped_file.h"
 
 namespace lightcal {
 
-[[nodiscard]] Result<FrameInfo> ReadExrInfo(const std::string& path);
-[[nodiscard]] Result<Frame> ReadExr(const std::string& path, SampleStore store);
+// `file` is what `path` names.
+[[nodiscard]] Result<FrameInfo> ReadExrInfo(const std::string& path, const MappedFile& file);
+[[nodiscard]] Result<Frame> ReadExr(const std::string& path, const MappedFile& file,
+                                    SampleStore store);
 
 }  // namespace lightcal

@@ -24,12 +24,12 @@
 
 namespace {
 
-using lightcal::CameraFile;
 using lightcal::CameraSetting;
 using lightcal::Error;
 using lightcal::Failed;
 using lightcal::FoundCamera;
 using lightcal::Result;
+using lightcal::StoredPicture;
 namespace fault = lightcal::fault;
 
 constexpr int kEventSliceMs = 250;
@@ -73,7 +73,7 @@ using OwnedList = Owned<CameraList, gp_list_free>;
 using OwnedPorts = Owned<GPPortInfoList, gp_port_info_list_free>;
 using OwnedAbilities = Owned<CameraAbilitiesList, gp_abilities_list_free>;
 using OwnedWidget = Owned<CameraWidget, gp_widget_free>;
-using OwnedFile = Owned<::CameraFile, gp_file_free>;
+using OwnedFile = Owned<::StoredPicture, gp_file_free>;
 using OwnedCamera = Owned<Camera, gp_camera_free>;
 
 struct ContextDeleter {
@@ -151,8 +151,8 @@ class GphotoCamera final : public lightcal::TetheredCamera {
   }
 
   // Triggered and waited for in slices: gp_camera_capture waits for ever where no picture comes.
-  Result<std::vector<lightcal::CameraFile>> Capture(int pictures,
-                                                    lightcal::Seconds patience) override {
+  Result<std::vector<lightcal::StoredPicture>> Capture(int pictures,
+                                                       lightcal::Seconds patience) override {
     int status = Trigger();
     // libgphoto2 2.5.30 has no word of its own for PTP's Store_Full.
     if (status == GP_ERROR && CardIsFull()) status = GP_ERROR_NO_SPACE;
@@ -160,7 +160,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
       return Fault(status, "capture", fault::kCaptureFailed,
                    "no picture was taken (is the lens on manual focus, the card in?)");
     }
-    std::vector<lightcal::CameraFile> files;
+    std::vector<lightcal::StoredPicture> files;
     const auto begin = std::chrono::steady_clock::now();
     const auto waited = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -177,14 +177,14 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     return files;
   }
 
-  Result<void> Download(const lightcal::CameraFile& file, const std::string& path) override {
+  Result<void> Download(const lightcal::StoredPicture& file, const std::string& path) override {
     const HoldSignals hold;
     CameraFileInfo info{};
     const int known = gp_camera_file_get_info(camera_.get(), file.folder.c_str(), file.name.c_str(),
                                               &info, context_.get());
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0) return Unwritable(path, errno);
-    ::CameraFile* raw = nullptr;
+    ::StoredPicture* raw = nullptr;
     int status = gp_file_new_from_fd(&raw, fd);  // owns fd from here on
     if (status != GP_OK) {
       ::close(fd);
@@ -207,7 +207,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     return {};
   }
 
-  Result<void> Delete(const lightcal::CameraFile& file) override {
+  Result<void> Delete(const lightcal::StoredPicture& file) override {
     const HoldSignals hold;
     const int status = gp_camera_file_delete(camera_.get(), file.folder.c_str(), file.name.c_str(),
                                              context_.get());
@@ -292,7 +292,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     });
   }
 
-  int AwaitFile(std::vector<lightcal::CameraFile>& files) {
+  int AwaitFile(std::vector<lightcal::StoredPicture>& files) {
     const HoldSignals hold;
     CameraEventType type = GP_EVENT_UNKNOWN;
     void* data = nullptr;

@@ -65,7 +65,7 @@ Result<std::shared_ptr<void>> MapScratchFile(std::size_t bytes) {
 }
 
 Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject) {
-  struct stat about{};
+  struct stat about {};
   if (fstat(scratch.get(), &about) != 0) return Failed("unreadable", subject, std::strerror(errno));
   if (about.st_size == 0) return MappedFile{};
   const auto size = static_cast<std::size_t>(about.st_size);
@@ -76,7 +76,7 @@ Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject
 
 Result<MappedFile> MapFile(const std::string& path) {
   const Scratch fd(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat about{};
+  struct stat about {};
   if (fd.get() < 0 || fstat(fd.get(), &about) != 0) {
     return Failed(errno == ENOENT ? "not_found" : "unreadable", path, std::strerror(errno));
   }
@@ -86,6 +86,25 @@ Result<MappedFile> MapFile(const std::string& path) {
   std::shared_ptr<void> mapped = Map(fd.get(), size, PROT_READ, MAP_PRIVATE);
   if (!mapped) return Failed("unreadable", path, std::strerror(errno));
   return MappedFile{std::move(mapped), size};
+}
+
+Result<MappedFile> OpenFiles::Map(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  const auto known = mapped_.find(path);
+  if (known != mapped_.end()) return known->second;
+  auto mapped = MapFile(path);
+  if (mapped) mapped_.emplace(path, *mapped);
+  return mapped;
+}
+
+Result<MappedFile> MapFile(const std::string& path, OpenFiles* files) {
+  return files != nullptr ? files->Map(path) : MapFile(path);
+}
+
+void ReleasePages(const MappedFile& file) {
+  if (file.size == 0) return;
+  // Only a hint; nothing was written to a private mapping, so that nothing is lost.
+  static_cast<void>(madvise(const_cast<void*>(file.bytes.get()), file.size, MADV_DONTNEED));
 }
 
 }  // namespace lightcal

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -36,6 +38,23 @@ struct MappedFile {
   std::size_t size = 0;
 };
 [[nodiscard]] Result<MappedFile> MapFile(const std::string& path);
+
+// Files that stay mapped while it lives: each is opened once, whoever reads it how often. Used by
+// several threads at once.
+class OpenFiles {
+ public:
+  // As MapFile.
+  [[nodiscard]] Result<MappedFile> Map(const std::string& path);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, MappedFile> mapped_;
+};
+// One of the open files; opened for this once where there are none.
+[[nodiscard]] Result<MappedFile> MapFile(const std::string& path, OpenFiles* files);
+
+// The file's pages leave this process's memory; they come back when they are looked at.
+void ReleasePages(const MappedFile& file);
 
 // What was written to a scratch file; `bytes` is null and size 0 where that is nothing.
 // Fails: unreadable, about `subject`.

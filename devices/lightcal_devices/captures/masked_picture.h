@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture some of whose pixels hold no light: for who can do without them, and says so.
+// Pictures as files have them, those with pixels that hold no light among them.
 #pragma once
 
-#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "lightcal/core/result.h"
-#include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
+#include "lightcal/records/masked_picture.h"
 
 namespace lightcal {
 
-struct MaskedPicture {
-  // Masked pixels hold the mean of the nearest ones to both sides in their row that are not; 0 in a
-  // row that has none.
-  Frame frame;
-  std::vector<std::size_t> masked;  // ascending, y * width + x: NaN, infinite or beyond 1e30
-};
+class OpenFiles;  // mapped_file.h: here and below, opens the file where given
+
 // As ReadPicture (picture.h), ReadFrame and LoadFrame (bracket.h), but for bad_samples.
 [[nodiscard]] Result<MaskedPicture> ReadMaskedPicture(const std::string& path,
-                                                      SampleStore store = SampleStore::kMemory);
+                                                      SampleStore store = SampleStore::kMemory,
+                                                      OpenFiles* files = nullptr);
 [[nodiscard]] Result<MaskedPicture> ReadMaskedFrame(const std::string& path,
-                                                    SampleStore store = SampleStore::kMemory);
-[[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store);
-
-// bad_samples: how many pixels are masked, which is the first, and that their neighbours stand in.
-[[nodiscard]] Warning WarningOfMasked(const MaskedPicture& picture);
+                                                    SampleStore store = SampleStore::kMemory,
+                                                    OpenFiles* files = nullptr);
+[[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store,
+                                                    OpenFiles* files = nullptr);
 
 }  // namespace lightcal

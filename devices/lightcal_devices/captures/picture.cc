@@ -195,8 +195,8 @@ struct Opened {
   }
 };
 
-Result<Opened> Open(const std::string& path) {
-  auto file = MapFile(path);
+Result<Opened> Open(const std::string& path, OpenFiles* files) {
+  auto file = MapFile(path, files);
   if (!file) return Propagate(std::move(file));
   Opened opened{std::move(*file), ""};
   const auto format = FormatOf(opened.bytes());
@@ -212,10 +212,10 @@ Result<Opened> Open(const std::string& path) {
 }
 
 // The whole picture, whatever its samples are.
-Result<Frame> ReadUnchecked(const std::string& path, SampleStore store) {
-  auto opened = Open(path);
+Result<Frame> ReadUnchecked(const std::string& path, SampleStore store, OpenFiles* files) {
+  auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
-  if (opened->format == "exr") return ReadExr(path, store);
+  if (opened->format == "exr") return ReadExr(path, opened->file, store);
   auto picture = ReadThroughModule(path, true);
   if (!picture) return Propagate(std::move(picture));
   auto info = Describe(*picture, path, opened->format, opened->bytes());
@@ -225,17 +225,17 @@ Result<Frame> ReadUnchecked(const std::string& path, SampleStore store) {
 
 }  // namespace
 
-Result<FrameInfo> ReadPictureInfo(const std::string& path) {
-  auto opened = Open(path);
+Result<FrameInfo> ReadPictureInfo(const std::string& path, OpenFiles* files) {
+  auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
-  if (opened->format == "exr") return ReadExrInfo(path);
+  if (opened->format == "exr") return ReadExrInfo(path, opened->file);
   auto picture = ReadThroughModule(path, false);
   if (!picture) return Propagate(std::move(picture));
   return Describe(*picture, path, opened->format, opened->bytes());
 }
 
-Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
-  auto frame = ReadUnchecked(path, store);
+Result<Frame> ReadPicture(const std::string& path, SampleStore store, OpenFiles* files) {
+  auto frame = ReadUnchecked(path, store, files);
   if (!frame) return frame;
   const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
   if (floats == nullptr) return frame;
@@ -243,20 +243,9 @@ Result<Frame> ReadPicture(const std::string& path, SampleStore store) {
   return frame;
 }
 
-Warning WarningOfMasked(const MaskedPicture& picture) {
-  const FrameInfo& info = picture.frame.info;
-  const std::size_t count = picture.masked.size();
-  const auto width = static_cast<std::size_t>(info.width);
-  const std::size_t first = picture.masked.empty() ? 0 : picture.masked.front();
-  return {"bad_samples", info.file,
-          std::to_string(count) + (count == 1 ? " pixel that holds" : " pixels that hold") +
-              " no number (not finite, or beyond 1e30), the first at " +
-              std::to_string(first % width) + "," + std::to_string(first / width) +
-              ": the nearest ones to both sides stand in"};
-}
-
-Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore store) {
-  auto frame = ReadUnchecked(path, store);
+Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore store,
+                                        OpenFiles* files) {
+  auto frame = ReadUnchecked(path, store, files);
   if (!frame) return Propagate(std::move(frame));
   const auto* const floats = std::get_if<View2d<const float>>(&frame->samples);
   if (floats == nullptr || CheckSamples(*floats, path)) return MaskedPicture{std::move(*frame), {}};

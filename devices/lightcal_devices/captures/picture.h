@@ -12,20 +12,23 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
 
+class OpenFiles;  // mapped_file.h: here and below, opens the file where given
+
 // Tags only. Fails: not_found, unreadable, no_picture_module (the program is badly installed).
 // Refused: unknown_format, bad_picture (truncated or corrupt), too_large.
-[[nodiscard]] Result<FrameInfo> ReadPictureInfo(const std::string& path);
+[[nodiscard]] Result<FrameInfo> ReadPictureInfo(const std::string& path,
+                                                OpenFiles* files = nullptr);
 
 // The whole picture: float for kLinear, uint16 codes (8 bit ones as 0..255) for kEncoded. An EXR of
 // luminance and subsampled chroma comes as RGB. Alpha and other channels that are no colour are
 // left out. Fails besides: no_scratch_space.
 // Refused besides: bad_samples (NaN, infinity or a value beyond 1e30, named with place and count).
 [[nodiscard]] Result<Frame> ReadPicture(const std::string& path,
-                                        SampleStore store = SampleStore::kMemory);
+                                        SampleStore store = SampleStore::kMemory,
+                                        OpenFiles* files = nullptr);
 
 // An OpenEXR file of 32 bit floats, scanlines, written by OpenEXR.
 struct ExrPicture {

@@ -31,11 +31,14 @@ struct Answered {
   }
 };
 
-Result<Answered> Ask(const std::string& path, SampleStore store, bool with_samples) {
+Result<Answered> Ask(const std::string& path, SampleStore store, bool with_samples,
+                     OpenFiles* files) {
+  const auto raw = MapFile(path, files);
+  if (!raw) return tl::unexpected(raw.error());
   auto scratch =
       OpenScratch(store == SampleStore::kMemory ? ScratchPlace::kMemory : ScratchPlace::kDisk);
   if (!scratch) return Propagate(std::move(scratch));
-  const auto ended = RunInSafeProcess([&] { DecodeRaw(path, with_samples, scratch->get()); });
+  const auto ended = RunInSafeProcess([&] { DecodeRaw(path, *raw, with_samples, scratch->get()); });
   if (!ended) return tl::unexpected(ended.error());
   auto file = MapWritten(*scratch, path);
   if (!file) return Propagate(std::move(file));
@@ -79,14 +82,14 @@ bool LooksLikeRaw(const std::string& path) {
                      [&](std::string_view extension) { return name.ends_with(extension); });
 }
 
-Result<FrameInfo> ReadRawInfo(const std::string& path) {
-  const auto answered = Ask(path, SampleStore::kMemory, false);
+Result<FrameInfo> ReadRawInfo(const std::string& path, OpenFiles* files) {
+  const auto answered = Ask(path, SampleStore::kMemory, false, files);
   if (!answered) return tl::unexpected(answered.error());
   return FrameInfoOf(answered->answer(), path);
 }
 
-Result<Frame> ReadRaw(const std::string& path, SampleStore store) {
-  const auto answered = Ask(path, store, true);
+Result<Frame> ReadRaw(const std::string& path, SampleStore store, OpenFiles* files) {
+  const auto answered = Ask(path, store, true, files);
   if (!answered) return tl::unexpected(answered.error());
   auto info = FrameInfoOf(answered->answer(), path);
   if (!info) return Propagate(std::move(info));

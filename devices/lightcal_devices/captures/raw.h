@@ -7,9 +7,10 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
-#include "lightcal_devices/captures/sample_store.h"
 
 namespace lightcal {
+
+class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 
 // True where the name ends as those of camera RAW files do; says nothing of the file.
 [[nodiscard]] bool LooksLikeRaw(const std::string& path);
@@ -18,12 +19,13 @@ namespace lightcal {
 // Fails: not_found, unreadable. Refused: unknown_format, bad_picture (truncated or corrupt),
 // unsupported_picture (float or layered RAW that LibRaw cannot give as sensor values). Fails
 // besides: no_process.
-[[nodiscard]] Result<FrameInfo> ReadRawInfo(const std::string& path);
+[[nodiscard]] Result<FrameInfo> ReadRawInfo(const std::string& path, OpenFiles* files = nullptr);
 
 // The sensor values themselves: uint16, the active area, black not subtracted, nothing scaled,
 // demosaiced or clamped.
 // Fails and refuses as ReadRawInfo; Fails: no_scratch_space.
 [[nodiscard]] Result<Frame> ReadRaw(const std::string& path,
-                                    SampleStore store = SampleStore::kMemory);
+                                    SampleStore store = SampleStore::kMemory,
+                                    OpenFiles* files = nullptr);
 
 }  // namespace lightcal

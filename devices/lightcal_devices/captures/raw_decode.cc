@@ -26,9 +26,9 @@ constexpr double kMostPixelsPerByte = 32.0;
 
 // A LibRaw over a mapped file. It never moves: LibRaw keeps pointers into it.
 struct OpenRaw {
-  MappedFile file;
-  RawTagWalk walk;
-  LibRaw raw;
+  const MappedFile& file;
+  RawTagWalk walk{};
+  LibRaw raw{};
   bool data_error = false;  // LibRaw goes on after damaged data; we do not
 };
 
@@ -62,9 +62,6 @@ Result<void> Checked(int error, const OpenRaw& open, const std::string& path) {
 }
 
 Result<void> Open(const std::string& path, OpenRaw& open) {
-  auto mapped = MapFile(path);
-  if (!mapped) return Propagate(std::move(mapped));
-  open.file = std::move(*mapped);
   LibRaw& raw = open.raw;
   raw.set_dataerror_handler([](void* flag, const char*, int) { *static_cast<bool*>(flag) = true; },
                             &open.data_error);
@@ -159,8 +156,9 @@ Result<void> WriteSamples(OpenRaw& open, const std::string& path, int descriptor
                  "LibRaw gives no sensor values for this kind of RAW; convert it to a DNG");
 }
 
-Result<void> Decode(const std::string& path, bool with_samples, int descriptor, RawAnswer& answer) {
-  const auto open = std::make_unique<OpenRaw>();
+Result<void> Decode(const std::string& path, const MappedFile& file, bool with_samples,
+                    int descriptor, RawAnswer& answer) {
+  const std::unique_ptr<OpenRaw> open(new OpenRaw{file});
   if (auto ok = Open(path, *open); !ok) return ok;
   if (with_samples) {
     if (auto ok = WriteSamples(*open, path, descriptor, answer); !ok) return ok;
@@ -188,11 +186,12 @@ void Describe(const Error& error, RawAnswer& answer) {
 
 }  // namespace
 
-void DecodeRaw(const std::string& path, bool with_samples, int descriptor) noexcept {
+void DecodeRaw(const std::string& path, const MappedFile& file, bool with_samples,
+               int descriptor) noexcept {
   const auto answer = std::make_unique<RawAnswer>();
   // LibRaw throws from a few of its readers.
   try {
-    const auto done = Decode(path, with_samples, descriptor, *answer);
+    const auto done = Decode(path, file, with_samples, descriptor, *answer);
     if (!done) Describe(done.error(), *answer);
   } catch (const std::exception& error) {
     Describe({ErrorKind::kRefused, "bad_picture", path,

@@ -5,10 +5,14 @@
 
 #include <string>
 
+#include "lightcal_devices/captures/mapped_file.h"
+
 namespace lightcal {
 
-// Opens the RAW with LibRaw and writes a RawAnswer, and where asked its samples, to the file
-// descriptor. Never throws; what goes wrong is in the answer, as raw.h says.
-void DecodeRaw(const std::string& path, bool with_samples, int descriptor) noexcept;
+// Reads the RAW of that path, which is mapped, with LibRaw and writes a RawAnswer, and where asked
+// its samples, to the file descriptor. Never throws; what goes wrong is in the answer, as raw.h
+// says.
+void DecodeRaw(const std::string& path, const MappedFile& file, bool with_samples,
+               int descriptor) noexcept;
 
 }  // namespace lightcal

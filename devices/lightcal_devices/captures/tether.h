@@ -46,7 +46,7 @@ struct CameraSetting {
 };
 
 // A picture in the camera's own memory.
-struct CameraFile {
+struct StoredPicture {
   std::string folder;
   std::string name;
 };
@@ -75,11 +75,13 @@ class TetheredCamera {
   [[nodiscard]] virtual Result<void> Set(const std::string& name, const std::string& choice) = 0;
   // Exposes once and returns when the camera has what it made of it, `pictures` files (2: RAW with
   // JPEG), or after `patience` what there is.   Fails: card_full, capture_failed, timeout (none).
-  [[nodiscard]] virtual Result<std::vector<CameraFile>> Capture(int pictures, Seconds patience) = 0;
+  [[nodiscard]] virtual Result<std::vector<StoredPicture>> Capture(int pictures,
+                                                                   Seconds patience) = 0;
   // Writes the whole picture to `path`; of a picture that came shorter than the camera says it is,
   // fails as io. What stands at `path` after a failure is of no use.
-  [[nodiscard]] virtual Result<void> Download(const CameraFile& file, const std::string& path) = 0;
-  [[nodiscard]] virtual Result<void> Delete(const CameraFile& file) = 0;
+  [[nodiscard]] virtual Result<void> Download(const StoredPicture& file,
+                                              const std::string& path) = 0;
+  [[nodiscard]] virtual Result<void> Delete(const StoredPicture& file) = 0;
 };
 
 // Opens lightcal_tether.so at the first call.

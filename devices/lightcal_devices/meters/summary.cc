@@ -82,7 +82,7 @@ void AddSeriesWarnings(const std::vector<double>& values, const Summary& summary
     warnings.push_back(
         {"drift", kept.device,
          "the readings drift by " + RoundedText(100.0 * *drift / median, 2) +
-             " % from first to last; let the lamp warm up ({meter.settle_first}) and measure "
+             " % from first to last; let the lamp warm up ({meter.settle}) and measure "
              "again"});
   } else if (values.size() >= kFewestForFlicker && summary.spread_relative > kFlickerSpread) {
     warnings.push_back(

@@ -4,23 +4,23 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
+
+#include "lightcal/records/json_codec.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using records::Node;
 
 constexpr std::string_view kSchema = "lightcal.tape/1";
 constexpr std::array<std::string_view, 3> kOperations = {"write", "read", "control"};
 
 struct HeaderField {
   const char* key;
-  std::string Tape::* member;
+  std::string Tape::*member;
 };
 constexpr std::array<HeaderField, 5> kHeader = {{{"driver", &Tape::driver},
                                                  {"device", &Tape::device},
@@ -55,51 +55,48 @@ std::optional<Bytes> BytesFromHex(std::string_view text) {
   return bytes;
 }
 
-void PutBytes(Json& line, const std::string& key, const Bytes& bytes) {
+void PutBytes(Node& line, const std::string& key, const Bytes& bytes) {
   if (bytes.empty()) return;
   if (IsText(bytes)) {
     std::string text(bytes.size(), ' ');
     std::ranges::transform(bytes, text.begin(), [](std::byte b) { return static_cast<char>(b); });
-    line[key] = text;
+    line.Put(key, text);
   } else {
-    line[key + "_hex"] = HexText(bytes);
+    line.Put(key + "_hex", HexText(bytes));
   }
 }
 
-std::string LineText(const Json& line) {
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string LineText(const Node& line) {
+  return PrintJson(line, records::JsonLayout::kOneLine) + "\n";
 }
 
 // One line's keys, taken one after the other; the first problem stays.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) {
-    json_ = Json::parse(text, nullptr, false);
-    if (!json_.is_object()) problem_ = "a line is one JSON object";
+    line_ = records::ParseJson(text).value_or(Node());
+    if (line_.kind != Node::Kind::kTable) problem_ = "a line is one JSON object";
   }
 
   void CheckKeys(std::initializer_list<std::string_view> known) {
     if (!problem_.empty()) return;
-    const bool all_known = std::ranges::all_of(json_.items(), [&](const auto& item) {
-      return std::ranges::find(known, item.key()) != known.end();
+    const bool all_known = std::ranges::all_of(line_.members, [&](const records::Member& member) {
+      return std::ranges::find(known, member.key) != known.end();
     });
     if (all_known) return;
     problem_ = "has a key that is none of";
     for (const std::string_view key : known) problem_ += " " + std::string(key);
   }
   std::optional<std::string> Text(const char* key) {
-    const Json* value = Find(key);
+    const Node* value = Find(key);
     if (value == nullptr) return std::nullopt;
-    if (value->is_string()) return value->get<std::string>();
+    if (value->kind == Node::Kind::kText) return value->text;
     problem_ = std::string(key) + " must be a text";
     return std::nullopt;
   }
   double Milliseconds() {
-    const Json* value = Find("t_ms");
-    if (value != nullptr && value->is_number()) {
-      const double ms = value->get<double>();
-      if (std::isfinite(ms) && ms >= 0.0) return ms;
-    }
+    const Node* value = Find("t_ms");
+    if (value != nullptr && value->IsNumber() && value->number >= 0.0) return value->number;
     Fail("t_ms must be milliseconds, 0 or more");
     return 0.0;
   }
@@ -121,12 +118,9 @@ class LineReader {
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
-  const Json* Find(const char* key) {
-    if (!problem_.empty() || !json_.contains(key)) return nullptr;
-    return &json_[key];
-  }
+  const Node* Find(const char* key) { return problem_.empty() ? line_.Find(key) : nullptr; }
 
-  Json json_;
+  Node line_;
   std::string problem_;
 };
 
@@ -174,19 +168,18 @@ std::string ReadExchange(std::string_view text, Tape& tape) {
 }  // namespace
 
 std::string TapeToText(const Tape& tape) {
-  Json header = {{"schema", kSchema}};
+  Node header = {{"schema", kSchema}};
   for (const HeaderField& field : kHeader) {
-    const std::string& value = tape.*field.member;
-    if (!value.empty()) header[field.key] = value;
+    header.Put(field.key, Node::UnlessEmpty(tape.*field.member));
   }
   std::string text = LineText(header);
   for (const TapeExchange& exchange : tape.exchanges) {
-    Json line = {{"t_ms", exchange.elapsed_ms},
+    Node line = {{"t_ms", exchange.elapsed_ms},
                  {"op", kOperations[static_cast<std::size_t>(exchange.operation)]}};
-    if (!exchange.verb.empty()) line["verb"] = exchange.verb;
+    line.Put("verb", Node::UnlessEmpty(exchange.verb));
     PutBytes(line, "sent", exchange.sent);
     PutBytes(line, "got", exchange.received);
-    if (!exchange.fault.empty()) line["fault"] = exchange.fault;
+    line.Put("fault", Node::UnlessEmpty(exchange.fault));
     text += LineText(line);
   }
   return text;

@@ -23,7 +23,7 @@ BounceChoice ChoiceOver(const PredictedLamp& lamp, const Plane& plane, const Pla
   return {EffectChoice::kGate, 0.0, lamp.BounceBound(all)};
 }
 
-void Clear(const Region& tile, IlluminanceMap& map) {
+void Clear(const PixelTile& tile, IlluminanceMap& map) {
   for (int j = tile.top; j < tile.bottom; ++j) {
     const std::ptrdiff_t row = std::ptrdiff_t{j} * map.width + tile.left;
     std::fill_n(map.lux.begin() + row, tile.width(), 0.0F);
@@ -104,8 +104,8 @@ void IlluminancePredictor::Over(const PlaneGrid& grid, IlluminanceMap& map) cons
   const auto work = [&](int index) {
     const int left = index % across * kTile;
     const int top = index / across * kTile;
-    const Region tile{left, top, std::min(left + kTile, grid.width),
-                      std::min(top + kTile, grid.height)};
+    const PixelTile tile{left, top, std::min(left + kTile, grid.width),
+                         std::min(top + kTile, grid.height)};
     Clear(tile, map);
     for (std::size_t k = 0; k < count; ++k) {
       LampAccount& account = accounts[static_cast<std::size_t>(index) * count + k];

@@ -44,7 +44,7 @@ Plane::Plane(const PlaneGrid& grid)
   along_y = grid.down_m * (1.0 / step_y);
 }
 
-SurfacePoint Plane::Nearest(const Vec3& p, const Region& region) const {
+SurfacePoint Plane::Nearest(const Vec3& p, const PixelTile& region) const {
   const Vec3 from = p - first;
   return At(std::clamp(Dot(from, along_x), region.left * step_x, (region.right - 1) * step_x),
             std::clamp(Dot(from, along_y), region.top * step_y, (region.bottom - 1) * step_y));
@@ -77,7 +77,7 @@ LampOverPlane::LampOverPlane(const PlacedLamp& lamp, const Plane& plane)
   zy_ = Dot(plane.along_y, aim);
 }
 
-LampOverPlane::Span LampOverPlane::SpanOf(const Region& region) const {
+LampOverPlane::Span LampOverPlane::SpanOf(const PixelTile& region) const {
   Span span{region.left * plane_.step_x,
             (region.right - 1) * plane_.step_x,
             region.top * plane_.step_y,
@@ -130,7 +130,7 @@ DirectForm LampOverPlane::FlatOver(const Span& span, const Source& source, doubl
   return {near, near != far};
 }
 
-DirectForm LampOverPlane::FormOver(const Region& region, EffectChoice finite_source,
+DirectForm LampOverPlane::FormOver(const PixelTile& region, EffectChoice finite_source,
                                    double tolerance) const {
   if (IsEverywhere(lamp_.source)) return {MapForm::kEven};
   const Span span = SpanOf(region);

@@ -9,7 +9,7 @@
 namespace lightcal {
 
 // Pixels [left, right) x [top, bottom).
-struct Region {
+struct PixelTile {
   int left, top, right, bottom;
   [[nodiscard]] int width() const { return right - left; }
   [[nodiscard]] int height() const { return bottom - top; }
@@ -26,7 +26,7 @@ struct Plane {
     return {first + along_x * x + along_y * y, normal};
   }
   // The pixel centres' point nearest to p, of a region.
-  [[nodiscard]] SurfacePoint Nearest(const Vec3& p, const Region& region) const;
+  [[nodiscard]] SurfacePoint Nearest(const Vec3& p, const PixelTile& region) const;
 };
 
 // Direct light over a region: `mixed` where its parts call for different forms.
@@ -40,14 +40,14 @@ class LampOverPlane {
   // lamp: with its offset in place (Settled).
   LampOverPlane(const PlacedLamp& lamp, const Plane& plane);
 
-  [[nodiscard]] DirectForm FormOver(const Region& region, EffectChoice finite_source,
+  [[nodiscard]] DirectForm FormOver(const PixelTile& region, EffectChoice finite_source,
                                     double tolerance) const;
   // Adds a form that a kernel has: all but kDark and kExact.
   void Add(MapForm form, const kernels::Tile& tile, const kernels::Corners& relative_u95) const;
 
  private:
   struct Span;  // of a region, in metres
-  [[nodiscard]] Span SpanOf(const Region& region) const;
+  [[nodiscard]] Span SpanOf(const PixelTile& region) const;
   [[nodiscard]] DirectForm BeamOver(const Span& span, const SpotCone& cone) const;
   template <class Source>
   [[nodiscard]] DirectForm FlatOver(const Span& span, const Source& source, double radius,

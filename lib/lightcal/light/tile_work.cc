@@ -21,7 +21,7 @@ class TileWork {
            const Output& out)
       : lamp_(lamp), over_(over), settings_(settings), out_(out) {}
 
-  void Do(const Region& tile, BounceChoice choice) {
+  void Do(const PixelTile& tile, BounceChoice choice) {
     EffectChoice bounce = choice.choice;
     double left_off = choice.left_off;
     if (bounce == EffectChoice::kGate) {
@@ -46,17 +46,19 @@ class TileWork {
     return out_.plane.At(i * out_.plane.step_x, j * out_.plane.step_y);
   }
   // Between the outermost pixels, s, t 0..1.
-  [[nodiscard]] SurfacePoint Inside(const Region& r, double s, double t) const {
+  [[nodiscard]] SurfacePoint Inside(const PixelTile& r, double s, double t) const {
     return out_.plane.At((r.left + s * (r.width() - 1)) * out_.plane.step_x,
                          (r.top + t * (r.height() - 1)) * out_.plane.step_y);
   }
-  [[nodiscard]] std::array<SurfacePoint, 5> FivePoints(const Region& r) const {
+  [[nodiscard]] std::array<SurfacePoint, 5> FivePoints(const PixelTile& r) const {
     return {Inside(r, 0.0, 0.0), Inside(r, 1.0, 0.0), Inside(r, 0.0, 1.0), Inside(r, 1.0, 1.0),
             Inside(r, 0.5, 0.5)};
   }
-  static bool CanSplit(const Region& r) { return r.width() > kSmallest || r.height() > kSmallest; }
+  static bool CanSplit(const PixelTile& r) {
+    return r.width() > kSmallest || r.height() > kSmallest;
+  }
   template <class Each>
-  static void Split(const Region& r, const Each& each) {
+  static void Split(const PixelTile& r, const Each& each) {
     const int x = r.width() > kSmallest ? r.left + r.width() / 2 : r.right;
     const int y = r.height() > kSmallest ? r.top + r.height() / 2 : r.bottom;
     each({r.left, r.top, x, y});
@@ -68,7 +70,7 @@ class TileWork {
   // The coordinates that kernels run over.
   class TileOf {
    public:
-    TileOf(const Region& r, const Output& out) {
+    TileOf(const PixelTile& r, const Output& out) {
       Fill(r.left, r.width(), out.plane.step_x, x_, s_);
       Fill(r.top, r.height(), out.plane.step_y, y_, t_);
       const std::ptrdiff_t at = std::ptrdiff_t{r.top} * out.map.width + r.left;
@@ -94,7 +96,7 @@ class TileWork {
   };
 
   // u95/E at the corners; absent where it is too uneven to lie between them.
-  std::optional<kernels::Corners> RelativeDoubt(const Region& r, const SourceDetail& detail,
+  std::optional<kernels::Corners> RelativeDoubt(const PixelTile& r, const SourceDetail& detail,
                                                 double left_off) const {
     std::array<double, 5> relative{};
     double known = 0.0, sum = 0.0;
@@ -117,7 +119,7 @@ class TileWork {
     return kernels::Corners{relative[0], relative[1], relative[2], relative[3]};
   }
 
-  void Direct(const Region& r, double tolerance, double left_off) {
+  void Direct(const PixelTile& r, double tolerance, double left_off) {
     const DirectForm form = over_.FormOver(r, settings_.finite_source, tolerance);
     if (form.form == MapForm::kDark && !lamp_.shape_unsure()) {
       out_.account.points[static_cast<std::size_t>(form.form)] += r.points();
@@ -127,7 +129,7 @@ class TileWork {
     const bool cut = form.mixed && CanSplit(r);
     const auto relative = cut ? std::nullopt : RelativeDoubt(r, detail, left_off);
     if (!relative && CanSplit(r)) {
-      return Split(r, [&](const Region& part) { Direct(part, tolerance, left_off); });
+      return Split(r, [&](const PixelTile& part) { Direct(part, tolerance, left_off); });
     }
     out_.account.points[static_cast<std::size_t>(form.form)] += r.points();
     const kernels::Corners corners = relative.value_or(kernels::Corners{});
@@ -151,7 +153,7 @@ class TileWork {
 
   // each(at, s, t) -> lux and u95 to add.
   template <class Each>
-  void AtEach(const Region& r, const Each& each) {
+  void AtEach(const PixelTile& r, const Each& each) {
     const double per_s = r.width() > 1 ? 1.0 / (r.width() - 1) : 0.0;
     const double per_t = r.height() > 1 ? 1.0 / (r.height() - 1) : 0.0;
     for (int j = r.top; j < r.bottom; ++j) {
@@ -164,7 +166,7 @@ class TileWork {
     }
   }
 
-  void BounceAtEach(const Region& r) {
+  void BounceAtEach(const PixelTile& r) {
     const WallLight& walls = lamp_.Walls();
     out_.account.points[static_cast<std::size_t>(MapForm::kBounce)] += r.points();
     out_.account.bounce_evaluated += r.points();
@@ -174,9 +176,9 @@ class TileWork {
     });
   }
 
-  void BounceBetween(const Region& r) {
+  void BounceBetween(const PixelTile& r) {
     if (r.width() < 3 || r.height() < 3) return BounceAtEach(r);
-    if (BendsWithin(r)) return Split(r, [&](const Region& part) { BounceBetween(part); });
+    if (BendsWithin(r)) return Split(r, [&](const PixelTile& part) { BounceBetween(part); });
     const WallLight& walls = lamp_.Walls();
     std::array<double, 9> lux{};
     for (std::size_t k = 0; k < 9; ++k) {
@@ -186,7 +188,7 @@ class TileWork {
     out_.account.bounce_evaluated += 9;
     if (!FitsBetween(r, walls, lux)) {
       if (CanSplit(r)) {
-        return Split(r, [&](const Region& part) { BounceBetween(part); });
+        return Split(r, [&](const PixelTile& part) { BounceBetween(part); });
       }
       return BounceAtEach(r);
     }
@@ -198,7 +200,7 @@ class TileWork {
 
   // Whether the region is larger than the field's features: the walls' light varies over the
   // distance to a spot on them plus that spot's own size.
-  [[nodiscard]] bool BendsWithin(const Region& r) const {
+  [[nodiscard]] bool BendsWithin(const PixelTile& r) const {
     constexpr double kReach = 1.2;
     constexpr double kOnPlane = 1e-3;  // a spot on the plane itself does not light it
     if (!CanSplit(r)) return false;
@@ -214,7 +216,7 @@ class TileWork {
   // Whether the biquadratic through 3 x 3 values meets the field at points off its nodes and off
   // its middle lines. Along the map's own border more of them: there it may touch a wall, whose
   // patches are steps to a point close by.
-  bool FitsBetween(const Region& r, const WallLight& walls, const std::array<double, 9>& v) {
+  bool FitsBetween(const PixelTile& r, const WallLight& walls, const std::array<double, 9>& v) {
     using Part = std::array<double, 2>;
     constexpr std::array<Part, 4> kChecks = {
         {{0.14, 0.31}, {0.69, 0.14}, {0.86, 0.69}, {0.31, 0.86}}};
@@ -226,7 +228,7 @@ class TileWork {
              (r.top > 0 || fits({at, 0.0})) && (r.bottom < out_.map.height || fits({at, 1.0}));
     });
   }
-  bool Fits(const Region& r, const WallLight& walls, const std::array<double, 9>& v, double s,
+  bool Fits(const PixelTile& r, const WallLight& walls, const std::array<double, 9>& v, double s,
             double t) {
     constexpr double kMargin = 0.4;  // of the share: elsewhere it may err more
     const SurfacePoint at = Inside(r, s, t);
@@ -253,7 +255,7 @@ class TileWork {
 }  // namespace
 
 std::vector<SurfacePoint> BoundPoints(const PredictedLamp& lamp, const Plane& plane,
-                                      const Region& region) {
+                                      const PixelTile& region) {
   std::vector<SurfacePoint> points;
   for (const double s : {0.0, 0.5, 1.0}) {
     for (const double t : {0.0, 0.5, 1.0}) {
@@ -268,7 +270,7 @@ std::vector<SurfacePoint> BoundPoints(const PredictedLamp& lamp, const Plane& pl
 }
 
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
-              const Region& tile, BounceChoice bounce, const TileOutput& out) {
+              const PixelTile& tile, BounceChoice bounce, const TileOutput& out) {
   TileWork(lamp, over, settings, out).Do(tile, bounce);
 }
 

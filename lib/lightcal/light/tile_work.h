@@ -29,9 +29,9 @@ struct BounceChoice {
 // Where the walls' light over direct light is looked at: corners, middles of the sides, the middle,
 // and the points nearest to where the lamp lights the walls most.
 [[nodiscard]] std::vector<SurfacePoint> BoundPoints(const PredictedLamp& lamp, const Plane& plane,
-                                                    const Region& region);
+                                                    const PixelTile& region);
 
 void WorkTile(const PredictedLamp& lamp, const LampOverPlane& over, const MapSettings& settings,
-              const Region& tile, BounceChoice bounce, const TileOutput& out);
+              const PixelTile& tile, BounceChoice bounce, const TileOutput& out);
 
 }  // namespace lightcal

@@ -11,7 +11,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kInside = 0.05;  // metres between a lamp and the wall it was moved from
+constexpr double kLampInside = 0.05;  // metres between a lamp and the wall it was moved from
 constexpr double kTouching = 1e-4;
 constexpr int kFineSide = 10, kCoarseSide = 6;
 constexpr double kFineTolerance = 3e-3, kCoarseTolerance = 5e-2;
@@ -66,7 +66,7 @@ WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail)
     : room_(room), detail_(detail) {
   const int side = detail == Detail::kFine ? kFineSide : kCoarseSide;
   PlacedLamp inside = lamp;
-  inside.pose.position_m = Clamped(lamp.pose.position_m, room, kInside);
+  inside.pose.position_m = Clamped(lamp.pose.position_m, room, kLampInside);
   patches_.reserve(static_cast<std::size_t>(6 * side * side));
   for (int axis = 0; axis < 3; ++axis) {
     AddWall(inside, axis, false, side);

@@ -10,6 +10,7 @@
 
 #include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/core/result.h"
+#include "lightcal/records/document.h"
 
 namespace lightcal {
 
@@ -62,6 +63,7 @@ struct AccuracyProfile {
 
 inline constexpr std::string_view kProfileSchema = "lightcal.profile/1";
 
+[[nodiscard]] records::Node DocumentOf(const AccuracyProfile& profile);
 // A profile.json.  Fails: not_finite.
 [[nodiscard]] Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile);
 // Refused: bad_profile, unknown_key. `where` names the file in messages. Keys left out keep their

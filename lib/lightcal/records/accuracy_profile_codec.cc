@@ -67,15 +67,15 @@ void CheckCounts(FieldReader& reader, const AccuracyProfile& profile) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile) {
+records::Node DocumentOf(const AccuracyProfile& profile) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kProfileSchema));
+  writer.Put("schema", kProfileSchema);
   records::VisitProfile(writer, profile);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  return writer.TakeTable();
+}
+
+Result<std::string> AccuracyProfileToJson(const AccuracyProfile& profile) {
+  return records::FiniteJson(DocumentOf(profile));
 }
 
 Result<AccuracyProfile> AccuracyProfileFromJson(std::string_view text, std::string_view where) {

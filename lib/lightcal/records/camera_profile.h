@@ -14,6 +14,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/records/camera_sensitivities.h"
 #include "lightcal/records/capture.h"
+#include "lightcal/records/document.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/frame.h"
 
@@ -105,6 +106,7 @@ struct CameraProfile {
 
 inline constexpr std::string_view kCameraSchema = "lightcal.camera/1";
 
+[[nodiscard]] records::Node DocumentOf(const CameraProfile& profile);
 // Fails: not_finite. Refused: bad_camera, unknown_key, with file and key.
 [[nodiscard]] Result<std::string> CameraProfileToJson(const CameraProfile& profile);
 [[nodiscard]] Result<CameraProfile> CameraProfileFromJson(std::string_view text,

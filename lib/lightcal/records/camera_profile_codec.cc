@@ -112,7 +112,7 @@ constexpr auto kVisitSensitivities = [](auto& archive, auto& sensitivities) {
 };
 
 template <class Archive, class SomeProfile>
-void VisitProfile(Archive& archive, SomeProfile& profile) {
+void VisitCameraProfile(Archive& archive, SomeProfile& profile) {
   archive.Text("camera", profile.camera);
   archive.Integer("width", profile.width);
   archive.Integer("height", profile.height);
@@ -168,15 +168,15 @@ void CheckProfile(FieldReader& reader, const CameraProfile& profile) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+records::Node DocumentOf(const CameraProfile& profile) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kCameraSchema));
-  records::VisitProfile(writer, profile);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  writer.Put("schema", kCameraSchema);
+  records::VisitCameraProfile(writer, profile);
+  return writer.TakeTable();
+}
+
+Result<std::string> CameraProfileToJson(const CameraProfile& profile) {
+  return records::FiniteJson(DocumentOf(profile));
 }
 
 Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_view where) {
@@ -190,7 +190,7 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
   records::FieldReader reader(*node, "", reading);
   CameraProfile profile;
   records::ReadSchema(reader);
-  records::VisitProfile(reader, profile);
+  records::VisitCameraProfile(reader, profile);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();
   records::CheckProfile(reader, profile);

@@ -29,4 +29,16 @@ inline constexpr double kMarkerPerSquare = 0.75;  // side of a marker / side of 
   return board.columns * board.rows / 2;
 }
 
+// A rectangle in metres; (x, z) is its lower left corner in wall coordinates.
+struct BoardRectangle {
+  double x = 0.0, z = 0.0, width = 0.0, height = 0.0;
+  bool black = true;
+};
+
+// Where four squares meet.
+struct BoardCorner {
+  std::array<double, 2> wall_m{};  // x, z in wall coordinates
+  std::array<double, 2> pixel{};   // x to the right, y down; pixel centres are at .5
+};
+
 }  // namespace lightcal

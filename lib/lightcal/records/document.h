@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file's content as a tree, whichever syntax it was written in: what the JSON and TOML codecs
-// produce and what the record codecs read and write. Internal to the records room.
+// A document as a tree, whichever syntax it is written in: what the JSON and TOML codecs read and
+// print, what the record codecs visit, and what commands answer. A tree is written as it will look:
+//   Node light = {{"name", lamp.name}, {"cct_K", lamp.cct}, {"xy", {xy.x, xy.y}}};
+// A member whose value is absent (an empty optional) is left out.
 #pragma once
 
+#include <array>
+#include <concepts>
 #include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "lightcal/core/units.h"
 
 namespace lightcal::records {
 
@@ -24,19 +32,66 @@ struct Node {
   std::vector<Member> members;  // kTable, in file order
   int line = 0;                 // 1-based; 0 = the syntax does not say
 
+  Node() = default;  // null
+  template <std::same_as<bool> T>
+  Node(T value) : kind(Kind::kBoolean), boolean(value) {}
+  template <std::integral T>
+  requires(!std::same_as<T, bool>) Node(T value)
+      : Node(OfInteger(static_cast<std::int64_t>(value))) {}
+  template <std::floating_point T>
+  Node(T value) : Node(OfNumber(static_cast<double>(value))) {}
+  template <class Unit>
+  Node(const Quantity<Unit>& value) : Node(value.value()) {}
+  Node(std::string_view value);
+  Node(const std::string& value);
+  Node(const char* value);
+  template <class T>
+  Node(const std::optional<T>& value) {
+    if (value) *this = Node(*value);
+  }
+  template <class T>
+  Node(const std::vector<T>& values) : Node(List(values)) {}
+  template <class T, std::size_t N>
+  Node(const std::array<T, N>& values) : Node(List(values)) {}
+  Node(std::initializer_list<double> values);
+  Node(std::initializer_list<int> values);
+  Node(std::initializer_list<Member> all);  // a table
+
   [[nodiscard]] static Node Table();
   [[nodiscard]] static Node Array();
-  [[nodiscard]] static Node Text(std::string_view text);
-  [[nodiscard]] static Node Number(double number);
-  [[nodiscard]] static Node Integer(std::int64_t integer);
-  [[nodiscard]] static Node Boolean(bool boolean);
+  // [value, ...]
+  template <class Range>
+  [[nodiscard]] static Node List(const Range& values) {
+    return List(values, [](const auto& value) { return Node(value); });
+  }
+  // [of(value), ...]
+  template <class Range, class Of>
+  [[nodiscard]] static Node List(const Range& values, const Of& of) {
+    Node array = Array();
+    for (const auto& value : values) array.items.push_back(of(value));
+    return array;
+  }
+  // Absent where a text, list or table holds nothing.
+  [[nodiscard]] static Node UnlessEmpty(Node value);
 
   [[nodiscard]] bool IsNumber() const { return kind == Kind::kNumber || kind == Kind::kInteger; }
   // The member of a table, or null.
   [[nodiscard]] const Node* Find(std::string_view key) const;
+  // The text of a member; empty where there is none.
+  [[nodiscard]] std::string TextAt(std::string_view key) const;
+  // One more member, unless its value is absent.
+  void Put(std::string_view key, Node value);
+  // The members of another table behind one's own.
+  void Put(Node table);
+
+ private:
+  static Node OfInteger(std::int64_t value);
+  static Node OfNumber(double value);
 };
 
 struct Member {
+  Member(std::string_view name, Node held);
+
   std::string key;
   Node value;
 };

@@ -22,11 +22,25 @@ std::string NumberText(double value) {
   return ShortestText(value);
 }
 
-std::string Assignment(std::string_view key, double value) {
-  return std::string(key) + " = " + NumberText(value);
+}  // namespace
+
+std::string FaultOfNumber(std::string_view key, double value, const NumberRule& rule) {
+  const bool finite = std::isfinite(value);
+  if (finite && rule.holds(value)) return "";
+  return std::string(key) + " = " + NumberText(value) + ": " +
+         std::string(finite ? rule.demand : "must be a finite number");
 }
 
-}  // namespace
+std::string FaultOfText(std::string_view key, std::string_view value) {
+  if (std::ranges::none_of(value, IsControl)) return "";
+  return std::string(key) + " = " + Quoted(value) + " holds a control character";
+}
+
+std::string FaultOfChromaticity(std::string_view key, Xy xy) {
+  if (xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0) return "";
+  return std::string(key) + " = [" + NumberText(xy.x) + ", " + NumberText(xy.y) +
+         "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1";
+}
 
 std::string Quoted(std::string_view text) {
   std::string shown = "\"";
@@ -93,15 +107,10 @@ std::optional<double> FieldReader::NumberOf(const Node& node, std::string_view k
     Fail(key, std::string(key) + " must be a number, not " + std::string(KindName(node.kind)));
     return std::nullopt;
   }
-  if (!std::isfinite(node.number)) {
-    Fail(key, Assignment(key, node.number) + ": must be a finite number");
-    return std::nullopt;
-  }
-  if (!rule.holds(node.number)) {
-    Fail(key, Assignment(key, node.number) + ": " + std::string(rule.demand));
-    return std::nullopt;
-  }
-  return node.number;
+  const std::string fault = FaultOfNumber(key, node.number, rule);
+  if (fault.empty()) return node.number;
+  Fail(key, fault);
+  return std::nullopt;
 }
 
 std::optional<double> FieldReader::TakeNumber(std::string_view key, const NumberRule& rule) {
@@ -126,10 +135,8 @@ void FieldReader::Integer(std::string_view key, int& out) {
 void FieldReader::Text(std::string_view key, std::string& out) {
   const Node* value = Take(key, Node::Kind::kText);
   if (value == nullptr) return;
-  if (std::ranges::any_of(value->text, IsControl)) {
-    Fail(key, std::string(key) + " = " + Quoted(value->text) + " holds a control character");
-    return;
-  }
+  const std::string fault = FaultOfText(key, value->text);
+  if (!fault.empty()) return Fail(key, fault);
   out = value->text;
 }
 
@@ -168,11 +175,8 @@ bool FieldReader::TakeNumbers(std::string_view key, std::span<double> out, const
 void FieldReader::Chromaticity(std::string_view key, std::optional<Xy>& out) {
   std::array<double, 2> xy{};
   if (!TakeNumbers(key, xy, kAnyNumber)) return;
-  if (xy[0] < 0.0 || xy[1] <= 0.0 || xy[0] + xy[1] > 1.0) {
-    Fail(key, std::string(key) + " = [" + ShortestText(xy[0]) + ", " + ShortestText(xy[1]) +
-                  "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1");
-    return;
-  }
+  const std::string fault = FaultOfChromaticity(key, {xy[0], xy[1]});
+  if (!fault.empty()) return Fail(key, fault);
   out = Xy{xy[0], xy[1]};
 }
 
@@ -210,7 +214,7 @@ void FieldReader::Require(std::initializer_list<std::string_view> keys) {
 
 void FieldReader::Finish() {
   for (const auto& [key, value] : table_->members) {
-    if (std::ranges::find(known_, key) != known_.end()) continue;
+    if (lenient_ || std::ranges::find(known_, key) != known_.end()) continue;
     Fail("unknown_key", key, "unknown key " + Quoted(key) + DidYouMean(key, known_));
   }
   for (const std::string_view key : required_) {

@@ -131,6 +131,8 @@ class FieldReader {
   void Require(std::initializer_list<std::string_view> keys);
   // Takes a key without reading it.
   void Ignore(std::string_view key) { (void)Take(key, std::nullopt); }
+  // This table may hold more than is asked for.
+  void IgnoreRest() { lenient_ = true; }
   [[nodiscard]] bool Has(std::string_view key) const { return table_->Find(key) != nullptr; }
 
   // Refuses the value of `key`, or the table itself where the key is absent.
@@ -162,6 +164,7 @@ class FieldReader {
   ReadingOfFile* file_;
   std::vector<std::string_view> known_;
   std::vector<std::string_view> required_;
+  bool lenient_ = false;
 };
 
 // `; did you mean "distance_m"?`, or the known words where none is near.

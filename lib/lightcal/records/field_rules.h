@@ -2,7 +2,10 @@
 // What a number in a file must satisfy, with the words that say so. Internal to the records room.
 #pragma once
 
+#include <string>
 #include <string_view>
+
+#include "lightcal/colorimetry/chromaticity.h"
 
 namespace lightcal::records {
 
@@ -35,5 +38,11 @@ inline constexpr NumberRule kHalfAngleRule{[](double v) { return v >= 0.0 && v <
                                            "must be a half angle from 0 to 180 degrees"};
 inline constexpr NumberRule kFullAngleRule{[](double v) { return v > 0.0 && v <= 360.0; },
                                            "must be a full angle above 0, up to 360 degrees"};
+
+// What is wrong with one value, with the key before it; empty where nothing is.
+[[nodiscard]] std::string FaultOfNumber(std::string_view key, double value, const NumberRule& rule);
+[[nodiscard]] std::string FaultOfText(std::string_view key, std::string_view value);
+// A real colour has x >= 0, y > 0, x + y <= 1.
+[[nodiscard]] std::string FaultOfChromaticity(std::string_view key, Xy xy);
 
 }  // namespace lightcal::records

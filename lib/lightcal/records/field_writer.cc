@@ -27,29 +27,7 @@ double RoundestDegrees(Radians angle) {
 }  // namespace
 
 void FieldWriter::Degrees(std::string_view key, Radians value, const NumberRule& /*rule*/) {
-  if (value.value() != 0.0) Put(key, Node::Number(RoundestDegrees(value)));
-}
-
-void FieldWriter::Integers(std::string_view key, const std::vector<int>& values) {
-  Node array = Node::Array();
-  for (const int value : values) array.items.push_back(Node::Integer(value));
-  Put(key, std::move(array));
-}
-
-void FieldWriter::Texts(std::string_view key, const std::vector<std::string>& values) {
-  Node array = Node::Array();
-  for (const std::string& value : values) array.items.push_back(Node::Text(value));
-  Put(key, std::move(array));
-}
-
-void FieldWriter::Put(std::string_view key, Node value) {
-  table_.members.push_back({std::string(key), std::move(value)});
-}
-
-void FieldWriter::PutNumbers(std::string_view key, std::span<const double> values) {
-  Node array = Node::Array();
-  for (const double value : values) array.items.push_back(Node::Number(value));
-  Put(key, std::move(array));
+  if (value.value() != 0.0) Put(key, RoundestDegrees(value));
 }
 
 std::optional<std::string> FindNotFinite(const Node& node) {

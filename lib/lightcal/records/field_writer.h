@@ -23,35 +23,35 @@ namespace lightcal::records {
 class FieldWriter {
  public:
   void Number(std::string_view key, double value, const NumberRule& /*rule*/ = kAnyNumber) {
-    Put(key, Node::Number(value));
+    Put(key, Unsigned0(value));
   }
   void Number(std::string_view key, const std::optional<double>& value,
               const NumberRule& /*rule*/ = kAnyNumber) {
-    if (value) Put(key, Node::Number(*value));
+    if (value) Put(key, Unsigned0(*value));
   }
   template <class Kind>
   void Number(std::string_view key, const std::optional<Quantity<Kind>>& value,
               const NumberRule& /*rule*/ = kAnyNumber) {
-    if (value) Put(key, Node::Number(value->value()));
+    if (value) Put(key, Unsigned0(value->value()));
   }
   template <class Kind>
   void Number(std::string_view key, const Quantity<Kind>& value,
               const NumberRule& /*rule*/ = kAnyNumber) {
-    Put(key, Node::Number(value.value()));
+    Put(key, Unsigned0(value.value()));
   }
   void Degrees(std::string_view key, Radians value, const NumberRule& rule);
-  void Integer(std::string_view key, int value) { Put(key, Node::Integer(value)); }
+  void Integer(std::string_view key, int value) { Put(key, value); }
   void Text(std::string_view key, const std::string& value) {
-    if (!value.empty()) Put(key, Node::Text(value));
+    if (!value.empty()) Put(key, value);
   }
   void Flag(std::string_view key, bool value) {
-    if (value) Put(key, Node::Boolean(true));
+    if (value) Put(key, true);
   }
   // As Flag, but written when false too.
-  void Truth(std::string_view key, bool value) { Put(key, Node::Boolean(value)); }
+  void Truth(std::string_view key, bool value) { Put(key, value); }
   template <class Enum>
   void Word(std::string_view key, Enum value, std::span<const std::string_view> words) {
-    Put(key, Node::Text(words[static_cast<std::size_t>(value)]));
+    Put(key, words[static_cast<std::size_t>(value)]);
   }
   // The first word is what an absent key means.
   template <class Enum>
@@ -75,8 +75,8 @@ class FieldWriter {
   void Chromaticity(std::string_view key, const std::optional<Xy>& xy) {
     if (xy) PutNumbers(key, std::array{xy->x, xy->y});
   }
-  void Integers(std::string_view key, const std::vector<int>& values);
-  void Texts(std::string_view key, const std::vector<std::string>& values);
+  void Integers(std::string_view key, const std::vector<int>& values) { Put(key, values); }
+  void Texts(std::string_view key, const std::vector<std::string>& values) { Put(key, values); }
 
   template <class T, class Visit>
   void Object(std::string_view key, const std::optional<T>& value, const Visit& visit) {
@@ -90,21 +90,27 @@ class FieldWriter {
   }
   template <class T, class Visit>
   void List(std::string_view key, const std::vector<T>& values, const Visit& visit) {
-    Node array = Node::Array();
-    for (const T& value : values) {
-      FieldWriter inner;
-      visit(inner, value);
-      array.items.push_back(std::move(inner.table_));
-    }
-    Put(key, std::move(array));
+    Put(key, Node::List(values, [&](const T& value) { return Visited(value, visit); }));
   }
   void Require(std::initializer_list<std::string_view> /*keys*/) {}
 
-  void Put(std::string_view key, Node value);
+  void Put(std::string_view key, Node value) { table_.Put(key, std::move(value)); }
   [[nodiscard]] Node TakeTable() { return std::move(table_); }
 
+  // The table that visit(archive, value) writes.
+  template <class T, class Visit>
+  [[nodiscard]] static Node Visited(const T& value, const Visit& visit) {
+    FieldWriter writer;
+    visit(writer, value);
+    return writer.TakeTable();
+  }
+
  private:
-  void PutNumbers(std::string_view key, std::span<const double> values);
+  // No file says -0.
+  static double Unsigned0(double value) { return value == 0.0 ? 0.0 : value; }
+  void PutNumbers(std::string_view key, std::span<const double> values) {
+    Put(key, Node::List(values, Unsigned0));
+  }
 
   Node table_ = Node::Table();
 };

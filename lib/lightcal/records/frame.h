@@ -138,4 +138,8 @@ struct Frame {
   bool in_file = false;               // they lie in a mapped file, from which they can come back
 };
 
+// Where decoded samples live. A scratch file is mapped and already deleted: the system drops its
+// pages when memory is short, so that any number of frames can be open at once.
+enum class SampleStore { kMemory, kScratchFile };
+
 }  // namespace lightcal

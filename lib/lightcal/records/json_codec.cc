@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/records/json_codec.h"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
+#include "lightcal/records/field_writer.h"
+
 namespace lightcal::records {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kDeepest = 64;
 
@@ -17,18 +18,18 @@ constexpr std::size_t kDeepest = 64;
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
   bool null() override { return Put(Node{}); }
-  bool boolean(bool value) override { return Put(Node::Boolean(value)); }
-  bool number_integer(number_integer_t value) override { return Put(Node::Integer(value)); }
+  bool boolean(bool value) override { return Put(Node(value)); }
+  bool number_integer(number_integer_t value) override { return Put(Node(value)); }
   bool number_unsigned(number_unsigned_t value) override {
     constexpr auto kLargest =
         static_cast<number_unsigned_t>(std::numeric_limits<std::int64_t>::max());
-    if (value > kLargest) return Put(Node::Number(static_cast<double>(value)));
-    return Put(Node::Integer(static_cast<std::int64_t>(value)));
+    if (value > kLargest) return Put(Node(static_cast<double>(value)));
+    return Put(Node(static_cast<std::int64_t>(value)));
   }
   bool number_float(number_float_t value, const string_t& /*text*/) override {
-    return Put(Node::Number(value));
+    return Put(Node(value));
   }
-  bool string(string_t& value) override { return Put(Node::Text(value)); }
+  bool string(string_t& value) override { return Put(Node(value)); }
   bool binary(binary_t& /*value*/) override { return Stop("binary value"); }
   bool start_object(std::size_t /*size*/) override { return Open(Node::Table()); }
   bool start_array(std::size_t /*size*/) override { return Open(Node::Array()); }
@@ -86,7 +87,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     } else if (OpenNode& parent = open_.back(); parent.node.kind == Node::Kind::kArray) {
       parent.node.items.push_back(std::move(node));
     } else {
-      parent.node.members.push_back({std::move(parent.key), std::move(node)});
+      parent.node.members.emplace_back(parent.key, std::move(node));
     }
     return true;
   }
@@ -108,31 +109,71 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   JsonSyntaxError error_;
 };
 
-Json JsonFromNode(const Node& node) {
-  switch (node.kind) {
-    case Node::Kind::kNull:
-      return nullptr;
-    case Node::Kind::kBoolean:
-      return node.boolean;
-    case Node::Kind::kInteger:
-      return node.integer;
-    case Node::Kind::kNumber:
-      return node.number == 0.0 ? Json(0.0) : Json(node.number);
-    case Node::Kind::kText:
-      return node.text;
-    case Node::Kind::kArray: {
-      Json array = Json::array();
-      for (const Node& item : node.items) array.push_back(JsonFromNode(item));
-      return array;
-    }
-    case Node::Kind::kTable: {
-      Json table = Json::object();
-      for (const auto& [key, value] : node.members) table[key] = JsonFromNode(value);
-      return table;
+class Printer {
+ public:
+  explicit Printer(JsonLayout layout) : pretty_(layout == JsonLayout::kPretty) {}
+
+  void Print(const Node& node) {
+    switch (node.kind) {
+      case Node::Kind::kNull:
+        text_ += "null";
+        break;
+      case Node::Kind::kBoolean:
+        text_ += node.boolean ? "true" : "false";
+        break;
+      case Node::Kind::kInteger:
+        text_ += std::to_string(node.integer);
+        break;
+      case Node::Kind::kNumber:
+        text_ += nlohmann::json(node.number).dump();
+        break;
+      case Node::Kind::kText:
+        PrintText(node.text);
+        break;
+      case Node::Kind::kArray:
+        PrintAll(node.items, '[', ']', [&](const Node& item) { Print(item); });
+        break;
+      case Node::Kind::kTable:
+        PrintAll(node.members, '{', '}', [&](const Member& member) {
+          PrintText(member.key);
+          text_ += pretty_ ? ": " : ":";
+          Print(member.value);
+        });
+        break;
     }
   }
-  return nullptr;
-}
+
+  [[nodiscard]] std::string Take() { return std::move(text_); }
+
+ private:
+  template <class T, class One>
+  void PrintAll(const std::vector<T>& all, char open, char close, const One& one) {
+    text_ += open;
+    ++depth_;
+    for (const T& each : all) {
+      if (&each != all.data()) text_ += ',';
+      NewLine();
+      one(each);
+    }
+    --depth_;
+    if (!all.empty()) NewLine();
+    text_ += close;
+  }
+  void NewLine() {
+    if (pretty_) text_.append(1, '\n').append(2 * depth_, ' ');
+  }
+  void PrintText(const std::string& text) {
+    const bool plain = std::ranges::all_of(
+        text, [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
+    text_ +=
+        plain ? '"' + text + '"'
+              : nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  }
+
+  bool pretty_;
+  std::size_t depth_ = 0;
+  std::string text_;
+};
 
 }  // namespace
 
@@ -145,8 +186,16 @@ tl::expected<Node, JsonSyntaxError> ParseJson(std::string_view text) {
 }
 
 std::string PrintJson(const Node& node, JsonLayout layout) {
-  const int indent = layout == JsonLayout::kPretty ? 2 : -1;
-  return JsonFromNode(node).dump(indent, ' ', false, Json::error_handler_t::replace);
+  Printer printer(layout);
+  printer.Print(node);
+  return printer.Take();
+}
+
+Result<std::string> FiniteJson(const Node& node) {
+  if (const auto where = FindNotFinite(node)) {
+    return Failed("not_finite", *where, "is not a finite number and cannot be written");
+  }
+  return PrintJson(node, JsonLayout::kPretty) + "\n";
 }
 
 }  // namespace lightcal::records

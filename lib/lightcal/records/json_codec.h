@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// JSON text <-> Node. Internal to the records room.
+// JSON text <-> Node: the one place that knows the syntax.
 #pragma once
 
 #include <string>
@@ -24,5 +24,9 @@ enum class JsonLayout { kOneLine, kPretty };
 // Numbers read back as the same double; one that is not finite is written null, which no reader
 // takes for a number. Bytes that are not UTF-8 become U+FFFD.
 [[nodiscard]] std::string PrintJson(const Node& node, JsonLayout layout);
+
+// A file of its own: pretty, with a final newline. Fails: not_finite, naming where
+// ("lights[0].fit").
+[[nodiscard]] Result<std::string> FiniteJson(const Node& node);
 
 }  // namespace lightcal::records

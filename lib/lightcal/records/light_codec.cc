@@ -109,6 +109,15 @@ void VisitMeasures(Archive& archive, SomeLight& light) {
 }
 
 template <class Archive, class SomeLight>
+void VisitSizes(Archive& archive, SomeLight& light) {
+  archive.Number("diameter_m", light.diameter_m, kNotNegative);
+  archive.Number("width_m", light.width_m, kNotNegative);
+  archive.Number("height_m", light.height_m, kNotNegative);
+  archive.Number("length_m", light.length_m, kNotNegative);
+  archive.Number("radius_m", light.radius_m, kNotNegative);
+}
+
+template <class Archive, class SomeLight>
 void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Group("cone", [&](auto& cone) {
     cone.Number("inner_deg", light.inner_deg, kHalfAngleRule);
@@ -116,17 +125,19 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
     cone.Number("inner_u95_deg", light.inner_u95_deg, kNotNegative);
     cone.Number("outer_u95_deg", light.outer_u95_deg, kNotNegative);
   });
-  archive.Number("diameter_m", light.diameter_m, kNotNegative);
-  archive.Number("width_m", light.width_m, kNotNegative);
-  archive.Number("height_m", light.height_m, kNotNegative);
-  archive.Number("length_m", light.length_m, kNotNegative);
-  archive.Number("radius_m", light.radius_m, kNotNegative);
+  VisitSizes(archive, light);
   archive.Number("angular_diameter_deg", light.angular_diameter_deg, kNotNegative);
   archive.Array("position_m", light.position_m);
   archive.Array("position_u95_m", light.position_u95_m, kNotNegative);
   archive.Array("aim", light.aim);
   archive.Array("axis", light.axis);
   archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
+}
+
+template <class Archive, class SomeLight>
+void VisitCauses(Archive& archive, SomeLight& light) {
+  archive.List("effects", light.effects, kVisitEffect);
+  archive.List("budget", light.budget, kVisitBudgetPart);
 }
 
 constexpr auto kVisitLight = [](auto& archive, auto& light) {
@@ -137,8 +148,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitDistribution(archive, light.distribution);
   archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
   archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
-  archive.List("effects", light.effects, kVisitEffect);
-  archive.List("budget", light.budget, kVisitBudgetPart);
+  VisitCauses(archive, light);
   archive.List("residuals", light.residuals, kVisitResidual);
   archive.Array("covariance_lnI_d0_E0", light.covariance_lnI_d0_E0);
   archive.Require({"name", "kind"});
@@ -149,6 +159,48 @@ void VisitFile(Archive& archive, SomeFile& file) {
   archive.List("lights", file.lights, kVisitLight);
   VisitProvenance(archive, file.provenance);
   archive.Require({"lights"});
+}
+
+// A light of a lightcal.preset/1, which holds much besides.
+constexpr auto kReadPresetLight = [](FieldReader& reader, FittedLight& light) {
+  reader.Text("name", light.name);
+  reader.Word("kind", light.kind, kLightKindNames);
+  reader.Group("photometry", [&](FieldReader& group) {
+    VisitMeasures(group, light);
+    group.IgnoreRest();
+  });
+  reader.Group("color", [&](FieldReader& group) {
+    group.Object("cct_K", light.color.cct_K, kVisitUncertain);
+    group.Object("duv", light.color.duv, kVisitUncertain);
+    group.Chromaticity("xy", light.color.xy);
+    group.IgnoreRest();
+  });
+  reader.Group("geometry", [&](FieldReader& group) {
+    group.Array("position_m", light.position_m);
+    group.Array("aim", light.aim);
+    group.Array("axis", light.axis);
+    group.Number("inner_deg", light.inner_deg, kHalfAngleRule);
+    group.Number("outer_deg", light.outer_deg, kHalfAngleRule);
+    VisitSizes(group, light);
+    group.IgnoreRest();
+  });
+  reader.Require({"name", "kind", "photometry", "color", "geometry"});
+  reader.IgnoreRest();
+};
+
+Result<LightFile> LightsOfPreset(const Node& root, std::string_view where) {
+  ReadingOfFile reading{std::string(where), "bad_preset", PlaceStyle::kJson, std::nullopt};
+  FieldReader reader(root, "", reading);
+  LightFile file;
+  reader.List("lights", file.lights, kReadPresetLight);
+  VisitProvenance(reader, file.provenance);
+  reader.Require({"lights"});
+  reader.IgnoreRest();
+  reader.Finish();
+  if (!reading.error) return file;
+  reading.error->message = "is not as lightcal writes it: " + reading.error->message +
+                           "; export it again with {preset.target} json";
+  return tl::unexpected(*std::move(reading.error));
 }
 
 void ReadSchema(FieldReader& reader) {
@@ -166,24 +218,39 @@ void ReadSchema(FieldReader& reader) {
 }  // namespace
 }  // namespace records
 
-Result<std::string> LightFileToJson(const LightFile& file) {
+records::Node DocumentOf(const LightFile& file) {
   records::FieldWriter writer;
-  writer.Text("schema", std::string(kLightSchema));
+  writer.Put("schema", kLightSchema);
   records::VisitFile(writer, file);
-  const records::Node node = writer.TakeTable();
-  if (const auto where = records::FindNotFinite(node)) {
-    return Failed("not_finite", *where, "is not a finite number and cannot be written");
-  }
-  return PrintJson(node, records::JsonLayout::kPretty) + "\n";
+  return writer.TakeTable();
 }
 
-Result<LightFile> LightFileFromJson(std::string_view text, std::string_view where) {
+records::Node ExplanationOf(const FittedLight& light) {
+  records::FieldWriter writer;
+  writer.Text("name", light.name);
+  records::VisitCauses(writer, light);
+  return writer.TakeTable();
+}
+
+records::Node DocumentOf(const Uncertain& value) {
+  return records::FieldWriter::Visited(value, records::kVisitUncertain);
+}
+
+Result<std::string> LightFileToJson(const LightFile& file) {
+  return records::FiniteJson(DocumentOf(file));
+}
+
+static Result<LightFile> LightsOfDocument(std::string_view text, std::string_view where,
+                                          std::string_view preset_schema) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   const auto node = records::ParseJson(text);
   if (!node) return Refused("bad_light", std::string(where), node.error().message);
   if (node->kind != records::Node::Kind::kTable) {
     return Refused("bad_light", std::string(where), "a light.json must be one JSON object");
+  }
+  if (!preset_schema.empty() && node->TextAt("schema") == preset_schema) {
+    return records::LightsOfPreset(*node, where);
   }
   records::ReadingOfFile reading{std::string(where), "bad_light", records::PlaceStyle::kJson,
                                  std::nullopt};
@@ -195,6 +262,14 @@ Result<LightFile> LightFileFromJson(std::string_view text, std::string_view wher
   reader.Finish();
   if (reading.error) return tl::unexpected(*std::move(reading.error));
   return file;
+}
+
+Result<LightFile> LightFileFromJson(std::string_view text, std::string_view where) {
+  return LightsOfDocument(text, where, "");
+}
+
+Result<LightFile> LightFileOrPresetFromJson(std::string_view text, std::string_view where) {
+  return LightsOfDocument(text, where, "lightcal.preset/1");
 }
 
 }  // namespace lightcal

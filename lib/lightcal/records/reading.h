@@ -52,4 +52,12 @@ struct Reading {
   std::optional<double> calibration_factor;  // already in illuminance: shown value times this
 };
 
+// What is wrong with a reading: the key it is wrong at, and what to do.
+struct ReadingFault {
+  std::string key, message;
+};
+// The first fault of a reading, absent where it is one: numbers finite and in their ranges, a place
+// given one way, something measured, marks that agree. A journal takes no other.
+[[nodiscard]] std::optional<ReadingFault> FaultOf(const Reading& reading);
+
 }  // namespace lightcal

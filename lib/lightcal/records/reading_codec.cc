@@ -46,39 +46,82 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Number("calibration_factor", reading.calibration_factor, kPositive);
 }
 
-void CheckPlace(FieldReader& reader, const Reading& reading) {
+// An archive that neither reads nor writes: the rules of the fields alone.
+class FieldChecker {
+ public:
+  template <class Unit>
+  void Number(const char* key, const std::optional<Quantity<Unit>>& value,
+              const NumberRule& rule = kAnyNumber) {
+    if (value) Keep(key, FaultOfNumber(key, value->value(), rule));
+  }
+  void Number(const char* key, const std::optional<double>& value,
+              const NumberRule& rule = kAnyNumber) {
+    if (value) Keep(key, FaultOfNumber(key, *value, rule));
+  }
+  void Array(const char* key, const std::optional<Vec3>& values) {
+    for (const double value : values.value_or(Vec3{})) {
+      Keep(key, FaultOfNumber(key, value, kAnyNumber));
+    }
+  }
+  void Degrees(const char* key, Radians value, const NumberRule& rule) {
+    Keep(key, FaultOfNumber(key, DegreesFromRadians(value), rule));
+  }
+  void Text(const char* key, const std::string& value) { Keep(key, FaultOfText(key, value)); }
+  void Chromaticity(const char* key, const std::optional<Xy>& xy) {
+    if (xy) Keep(key, FaultOfChromaticity(key, *xy));
+  }
+  void Flag(const char* /*key*/, bool /*value*/) {}
+  template <class Enum, class Words>
+  void WordUnlessFirst(const char* /*key*/, Enum /*value*/, const Words& /*words*/) {}
+
+  [[nodiscard]] const std::optional<ReadingFault>& fault() const { return fault_; }
+
+ private:
+  void Keep(const char* key, std::string message) {
+    if (!fault_ && !message.empty()) fault_ = ReadingFault{key, std::move(message)};
+  }
+
+  std::optional<ReadingFault> fault_;
+};
+
+std::optional<ReadingFault> FaultOfPlace(const Reading& reading) {
   if (reading.distance && (reading.position_m || reading.normal)) {
-    reader.Fail("distance_m", "give distance_m, or position_m with normal, not both");
+    return ReadingFault{"distance_m", "give distance_m, or position_m with normal, not both"};
   }
   if (reading.position_m.has_value() != reading.normal.has_value()) {
-    reader.Fail(reading.normal ? "normal" : "position_m",
-                "position_m and normal belong together: where the meter stood and where it faced");
+    return ReadingFault{
+        reading.normal ? "normal" : "position_m",
+        "position_m and normal belong together: where the meter stood and where it faced"};
   }
   if (reading.normal && Length(*reading.normal) == 0.0) {
-    reader.Fail("normal", "normal = [0, 0, 0] is no direction");
+    return ReadingFault{"normal", "normal = [0, 0, 0] is no direction"};
   }
+  return std::nullopt;
 }
 
-void CheckMeasured(FieldReader& reader, const Reading& reading) {
-  const bool measured =
-      reading.illuminance || reading.cct || reading.xy || !reading.spectrum_file.empty();
-  if (!measured) {
-    reader.Fail("light", "nothing was measured: give illuminance_lx, xy, cct_K or spectrum");
+// Of fields that are right each by itself.
+std::optional<ReadingFault> FaultTogether(const Reading& reading) {
+  if (auto fault = FaultOfPlace(reading)) return fault;
+  if (!reading.illuminance && !reading.cct && !reading.xy && reading.spectrum_file.empty()) {
+    return ReadingFault{"light",
+                        "nothing was measured: give illuminance_lx, xy, cct_K or spectrum"};
   }
-  if (reading.duv && !reading.cct) reader.Fail("duv", "duv needs cct_K beside it");
+  if (reading.duv && !reading.cct) return ReadingFault{"duv", "duv needs cct_K beside it"};
   if (reading.over_range && !reading.illuminance) {
-    reader.Fail("over_range", "over_range needs illuminance_lx: the largest value the meter shows");
+    return ReadingFault{"over_range",
+                        "over_range needs illuminance_lx: the largest value the meter shows"};
   }
   if (reading.under_range && !reading.illuminance) {
-    reader.Fail("under_range",
-                "under_range needs illuminance_lx: the smallest value the meter shows");
+    return ReadingFault{"under_range",
+                        "under_range needs illuminance_lx: the smallest value the meter shows"};
   }
   if (reading.over_range && reading.under_range) {
-    reader.Fail("under_range", "a reading is over_range or under_range, not both");
+    return ReadingFault{"under_range", "a reading is over_range or under_range, not both"};
   }
   if (reading.shadow_card && reading.lamp == LampState::kOff) {
-    reader.Fail("shadow_card", "shadow_card needs the lamp on; write only lamp = \"off\"");
+    return ReadingFault{"shadow_card", "shadow_card needs the lamp on; write only lamp = \"off\""};
   }
+  return std::nullopt;
 }
 
 void CheckLit(FieldReader& reader, const Reading& reading, const LitKeys& keys) {
@@ -108,8 +151,7 @@ LineError BadLine(std::string_view where, std::string message) {
 void ReadReading(FieldReader& reader, Reading& reading) {
   VisitReading(reader, reading);
   reader.Finish();  // a misspelt key comes before what it makes missing
-  CheckPlace(reader, reading);
-  CheckMeasured(reader, reading);
+  if (const auto fault = FaultTogether(reading)) reader.Fail(fault->key, fault->message);
 }
 
 void ReadReading(FieldReader& reader, Reading& reading, LitKeys& keys) {
@@ -151,10 +193,20 @@ tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::str
 
 }  // namespace records
 
-std::string ReadingToJson(const Reading& reading) {
+std::optional<ReadingFault> FaultOf(const Reading& reading) {
+  records::FieldChecker checker;
+  records::VisitReading(checker, reading);
+  return checker.fault() ? checker.fault() : records::FaultTogether(reading);
+}
+
+records::Node DocumentOf(const Reading& reading) {
   records::FieldWriter writer;
   records::VisitReading(writer, reading);
-  return PrintJson(writer.TakeTable(), records::JsonLayout::kOneLine);
+  return writer.TakeTable();
+}
+
+std::string ReadingToJson(const Reading& reading) {
+  return PrintJson(DocumentOf(reading), records::JsonLayout::kOneLine);
 }
 
 Result<Reading> ReadingFromJson(std::string_view line, std::string_view where) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 namespace lightcal {
@@ -33,6 +34,10 @@ double RepeatabilityRelative(const Session& session, const Reading& reading) {
 
 const std::string& InstrumentOf(const Reading& reading) {
   return reading.meter.empty() ? reading.device : reading.meter;
+}
+
+std::string PathInSession(const Session& session, const std::string& name) {
+  return (std::filesystem::path(session.directory) / name).string();
 }
 
 const LightDescription* FindLight(const Session& session, std::string_view name) {

@@ -109,6 +109,9 @@ struct Session {
 // from a lamp both name, stand in one place and share their distances; where none says, all do.
 void SpreadLitReadings(Session& session);
 
+// Names in a session are relative to its directory.
+[[nodiscard]] std::string PathInSession(const Session& session, const std::string& name);
+
 [[nodiscard]] const LightDescription* FindLight(const Session& session, std::string_view name);
 
 }  // namespace lightcal

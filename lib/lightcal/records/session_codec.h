@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightcal/core/result.h"
+#include "lightcal/records/document.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal {
@@ -44,6 +45,7 @@ struct LoadedSession {
 // One journal line, without the newline, and back. Keys as in session.toml's [[reading]]; a light
 // is not asked for here (one of no session has none). A number that is not finite is written null,
 // which reads back as bad_reading. Refused: bad_reading, unknown_key.
+[[nodiscard]] records::Node DocumentOf(const Reading& reading);
 [[nodiscard]] std::string ReadingToJson(const Reading& reading);
 [[nodiscard]] Result<Reading> ReadingFromJson(std::string_view line, std::string_view where);
 

@@ -53,10 +53,11 @@ Result<void> AddOne(const fs::path& record, LoadedSession& loaded) {
   if (!shoot) return Propagate(std::move(shoot));
   if (PersonDescribes(session, folder)) return {};
   if (!shoot->complete) {
-    loaded.warnings.push_back({"unfinished_capture", folder.generic_string(),
-                               "broken off after " + HowFar(*shoot) +
-                                   " and not used; {shoot.resume} goes on, or delete the "
-                                   "folder"});
+    loaded.warnings.push_back(
+        {"unfinished_capture", folder.generic_string(),
+         "broken off after " + HowFar(*shoot) +
+             " and not used; {ShootBracket} {shoot.resume} goes on, or delete the "
+             "folder"});
     return {};
   }
   if (!shoot->capture) {

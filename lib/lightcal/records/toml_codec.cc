@@ -65,7 +65,7 @@ Node NodeFromTable(const toml::table& from) {
   for (const auto& [key, value] : from) {
     Node member = NodeFromToml(value);
     if (key.source().begin.line != 0) member.line = LineOf(key.source());
-    node.members.push_back({std::string(key.str()), std::move(member)});
+    node.members.emplace_back(key.str(), std::move(member));
   }
   return node;
 }
@@ -80,14 +80,14 @@ template <class Date>
 Node NodeFromDate(const Date& date) {
   std::ostringstream text;
   text << date;
-  return Node::Text(text.str());
+  return Node(text.str());
 }
 
 Node NodeFromValue(const toml::node& from) {
-  if (const auto* text = from.as_string()) return Node::Text(text->get());
-  if (const auto* integer = from.as_integer()) return Node::Integer(integer->get());
-  if (const auto* number = from.as_floating_point()) return Node::Number(number->get());
-  if (const auto* boolean = from.as_boolean()) return Node::Boolean(boolean->get());
+  if (const auto* text = from.as_string()) return Node(text->get());
+  if (const auto* integer = from.as_integer()) return Node(integer->get());
+  if (const auto* number = from.as_floating_point()) return Node(number->get());
+  if (const auto* boolean = from.as_boolean()) return Node(boolean->get());
   if (const auto* date = from.as_date()) return NodeFromDate(date->get());
   if (const auto* time = from.as_time()) return NodeFromDate(time->get());
   if (const auto* both = from.as_date_time()) return NodeFromDate(both->get());

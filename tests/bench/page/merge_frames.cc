@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bracket_merge.h"
+#include "lightcal/calibrate/merge_bracket.h"
+#include "lightcal_devices/disk_sources.h"
 
 namespace {
 
@@ -27,12 +28,13 @@ int main(int count, char** words) {
   if (count < 4) return EXIT_FAILURE;
   std::stringstream profile;
   profile << std::ifstream(words[1]).rdbuf();
-  app::BracketMergeRequest request;
+  BracketMergeRequest request;
   request.work = Require(AccuracyProfileFromJson(profile.str(), words[1])).pictures;
   request.want_sigma = true;
   const std::vector<std::string> frames(words + 3, words + count);
-  const Bracket bracket = Require(OpenBracket(frames, {}));
-  const app::MergedBracket merged = Require(app::MergeBracket(bracket, request));
+  const Sources sources = DiskSources();
+  const Bracket bracket = Require(sources.open_bracket(frames, {}));
+  const MergedBracket merged = Require(MergeBracket(bracket, sources, request));
   std::ofstream out(words[2], std::ios::binary);
   out.write(reinterpret_cast<const char*>(merged.picture.data()),
             static_cast<std::streamsize>(merged.picture.size() * sizeof(float)));

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/beam/spot_beam.h"
 
-#include <ceres/ceres.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/fit/beam/spot_model.h"
 #include "lightcal/fit/estimate_light.h"
-#include "lightcal/fit/model/costs/spot_illuminance_cost.h"
+#include "lightcal/fit/model/least_squares.h"
 
 namespace lightcal::fit {
 namespace {
@@ -27,12 +25,24 @@ using Parameters = std::array<double, kSpotParameters>;
 
 double Logit(double x) { return std::log(x / (1.0 - x)); }
 
+// A least-squares problem (least_squares.h): r = (m - E)/sigma.
 struct Beam {
   SourceFrame frame;
   std::vector<SpotReading> readings;
-  std::array<double, kSpotParameters> prior_sd{};  // 0: none; of a mean of 0
-  std::array<bool, kSpotParameters> free{};
+  std::array<ParameterRule, kSpotParameters> rules;
   Parameters held{};
+
+  static constexpr int kCount = kSpotParameters;
+  [[nodiscard]] std::size_t RowCount() const { return readings.size(); }
+  [[nodiscard]] Bounds BoundsOf(int k) const {
+    // Beyond these the angles' logits only run away.
+    return k == kSpotOuter || k == kSpotInner ? Bounds{-7.0, 7.0} : Bounds{};
+  }
+  template <class T>
+  [[nodiscard]] bool Residual(std::size_t i, const T* p, T* residual) const {
+    *residual = (readings[i].measured - SpotIlluminance(readings[i], p)) / readings[i].sigma;
+    return true;
+  }
 };
 
 bool Placed(const Observation& row) {
@@ -84,12 +94,12 @@ Beam BeamOf(const Observations& observations, const LightDescription& light) {
     reading.from_lamp = beam.frame.Of(reading.from_lamp);
     reading.normal = beam.frame.Of(reading.normal);
   }
-  beam.free = {true, true, !light.outer, !light.inner, true, true};
-  beam.prior_sd[kSpotOffset] = kOffsetPriorRelative * nearest;
-  if (light.aim) {
-    const double sd = std::tan(RadiansFromDegrees(kAimSigmaDegrees).value());
-    beam.prior_sd[kSpotAimX] = beam.prior_sd[kSpotAimY] = sd;
-  }
+  const double aim_sd = light.aim ? std::tan(RadiansFromDegrees(kAimSigmaDegrees).value()) : 0.0;
+  beam.rules[kSpotLnIntensity] = {true};
+  beam.rules[kSpotOffset] = {true, 0.0, kOffsetPriorRelative * nearest};
+  beam.rules[kSpotOuter] = {!light.outer};
+  beam.rules[kSpotInner] = {!light.inner};
+  beam.rules[kSpotAimX] = beam.rules[kSpotAimY] = {true, 0.0, aim_sd};
   if (light.outer) {
     beam.held[kSpotOuter] = Logit(std::min(light.outer->value() / kHalfPi, 1.0 - 1e-9));
     if (light.inner) {
@@ -97,18 +107,6 @@ Beam BeamOf(const Observations& observations, const LightDescription& light) {
     }
   }
   return beam;
-}
-
-double ChiSquared(const Beam& beam, const Parameters& p) {
-  double sum = 0.0;
-  for (const SpotReading& reading : beam.readings) {
-    const double r = (reading.measured - SpotIlluminance(reading, p.data())) / reading.sigma;
-    sum += r * r;
-  }
-  for (int k = 0; k < kSpotParameters; ++k) {
-    if (beam.prior_sd[k] > 0.0) sum += std::pow(p[k] / beam.prior_sd[k], 2);
-  }
-  return sum;
 }
 
 // ln I by weighted linear least squares, all else held.
@@ -142,12 +140,12 @@ std::vector<Start> Starts(const Beam& beam, bool aim_stated) {
         for (int y = -1; y <= 1; ++y) {
           Start start;
           start.p = beam.held;
-          if (beam.free[kSpotOuter]) start.p[kSpotOuter] = Logit(outer / kHalfPi);
-          if (beam.free[kSpotInner]) start.p[kSpotInner] = Logit(share);
+          if (beam.rules[kSpotOuter].free) start.p[kSpotOuter] = Logit(outer / kHalfPi);
+          if (beam.rules[kSpotInner].free) start.p[kSpotInner] = Logit(share);
           start.p[kSpotAimX] = reach * x * outer * 4.0;
           start.p[kSpotAimY] = reach * y * outer * 4.0;
           FitStrength(beam, start.p);
-          start.chi_squared = ChiSquared(beam, start.p);
+          start.chi_squared = 2.0 * HalfChiSquaredOf(beam, start.p);
           starts.push_back(start);
         }
       }
@@ -161,71 +159,21 @@ std::vector<Start> Starts(const Beam& beam, bool aim_stated) {
   return starts;
 }
 
-struct PriorCost {
-  std::array<double, kSpotParameters> sd;
-  template <class T>
-  bool operator()(const T* p, T* residual) const {
-    for (int k = 0; k < kSpotParameters; ++k) residual[k] = sd[k] > 0.0 ? p[k] / sd[k] : T(0.0);
-    return true;
-  }
-};
-
 bool Refine(const Beam& beam, Start& start) {
-  ceres::Problem problem;
-  for (const SpotReading& reading : beam.readings) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<SpotIlluminanceCost, 1, kSpotParameters>(
-            new SpotIlluminanceCost{&reading}),
-        nullptr, start.p.data());
-  }
-  problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<PriorCost, kSpotParameters, kSpotParameters>(
-          new PriorCost{beam.prior_sd}),
-      nullptr, start.p.data());
-  // Beyond these the angles' logits only run away.
-  problem.SetParameterLowerBound(start.p.data(), kSpotInner, -7.0);
-  problem.SetParameterUpperBound(start.p.data(), kSpotInner, 7.0);
-  problem.SetParameterLowerBound(start.p.data(), kSpotOuter, -7.0);
-  problem.SetParameterUpperBound(start.p.data(), kSpotOuter, 7.0);
-  std::vector<int> held;
-  for (int k = 0; k < kSpotParameters; ++k) {
-    if (!beam.free[k]) held.push_back(k);
-  }
-  if (!held.empty()) {
-    problem.SetManifold(start.p.data(), new ceres::SubsetManifold(kSpotParameters, held));
-  }
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;
-  options.function_tolerance = 1e-12;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  start.chi_squared = ChiSquared(beam, start.p);
-  return summary.IsSolutionUsable() && std::isfinite(start.chi_squared);
+  const auto found = SolveInFullBy(beam, start.p, {.parameter_tolerance = 1e-8}, "cone");
+  if (!found) return false;
+  start = {*found, 2.0 * HalfChiSquaredOf(beam, *found)};
+  return std::isfinite(start.chi_squared);
 }
 
-using Information = Eigen::Matrix<double, kSpotParameters, kSpotParameters>;
+using Information = SquareOf<Beam>;
 
 Information InformationAt(const Beam& beam, const Parameters& p) {
-  using Jet = ceres::Jet<double, kSpotParameters>;
-  std::array<Jet, kSpotParameters> variables;
-  for (int k = 0; k < kSpotParameters; ++k) variables[k] = Jet(p[k], k);
-  Information information = Information::Zero();
-  for (const SpotReading& reading : beam.readings) {
-    const Jet residual = SpotIlluminance(reading, variables.data()) / reading.sigma;
-    information += residual.v * residual.v.transpose();
-  }
+  Information information = NormalEquationsAt(beam, p).normal;
   for (int k = 0; k < kSpotParameters; ++k) {
-    if (!beam.free[k]) {
-      information.row(k).setZero();
-      information.col(k).setZero();
-      information(k, k) = 1.0;
-    } else {
-      // A logit nothing determines is still within ten.
-      const double sd = beam.prior_sd[k] > 0.0 ? beam.prior_sd[k] : 10.0;
-      information(k, k) += 1.0 / (sd * sd);
-    }
+    // A logit nothing determines is still within ten.
+    if (!(beam.rules[k].prior_sd > 0.0)) information(k, k) += 0.01;
+    if (!beam.rules[k].free) Hold(information, k);
   }
   return information;
 }
@@ -244,7 +192,7 @@ Information SpreadCovariance(const Beam& beam, const Parameters& p) {
     for (const double side : {-1.0, 1.0}) {
       Parameters moved = p;
       for (int j = 0; j < kSpotParameters; ++j) {
-        if (beam.free[j]) moved[j] += side * sd * axes.eigenvectors()(j, k);
+        if (beam.rules[j].free) moved[j] += side * sd * axes.eigenvectors()(j, k);
       }
       const Information there = InformationAt(beam, moved).inverse();
       if (!there.allFinite()) continue;
@@ -295,7 +243,7 @@ Result<SpotBeam> FitSpotBeam(const Observations& observations, const LightDescri
   }
   const Parameters& p = best->p;
   const Information spread = SpreadCovariance(beam, p);
-  const int free = static_cast<int>(std::count(beam.free.begin(), beam.free.end(), true));
+  const int free = static_cast<int>(std::ranges::count(beam.rules, true, &ParameterRule::free));
   const int dof = static_cast<int>(beam.readings.size()) - (free - 1);
   const double birge = dof > 0 ? std::max(1.0, best->chi_squared / dof) : 1.0;
   const Information covariance = spread * birge;
@@ -307,8 +255,8 @@ Result<SpotBeam> FitSpotBeam(const Observations& observations, const LightDescri
   // d(outer)/dp = outer (1 - x), d(inner)/dp = inner {1 - x, 1 - share}.
   const double per_outer = 1.0 - x;
   const double per_share = 1.0 - share;
-  const double oo = covariance(kSpotOuter, kSpotOuter) * (beam.free[kSpotOuter] ? 1.0 : 0.0);
-  const double ii = covariance(kSpotInner, kSpotInner) * (beam.free[kSpotInner] ? 1.0 : 0.0);
+  const double oo = covariance(kSpotOuter, kSpotOuter) * (beam.rules[kSpotOuter].free ? 1.0 : 0.0);
+  const double ii = covariance(kSpotInner, kSpotInner) * (beam.rules[kSpotInner].free ? 1.0 : 0.0);
   const double oi = covariance(kSpotOuter, kSpotInner);
   out.outer_sd = out.outer * (per_outer * std::sqrt(oo));
   out.inner_sd = out.inner * std::sqrt(per_outer * per_outer * oo + per_share * per_share * ii +

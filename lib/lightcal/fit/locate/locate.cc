@@ -54,15 +54,16 @@ struct Kept {
 };
 
 int FreeParameters(const PlacedEstimation& estimation) {
-  return 4 + (estimation.ambient.free ? 1 : 0) + (estimation.offset.free ? 1 : 0);
+  return 4 + (estimation.rules[kPlacedAmbient].free ? 1 : 0) +
+         (estimation.rules[kPlacedOffset].free ? 1 : 0);
 }
 
 int DegreesOfFreedom(const PlacedEstimation& estimation) {
-  const auto rows = std::ranges::count_if(estimation.rows, [](const PlacedRow& row) {
-    return row.form != ReadingRow::Form::kCensored;
-  });
+  const auto rows = std::ranges::count_if(
+      estimation.rows, [](const PlacedRow& row) { return row.form != RowForm::kCensored; });
   return static_cast<int>(rows) - FreeParameters(estimation) +
-         (estimation.ambient.prior_sd > 0.0 ? 1 : 0) + (estimation.offset.free ? 1 : 0);
+         (estimation.rules[kPlacedAmbient].prior_sd > 0.0 ? 1 : 0) +
+         (estimation.rules[kPlacedOffset].free ? 1 : 0);
 }
 
 PlacedProblem Without(const PlacedProblem& problem, std::size_t row) {
@@ -87,7 +88,7 @@ bool RejectOne(Kept& kept) {
     Kept rest{Without(kept.problem, i), {}, kept.rejected};
     rest.solutions = SearchPlace(rest.problem);
     if (rest.solutions.empty()) continue;
-    const PlacedEstimation one{{all.rows[i]}, all.aim, {}, {}};
+    const PlacedEstimation one{{all.rows[i]}, all.aim};
     const double off = std::abs(PlacedResiduals(one, rest.solutions.front().theta).front());
     const double chi_squared = rest.solutions.front().chi_squared;
     const int dof = DegreesOfFreedom(rest.problem.estimation);
@@ -144,9 +145,9 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
   constexpr double kLearned = 0.8;  // as in estimate_light.cc
   const double ambient_sd =
       std::sqrt(covariance[kPlacedAmbient * kPlacedParameters + kPlacedAmbient]);
-  const bool told =
-      estimation.ambient.free &&
-      (!(estimation.ambient.prior_sd > 0.0) || ambient_sd < kLearned * estimation.ambient.prior_sd);
+  const bool told = estimation.rules[kPlacedAmbient].free &&
+                    (!(estimation.rules[kPlacedAmbient].prior_sd > 0.0) ||
+                     ambient_sd < kLearned * estimation.rules[kPlacedAmbient].prior_sd);
   (told ? d.learned : d.prior).emplace_back("ambient");
   d.degrees_of_freedom = std::max(0, DegreesOfFreedom(estimation));
   if (d.degrees_of_freedom < 1) return;
@@ -156,7 +157,7 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
   int log_rows = 0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     chi_squared += residuals[i] * residuals[i];
-    if (estimation.rows[i].form != ReadingRow::Form::kLog) continue;
+    if (estimation.rows[i].form != RowForm::kLog) continue;
     ln_squared += std::pow(residuals[i] * estimation.rows[i].sigma, 2.0);
     ++log_rows;
   }
@@ -255,7 +256,7 @@ bool TooVague(const PlacedEstimation& estimation, const PlacedTheta& theta,
 
 // What few readings say of ambient light may be too little beside a position: it is 0 then.
 void HoldAmbientIfVague(Kept& kept) {
-  ParameterRule& ambient = kept.problem.estimation.ambient;
+  ParameterRule& ambient = kept.problem.estimation.rules[kPlacedAmbient];
   if (!ambient.free || kept.problem.ambient_told || kept.solutions.empty()) return;
   const PlacedTheta& theta = kept.solutions.front().theta;
   const PlacedEstimation& estimation = kept.problem.estimation;
@@ -328,7 +329,7 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
             estimation, theta, {uncertainty.row_scale, uncertainty.position_sd, considered});
         return some ? (*some)[kPlacedLnIntensity * (kPlacedParameters + 1)] : -1.0;
       });
-  out.estimate.ambient_free = estimation.ambient.free;
+  out.estimate.ambient_free = estimation.rules[kPlacedAmbient].free;
   FillResiduals(observations, all, kept, out.estimate);
   FillEstimate(kept.problem.frame, theta, *covariance, out);
   return out;

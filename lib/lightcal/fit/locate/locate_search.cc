@@ -55,7 +55,7 @@ void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   for (const PlacedRow& row : problem.estimation.rows) {
     if (row.direct_gain > 0.0) {
       if (!row.position) shortest = std::min(shortest, row.distance);
-      if (row.form == ReadingRow::Form::kLog && row.ambient_gain > 0.0) {
+      if (row.form == RowForm::kLog && row.ambient_gain > 0.0) {
         dimmest = std::min(dimmest, row.measured);
       }
       continue;
@@ -65,13 +65,13 @@ void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   }
   problem.ambient_told = offs > 0;
   if (problem.ambient_told) {
-    problem.estimation.ambient.free = true;
+    problem.estimation.rules[kPlacedAmbient].free = true;
     problem.ambient_start = std::max(0.0, off / offs);
   } else if (model.fit_ambient && problem.lit >= kReadingsForAmbient && std::isfinite(dimmest)) {
-    problem.estimation.ambient = {true, 0.0, dimmest};
+    problem.estimation.rules[kPlacedAmbient] = {true, 0.0, dimmest};
   }
   if (model.fit_offset && std::isfinite(shortest)) {
-    problem.estimation.offset = {true, 0.0, kOffsetPriorRelative * shortest};
+    problem.estimation.rules[kPlacedOffset] = {true, 0.0, kOffsetPriorRelative * shortest};
   }
 }
 
@@ -132,9 +132,9 @@ bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b) {
 
 std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem) {
   PlacedEstimation held = problem.estimation;
-  held.ambient.free = false;
+  held.rules[kPlacedAmbient].free = false;
   const std::vector<PlacedSolution> first = SolveFrom(held, StartsOf(problem));
-  if (!problem.estimation.ambient.free || first.empty()) return first;
+  if (!problem.estimation.rules[kPlacedAmbient].free || first.empty()) return first;
   const double hopeless = 10.0 * first.front().chi_squared + 100.0;
   std::vector<PlacedTheta> places;
   for (const PlacedSolution& s : first) {

@@ -77,7 +77,7 @@ Vec3 Rounded(const Vec3& metres, double reach_m) {
 double FinestSigma(const PlacedEstimation& estimation) {
   double sigma = std::numeric_limits<double>::infinity();
   for (const PlacedRow& row : estimation.rows) {
-    if (row.form == ReadingRow::Form::kLog) sigma = std::min(sigma, row.sigma);
+    if (row.form == RowForm::kLog) sigma = std::min(sigma, row.sigma);
   }
   return std::isfinite(sigma) ? sigma : 0.05;
 }

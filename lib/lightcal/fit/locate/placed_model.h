@@ -26,7 +26,7 @@ inline constexpr int kPlacedParameters = 6;
 using PlacedTheta = std::array<double, kPlacedParameters>;
 
 struct PlacedRow {
-  ReadingRow::Form form = ReadingRow::Form::kLog;
+  RowForm form = RowForm::kLog;
   std::optional<Vec3> position;  // of the meter; absent: `distance` from the lamp, facing it
   std::optional<Vec3> normal;    // unit; absent: facing the lamp
   double distance = 1.0;

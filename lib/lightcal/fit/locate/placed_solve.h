@@ -15,11 +15,27 @@
 
 namespace lightcal::fit {
 
+// A least-squares problem (least_squares.h) of readings whose places are known.
 struct PlacedEstimation {
   std::vector<PlacedRow> rows;
   std::optional<Vec3> aim;  // unit, of a flat Lambertian source
-  ParameterRule ambient;    // ln I and the position are always free
-  ParameterRule offset;
+  std::array<ParameterRule, kPlacedParameters> rules = {
+      {{.free = true}, {.free = true}, {.free = true}, {.free = true}, {}, {}}};
+
+  static constexpr int kCount = kPlacedParameters;
+  [[nodiscard]] std::size_t RowCount() const { return rows.size(); }
+  [[nodiscard]] Bounds BoundsOf(int k) const {
+    return k == kPlacedAmbient ? Bounds{.low = 0.0} : Bounds{};
+  }
+  // Undefined (false) where meter or lamp faces away, and for logarithms of what is not above 0.
+  template <class T>
+  [[nodiscard]] bool Residual(std::size_t i, const T* theta, T* residual) const {
+    T lux(0.0);
+    const PlacedRow& row = rows[i];
+    return PlacedIlluminance(row, aim, theta[kPlacedLnIntensity], &theta[kPlacedX],
+                             theta[kPlacedAmbient], theta[kPlacedOffset], &lux) &&
+           WhitenedResidual(row.form, row.measured, row.sigma, lux, residual);
+  }
 };
 
 using PlacedCovariance =

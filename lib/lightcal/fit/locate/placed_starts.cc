@@ -24,7 +24,7 @@ bool Placed(const PlacedRow& row) { return Lit(row) && row.position.has_value();
 // Illuminance of the lamp alone, or nothing where the row says little of it.
 std::optional<double> DirectOf(const PlacedRow& row, double ambient) {
   const double direct = (row.measured - row.ambient_gain * ambient) / row.direct_gain;
-  if (row.form == ReadingRow::Form::kLinear || !(direct > 0.0)) return std::nullopt;
+  if (row.form == RowForm::kLinear || !(direct > 0.0)) return std::nullopt;
   return direct;
 }
 
@@ -115,7 +115,7 @@ ScanPoint Evaluate(const PlacedEstimation& estimation, const Vec3& lamp, double 
       return {};
     }
     const auto direct = DirectOf(row, ambient);
-    if (!direct || row.form == ReadingRow::Form::kCensored) continue;
+    if (!direct || row.form == RowForm::kCensored) continue;
     const double value = std::log(*direct * row.direct_gain / per_candela);
     const double weight = 1.0 / (row.sigma * row.sigma);
     w += weight;

@@ -16,12 +16,30 @@ namespace lightcal::fit {
 enum Parameter : std::uint8_t { kLnIntensity = 0, kDistanceOffset = 1, kAmbient = 2 };
 inline constexpr int kParameters = 3;
 
+// How a reading m of a meter that should see E counts, over its sigma.
+enum class RowForm : std::uint8_t {
+  kLog,       // (ln m - ln E)/sigma, sigma relative: positive readings
+  kLinear,    // (m - E)/sigma, sigma in lux: readings near or below zero, lamp-off readings
+  kCensored,  // max(0, ln m - ln E)/sigma: the meter was over range, the truth is at least m
+};
+
+// That residual. False where logarithms have none: the model is not above 0.
+template <class T>
+[[nodiscard]] bool WhitenedResidual(RowForm form, double measured, double sigma, const T& predicted,
+                                    T* residual) {
+  using std::log;
+  if (form == RowForm::kLinear) {
+    *residual = (measured - predicted) / sigma;
+    return true;
+  }
+  if (!(predicted > T(0.0))) return false;
+  *residual = (std::log(measured) - log(predicted)) / sigma;
+  if (form == RowForm::kCensored && !(*residual > T(0.0))) *residual = T(0.0);
+  return true;
+}
+
 struct ReadingRow {
-  enum class Form : std::uint8_t {
-    kLog,       // (ln m - ln E)/sigma, sigma relative
-    kLinear,    // (m - E)/sigma, sigma in lux: readings near or below zero, lamp-off readings
-    kCensored,  // max(0, ln m - ln E)/sigma: the meter was over range, the truth is at least m
-  };
+  using Form = RowForm;
   Form form = Form::kLog;
   AxialShape shape;
   std::optional<OffAxisPose> off_axis;  // instead of shape and distance
@@ -54,6 +72,14 @@ template <class T>
   using std::exp;
   const T direct = row.direct_gain > 0.0 ? LuxPerCandela(row, distance_offset) : T(row.bounce);
   return exp(ln_intensity) * direct + row.ambient_gain * ambient;
+}
+
+// What a row adds to the least-squares problem (least_squares.h).
+template <class T>
+[[nodiscard]] bool RowResidual(const ReadingRow& row, const T* theta, T* residual) {
+  return WhitenedResidual(
+      row.form, row.measured, row.sigma,
+      RowIlluminance(row, theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient]), residual);
 }
 
 }  // namespace lightcal::fit

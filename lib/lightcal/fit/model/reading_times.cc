@@ -282,7 +282,7 @@ void CheckDrift(const Session& session, const FittedLight& light, Warnings& warn
   warnings.push_back({"drift", light.name,
                       "its light changed by " + PercentText(std::expm1(*change)) +
                           " from the first reading to the last, beyond what distance explains: "
-                          "let the lamp warm up ({meter.settle}) and measure again"});
+                          "let the lamp warm up ({ReadMeter} {meter.settle}) and measure again"});
 }
 
 }  // namespace lightcal::fit

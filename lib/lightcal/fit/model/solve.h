@@ -3,12 +3,12 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/model/parameter.h"
 #include "lightcal/fit/model/reading_model.h"
 #include "lightcal/records/accuracy_profile.h"
 
@@ -16,25 +16,24 @@ namespace lightcal::fit {
 
 using Theta = std::array<double, kParameters>;
 
-// A parameter is free (with or without a prior) or held at its start. sd <= 0: no prior.
-struct ParameterRule {
-  bool free = false;
-  double prior_mean = 0.0;
-  double prior_sd = 0.0;
-};
-
+// A least-squares problem (least_squares.h) of readings whose distances are known.
 struct Estimation {
   std::vector<ReadingRow> rows;
   std::array<ParameterRule, kParameters> rules;
   double least_distance_offset = -1e300;  // d0 stays at or above it, so that d + d0 > 0
   EstimatorChoice choice{};
+
+  static constexpr int kCount = kParameters;
+  [[nodiscard]] std::size_t RowCount() const { return rows.size(); }
+  [[nodiscard]] Bounds BoundsOf(int k) const {
+    if (k == kDistanceOffset) return {.low = least_distance_offset};
+    return k == kAmbient ? Bounds{.low = 0.0} : Bounds{};
+  }
+  template <class T>
+  [[nodiscard]] bool Residual(std::size_t i, const T* theta, T* residual) const {
+    return RowResidual(rows[i], theta, residual);
+  }
 };
-
-enum class Loss : std::uint8_t { kSquared, kHuber, kTukey };
-
-// Huber's and Tukey's constants: 95 % efficiency for normal errors.
-inline constexpr double kHuberConstant = 1.345;
-inline constexpr double kTukeyConstant = 4.685;
 
 // Minimises 1/2 sum rho(r_i^2) + priors with Ceres from `start`, d0 and E0 in their boxes. `scale`
 // widens the loss (a multiple of sigma). Fails: no_convergence.

@@ -19,13 +19,13 @@
 namespace lightcal {
 namespace {
 
-constexpr double kLeastSamples = 64.0;
-constexpr double kWorstPairSd = 0.02;  // of a pair's ln ratio; wider is no measurement
-constexpr double kModelSd = 2e-4;      // what no residual shows: black levels, slow bends
-constexpr double kLabelSd = 0.06;      // of a label's ln ratio: third-stop rounding, 3 % shutter
-constexpr double kBelievedTo = 0.8;    // of the clip, when ratios are summed
-constexpr double kStraightTo = 0.5;    // every sensor is linear up to here
-constexpr double kBendShare = 1e-3;    // departure that counts as a bend
+constexpr double kLeastSharedSamples = 64.0;
+constexpr double kWorstPairSd = 0.02;   // of a pair's ln ratio; wider is no measurement
+constexpr double kModelSd = 2e-4;       // what no residual shows: black levels, slow bends
+constexpr double kLabelRatioSd = 0.06;  // of a label's ln ratio: third-stop rounding, 3 % shutter
+constexpr double kBelievedTo = 0.8;     // of the clip, when ratios are summed
+constexpr double kStraightTo = 0.5;     // every sensor is linear up to here
+constexpr double kBendShare = 1e-3;     // departure that counts as a bend
 constexpr double kBendSigmas = 4.0;
 constexpr double kHighestLinear = 0.9;
 constexpr int kPasses = 3;
@@ -49,7 +49,7 @@ std::optional<double> RoughRatio(std::span<const float> a, std::span<const float
                          a[i] < 0.9F * clip[i] && b[i] < 0.9F * clip[i];
       if (clear) ratios.push_back(b[i] / a[i]);
     }
-    if (static_cast<double>(ratios.size()) < kLeastSamples) continue;
+    if (static_cast<double>(ratios.size()) < kLeastSharedSamples) continue;
     return UpperMedian(ratios);
   }
   return std::nullopt;
@@ -71,7 +71,7 @@ LevelSums SumLevels(const PairSums& sums, double from, double to) {
 }
 
 bool Tells(const LevelSums& total) {
-  return total.count >= kLeastSamples && total.a > 0.0 && total.b > 0.0 &&
+  return total.count >= kLeastSharedSamples && total.a > 0.0 && total.b > 0.0 &&
          std::sqrt(total.d2) < kWorstPairSd * total.b;
 }
 
@@ -113,7 +113,7 @@ double LinearTo(std::span<const PairRatio> pairs) {
       if (!pair.clip_known) continue;
       const auto straight = TellingLevels(pair.sums, kStraightTo);
       const LevelSums& sum = pair.sums[static_cast<std::size_t>(bin)];
-      if (!straight || sum.count < kLeastSamples) continue;
+      if (!straight || sum.count < kLeastSharedSamples) continue;
       behind += sum.b - straight->b / straight->a * sum.a;
       of += sum.b;
       variance += sum.d2;
@@ -197,7 +197,7 @@ void AddLabelPairs(std::span<const std::size_t> order, std::span<const double> l
     if (bridged) continue;
     PairRatio pair{.a = order[i - 1], .b = order[i]};
     pair.ln_ratio = std::log(label[pair.b] / label[pair.a]);
-    pair.sd = kLabelSd;
+    pair.sd = kLabelRatioSd;
     pairs.push_back(pair);
   }
 }

@@ -60,8 +60,8 @@ std::optional<Warning> Flicker(const Differences& d, const Blocks& blocks, const
                      "whole number of mains half periods (1/100 or 1/120 s), or an ND filter"};
 }
 
-Warning Moved(const Differences& d, const Blocks& blocks, const std::string& name,
-              const std::string& other) {
+Warning SceneMoved(const Differences& d, const Blocks& blocks, const std::string& name,
+                   const std::string& other) {
   int left = blocks.width, top = blocks.height, right = 0, bottom = 0;
   for (int y = 0; y < blocks.height; ++y) {
     for (int x = 0; x < blocks.width; ++x) {
@@ -91,7 +91,7 @@ std::optional<Warning> DifferenceOf(const Blocks& before, const Blocks& blocks,
     return Misaligned(*found, name, other);
   }
   const auto flicker = Flicker(still, blocks, name, other);
-  return flicker ? *flicker : Moved(still, blocks, name, other);
+  return flicker ? *flicker : SceneMoved(still, blocks, name, other);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ constexpr int kLeastBlock = 4;  // pixels
 constexpr double kSigmas = 6.0;
 constexpr double kLeastDifference = 0.02;
 constexpr double kRatioSd = 0.003;  // of exposures, and of what blocks add to noise
-constexpr double kLeastShare = 1e-3;
+constexpr double kLeastBlockShare = 1e-3;
 constexpr int kLeastBlocks = 4;
 constexpr double kExplained = 0.5;
 constexpr int kSearch = 8;   // blocks of the small picture, each way
@@ -232,7 +232,7 @@ Differences Compare(const Blocks& a, const Blocks& b, std::span<const float> exp
 }
 
 bool Worth(const Differences& d) {
-  return d.disagreeing >= kLeastBlocks && d.disagreeing > kLeastShare * d.comparable;
+  return d.disagreeing >= kLeastBlocks && d.disagreeing > kLeastBlockShare * d.comparable;
 }
 
 double FoundShift::length() const { return std::hypot(dx, dy); }

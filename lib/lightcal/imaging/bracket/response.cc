@@ -20,7 +20,7 @@ constexpr double kStepSd = 1.0;    // of a code
 constexpr double kSmoothness = 2e3;
 constexpr double kMovedLn = 0.25;  // a residual from which a pixel probably shows something else
 constexpr int kTurns = 5;
-constexpr double kLeastShare = 1.0 / 3.0;
+constexpr double kLeastCodeShare = 1.0 / 3.0;
 constexpr double kLeastRise = 1e-4;  // of g a step: curves increase
 
 using CodeView = View2d<const std::uint16_t>;
@@ -31,7 +31,7 @@ struct PairCounts {
   std::vector<double> count = std::vector<double>(kSteps * kSteps, 0.0);
 };
 
-int StepOf(std::uint16_t code, double top) {
+int CodeStep(std::uint16_t code, double top) {
   return std::min(kSteps - 1, static_cast<int>(code * (kSteps - 1) / top + 0.5));
 }
 
@@ -41,8 +41,8 @@ PairCounts CountPair(const CodeView& a, const CodeView& b, int channel, double t
   pair.ln_ratio = ln_ratio;
   for (int y = 0; y < a.height(); ++y) {
     for (int x = 0; x < a.width(); ++x) {
-      const int first = StepOf(a(x, y, channel), top);
-      const int second = StepOf(b(x, y, channel), top);
+      const int first = CodeStep(a(x, y, channel), top);
+      const int second = CodeStep(b(x, y, channel), top);
       if (first < kLowestStep || second < kLowestStep) continue;
       if (first > kHighestStep || second > kHighestStep) continue;
       pair.count[static_cast<std::size_t>(first * kSteps + second)] += 1.0;
@@ -145,7 +145,7 @@ bool SharesEnough(std::span<const PairCounts> pairs) {
     }
   }
   const auto shared = static_cast<double>(std::count(seen.begin(), seen.end(), true));
-  return shared >= kLeastShare * kSteps;
+  return shared >= kLeastCodeShare * kSteps;
 }
 
 // Signals of all codes, between the steps linear in ln.

@@ -20,7 +20,7 @@ constexpr int kBlocks = 8;              // a side
 constexpr double kSameIso = 0.02;
 
 // Mean of the frames, sample by sample.
-std::vector<float> MeanOf(std::span<const SignalFrame> frames) {
+std::vector<float> MeanFrame(std::span<const SignalFrame> frames) {
   const SignalFrame& one = frames[0];
   std::vector<float> mean(one.row_samples() * static_cast<std::size_t>(one.height));
   std::vector<float> row(one.row_samples());
@@ -110,7 +110,7 @@ tl::unexpected<Error> WithLight(const std::string& file, const std::string& what
 Result<CameraDark> MeasureDark(std::span<const SignalFrame> frames, double iso, Seconds exposure) {
   if (frames.empty()) return Refused("no_frames", "dark", "no frame was given");
   const SignalFrame& frame = frames[0];
-  const std::vector<float> plane = MeanOf(frames);
+  const std::vector<float> plane = MeanFrame(frames);
   const std::array<Level, 3> levels = LevelsOf(frame, plane);
   CameraDark dark{.iso = iso, .exposure = exposure};
   std::array<Sums, 3> channels;

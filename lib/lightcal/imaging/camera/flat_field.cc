@@ -16,7 +16,7 @@ constexpr int kColumns = 48, kRows = 32;
 constexpr double kCenterPrior = 0.05;
 constexpr double kMostUneven = 0.03;
 constexpr double kLeastLight = 0.02;  // of the axis, anywhere in the picture
-constexpr int kPasses = 12;
+constexpr int kRejectPasses = 12;
 constexpr double kSameAperture = 0.06;  // of ln N
 constexpr double kSameFocus = 0.02;     // of ln f
 constexpr int kRings = 32;
@@ -81,7 +81,7 @@ RadialFit FitRadial(const std::vector<Block>& blocks, std::size_t channel,
 // Gauss-Newton on the centre alone, the polynomial following.
 std::array<double, 2> FindCenter(const std::vector<Block>& blocks) {
   std::array<double, 2> center{0.0, 0.0};
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < kRejectPasses; ++pass) {
     const RadialFit fit = FitRadial(blocks, 1, center);
     const double sigma = std::max(fit.rms * fit.p[0], 1e-12 * fit.p[0]);
     Eigen::Matrix2d normal =

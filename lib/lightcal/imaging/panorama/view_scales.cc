@@ -17,9 +17,9 @@
 namespace lightcal {
 namespace {
 
-constexpr int kRows = 90, kColumns = 180;  // cells of 2 degrees
-constexpr int kSide = 4;                   // kSide x kSide points of a cell
-constexpr int kBlock = 6;                  // cells on the side of a block of common errors
+constexpr int kCellRows = 90, kCellColumns = 180;  // cells of 2 degrees
+constexpr int kCellSide = 4;                       // kCellSide x kCellSide points of a cell
+constexpr int kBlock = 6;                          // cells on the side of a block of common errors
 constexpr double kLeastCells = 12.0;  // that join a view to the others, as cells of the equator
 constexpr double kLeastSd = 0.005;    // of a cell: edges, reflections, resampling
 constexpr double kFalloffSd = 0.7;    // prior of its coefficients: half the light at the rim
@@ -27,7 +27,7 @@ constexpr double kFalloffSd = 0.7;    // prior of its coefficients: half the lig
 // skies: 1e-4 round a ring of views, however many pixels they share.
 constexpr double kSamplingSd = 1.5e-4;
 constexpr double kCauchy = 2.385, kNormalMad = 1.4826;
-constexpr int kRounds = 25;
+constexpr int kSolveRounds = 25;
 constexpr double kGaugeWeight = 1e9;
 
 // What one view says of one cell.
@@ -45,9 +45,10 @@ struct Cell {
 
 std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int x, int y) {
   double sum = 0.0, sum2 = 0.0, radius2 = 0.0;
-  for (int i = 0; i < kSide * kSide; ++i) {
-    const double azimuth = 2.0 * std::numbers::pi * (x + (i % kSide + 0.5) / kSide) / kColumns;
-    const double zenith = std::numbers::pi * (y + (i / kSide + 0.5) / kSide) / kRows;
+  for (int i = 0; i < kCellSide * kCellSide; ++i) {
+    const double azimuth =
+        2.0 * std::numbers::pi * (x + (i % kCellSide + 0.5) / kCellSide) / kCellColumns;
+    const double zenith = std::numbers::pi * (y + (i / kCellSide + 0.5) / kCellSide) / kCellRows;
     const auto point =
         picture.view.PointOf({-std::sin(azimuth) * std::sin(zenith),
                               -std::cos(azimuth) * std::sin(zenith), std::cos(zenith)});
@@ -61,9 +62,9 @@ std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int 
     sum += value;
     sum2 += value * value;
     const double share = picture.view.angles().RimShare((*point)[0], (*point)[1]);
-    radius2 += share * share / (kSide * kSide);
+    radius2 += share * share / (kCellSide * kCellSide);
   }
-  const double count = kSide * kSide, mean = sum / count;
+  const double count = kCellSide * kCellSide, mean = sum / count;
   if (!(mean > 0.0)) return std::nullopt;
   const double scatter2 = std::max(0.0, sum2 / count - mean * mean) / (mean * mean) / count;
   Sight sight{view, std::log(mean), scatter2 + kLeastSd * kLeastSd, {}, 0.0};
@@ -72,13 +73,13 @@ std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int 
 }
 
 std::vector<Cell> SharedCells(std::span<const AimedPicture> views) {
-  const LatLongGrid grid(kColumns, kRows);
-  std::vector<std::vector<Cell>> rows(kRows);
-  ParallelFor(kRows, [&](int y) {
-    for (int x = 0; x < kColumns; ++x) {
+  const LatLongGrid grid(kCellColumns, kCellRows);
+  std::vector<std::vector<Cell>> rows(kCellRows);
+  ParallelFor(kCellRows, [&](int y) {
+    for (int x = 0; x < kCellColumns; ++x) {
       Cell cell;
-      cell.block = static_cast<std::size_t>(y / kBlock * (kColumns / kBlock) + x / kBlock);
-      cell.area = grid.SolidAngle(y) / grid.SolidAngle(kRows / 2);
+      cell.block = static_cast<std::size_t>(y / kBlock * (kCellColumns / kBlock) + x / kBlock);
+      cell.area = grid.SolidAngle(y) / grid.SolidAngle(kCellRows / 2);
       for (std::size_t i = 0; i < views.size(); ++i) {
         if (auto sight = SightOf(views[i], i, x, y)) cell.sights.push_back(*sight);
       }
@@ -239,7 +240,7 @@ Result<ViewScales> SolveViewScales(std::span<const AimedPicture> views,
     for (Sight& sight : cell.sights) sight.weight = cell.area / sight.variance;
   }
   Normal normal(views.size(), in_gauge);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kSolveRounds; ++round) {
     normal.Solve(cells);
     Reweigh(normal, cells);
   }

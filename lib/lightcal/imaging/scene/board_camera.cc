@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/imaging/scene/board_camera.h"
 
+#include <ceres/tiny_solver.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -175,34 +177,30 @@ Matrix Jacobian(const Problem& problem, const Vector& all) {
   return out;
 }
 
-// Levenberg and Marquardt. Returns half the sum of squares.
-double Minimise(const Problem& problem, Vector& all) {
-  constexpr int kIterations = 60;
-  constexpr double kEnough = 1e-9;
-  double damping = 1e-3;
-  Vector residuals = Residuals(problem, all);
-  double cost = residuals.squaredNorm();
-  for (int i = 0; i < kIterations; ++i) {
-    const Matrix jacobian = Jacobian(problem, all);
-    Matrix normal = jacobian.transpose() * jacobian;
-    const Vector gradient = jacobian.transpose() * residuals;
-    normal.diagonal() *= 1.0 + damping;
-    const Vector next = all - normal.ldlt().solve(gradient);
-    const Vector next_residuals = Residuals(problem, next);
-    const double next_cost = next_residuals.squaredNorm();
-    if (!(next_cost < cost)) {
-      damping *= 10.0;
-      if (damping > 1e9) break;
-      continue;
-    }
-    const bool done = cost - next_cost < kEnough * cost;
-    all = next;
-    residuals = next_residuals;
-    cost = next_cost;
-    damping = std::max(1e-12, damping / 10.0);
-    if (done) break;
+// As ceres::TinySolver takes it.
+struct Corners {
+  using Scalar = double;
+  enum : int { NUM_PARAMETERS = Eigen::Dynamic, NUM_RESIDUALS = Eigen::Dynamic };
+  const Problem& problem;
+
+  [[nodiscard]] int NumParameters() const { return static_cast<int>(problem.Size()); }
+  [[nodiscard]] int NumResiduals() const { return 2 * static_cast<int>(problem.Corners()) + kLens; }
+  bool operator()(const double* all, double* residuals, double* jacobian) const {
+    const Vector at = Eigen::Map<const Vector>(all, NumParameters());
+    Eigen::Map<Vector>(residuals, NumResiduals()) = Residuals(problem, at);
+    if (jacobian == nullptr) return true;
+    Eigen::Map<Matrix>(jacobian, NumResiduals(), NumParameters()) = Jacobian(problem, at);
+    return true;
   }
-  return 0.5 * cost;
+};
+
+// Returns half the sum of squares.
+double Minimise(const Problem& problem, Vector& all) {
+  ceres::TinySolver<Corners> solver;
+  solver.options.max_num_iterations = 60;
+  solver.options.function_tolerance = 1e-12;
+  solver.options.parameter_tolerance = 1e-14;  // of all at once, pixels and radians alike
+  return solver.Solve({problem}, &all).final_cost;
 }
 
 Vector StartAt(const Problem& problem, const std::vector<Eigen::Matrix3d>& homographies,

@@ -2,7 +2,6 @@
 // The printed board: what is painted where, and where its corners lie in a picture.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -11,23 +10,11 @@
 
 namespace lightcal {
 
-// A rectangle in metres; (x, z) is its lower left corner in wall coordinates.
-struct BoardRectangle {
-  double x = 0.0, z = 0.0, width = 0.0, height = 0.0;
-  bool black = true;
-};
-
 // What to paint in this order on white paper: black squares, black markers, and over these the
 // white cells, joined along rows, so that neighbouring black areas have no seam.
 // Markers are those of OpenCV's predefined dictionaries, numbered as its CharucoBoard does.
 // Refused: bad_board (fewer than 3 x 3 squares, or more markers than the dictionary has).
 [[nodiscard]] Result<std::vector<BoardRectangle>> LayOutBoard(const CharucoBoard& board);
-
-// Where four squares meet.
-struct BoardCorner {
-  std::array<double, 2> wall_m{};  // x, z in wall coordinates
-  std::array<double, 2> pixel{};   // x to the right, y down; pixel centres are at .5
-};
 
 // The chessboard corners that a linear picture shows, found in its local contrast, so that the
 // light may fall off over the board. Any scale of luminance.

@@ -12,10 +12,10 @@
 namespace lightcal {
 namespace {
 
-constexpr double kInside = 0.97;       // of the outline, whose edge is not the ball's alone
-constexpr double kStandsOut = 3.0;     // over the median
-constexpr double kLargestShare = 0.1;  // of the ball
-constexpr double kRival = 0.8;         // of the brightest, elsewhere
+constexpr double kInside = 0.97;        // of the outline, whose edge is not the ball's alone
+constexpr double kSpotStandsOut = 3.0;  // over the median
+constexpr double kLargestShare = 0.1;   // of the ball
+constexpr double kRival = 0.8;          // of the brightest, elsewhere
 
 // Means of 2 x 2 pixels; below every value outside of the ball.
 struct Means {
@@ -83,7 +83,7 @@ Result<Highlight> FindHighlight(View2d<const float> values, const std::string& n
     if (means.inside[peak] == 0 || means.value[i] > means.value[peak]) peak = i;
   }
   const float brightest = means.value[peak];
-  if (!(brightest > kStandsOut * median) || !(brightest > 0.0F)) {
+  if (!(brightest > kSpotStandsOut * median) || !(brightest > 0.0F)) {
     return none(
         "nothing on the ball stands three times above the rest; switch other lamps off and "
         "expose shorter");

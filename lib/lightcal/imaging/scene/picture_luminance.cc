@@ -46,7 +46,8 @@ double Scale(const FrameInfo& info, LuminanceConvention convention, PictureLumin
   luminance.warnings.push_back(
       {"relative_scale", info.file,
        "the file does not say which luminance 1.0 is (no whiteLuminance); its numbers are taken as "
-       "cd/m^2: calibrate it by a lux reading ({dome.scale}), or name the convention"});
+       "cd/m^2: calibrate it by a lux reading ({MakeDome} {dome.illuminance}), or name the "
+       "convention"});
   return 1.0;
 }
 

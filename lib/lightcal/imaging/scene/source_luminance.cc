@@ -12,11 +12,11 @@
 namespace lightcal {
 namespace {
 
-constexpr double kStandsOut = 3.0;     // peak over the rim's median
-constexpr double kClippedSigma = 0.9;  // sigma / value of a sample that is a lower bound
-constexpr int kLeastSkirt = 3;         // pixels of blur around the face that belong to it
-constexpr double kSkirtShare = 0.1;    // the same, of the face's longer side
-constexpr double kFaceFrom = 0.1;      // of the bright part's mean
+constexpr double kPeakStandsOut = 3.0;  // peak over the rim's median
+constexpr double kClippedSigma = 0.9;   // sigma / value of a sample that is a lower bound
+constexpr int kLeastSkirt = 3;          // pixels of blur around the face that belong to it
+constexpr double kSkirtShare = 0.1;     // the same, of the face's longer side
+constexpr double kFaceFrom = 0.1;       // of the bright part's mean
 
 // One pixel of the region.
 struct Part {
@@ -206,7 +206,7 @@ void MeasureFace(const Parts& parts, SourceLuminance& out) {
   out.luminance = Nits(flux / solid);
 }
 
-std::string Place(const Region& region) {
+std::string PlaceText(const Region& region) {
   return std::to_string(region.x) + "," + std::to_string(region.y) + "," +
          std::to_string(region.width) + "," + std::to_string(region.height);
 }
@@ -229,8 +229,8 @@ Result<SourceLuminance> MeasureSource(View2d<const float> nits, View2d<const flo
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].seen) peak = std::max(peak, parts[i].nits);
   }
-  if (!(peak > kStandsOut * background) || !(peak > 0.0)) {
-    return Refused("no_source", Place(region),
+  if (!(peak > kPeakStandsOut * background) || !(peak > 0.0)) {
+    return Refused("no_source", PlaceText(region),
                    "nothing stands three times above what surrounds it; the lamp must be lit, and "
                    "the region (rect) hold it and some of the dark around it");
   }
@@ -241,11 +241,11 @@ Result<SourceLuminance> MeasureSource(View2d<const float> nits, View2d<const flo
     out.face[i] = 1;
     if (parts.OnRim(i)) {
       return Refused(
-          "source_cut", Place(region),
+          "source_cut", PlaceText(region),
           "the lamp reaches the rim of the region; give one (rect) that holds all of it");
     }
     if (parts[i].sigma >= kClippedSigma * parts[i].nits) {
-      return Refused("source_clipped", Place(region),
+      return Refused("source_clipped", PlaceText(region),
                      "the lamp is saturated in every frame, so its luminance is a lower bound; "
                      "expose shorter, stop down or use an ND filter");
     }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's sources, answered from disk.
+#pragma once
+
+#include "lightcal/records/sources.h"
+
+namespace lightcal {
+
+// Each file is opened once in the life of these sources and their copies, whatever is asked about
+// it: texts and tables are held, EXR and camera RAW stay mapped (OpenImageIO opens TIFF, PNG, JPEG
+// and Radiance HDR itself once more). They may be asked from several threads at once.
+[[nodiscard]] Sources DiskSources();
+
+}  // namespace lightcal

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/files/read_photometric.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace lightcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> Check(files::FileFault fault, const std::string& path) {
+  switch (fault) {
+    case files::FileFault::kMissing:
+      return Failed("not_found", path, "there is no such file");
+    case files::FileFault::kTooLarge:
+      return Refused("too_large", path, "is larger than 32 MiB, which no lamp's file is");
+    case files::FileFault::kDirectory:
+    case files::FileFault::kUnreadable:
+      return Failed("unreadable", path, "cannot be read; is it a file you may open?");
+    case files::FileFault::kNone:
+      break;
+  }
+  return {};
+}
+
+Result<std::string> TiltBeside(const std::string& path) {
+  files::FileBytes file = files::ReadFileBytes(path, kMaxPhotometricBytes);
+  if (auto there = Check(file.fault, path); !there) return Propagate(std::move(there));
+  return std::move(file.bytes);
+}
+
+}  // namespace
+
+Result<ReadPhotometric> ReadPhotometricFile(const std::string& path) {
+  return PhotometricRead(files::ReadFileBytes(path, kMaxPhotometricBytes), path);
+}
+
+Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file, const std::string& path) {
+  if (auto there = Check(file.fault, path); !there) return Propagate(std::move(there));
+  const fs::path folder = fs::path(path).parent_path();
+  return PhotometricFromText(file.bytes, fs::path(path).filename().string(),
+                             [&](const std::string& name) { return TiltBeside(folder / name); });
+}
+
+}  // namespace lightcal

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/dome/read_dome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <variant>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
+#include "lightcal/imaging/panorama/compose_views.h"
+
+namespace lightcal {
+namespace {
+
+// Radiance's own primaries; their luminances are the .265 .670 .065 of its bright().
+// Source: Ward, Radiance color.h.
+constexpr RgbPrimaries kRadiancePrimaries = {
+    {0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {1.0 / 3.0, 1.0 / 3.0}};
+// The sun is 2e9 cd/m^2; a relative unit may be anything, but not this.
+constexpr double kMostSample = 1e15;
+
+Result<void> CheckRange(const PictureLuminance& luminance, const std::string& file) {
+  const auto brightest = std::max_element(luminance.nits.begin(), luminance.nits.end());
+  const double value = *brightest / luminance.nits_per_unit;
+  if (value <= kMostSample) return {};
+  const auto at = static_cast<int>(brightest - luminance.nits.begin());
+  return Refused("over_range", file,
+                 "pixel " + std::to_string(at % luminance.width) + "," +
+                     std::to_string(at / luminance.width) + " holds " + RoundedText(value, 3) +
+                     ", which no scene does; repair this pixel");
+}
+
+// What our own merge wrote beside the samples.
+void TakeStatedScale(const FrameInfo& info, DomeInput& input) {
+  for (const auto& [name, text] : info.lightcal_attributes) {
+    if (name == "scale_source") input.scale = text;
+    if (name == "scale_u95_relative") input.scale_u95_relative = ParseNumber(text);
+  }
+}
+
+std::vector<std::uint8_t> ClippedFrom(View2d<const float> samples, double level) {
+  std::vector<std::uint8_t> clipped;
+  clipped.reserve(static_cast<std::size_t>(samples.width()) * samples.height());
+  for (int y = 0; y < samples.height(); ++y) {
+    for (int x = 0; x < samples.width(); ++x) {
+      bool any = false;
+      for (int c = 0; c < samples.channels(); ++c) any |= samples(x, y, c) >= level;
+      clipped.push_back(any ? 1 : 0);
+    }
+  }
+  return clipped;
+}
+
+std::vector<float> ScaledSamples(View2d<const float> samples, double nits_per_unit) {
+  const auto scale = static_cast<float>(nits_per_unit);
+  std::vector<float> scaled;
+  scaled.reserve(static_cast<std::size_t>(samples.width()) * samples.height() * samples.channels());
+  for (int y = 0; y < samples.height(); ++y) {
+    for (const float v : samples.row(y)) scaled.push_back(v * scale);
+  }
+  return scaled;
+}
+
+// One file in its own projection.
+Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
+                              const DomeInputRequest& request) {
+  auto picture = sources.read_masked_frame(file);
+  if (!picture) return Propagate(std::move(picture));
+  Frame* const frame = &picture->frame;
+  const auto convention = request.convention.value_or(LuminanceConvention::kPhotometric);
+  auto luminance = LuminanceOfPicture(*frame, convention);
+  if (!luminance) return Propagate(std::move(luminance));
+  if (auto range = CheckRange(*luminance, file); !range) return Propagate(std::move(range));
+  const auto color = ColorOfPicture(frame->info);
+  if (!color) return tl::unexpected(color.error());
+
+  const auto& samples = std::get<View2d<const float>>(frame->samples);
+  DomeInput input;
+  input.files = {file};
+  input.warnings = frame->info.warnings;
+  if (!picture->masked.empty()) input.warnings.push_back(WarningOfMasked(*picture));
+  for (const Warning& warning : luminance->warnings) {
+    if (request.convention && warning.code == "relative_scale") continue;  // the person has said
+    input.warnings.push_back(warning);
+  }
+  input.scale = luminance->scale;
+  input.absolute = request.convention || frame->info.white_luminance;
+  if (convention == LuminanceConvention::kPhotometric) TakeStatedScale(frame->info, input);
+  input.has_colour = frame->info.channels == 3;
+  input.primaries = frame->info.chromaticities;
+  if (request.clip) {
+    input.clipped = ClippedFrom(samples, *request.clip);
+  } else if (frame->info.levels) {
+    input.clipped = ClippedFrom(samples, frame->info.levels->maximum);
+  }
+
+  Dome& dome = input.dome;
+  dome.width = luminance->width;
+  dome.height = luminance->height;
+  dome.channels = samples.channels();
+  dome.samples = ScaledSamples(samples, luminance->nits_per_unit);
+  dome.nits = std::move(luminance->nits);
+  if (input.has_colour) dome.xyz_from_rgb = color->xyz_from_rgb;
+  if (convention == LuminanceConvention::kRadiance && input.has_colour) {
+    dome.xyz_from_rgb = XyzFromRgbMatrix(kRadiancePrimaries);
+    input.primaries = kRadiancePrimaries;
+  }
+  return input;
+}
+
+}  // namespace
+
+Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& sources) {
+  std::vector<DomeInput> pictures;
+  for (const std::string& file : request.files) {
+    auto picture = ReadPicture(file, sources, request);
+    if (!picture) return Propagate(std::move(picture));
+    pictures.push_back(std::move(*picture));
+  }
+  if (!request.IsPanorama()) return ComposeViews(std::move(pictures), request);
+  const Dome& dome = pictures.front().dome;
+  const auto view = PixelSolidAngles::Create(
+      {.projection = Projection::kLatLong, .width = dome.width, .height = dome.height});
+  if (!view) return tl::unexpected(view.error());
+  return std::move(pictures.front());
+}
+
+Result<MeasuredDome> MeasureDome(const DomeRequest& request, const Sources& sources) {
+  auto input = ReadDomeInput(request.input, sources);
+  if (!input) return Propagate(std::move(input));
+  return MeasureDome(*std::move(input), request);
+}
+
+}  // namespace lightcal

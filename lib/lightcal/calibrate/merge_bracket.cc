@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/merge_bracket.h"
+
+namespace lightcal {
+
+Result<MergedBracket> MergeBracket(const Bracket& bracket, const Sources& sources,
+                                   const BracketMergeRequest& request) {
+  return MergeFrames(bracket, sources.load_masked_frame, request);
+}
+
+Result<MergedBracket> MergeBracket(const std::vector<std::string>& files, const Sources& sources,
+                                   const BracketMergeRequest& request) {
+  const auto bracket = sources.open_bracket(files, {});
+  if (!bracket) return tl::unexpected(bracket.error());
+  return MergeBracket(*bracket, sources, request);
+}
+
+}  // namespace lightcal

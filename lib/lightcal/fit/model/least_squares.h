@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one least-squares problem of this room: minimises
+//   1/2 sum_i rho(r_i(theta)^2) + 1/2 sum_k ((theta_k - mean_k)/sd_k)^2
+// of few parameters, and says how well they are known. A problem P tells
+//   P::kCount                       how many parameters there are
+//   problem.rules                   std::array<ParameterRule, kCount>: free or held, priors
+//   problem.BoundsOf(k)             where a free one must stay
+//   problem.RowCount()              how many rows
+//   problem.Residual(i, theta, r)   row i over its sigma, T = double or Jet; false: it has no value
+// so that a further parameter is a line in P's rules and its place in the row's law.
+// Internal to this room: needs Eigen and Ceres's header-only parts alone (least_squares.cc: Ceres).
+#pragma once
+
+#include <ceres/jet.h>
+#include <ceres/tiny_solver.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/parameter.h"
+#include "lightcal/fit/model/truncated_normal.h"
+
+namespace lightcal::fit {
+
+template <class P>
+using ValuesOf = std::array<double, P::kCount>;
+template <class P>
+using VectorOf = Eigen::Matrix<double, P::kCount, 1>;
+template <class P>
+using SquareOf = Eigen::Matrix<double, P::kCount, P::kCount>;
+template <class P>
+using RowsOf = Eigen::Matrix<double, Eigen::Dynamic, P::kCount>;
+
+template <class P>
+[[nodiscard]] bool HasPrior(const P& problem, int k) {
+  return problem.rules[k].free && problem.rules[k].prior_sd > 0.0;
+}
+
+// Whether a free parameter lies on a bound of its own or beyond.
+template <class P>
+[[nodiscard]] bool AtBound(const P& problem, const ValuesOf<P>& theta, int k) {
+  const Bounds bounds = problem.BoundsOf(k);
+  return problem.rules[k].free && (theta[k] <= bounds.low || theta[k] >= bounds.high);
+}
+
+// Row i at theta, infinite where it has no value.
+template <class P>
+[[nodiscard]] double ResidualAt(const P& problem, std::size_t i, const double* theta) {
+  double residual = 0.0;
+  return problem.Residual(i, theta, &residual) ? residual : std::numeric_limits<double>::infinity();
+}
+
+// The same, and its derivatives by every parameter.
+template <class P>
+double DifferentiateAt(const P& problem, std::size_t i, const double* theta, double* gradient) {
+  using Jet = ceres::Jet<double, P::kCount>;
+  std::array<Jet, P::kCount> variables;
+  for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
+  Jet residual(0.0);
+  if (!problem.Residual(i, variables.data(), &residual)) {
+    std::fill_n(gradient, P::kCount, 0.0);
+    return std::numeric_limits<double>::infinity();
+  }
+  std::copy_n(residual.v.data(), P::kCount, gradient);
+  return residual.a;
+}
+
+// 1/2 sum r_i^2 with the priors of free parameters.
+template <class P>
+[[nodiscard]] double HalfChiSquaredOf(const P& problem, const ValuesOf<P>& theta) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double r = ResidualAt(problem, i, theta.data());
+    sum += r * r;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const double r = (theta[k] - problem.rules[k].prior_mean) / problem.rules[k].prior_sd;
+    sum += r * r;
+  }
+  return 0.5 * sum;
+}
+
+// ---- solving ----
+
+// J^T J and J^T r of rows and priors over all parameters.
+template <class P>
+struct NormalEquations {
+  SquareOf<P> normal = SquareOf<P>::Zero();
+  VectorOf<P> gradient = VectorOf<P>::Zero();
+};
+
+template <class P>
+[[nodiscard]] NormalEquations<P> NormalEquationsAt(const P& problem, const ValuesOf<P>& theta) {
+  NormalEquations<P> out;
+  VectorOf<P> j;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
+    out.normal += j * j.transpose();
+    out.gradient += j * residual;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
+    out.normal(k, k) += weight;
+    out.gradient[k] += weight * (theta[k] - rule.prior_mean);
+  }
+  return out;
+}
+
+// Rows and columns of a held parameter become those of the unit matrix.
+template <class Matrix>
+void Hold(Matrix& normal, int k) {
+  normal.row(k).setZero();
+  normal.col(k).setZero();
+  normal(k, k) = 1.0;
+}
+
+// One Gauss-Newton step over the free parameters that are not at a bound. Ceres stops when the cost
+// no longer falls, which leaves half of the digits of the parameters; a parameter held at its bound
+// slows it further, because the step of the others is not the one along the bound.
+template <class P>
+[[nodiscard]] ValuesOf<P> GaussNewtonStep(const P& problem, ValuesOf<P> theta) {
+  NormalEquations<P> at = NormalEquationsAt(problem, theta);
+  for (int k = 0; k < P::kCount; ++k) {
+    if (problem.rules[k].free && !AtBound(problem, theta, k)) continue;
+    Hold(at.normal, k);
+    at.gradient[k] = 0.0;
+  }
+  const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
+  const SquareOf<P> scaled = scale.asDiagonal() * at.normal * scale.asDiagonal();
+  const VectorOf<P> step =
+      -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * at.gradient));
+  for (int k = 0; k < P::kCount; ++k) theta[k] += step[k];
+  return theta;
+}
+
+// A few steps more, as long as they are small and the cost does not grow beyond rounding.
+template <class P>
+[[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
+  constexpr int kSteps = 8;
+  constexpr double kLargestStep = 0.05;
+  const double cost = HalfChiSquaredOf(problem, theta);
+  for (int i = 0; i < kSteps; ++i) {
+    const ValuesOf<P> next = GaussNewtonStep(problem, theta);
+    double step = 0.0;
+    bool inside = true;
+    for (int k = 0; k < P::kCount; ++k) {
+      step = std::max(step, std::abs(next[k] - theta[k]));
+      const Bounds bounds = problem.BoundsOf(k);
+      const bool within = next[k] >= bounds.low && next[k] <= bounds.high;
+      inside = inside && (within || !problem.rules[k].free);
+    }
+    if (!(step < kLargestStep) || !inside) break;
+    if (!(HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
+    theta = next;
+    if (step < 1e-13) break;
+  }
+  return theta;
+}
+
+// The rows and priors as TinySolver takes them, column-major; what is not free has no derivative.
+template <class P>
+class TinyRows {
+ public:
+  using Scalar = double;
+  enum : int { NUM_PARAMETERS = P::kCount, NUM_RESIDUALS = Eigen::Dynamic };
+
+  TinyRows(const P& problem, const std::array<bool, P::kCount>& held) : problem_(problem) {
+    for (int k = 0; k < P::kCount; ++k) free_[k] = problem.rules[k].free && !held[k];
+  }
+  [[nodiscard]] int NumResiduals() const {
+    return static_cast<int>(problem_.RowCount()) + P::kCount;
+  }
+  bool operator()(const double* theta, double* residuals, double* jacobian) const {
+    const int n = NumResiduals();
+    const int rows = n - P::kCount;
+    std::array<double, P::kCount> gradient;
+    for (int i = 0; i < rows; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      if (jacobian == nullptr) {
+        residuals[i] = ResidualAt(problem_, row, theta);
+      } else {
+        residuals[i] = DifferentiateAt(problem_, row, theta, gradient.data());
+        for (int k = 0; k < P::kCount; ++k) jacobian[i + k * n] = free_[k] ? gradient[k] : 0.0;
+      }
+      if (!std::isfinite(residuals[i])) return false;
+    }
+    for (int k = 0; k < P::kCount; ++k) {
+      const ParameterRule& rule = problem_.rules[k];
+      const double weight = free_[k] && rule.prior_sd > 0.0 ? 1.0 / rule.prior_sd : 0.0;
+      residuals[rows + k] = weight * (theta[k] - rule.prior_mean);
+      for (int j = 0; jacobian != nullptr && j < P::kCount; ++j) {
+        jacobian[rows + k + j * n] = j == k ? weight : 0.0;
+      }
+    }
+    return true;
+  }
+
+ private:
+  const P& problem_;
+  std::array<bool, P::kCount> free_{};
+};
+
+// The squared-loss optimum to 1e-7 of a parameter by ceres::TinySolver, which knows no bounds,
+// `held` parameters kept at their start. Absent where it does not converge.
+template <class P>
+[[nodiscard]] std::optional<ValuesOf<P>> SolveTiny(const P& problem, const ValuesOf<P>& start,
+                                                   const std::array<bool, P::kCount>& held = {}) {
+  const TinyRows<P> rows(problem, held);
+  ceres::TinySolver<TinyRows<P>> solver;
+  solver.options.max_num_iterations = 40;
+  solver.options.initial_trust_region_radius = 1e8;
+  solver.options.gradient_tolerance = 1e-9;
+  solver.options.function_tolerance = 1e-10;
+  solver.options.parameter_tolerance = 1e-7;  // the polish takes the last digits
+  VectorOf<P> x = Eigen::Map<const VectorOf<P>>(start.data());
+  const auto& summary = solver.Solve(rows, &x);
+  const bool converged = summary.status != ceres::TinySolver<TinyRows<P>>::HIT_MAX_ITERATIONS;
+  if (!converged || !x.allFinite() || !std::isfinite(summary.final_cost)) return std::nullopt;
+  ValuesOf<P> out;
+  std::copy_n(x.data(), P::kCount, out.begin());
+  return out;
+}
+
+// What the full solver sees of any problem.
+struct ErasedProblem {
+  std::span<const ParameterRule> rules;
+  std::vector<Bounds> bounds;  // beside them
+  std::size_t rows = 0;
+  // Row i and, unless it is null, its gradient. False: it has no value.
+  std::function<bool(std::size_t i, const double* theta, double* residual, double* gradient)> row;
+};
+// Fails: no_convergence ("the solver found no <what>").
+[[nodiscard]] Result<void> MinimiseInFull(const ErasedProblem& problem, const FullSolver& how,
+                                          const std::string& what, double* theta);
+
+// By Ceres from `start`, free parameters within their bounds.
+template <class P>
+[[nodiscard]] Result<ValuesOf<P>> SolveInFullBy(const P& problem, ValuesOf<P> theta,
+                                                const FullSolver& how, const std::string& what) {
+  ErasedProblem erased{problem.rules, {}, problem.RowCount(), {}};
+  for (int k = 0; k < P::kCount; ++k) erased.bounds.push_back(problem.BoundsOf(k));
+  erased.row = [&problem](std::size_t i, const double* at, double* residual, double* gradient) {
+    *residual = gradient == nullptr ? ResidualAt(problem, i, at)
+                                    : DifferentiateAt(problem, i, at, gradient);
+    return std::isfinite(*residual);
+  };
+  if (auto solved = MinimiseInFull(erased, how, what, theta.data()); !solved) {
+    return tl::unexpected(std::move(solved).error());
+  }
+  return how.polish ? Polish(problem, theta) : theta;
+}
+
+// ---- how well the parameters are known ----
+
+// Rows over their sigmas (times `row_scale`), then one row for each parameter's prior.
+template <class P>
+struct Linearised {
+  RowsOf<P> jacobian;  // by every parameter, held ones too
+  Eigen::VectorXd residual;
+};
+
+template <class P>
+[[nodiscard]] Linearised<P> Linearise(const P& problem, const ValuesOf<P>& theta,
+                                      double row_scale = 1.0) {
+  const auto n = static_cast<Eigen::Index>(problem.RowCount());
+  Linearised<P> out{RowsOf<P>::Zero(n + P::kCount, P::kCount),
+                    Eigen::VectorXd::Zero(n + P::kCount)};
+  VectorOf<P> gradient;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    out.residual[i] = DifferentiateAt(problem, row, theta.data(), gradient.data()) / row_scale;
+    out.jacobian.row(i) = gradient.transpose() / row_scale;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    out.jacobian(n + k, k) = 1.0 / rule.prior_sd;
+    out.residual[n + k] = (theta[k] - rule.prior_mean) / rule.prior_sd;
+  }
+  return out;
+}
+
+// Upper triangle R of the QR decomposition of rows (Givens rotations, one row at a time: O(1)
+// memory and as stable as Householder for weights of any span).
+template <int N>
+[[nodiscard]] Eigen::Matrix<double, N, N> TriangleOf(
+    const Eigen::Matrix<double, Eigen::Dynamic, N>& rows) {
+  Eigen::Matrix<double, N, N> r = Eigen::Matrix<double, N, N>::Zero();
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    Eigen::Matrix<double, N, 1> row = rows.row(i);
+    for (int k = 0; k < N; ++k) {
+      if (row[k] == 0.0) continue;
+      const double length = std::hypot(r(k, k), row[k]);
+      const double c = r(k, k) / length;
+      const double s = row[k] / length;
+      for (int j = k; j < N; ++j) {
+        const double upper = r(k, j);
+        r(k, j) = c * upper + s * row[j];
+        row[j] = c * row[j] - s * upper;
+      }
+    }
+  }
+  return r;
+}
+
+// The triangle over the free parameters; that of a held one is the unit matrix's.
+template <class P>
+[[nodiscard]] SquareOf<P> FreeTriangle(const P& problem, const Linearised<P>& at) {
+  RowsOf<P> rows = at.jacobian;
+  const Eigen::Index n = rows.rows() - P::kCount;
+  for (int k = 0; k < P::kCount; ++k) {
+    if (problem.rules[k].free) continue;
+    rows.col(k).setZero();
+    rows(n + k, k) = 1.0;
+  }
+  return TriangleOf<P::kCount>(rows);
+}
+
+// Inverse of J^T J of rows and priors by QR (weights may span 1e12), zero for held parameters.
+// Absent where some free parameter is determined by no row and no prior.
+template <class P>
+[[nodiscard]] std::optional<SquareOf<P>> CovarianceAt(const P& problem, const Linearised<P>& at) {
+  const SquareOf<P> r = FreeTriangle(problem, at);
+  if (!r.allFinite() || !(r.diagonal().cwiseAbs().minCoeff() > 1e-300)) return std::nullopt;
+  const SquareOf<P> inverse =
+      r.template triangularView<Eigen::Upper>().solve(SquareOf<P>::Identity());
+  SquareOf<P> covariance = inverse * inverse.transpose();
+  for (int k = 0; k < P::kCount; ++k) {
+    if (problem.rules[k].free) continue;
+    covariance.row(k).setZero();
+    covariance.col(k).setZero();
+  }
+  return covariance;
+}
+
+// How far an influence on the whitened rows moves the estimate (Schmidt's consider covariance).
+template <class P>
+[[nodiscard]] VectorOf<P> Carried(const Linearised<P>& at, const SquareOf<P>& covariance,
+                                  const Eigen::VectorXd& whitened) {
+  return -covariance * (at.jacobian.transpose() * whitened);
+}
+
+// The normal marginal of parameter k becomes the one truncated at 0.
+template <class P>
+[[nodiscard]] TruncatedNormal CutAtZero(const Linearised<P>& at, const SquareOf<P>& covariance,
+                                        int k, double estimate) {
+  const double step = (covariance * (at.jacobian.transpose() * at.residual))[k];
+  return TruncateAtZero(estimate - step, std::sqrt(covariance(k, k)));
+}
+
+template <class P>
+[[nodiscard]] std::array<double, std::size_t{P::kCount} * P::kCount> Symmetric(
+    const SquareOf<P>& m) {
+  std::array<double, std::size_t{P::kCount} * P::kCount> out{};
+  for (int i = 0; i < P::kCount; ++i) {
+    for (int j = 0; j < P::kCount; ++j) out[i * P::kCount + j] = 0.5 * (m(i, j) + m(j, i));
+  }
+  return out;
+}
+
+// Ratio of the largest to the smallest singular value of these columns, each scaled to unit length;
+// infinite where one is zero.
+template <int N>
+[[nodiscard]] double ConditionOf(Eigen::Matrix<double, Eigen::Dynamic, N> rows,
+                                 const std::vector<int>& columns) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  if (rows.rows() < static_cast<Eigen::Index>(columns.size())) return infinite;
+  for (const int k : columns) {
+    const double length = rows.col(k).norm();
+    if (!(length > 0.0)) return infinite;
+    rows.col(k) /= length;
+  }
+  const Eigen::Matrix<double, N, N> r = TriangleOf<N>(rows);
+  Eigen::MatrixXd chosen(N, static_cast<Eigen::Index>(columns.size()));
+  for (Eigen::Index j = 0; j < chosen.cols(); ++j) {
+    chosen.col(j) = r.col(columns[static_cast<std::size_t>(j)]);
+  }
+  const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(chosen).singularValues();
+  const double least = singular[singular.size() - 1];
+  return least > 1e-300 ? singular[0] / least : infinite;
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/picture_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lightcal/imaging/camera/sensor_to_xyz.h"
+#include "lightcal/photometry/exposure.h"
+#include "lightcal/photometry/exposure_grid.h"
+
+namespace lightcal {
+namespace {
+
+// What ISO speeds leave open about a camera's absolute scale (1 sigma): makers choose their
+// headroom; published factors of calibrated cameras lie 18 to 24 % above the standard.
+constexpr double kIsoPriorSd = 0.2;
+// Standard output sensitivity: code 118 of 255 at H = 10/S.   Source: ISO 12232:2006, 6.4.
+constexpr double kOutputSensitivityExposure = 10.0;
+constexpr double kOutputSensitivityCode = 118.0 / 255.0;
+constexpr double kEncodedPriorSd = 0.3;
+constexpr double kClippedSpotSigma = 0.99;
+
+// How much less light focusing near lets onto the sensor.
+double FocusOf(const FrameInfo& info) {
+  if (!info.focal_length || !info.subject_distance) return 1.0;
+  return FocusFactor(*info.focal_length, *info.subject_distance).value_or(1.0);
+}
+
+// Signals of the shortest frame per unit of exposure t S/N^2.
+double PerExposure(const PreparedFrames& prepared) {
+  return FocusOf(prepared.frames[prepared.planned.order.front()].info) /
+         std::exp(prepared.planned.ln_exposure.front());
+}
+
+// Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
+Nits PriorScale(const PreparedFrames& prepared) {
+  const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
+  const double exposure = std::exp(prepared.planned.ln_exposure.front());  // t S / N^2
+  double nits = SaturatingExposure(1.0).value / (kIsoLensConstant * exposure);
+  if (info.meaning == SampleMeaning::kEncoded) {
+    const auto& green = prepared.response.signal_of_code[info.channels == 3 ? kGreenChannel : 0];
+    const auto code =
+        static_cast<std::size_t>(kOutputSensitivityCode * static_cast<double>(green.size() - 1));
+    nits = kOutputSensitivityExposure / (kIsoLensConstant * exposure * double{green[code]});
+  } else if (info.meaning != SampleMeaning::kLinear) {
+    const bool rgb = info.channels == 3 || info.meaning == SampleMeaning::kMosaic;
+    nits /= double{prepared.signals.front().clip[rgb ? kGreenChannel : 0]};
+  }
+  return Nits(nits * FocusOf(info));
+}
+
+bool IsClippedIn(const BracketMerger& merger, const SpotReading& spot) {
+  const SignalFrame& frame = merger.frames()[0];
+  std::vector<float> value(frame.row_samples());
+  std::vector<float> variance(value.size());
+  const auto width = static_cast<int>(value.size());
+  for (int y = spot.y; y < spot.y + spot.height; ++y) {
+    static_cast<void>(merger.MergeRows(y, 1, View2d<float>(value.data(), width, 1),
+                                       View2d<float>(variance.data(), width, 1)));
+    for (int x = spot.x * frame.channels; x < (spot.x + spot.width) * frame.channels; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const bool bright =
+          value[i] > 0.5F * static_cast<float>(merger.plan().usable) * frame.clip[0];
+      if (bright && variance[i] > kClippedSpotSigma * value[i] * value[i]) return true;
+    }
+  }
+  return false;
+}
+
+// What brings the spot's mean luminance to the reading.
+Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows& rows, double prior,
+                                 const SpotReading& spot, double ratio_sd) {
+  const SignalFrame& frame = merger.frames()[0];
+  const std::string where = std::to_string(spot.x) + "," + std::to_string(spot.y) + "," +
+                            std::to_string(spot.width) + "," + std::to_string(spot.height);
+  if (spot.x < 0 || spot.y < 0 || spot.width < 1 || spot.height < 1 ||
+      spot.x + spot.width > frame.width || spot.y + spot.height > frame.height) {
+    return Refused("bad_anchor", where,
+                   "is not inside the picture of " + std::to_string(frame.width) + " x " +
+                       std::to_string(frame.height) + " pixels");
+  }
+  if (IsClippedIn(merger, spot)) {
+    return Refused("bad_anchor", where,
+                   "is saturated in every frame; read a darker place, or expose shorter");
+  }
+  const std::size_t samples =
+      static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(spot.height);
+  std::vector<float> luminance(samples), sigma(samples);
+  const auto done =
+      MergePicture(merger, {.picture = {rows.luminance}, .luminance = rows.luminance}, spot.y,
+                   spot.height, View2d<float>(luminance.data(), frame.width, spot.height),
+                   View2d<float>(sigma.data(), frame.width, spot.height));
+  if (!done) return tl::unexpected(done.error());
+  double sum = 0.0, variance = 0.0;
+  for (int y = 0; y < spot.height; ++y) {
+    for (int x = spot.x; x < spot.x + spot.width; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
+                     static_cast<std::size_t>(x);
+      sum += luminance[i];
+      variance += double{sigma[i]} * sigma[i];
+    }
+  }
+  const double sd = kInterpolatedNoise * std::sqrt(variance) / sum;
+  if (!(sum > 0.0) || !(sd < 0.5)) {
+    return Refused("bad_anchor", where, "is too dark to be measured; read a brighter place");
+  }
+  const double mean = sum / (static_cast<double>(spot.width) * spot.height);
+  return PictureScale{prior * spot.luminance.value() / mean,
+                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd)};
+}
+
+// Of the light that the camera balanced for; the middle of the factor's lamps where it does not
+// say.
+Mireds MiredsOfFrame(const FrameInfo& info, const MismatchFactor& lamp) {
+  if (info.matrices && info.as_shot_neutral) {
+    if (const auto xy = XyFromCameraNeutral(*info.matrices, *info.as_shot_neutral)) {
+      return MiredsOfLamp(*xy);
+    }
+  }
+  return Mireds(lamp.middle_mired);
+}
+
+}  // namespace
+
+PictureRows RowsOf(const PreparedFrames& prepared, const BracketMergeRequest& request,
+                   double scale) {
+  const Matrix3& xyz = prepared.color.xyz_from_rgb;
+  PictureRows rows;
+  rows.corrections = prepared.corrections;
+  if (request.raw) {
+    const bool one = prepared.signals.front().channels == 1 &&
+                     prepared.frames.front().info.meaning != SampleMeaning::kMosaic;
+    rows.picture = {{scale, 0.0, 0.0}, {0.0, scale, 0.0}, {0.0, 0.0, scale}};
+    if (one) rows.picture.assign(3, {scale, 0.0, 0.0});
+    rows.luminance = rows.picture[1];
+    return rows;
+  }
+  for (std::size_t c = 0; c < 3; ++c) rows.luminance[c] = scale * xyz[1][c];
+  if (!request.space) {
+    rows.picture = {rows.luminance};
+    return rows;
+  }
+  const Xy target = PrimariesOf(*request.space).white;
+  rows.picture.resize(3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    Xyz color{xyz[0][c], xyz[1][c], xyz[2][c]};
+    if (request.white) {
+      // X and Z adapt; Y stays, so that a saturated lamp keeps its luminance.
+      color = AdaptBradford(color, *request.white, target);
+      color.Y = xyz[1][c];
+    }
+    const Rgb rgb = LinearRgbFromXyz(color, *request.space);
+    rows.picture[0][c] = scale * rgb.r;
+    rows.picture[1][c] = scale * rgb.g;
+    rows.picture[2][c] = scale * rgb.b;
+  }
+  return rows;
+}
+
+ScaleSource ScaleSourceOf(const BracketMergeRequest& request) {
+  if (request.anchor) return ScaleSource::kAnchor;
+  const bool read = request.camera && !request.camera->profile->scale.readings.empty();
+  return read ? ScaleSource::kCamera : ScaleSource::kIsoPrior;
+}
+
+Result<PictureScale> ScaleOf(const BracketMerger& merger, const PreparedFrames& prepared,
+                             const BracketMergeRequest& request) {
+  if (request.raw) return PictureScale{PerExposure(prepared), prepared.planned.gauge_sd};
+  const double prior = PriorScale(prepared).value();
+  if (request.anchor) {
+    const double ratio_sd =
+        *std::max_element(prepared.planned.sd_ln.begin(), prepared.planned.sd_ln.end());
+    SpotReading spot = *request.anchor;
+    if (prepared.alignment) {
+      spot.x -= prepared.alignment->x;
+      spot.y -= prepared.alignment->y;
+    }
+    return AnchorScale(merger, RowsOf(prepared, request, prior), prior, spot, ratio_sd);
+  }
+  const bool encoded = prepared.frames[0].info.meaning == SampleMeaning::kEncoded;
+  const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
+  PictureScale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd};
+  if (request.camera && !request.camera->profile->scale.readings.empty()) {
+    scale = {request.camera->profile->scale.full_scale_constant * PerExposure(prepared),
+             CameraScaleSigma(*request.camera, info)};
+  }
+  scale.sd_relative = std::hypot(scale.sd_relative, prepared.planned.gauge_sd);
+  if (request.lamp) {
+    scale.nits_per_unit *= request.lamp->At(MiredsOfFrame(info, *request.lamp));
+    scale.sd_relative = std::hypot(scale.sd_relative, request.lamp->sigma);
+  }
+  return scale;
+}
+
+}  // namespace lightcal

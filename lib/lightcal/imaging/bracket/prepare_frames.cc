@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/bracket/prepare_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/merge_bracket.h"
+#include "lightcal/imaging/bracket/release_rows.h"
+#include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/camera/flat_field.h"
+
+namespace lightcal {
+namespace {
+
+constexpr std::size_t kScratchFrom = std::size_t{1} << 29;  // bytes of samples
+
+// Frames into prepared.frames, and which of their pixels hold no number.
+Result<void> LoadFrames(const std::vector<FrameInfo>& infos, const FrameLoader& load,
+                        PreparedFrames& prepared, Warnings& warnings) {
+  std::size_t bytes = 0;
+  for (const FrameInfo& info : infos) {
+    const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
+    bytes += sample * static_cast<std::size_t>(info.width) * static_cast<std::size_t>(info.height) *
+             static_cast<std::size_t>(info.channels);
+  }
+  const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
+  std::vector<std::optional<Result<MaskedPicture>>> loaded(infos.size());
+  ParallelFor(static_cast<int>(infos.size()), [&](int i) {
+    auto& picture = loaded[static_cast<std::size_t>(i)];
+    picture = load(infos[static_cast<std::size_t>(i)], store);
+    if (!*picture) return;
+    const Frame& frame = (*picture)->frame;
+    ReleaseRows(frame, 0, frame.info.height);  // before the next one needs the memory
+  });
+  for (auto& picture : loaded) {
+    if (!*picture) return Propagate(std::move(*picture));
+    if (!(*picture)->masked.empty()) warnings.push_back(WarningOfMasked(**picture));
+    Frame& frame = prepared.frames.emplace_back(std::move((*picture)->frame));
+    for (const std::size_t pixel : (*picture)->masked) {
+      prepared.masked.push_back(static_cast<int>(pixel) % frame.info.width);
+      prepared.masked.push_back(static_cast<int>(pixel) / frame.info.width);
+    }
+  }
+  return {};
+}
+
+tl::unexpected<Error> NoExposure(const std::string& file, const std::string& what,
+                                 const std::string& todo) {
+  return Refused("no_exposure_metadata", file, "the file does not say its " + what + "; " + todo);
+}
+
+// Exposures t S / N^2 as the tags have them. Without ISO or f-number, which is only possible under
+// an anchor, these are the same for all frames.
+Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool anchored) {
+  std::vector<double> labels;
+  for (const FrameInfo& info : infos) {
+    const FrameExposure& exposure = info.exposure;
+    if (!exposure.time) {
+      return NoExposure(info.file, "exposure time",
+                        "give one a file with {merge.exposures} 1/250,1/60,...");
+    }
+    if (!anchored && !exposure.iso) {
+      return NoExposure(info.file, "ISO speed",
+                        "give it with {merge.iso}, or a spot reading ({merge.anchor})");
+    }
+    if (!anchored && !exposure.light_f_number()) {
+      return NoExposure(info.file, "f-number",
+                        "give it with {exposure.f_number}, or a spot reading ({merge.anchor})");
+    }
+    const FrameExposure& first = infos.front().exposure;
+    if (exposure.iso.has_value() != first.iso.has_value() ||
+        exposure.light_f_number().has_value() != first.light_f_number().has_value()) {
+      return NoExposure(info.file, "ISO or f-number where other frames do (or the other way round)",
+                        "give {merge.iso} and {exposure.f_number}");
+    }
+    const double n = exposure.light_f_number().value_or(1.0);
+    labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
+  }
+  return labels;
+}
+
+// The plan of frames that are in a plan's order already, cut to what all of them show.
+Result<void> Align(MergeRequest merge, PreparedFrames& prepared) {
+  MergePlan plan = prepared.planned.plan;
+  // Frames that moved scatter, which is no noise to excuse their differences by.
+  if (prepared.planned.noise_source == NoiseSource::kEstimated) {
+    plan.noise.assign(plan.noise.size(), kMiddlingNoise);
+  }
+  const auto merger = BracketMerger::Make(prepared.signals, plan);
+  if (!merger) return tl::unexpected(merger.error());
+  const auto alignment = MeasureAlignment(*merger);
+  if (!alignment) return tl::unexpected(alignment.error());
+  prepared.alignment = *alignment;
+  if (!alignment->any()) return {};
+  TakeBack(*alignment, prepared.signals);
+  const std::vector<std::size_t> before = prepared.planned.order;
+  const MergeRequest given = merge;
+  merge.label_exposure.clear();
+  merge.noise_in_file.clear();
+  for (const std::size_t i : before) {
+    merge.label_exposure.push_back(given.label_exposure[i]);
+    merge.noise_in_file.push_back(given.noise_in_file[i]);
+  }
+  merge.done = [&](std::size_t i) { given.done(before[i]); };
+  auto planned = PlanMerge(prepared.signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  for (std::size_t i = 0; i < planned->order.size(); ++i) {
+    prepared.alignment->moved[i] = alignment->moved[planned->order[i]];
+    planned->order[i] = before[planned->order[i]];
+  }
+  prepared.planned = std::move(*planned);
+  return {};
+}
+
+// An ideal lens's loss of light, for a sensor of this width.
+Result<CameraFlat> CosineFourthOf(const FrameInfo& info, Metres sensor_width) {
+  if (!info.focal_length) {
+    return Refused("no_focal_length", info.file,
+                   "the file does not say its focal length, which cos^4 needs; take a flat field "
+                   "with {CalibrateCamera} instead");
+  }
+  const Metres half_diagonal(0.5 * sensor_width.value() *
+                             std::hypot(1.0, static_cast<double>(info.height) / info.width));
+  return CosineFourthFlat(half_diagonal, *info.focal_length, info.exposure.f_number.value_or(1.0));
+}
+
+// `whole`: a frame as it was taken, not made smaller.
+Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo& whole,
+                            PreparedFrames& prepared) {
+  std::vector<FrameInfo> infos;
+  for (const std::size_t i : prepared.planned.order) infos.push_back(prepared.frames[i].info);
+  const int x = prepared.alignment ? prepared.alignment->x : 0,
+            y = prepared.alignment ? prepared.alignment->y : 0;
+  prepared.corrections = SampleCorrections(whole.width, whole.height, x, y);
+  if (request.camera) {
+    auto corrections = CorrectionsOf(*request.camera, infos, prepared.planned.plan, x, y);
+    if (!corrections) return Propagate(std::move(corrections));
+    prepared.corrections = std::move(*corrections);
+  }
+  prepared.corrections.AddHotPixels(prepared.masked);
+  prepared.corrections.SetThinning(prepared.thinning);
+  if (!request.cosine_fourth || prepared.corrections.flat()) return {};
+  const auto flat = CosineFourthOf(infos.front(), *request.cosine_fourth);
+  if (!flat) return tl::unexpected(flat.error());
+  prepared.corrections.SetFlat(*flat, SampleCorrections::FlatSource::kCosineFourth);
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest& request,
+                                                      const Bracket& bracket,
+                                                      const FrameLoader& load, Warnings& warnings) {
+  const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
+  if (!labels) return tl::unexpected(labels.error());
+  if (request.camera) {
+    if (auto fits = CheckKnownCamera(*request.camera, bracket.frames.front()); !fits) {
+      return Propagate(std::move(fits));
+    }
+  }
+  auto color = ColorOfPicture(bracket.frames.front());
+  if (!color) return Propagate(std::move(color));
+  if (request.camera) *color = CameraColorOf(*request.camera, std::move(*color));
+  if (request.space && !color->has_colour) {
+    return Refused(
+        "no_colour", bracket.frames.front().file,
+        "holds no colour, or nobody knows its camera's; leave {merge.space} out for luminance");
+  }
+  Append(color->warnings, warnings);
+  auto prepared = std::make_unique<PreparedFrames>();
+  if (auto loaded = LoadFrames(bracket.frames, load, *prepared, warnings); !loaded) {
+    return Propagate(std::move(loaded));
+  }
+  prepared->thinning = ThinningOf(prepared->frames.front().info, request.work);
+  if (!prepared->thinning.averaged) {
+    for (Frame& frame : prepared->frames) frame = ThinFrame(frame, prepared->thinning);
+  }
+  prepared->color = std::move(*color);
+  MergeRequest merge;
+  merge.label_exposure = *labels;
+  merge.noise = request.noise;
+  merge.keep_labels = !request.work.measure_ratios;
+  if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
+    auto response = RecoverResponse(prepared->frames, *labels);
+    if (!response) return Propagate(std::move(response));
+    prepared->response = std::move(*response);
+    merge.keep_labels = true;
+  }
+  for (const Frame& frame : prepared->frames) {
+    auto signal = SignalOf(frame, &prepared->response);
+    if (!signal) return Propagate(std::move(signal));
+    prepared->signals.push_back(std::move(*signal));
+    ReleaseRows(frame, 0, frame.info.height);
+    merge.noise_in_file.push_back(request.own_noise ? std::vector<NoiseProfile>()
+                                                    : frame.info.noise);
+  }
+  if (request.camera) {
+    CorrectBlack(*request.camera, bracket.frames, prepared->signals);
+    auto noise = CameraNoiseOf(*request.camera, bracket.frames);
+    merge.noise_of_camera = !noise.empty();
+    if (!noise.empty()) merge.noise_in_file = std::move(noise);
+  }
+  if (prepared->thinning.averaged) {
+    FindClipping(prepared->signals);
+    ParallelFor(static_cast<int>(prepared->frames.size()), [&](int i) {
+      const auto at = static_cast<std::size_t>(i);
+      AverageFrame(prepared->thinning, prepared->frames[at], prepared->signals[at]);
+    });
+    merge.samples_averaged = prepared->thinning.n;
+  }
+  merge.done = [&frames = prepared->frames](std::size_t i) {
+    ReleaseRows(frames[i], 0, frames[i].info.height);
+  };
+  auto planned = PlanMerge(prepared->signals, merge);
+  if (!planned) return Propagate(std::move(planned));
+  prepared->planned = std::move(*planned);
+  for (const Frame& frame : prepared->frames) ReleaseRows(frame, 0, frame.info.height);
+  if (request.align) {
+    if (auto aligned = Align(std::move(merge), *prepared); !aligned)
+      return Propagate(std::move(aligned));
+  }
+  prepared->planned.plan.estimator = request.work.estimator;
+  Append(prepared->planned.warnings, warnings);
+  if (auto set = SetCorrections(request, bracket.frames.front(), *prepared); !set)
+    return Propagate(std::move(set));
+  return prepared;
+}
+
+}  // namespace lightcal

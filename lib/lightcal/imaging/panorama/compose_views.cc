@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/panorama/compose_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/panorama/compose_dome.h"
+#include "lightcal/imaging/panorama/view_scales.h"
+
+namespace lightcal {
+namespace {
+
+constexpr int kViewPlateau = 16;        // pixels of a view that share its largest value: clipped
+constexpr double kSameMatrix = 1e-4;    // of matrices that mean the same primaries
+constexpr double kDisagreement = 0.05;  // robust sd of ln L in overlaps
+constexpr double kWholeSphere = 0.9995;
+
+Result<void> CheckAlike(const DomeInput& first, const DomeInput& other) {
+  bool alike = first.dome.channels == other.dome.channels;
+  for (std::size_t i = 0; i < 3 && first.has_colour; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      alike = alike &&
+              std::abs(first.dome.xyz_from_rgb[i][j] - other.dome.xyz_from_rgb[i][j]) < kSameMatrix;
+    }
+  }
+  if (alike) return {};
+  return Refused("views_differ", other.files.front(),
+                 "its channels or primaries are not those of " + first.files.front() +
+                     "; write all views with one {merge.space}");
+}
+
+// Pixels at the view's end of scale: no reading of theirs makes them lights, but another view of
+// the same direction is believed instead.
+std::vector<std::uint8_t> PlateauOf(const Dome& dome) {
+  const float brightest = *std::max_element(dome.nits.begin(), dome.nits.end());
+  std::vector<std::uint8_t> at;
+  if (std::ranges::count(dome.nits, brightest) < kViewPlateau) return at;
+  at.reserve(dome.nits.size());
+  for (const float v : dome.nits) at.push_back(v == brightest ? 1 : 0);
+  return at;
+}
+
+ViewAim AimOf(const DomeInputRequest& request, std::size_t i) {
+  if (!request.aims.empty()) return request.aims[i];
+  ViewAim up;
+  if (request.projection != Projection::kLatLong) up.pitch = Radians(std::numbers::pi / 2.0);
+  return up;
+}
+
+struct Views {
+  std::vector<std::vector<std::uint8_t>> clipped;  // what the pictures' spans look at
+  std::vector<AimedPicture> pictures;
+  std::vector<bool> in_gauge;
+};
+
+Result<Views> AimPictures(const std::vector<DomeInput>& pictures, const DomeInputRequest& request) {
+  Views views;
+  const bool any_absolute = std::ranges::any_of(pictures, &DomeInput::absolute);
+  for (const DomeInput& picture : pictures) {
+    views.clipped.push_back(request.clip ? picture.clipped : PlateauOf(picture.dome));
+    views.in_gauge.push_back(picture.absolute == any_absolute);
+  }
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const Dome& dome = pictures[i].dome;
+    if (auto alike = CheckAlike(pictures.front(), pictures[i]); !alike) {
+      return Propagate(std::move(alike));
+    }
+    auto angles = PixelSolidAngles::Create(
+        {request.projection, dome.width, dome.height, request.field_of_view});
+    if (!angles) return Propagate(std::move(angles));
+    views.pictures.push_back(
+        {pictures[i].files.front(), AimedView(std::move(*angles), AimOf(request, i)),
+         View2d<const float>(dome.samples.data(), dome.width, dome.height, dome.channels),
+         dome.luminance(), views.clipped[i]});
+  }
+  return views;
+}
+
+double SeenShare(const ComposedDome& composed) {
+  const LatLongGrid grid = composed.dome.grid();
+  double seen = 0.0;
+  for (std::size_t i = 0; i < composed.unseen.size(); ++i) {
+    if (composed.unseen[i] == 0) seen += grid.SolidAngle(grid.Y(static_cast<std::int32_t>(i)));
+  }
+  return seen / (4.0 * std::numbers::pi);
+}
+
+// What the files say of scale and of themselves, all together.
+DomeInput Together(std::vector<DomeInput>& pictures) {
+  DomeInput all;
+  const auto labelled = std::ranges::find_if(pictures, &DomeInput::absolute);
+  const DomeInput& speaker = labelled == pictures.end() ? pictures.front() : *labelled;
+  all.scale = speaker.scale;
+  all.absolute = speaker.absolute;
+  all.scale_u95_relative = speaker.scale_u95_relative;
+  all.primaries = pictures.front().primaries;
+  all.has_colour = pictures.front().has_colour;
+  for (DomeInput& picture : pictures) {
+    all.files.push_back(picture.files.front());
+    for (Warning& warning : picture.warnings) {
+      if (warning.code == "relative_scale" && all.absolute) continue;  // another view's scale
+      all.warnings.push_back(std::move(warning));
+    }
+  }
+  return all;
+}
+
+void WarnOfDisagreement(DomeInput& dome) {
+  if (dome.agreement_sd <= kDisagreement) return;
+  dome.warnings.push_back(
+      {"views_disagree", dome.files.front(),
+       "where views overlap they differ by " + RoundedText(100.0 * dome.agreement_sd, 2) +
+           " % (1 sigma); check their aims and field of view, or something moved"});
+}
+
+}  // namespace
+
+Result<DomeInput> ComposeViews(std::vector<DomeInput> pictures, const DomeInputRequest& request) {
+  const auto views = AimPictures(pictures, request);
+  if (!views) return tl::unexpected(views.error());
+  const auto scales = SolveViewScales(views->pictures, views->in_gauge);
+  if (!scales) return tl::unexpected(scales.error());
+  ComposedDome composed =
+      ComposeDome(views->pictures, *scales, request.width.value_or(WidthForViews(views->pictures)));
+  DomeInput dome = Together(pictures);
+  for (std::size_t i = 0; i < dome.files.size(); ++i) {
+    dome.views.push_back({dome.files[i], scales->factor[i], kZ95 * scales->sd_relative[i]});
+  }
+  dome.rim_transmission = scales->Falloff(1.0);
+  dome.agreement_sd = scales->agreement_sd;
+  dome.seen_share = SeenShare(composed);
+  if (dome.seen_share < kWholeSphere) dome.unseen = std::move(composed.unseen);
+  if (request.clip) dome.clipped = std::move(composed.clipped);
+  composed.dome.xyz_from_rgb = pictures.front().dome.xyz_from_rgb;
+  dome.dome = std::move(composed.dome);
+  WarnOfDisagreement(dome);
+  return dome;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of all around as one dome, on whatever scale they have.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/imaging/panorama/aimed_picture.h"
+#include "lightcal/imaging/panorama/dome_lights.h"
+#include "lightcal/imaging/panorama/panorama.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
+
+namespace lightcal {
+
+struct DomeInputRequest {
+  std::vector<std::string> files;
+  std::optional<LuminanceConvention> convention;  // absent: photometric, relative if no file says
+  std::optional<double> clip;  // samples of a file from here on are clipped, in the file's own unit
+  Projection projection = Projection::kLatLong;
+  Radians field_of_view{0.0};  // as PictureView has it
+  std::vector<ViewAim> aims;   // one a file; empty: a panorama as it is, a fisheye looking up
+  std::optional<int> width;    // of the lat-long dome made of views; absent: WidthForViews
+
+  // One lat-long file that needs no projecting.
+  [[nodiscard]] bool IsPanorama() const {
+    return projection == Projection::kLatLong && files.size() == 1 && aims.empty();
+  }
+};
+
+// One file of several on one scale.
+struct DomeViewScale {
+  std::string file;
+  double factor = 1.0;        // what its luminances were multiplied by
+  double u95_relative = 0.0;  // as a deviation from all views' common scale
+};
+
+struct DomeInput {
+  Dome dome;
+  std::vector<std::uint8_t> clipped;  // by pixel; empty = nothing is known to be
+  std::string scale;                  // as PictureLuminance has it, or what a merge wrote
+  bool absolute = false;              // the scale is meant as cd/m^2 by file or person
+  std::optional<double> scale_u95_relative;
+  std::optional<RgbPrimaries> primaries;  // the file's own
+  bool has_colour = false;
+  std::vector<std::string> files;
+  std::vector<DomeViewScale> views;  // of a dome composed of views
+  double rim_transmission = 1.0;     // what their lens passes at its rim, of what in its middle
+  double agreement_sd = 0.0;         // of the views where they overlap, relative
+  double seen_share = 1.0;           // of the sphere
+  std::vector<std::uint8_t> unseen;  // by pixel, black; empty = none
+  Warnings warnings;
+};
+
+}  // namespace lightcal

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/imaging/panorama/measure_dome.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/panorama/turn_north.h"
+
+namespace lightcal {
+namespace {
+
+// So many pixels of one light that share the picture's largest value: clipped, or drawn.
+constexpr int kPlateau = 4;
+constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
+constexpr double kUnknownScaleU95 = 0.05;
+constexpr double kConflict = 0.25;
+constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
+
+tl::unexpected<Error> AboutFile(const char* code, const DomeInput& input, const char* message) {
+  return Refused(code, input.files.front(), message);
+}
+
+Result<void> CheckBrightness(const DomeInput& input, Warnings& warnings) {
+  const auto& nits = input.dome.nits;
+  const auto [least, most] = std::minmax_element(nits.begin(), nits.end());
+  if (!(*most > 0.0F)) {
+    return AboutFile("all_black", input, "no pixel is above 0; expose longer, or merge a bracket");
+  }
+  if (*least != *most) return {};
+  if (std::abs(*most - kFormatLimit) < 1.0) {
+    return AboutFile("all_saturated", input,
+                     "every pixel is at the format's limit; expose shorter, or merge a bracket");
+  }
+  warnings.push_back({"all_saturated", input.files.front(),
+                      "every pixel has the same value: the picture is saturated all over, or was "
+                      "drawn"});
+  return {};
+}
+
+// What no view shows is black: the meter must not have seen much of it.
+Result<void> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+  const DomeInput& input = measured.input;
+  if (input.unseen.empty()) return {};
+  measured.warnings.push_back({"partly_seen", input.files.front(),
+                               "no view shows " + RoundedText(100.0 * (1.0 - input.seen_share), 2) +
+                                   " % of the sphere; it is black in the dome"});
+  if (!reading) return {};
+  std::vector<float> hidden(input.unseen.begin(), input.unseen.end());
+  const double share = IlluminanceOn({hidden.data(), input.dome.width, input.dome.height},
+                                     input.dome.grid(), reading->normal)
+                           .value() /
+                       std::numbers::pi;
+  if (share <= kMostHidden) return {};
+  return AboutFile("reading_beyond_view", input,
+                   ("the meter saw what no view shows: " + RoundedText(100.0 * share, 2) +
+                    " % of what lights it from a uniform sphere; turn it to where the pictures "
+                    "look ({dome.normal}), or add views")
+                       .c_str());
+}
+
+bool AtLimit(const DomeLight& light, float brightest) {
+  return light.body.plateau >= kPlateau && light.body.peak_nits >= double{brightest};
+}
+
+std::vector<std::uint8_t> PixelsAt(float level, const std::vector<float>& nits) {
+  std::vector<std::uint8_t> at;
+  at.reserve(nits.size());
+  for (const float v : nits) at.push_back(v >= level ? 1 : 0);
+  return at;
+}
+
+std::vector<DomeLight> FindLights(const DomeInput& input) {
+  const Dome& dome = input.dome;
+  return MeasureDomeLights(
+      dome, FindBrightBodies(dome.luminance(), dome.grid(), {.clipped = input.clipped}),
+      input.clipped);
+}
+
+// A light that ends in a plateau at the picture's largest value is either clipped or drawn. In
+// cd/m^2 the reading tells: it exceeds what the picture holds.
+void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
+                   MeasuredDome& measured) {
+  DomeInput& input = measured.input;
+  if (request.input.clip) return;
+  const float brightest = *std::max_element(input.dome.nits.begin(), input.dome.nits.end());
+  const auto suspect = std::ranges::find_if(
+      measured.lights, [&](const DomeLight& light) { return AtLimit(light, brightest); });
+  if (suspect == measured.lights.end()) return;
+  if (reading && !reading->shaded && input.absolute) {
+    const double seen =
+        IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
+    const double u95 = input.scale_u95_relative.value_or(kUnknownScaleU95);
+    if (reading->illuminance.value() > seen * (1.0 + u95)) {
+      input.clipped = PixelsAt(brightest, input.dome.nits);
+      measured.lights = FindLights(input);
+      return;
+    }
+  }
+  const AzimuthElevation at = AnglesOf(TurnedNorth(suspect->direction, measured.north));
+  measured.warnings.push_back(
+      {"maybe_clipped", input.files.front(),
+       std::to_string(suspect->body.plateau) + " pixels of the light at azimuth " +
+           RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3) +
+           " share the picture's largest value; if they are clipped, say from where ({dome.clip}) "
+           "and "
+           "read again with the light shaded ({dome.shaded})"});
+}
+
+Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+  DomeInput& input = measured.input;
+  measured.scale_source = input.scale;
+  measured.scale_u95_relative = input.scale_u95_relative;
+  if (!reading) return {};
+  auto scale = ScaleDome(*reading, input.absolute, input.dome, measured.lights);
+  if (!scale) return Propagate(std::move(scale));
+  measured.scale = *scale;
+  const bool scaled = scale->sd_relative > 0.0;
+  if (scaled) {
+    measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
+    measured.scale_u95_relative = kZ95 * scale->sd_relative;
+    std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
+  }
+  const double off = std::abs(std::log(scale->factor));
+  if (scaled && input.absolute &&
+      off > std::max(kConflict, input.scale_u95_relative.value_or(0.0))) {
+    measured.warnings.push_back(
+        {"scale_conflict", input.files.front(),
+         "the reading makes the picture " + RoundedText(scale->factor, 3) +
+             " times as bright as the file says it is; the reading is believed"});
+  }
+  if (scale->inferred > 1) {
+    measured.warnings.push_back(
+        {"clipped_lights_share", input.files.front(),
+         std::to_string(scale->inferred) +
+             " lights are clipped; one reading cannot tell them apart, so they share one "
+             "luminance"});
+  }
+  return {};
+}
+
+void WarnOfClippedLights(MeasuredDome& measured) {
+  const bool lost = std::ranges::any_of(measured.lights, [](const DomeLight& light) {
+    return light.body.clipped && !light.inferred;
+  });
+  if (!lost) return;
+  measured.warnings.push_back({"clipped", measured.input.files.front(),
+                               "a light is clipped: its lux are a lower bound; read it with a lux "
+                               "meter ({dome.illuminance}, and "
+                               "{dome.shaded} where the picture is not in cd/m2)"});
+}
+
+// What was inferred may outshine what was not.
+void OrderLights(MeasuredDome& measured) {
+  std::ranges::stable_sort(measured.lights, [](const DomeLight& a, const DomeLight& b) {
+    return a.illuminance.value() > b.illuminance.value();
+  });
+  const double scale = measured.scale_u95_relative.value_or(0.0) / kZ95;
+  for (const DomeLight& light : measured.lights) {
+    measured.sd_relative.push_back(
+        std::hypot(light.inferred ? measured.scale.inferred_sd_relative : scale,
+                   light.background_sd_relative));
+  }
+}
+
+}  // namespace
+
+Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
+  MeasuredDome measured;
+  measured.input = std::move(input);
+  measured.north = request.north;
+  if (auto ok = CheckBrightness(measured.input, measured.warnings); !ok) {
+    return Propagate(std::move(ok));
+  }
+  std::optional<DomeReading> reading = request.reading;
+  if (reading) reading->normal = TurnedNorth(reading->normal, -request.north);
+  if (auto seen = CheckSeen(reading, measured); !seen) return Propagate(std::move(seen));
+  measured.lights = FindLights(measured.input);
+  JudgePlateaus(request, reading, measured);
+  if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
+  OrderLights(measured);
+  WarnOfClippedLights(measured);
+  Warnings& warnings = measured.warnings;
+  warnings.insert(warnings.begin(), measured.input.warnings.begin(), measured.input.warnings.end());
+  return measured;
+}
+
+}  // namespace lightcal

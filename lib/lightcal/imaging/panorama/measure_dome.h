@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A dome as it was read -> in cd/m^2, and the lights in it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/imaging/panorama/dome_input.h"
+#include "lightcal/imaging/panorama/dome_lights.h"
+#include "lightcal/imaging/panorama/dome_scale.h"
+
+namespace lightcal {
+
+struct DomeRequest {
+  DomeInputRequest input;
+  std::optional<DomeReading> reading;  // normal as people see the answer: after `north`
+  Radians north{0.0};                  // azimuth, right of the picture's centre, of what becomes +Y
+};
+
+struct MeasuredDome {
+  DomeInput input;  // samples in cd/m^2, in the picture's own frame, lights still in it
+  std::vector<DomeLight> lights;    // brightest first; directions in the picture's own frame
+  std::vector<double> sd_relative;  // of the lights' illuminance
+  DomeScale scale;
+  std::string scale_source;  // "lux" "lux_shaded", else the input's
+  std::optional<double> scale_u95_relative;
+  Radians north{0.0};
+  Warnings warnings;
+};
+
+// Refused: all_black, all_saturated, reading_beyond_view, and as ScaleDome.
+// Warned: maybe_clipped, scale_conflict, clipped_lights_share, and what the input warns of.
+[[nodiscard]] Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request);
+
+}  // namespace lightcal
