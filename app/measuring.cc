@@ -12,8 +12,8 @@ namespace lightcal::app {
 namespace {
 
 Result<void> WaitUntilSettled(double tolerance_relative, MeterSession& meter, Console& console) {
-  console.Note("Waiting until the light changes by less than " +
-               RoundedText(100.0 * tolerance_relative, 2) + " % in half a minute (Ctrl-C stops).");
+  console.Note("Waiting until the light changes by less than " + PercentText(tolerance_relative) +
+               " in half a minute (Ctrl-C stops).");
   std::vector<double> values;
   for (int i = 0; i < kSettleMeasurements && meter.HasMore(); ++i) {
     if (i > 0 && !meter.IsReplay()) std::this_thread::sleep_for(kSettlePause);

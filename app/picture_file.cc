@@ -16,6 +16,7 @@
 
 #include "clock.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/png.h"
 #include "lightcal/report/raster_style.h"
 #include "raster_png.h"
 

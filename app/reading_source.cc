@@ -115,7 +115,7 @@ std::string SayReading(const TakenReading& taken) {
   if (reading.lamp == LampState::kOff) text += ", lamp off";
   if (taken.summary.count > 1) {
     text += "  (median of " + std::to_string(taken.summary.count) + ", spread " +
-            RoundedText(100.0 * taken.summary.spread_relative, 2) + " %)";
+            PercentText(taken.summary.spread_relative) + ")";
   }
   return text + "\n";
 }

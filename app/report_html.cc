@@ -7,48 +7,14 @@
 
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/rendering_input.h"
-#include "lightcal/core/numbers_text.h"
-#include "lightcal/presets/punctual_light.h"
+#include "lightcal/presets/check/engine_answers.h"
 #include "lightcal/report/page.h"
 #include "raster_png.h"
-#include "report/engines.h"
-#include "report/parity.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr int kDigits = 5;
 constexpr int kScaleRows = 256;
-
-// What any engine that takes candela or lux gets while its colour stays white.
-void AddWhite(const FittedLight& lamp, std::vector<EngineFigure>& figures) {
-  LightFile alone;
-  alone.lights = {lamp};
-  Warnings said_by_export;
-  const auto punctual = PunctualLightsFrom(alone, said_by_export);
-  if (!punctual) return;
-  const PunctualLight& light = punctual->front();
-  const std::string unit = light.type == PunctualType::kDirectional ? "lx" : "cd";
-  figures.push_back({lamp.name, "Any engine", "colour left white",
-                     RoundedText(light.photometric, kDigits), unit, light.substitution});
-}
-
-std::vector<EngineFigure> FiguresOf(const LightFile& lights,
-                                    const std::vector<EngineExport>& exports) {
-  std::vector<EngineFigure> figures;
-  for (std::size_t i = 0; i < lights.lights.size(); ++i) {
-    const FittedLight& lamp = lights.lights[i];
-    AddWhite(lamp, figures);
-    for (const EngineExport& exported : exports) {
-      auto number = NumberOf(*exported.engine, exported.derived[i]);
-      if (!number) continue;
-      figures.push_back({lamp.name, std::string(exported.engine->title), std::move(number->field),
-                         std::move(number->value), std::move(number->unit),
-                         std::move(number->note)});
-    }
-  }
-  return figures;
-}
 
 std::optional<LightSpectrum::Rendering> RenderingOf(const Spectrum& spectrum) {
   const auto input = PrepareRendering(spectrum);
@@ -79,10 +45,8 @@ LuminancePicture InFalseColors(const RecordedPicture& picture) {
 }  // namespace
 
 ReportExtras ExtrasOf(const LightFile& lights) {
-  const std::vector<EngineExport> exports = ExportForReport(lights);
   ReportExtras extras;
-  extras.figures = FiguresOf(lights, exports);
-  extras.parity = ParityOf(lights, exports);
+  extras.engines = EngineAnswersOf(lights);
   return extras;
 }
 

@@ -23,7 +23,7 @@ struct Options {
   bool force = false;
 };
 
-std::string Percent(double sigma) { return "± " + RoundedText(100.0 * kZ95 * sigma, 2) + " %"; }
+std::string Percent(double sigma) { return "± " + PercentText(kZ95 * sigma); }
 
 void AddScale(const CameraScale& scale, std::vector<std::vector<std::string>>& rows) {
   for (const ScaleReading& reading : scale.readings) {
@@ -60,8 +60,7 @@ std::string Table(const CameraProfile& profile) {
   for (const CameraFlat& flat : profile.flats) {
     const double corner = 1.0 + flat.channels[1][0] + flat.channels[1][1] + flat.channels[1][2];
     rows.push_back({"flat field, f/" + RoundedText(flat.f_number, 2),
-                    "corners keep " + RoundedText(100.0 * corner, 3) + " %",
-                    Percent(flat.sigma_relative)});
+                    "corners keep " + PercentText(corner, 3), Percent(flat.sigma_relative)});
   }
   for (const CameraDark& dark : profile.darks) {
     rows.push_back({"dark, ISO " + RoundedText(dark.iso, 4) + ", " +

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_extras.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "color_spaces.h"
 #include "color_words.h"
 #include "lightcal/colorimetry/engine_kelvin.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/preset_table.h"
 
 namespace lightcal::app {
 namespace {
@@ -73,10 +78,9 @@ Node EnginesNode(Xy xy) {
   const Uv1960 uv = Uv1960FromXy(xy);
   const CctResult cct = CctFromXy(xy);
   Node node = {{"krystek_setting_K", KrystekKelvinFrom(uv)}};
-  if (cct.valid()) {
-    node.Put({{"unreal_rgb", Triple(UnrealColorOfKelvin(cct.temperature))},
-              {"godot_rgb", Triple(GodotColorOfKelvin(cct.temperature))},
-              {"blender_usdlux_rgb", Triple(UnitLuminanceColorOfKelvin(cct.temperature))}});
+  for (const PresetTarget* target : ReportTargets()) {
+    if (!cct.valid() || !target->kelvin) continue;
+    node.Put(target->kelvin->key, Triple(target->kelvin->color(cct.temperature)));
   }
   node.Put("approximation", true);
   return node;
@@ -108,18 +112,22 @@ void AddErrorRows(std::vector<ExtraRow>& rows, const SpectralError& error) {
 }
 
 void AddEngineRows(std::vector<ExtraRow>& rows, Xy xy) {
-  if (const auto setting = KrystekKelvinFrom(Uv1960FromXy(xy))) {
-    rows.push_back(
-        {"kelvin setting of Unreal and Godot (Krystek)", RoundedText(setting->value(), 5), "K"});
-  }
   const CctResult cct = CctFromXy(xy);
-  if (!cct.valid()) return;
-  rows.push_back(
-      {"Unreal's linear RGB at this CCT", Numbers(UnrealColorOfKelvin(cct.temperature)), ""});
-  rows.push_back(
-      {"Godot's linear RGB at this CCT", Numbers(GodotColorOfKelvin(cct.temperature)), ""});
-  rows.push_back({"Blender's and UsdLux's at this CCT",
-                  Numbers(UnitLuminanceColorOfKelvin(cct.temperature)), ""});
+  std::vector<std::string_view> krystek;
+  std::vector<ExtraRow> colors;
+  for (const PresetTarget* target : ReportTargets()) {
+    if (!target->kelvin) continue;
+    const KelvinSetting& kelvin = *target->kelvin;
+    if (!kelvin.krystek.empty()) krystek.push_back(kelvin.krystek);
+    if (cct.valid()) {
+      colors.push_back({std::string(kelvin.label), Numbers(kelvin.color(cct.temperature)), ""});
+    }
+  }
+  if (const auto setting = KrystekKelvinFrom(Uv1960FromXy(xy))) {
+    rows.push_back({"kelvin setting of " + Joined(krystek, " and ") + " (Krystek)",
+                    RoundedText(setting->value(), 5), "K"});
+  }
+  std::ranges::move(colors, std::back_inserter(rows));
 }
 
 }  // namespace

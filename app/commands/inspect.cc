@@ -222,7 +222,7 @@ std::string Table(const InspectedPicture& inspected, const Region& region, const
   }
   std::string scale = inspected.luminance.scale;
   if (inspected.scale_u95_relative) {
-    scale += " ± " + RoundedText(100.0 * *inspected.scale_u95_relative, 2) + " %";
+    scale += " ± " + PercentText(*inspected.scale_u95_relative);
   }
   return inspected.info.file + ": " + std::to_string(inspected.luminance.width) + " x " +
          std::to_string(inspected.luminance.height) + ", region " + std::to_string(region.x) + "," +

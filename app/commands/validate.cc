@@ -8,6 +8,7 @@
 
 #include "batch/find_sessions.h"
 #include "commands.h"
+#include "lightcal/presets/preset_table.h"
 #include "told_error.h"
 #include "validate/validate_file.h"
 
@@ -103,9 +104,10 @@ Run BuildValidate(CLI::App& parser) {
       .add_option(
           "files", *paths,
           "Sessions (or a folder of them), readings.jsonl, meters.toml; light.json, presets, "
-          "camera, profile, capture and run files, tapes; .gltf .blender.py .three.js "
-          ".filament.json as export writes them; IES, EULUMDAT, camera sensitivities; "
-          "spectra and readings that import reads")
+          "camera, profile, capture and run files, tapes; " +
+              ReadableEndings(" ") +
+              " as export writes them; IES, EULUMDAT, camera sensitivities; "
+              "spectra and readings that import reads")
       ->required();
   return [paths](Console& console) { return RunValidate(*paths, console); };
 }

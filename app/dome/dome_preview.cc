@@ -10,7 +10,8 @@
 #include "lightcal/imaging/panorama/turn_north.h"
 #include "picture_file.h"
 #include "raster_png.h"
-#include "srgb.h"
+#include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/base64.h"
 
 namespace lightcal::app {
 namespace {

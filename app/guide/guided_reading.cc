@@ -25,7 +25,7 @@
 namespace lightcal::app {
 namespace {
 
-std::string Percent(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
+std::string Percent(double part) { return "± " + PercentText(part); }
 
 // How far from one hundred per cent to what is wanted, in equal ratios.
 std::string ProgressBar(double u95_relative, double wanted_relative) {
@@ -261,8 +261,8 @@ class Walk {
   void Report(const Reading& reading) const {
     const auto share = guide_->other_light_share();
     if (reading.shadow_card && share) {
-      console_.Note("   " + RoundedText(100.0 * *share, 2) +
-                    " % of what the meter saw here came from elsewhere; it is taken off.");
+      console_.Note("   " + PercentText(*share) +
+                    " of what the meter saw here came from elsewhere; it is taken off.");
     }
     if (guide_->light()) console_.Note(Progress());
   }

@@ -61,7 +61,7 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
   const auto text = [](double v) { return RoundedText(v, 3); };
   figure.notes.push_back("illuminance: mean " + text(summary.mean_lx) + " lx, least " +
                          text(summary.least_lx) + " lx, most " + text(summary.most_lx) + " lx; ± " +
-                         RoundedText(100.0 * summary.median_u95_relative, 2) + " % (95 %, median)");
+                         PercentText(summary.median_u95_relative) + " (95 %, median)");
   figure.notes.push_back(s.settings.room ? "direct light and what the walls return (reflectance " +
                                                RoundedText(s.settings.room->reflectance, 2) +
                                                "), nothing in between"

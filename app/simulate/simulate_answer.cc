@@ -115,8 +115,8 @@ Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
                    " points and the mean of further ones" +
                    (between > 0 ? ", interpolated between" : "");
     } else {
-      row.reason = "at most " + RoundedText(100.0 * account.bounce_left_off, 2) +
-                   " % of its direct light anywhere";
+      row.reason =
+          "at most " + PercentText(account.bounce_left_off) + " of its direct light anywhere";
     }
   }
   return row;

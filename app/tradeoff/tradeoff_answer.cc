@@ -65,8 +65,7 @@ double TimesFaster(const Study& study, const Setting& setting) {
 std::string OffBy(const Setting& setting) {
   std::string text = Percent(setting.error.relative);
   if (std::abs(setting.u_change) < kSeenChangeOfU) return text;
-  return text + ", u " + (setting.u_change > 0.0 ? "+" : "") +
-         RoundedText(100.0 * setting.u_change, 2) + " %";
+  return text + ", u " + (setting.u_change > 0.0 ? "+" : "") + PercentText(setting.u_change);
 }
 
 struct Cells {
@@ -112,8 +111,7 @@ std::string Effect(const Setting& setting, double times_faster) {
   const bool widens = std::abs(setting.u_change) >= kSeenChangeOfU;
   std::string what = moves ? "moves " + Moved(setting.error) : "";
   if (widens) {
-    what += (moves ? " and u by " : "moves your u by ") + RoundedText(100.0 * setting.u_change, 2) +
-            " %";
+    what += (moves ? " and u by " : "moves your u by ") + PercentText(setting.u_change);
   }
   what = moves || widens ? what + ", " + Share(setting.error.over_u) : "changes nothing";
   return Speed(times_faster) + ", " + what + ": " + VerdictWord(setting);

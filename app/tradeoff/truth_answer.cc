@@ -55,9 +55,8 @@ std::string TruthSentence(const std::vector<TruthRow>& rows) {
   return "Against the truth of a synthetic twin, read " + std::to_string(recommended.replicas) +
          " times: the recommended setting is " + PercentText(recommended.rms) +
          " off (the strictest " + PercentText(strict.rms) +
-         "), and its 95 % interval holds the truth in " +
-         RoundedText(100.0 * recommended.held_share(), 3) + " % (" +
-         RoundedText(100.0 * strict.held_share(), 3) + " %).";
+         "), and its 95 % interval holds the truth in " + PercentText(recommended.held_share(), 3) +
+         " (" + PercentText(strict.held_share(), 3) + ").";
 }
 
 records::Node TruthNode(const TruthRow& row) {

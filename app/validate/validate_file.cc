@@ -10,9 +10,10 @@
 #include <utility>
 
 #include "batch/run_stamp.h"
-#include "check/engine_light.h"
-#include "check/rig_file.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/read_preset.h"
+#include "lightcal/presets/check/rig_file.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/camera_profile.h"
 #include "lightcal/records/light_codec.h"
@@ -22,6 +23,7 @@
 #include "lightcal_devices/files/read_photometric.h"
 #include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
+#include "preset_input.h"
 #include "validate/validate_session.h"
 
 namespace lightcal::app {
@@ -34,17 +36,17 @@ constexpr std::uintmax_t kMostBytes = 256U << 20U;
 constexpr int kTableDigits = 4;
 
 // What a reader found in the file, in a few words.
-using Holds = Result<std::string>;
+using Contents = Result<std::string>;
 
-Holds HeldByLight(const std::string& text, const std::string& path) {
+Contents LightContents(const std::string& text, const std::string& path) {
   const auto file = LightFileFromJson(text, path);
   if (!file) return tl::unexpected(file.error());
   return Counted(file->lights.size(), "light");
 }
 
-Holds HeldByPreset(const std::string& text, const std::string& path) {
+Contents PresetContents(const std::string& text, const std::string& path) {
   // The reader goes by the name, which a person may have changed.
-  auto lights = LightsOfPreset("lights.preset.json", text);
+  auto lights = LightsOfPreset("lights.preset.json", text, FilesBeside(path));
   if (!lights) {
     Error error = std::move(lights).error();
     error.subject = path;
@@ -57,43 +59,43 @@ Holds HeldByPreset(const std::string& text, const std::string& path) {
   return Propagate(std::move(rig));
 }
 
-Holds HeldByCamera(const std::string& text, const std::string& path) {
+Contents CameraContents(const std::string& text, const std::string& path) {
   const auto profile = CameraProfileFromJson(text, path);
   if (!profile) return tl::unexpected(profile.error());
   return profile->camera.empty() ? "a camera without a name" : profile->camera;
 }
 
-Holds HeldBySensitivities(const std::string& text, const std::string& path) {
+Contents SensitivityContents(const std::string& text, const std::string& path) {
   const auto sensitivities = CameraSensitivitiesFromJson(text, path);
   if (!sensitivities) return tl::unexpected(sensitivities.error());
   return sensitivities->camera;
 }
 
-Holds HeldByProfile(const std::string& text, const std::string& path) {
+Contents ProfileContents(const std::string& text, const std::string& path) {
   const auto profile = AccuracyProfileFromJson(text, path);
   if (!profile) return tl::unexpected(profile.error());
   return "tolerance " + PercentText(profile->tolerance_relative);
 }
 
-Holds HeldByCapture(const std::string& text, const std::string& path) {
+Contents CaptureContents(const std::string& text, const std::string& path) {
   const auto shoot = TetheredShootFromJson(text, path);
   if (!shoot) return tl::unexpected(shoot.error());
   return Counted(shoot->frames.size(), "frame") + (shoot->complete ? "" : ", broken off");
 }
 
-Holds HeldByTape(const std::string& text, const std::string& path) {
+Contents TapeContents(const std::string& text, const std::string& path) {
   const auto tape = TapeFromText(text, path);
   if (!tape) return tl::unexpected(tape.error());
   return tape->driver + ", " + Counted(tape->exchanges.size(), "exchange");
 }
 
-Holds HeldByRunStamp(const std::string& text, const std::string& path) {
+Contents RunStampContents(const std::string& text, const std::string& path) {
   const auto stamp = RunStampFromJson(text, path);
   if (!stamp) return tl::unexpected(stamp.error());
   return Counted(stamp->outputs.size(), "output");
 }
 
-Holds HeldByMeters(const std::string& text, const std::string& path) {
+Contents MeterContents(const std::string& text, const std::string& path) {
   const auto meters = MeterCalibrationsFromToml(text, path);
   if (!meters) return tl::unexpected(meters.error());
   return Counted(meters->size(), "calibration");
@@ -103,32 +105,35 @@ Holds HeldByMeters(const std::string& text, const std::string& path) {
 struct JsonFormat {
   std::string_view name;
   std::string_view schema;
-  Holds (*read)(const std::string& text, const std::string& path);
+  Contents (*read)(const std::string& text, const std::string& path);
 };
 constexpr JsonFormat kJsonFormats[] = {
-    {"light", kLightSchema, HeldByLight},
-    {"preset", "lightcal.preset/1", HeldByPreset},
-    {"camera", kCameraSchema, HeldByCamera},
-    {"profile", kProfileSchema, HeldByProfile},
-    {"capture", "lightcal.capture/1", HeldByCapture},
-    {"tape", "lightcal.tape/1", HeldByTape},
-    {"run", kRunStampSchema, HeldByRunStamp},
+    {"light", kLightSchema, LightContents},
+    {"preset", "lightcal.preset/1", PresetContents},
+    {"camera", kCameraSchema, CameraContents},
+    {"profile", kProfileSchema, ProfileContents},
+    {"capture", "lightcal.capture/1", CaptureContents},
+    {"tape", "lightcal.tape/1", TapeContents},
+    {"run", kRunStampSchema, RunStampContents},
 };
 
-// Engine files that are read back, by their endings.
-constexpr std::string_view kEngineEndings[] = {".gltf", ".blender.py", ".three.js",
-                                               ".filament.json"};
+// Whether a file is an engine's own: its name alone tells. Photometric files and our own JSON say
+// themselves what they are.
+bool IsEngineFile(const std::string& name) {
+  const PresetTarget* target = TargetOfFile(name);
+  return target != nullptr && target->place_in_report > 0;
+}
 
 Error UnknownFormat(const std::string& path, const std::string& what) {
   return {ErrorKind::kRefused, "unknown_format", path,
           what + "; lightcal validate --help lists what is known"};
 }
 
-void Take(Holds holds, FileVerdict& verdict) {
-  if (holds) {
-    verdict.holds = *std::move(holds);
+void Take(Contents contents, FileVerdict& verdict) {
+  if (contents) {
+    verdict.holds = *std::move(contents);
   } else {
-    verdict.error = std::move(holds).error();
+    verdict.error = std::move(contents).error();
   }
 }
 
@@ -172,7 +177,7 @@ void ValidateJson(const std::string& text, FileVerdict& verdict) {
                           "is broken JSON and does not say what it is; copy or write it again"};
   } else if (json.is_object() && json.contains("spectral_data")) {
     verdict.format = "camera sensitivities";
-    Take(HeldBySensitivities(text, verdict.path), verdict);
+    Take(SensitivityContents(text, verdict.path), verdict);
   } else {
     verdict.error = UnknownFormat(
         verdict.path, schema.empty() ? "is JSON without a \"schema\"" : "is a " + schema);
@@ -219,7 +224,7 @@ void ValidateImport(FileVerdict& verdict) {
 
 void ValidateEngineFile(const std::string& text, FileVerdict& verdict) {
   verdict.format = "engine file";
-  const auto lights = LightsOfPreset(verdict.path, text);
+  const auto lights = LightsOfPreset(verdict.path, text, FilesBeside(verdict.path));
   if (lights) {
     verdict.holds = Counted(lights->size(), "light");
   } else {
@@ -233,7 +238,7 @@ void ValidateToml(const std::string& text, FileVerdict& verdict) {
   if (!meters) return ValidateSession(verdict);
   verdict.format = "meters";
   verdict.version = "1";
-  Take(HeldByMeters(text, verdict.path), verdict);
+  Take(MeterContents(text, verdict.path), verdict);
 }
 
 void ValidateText(const std::string& text, FileVerdict& verdict) {
@@ -244,7 +249,7 @@ void ValidateText(const std::string& text, FileVerdict& verdict) {
     ValidateToml(text, verdict);
   } else if (named(".jsonl")) {
     ValidateJournal(text, verdict);
-  } else if (std::ranges::any_of(kEngineEndings, named)) {
+  } else if (IsEngineFile(name)) {
     ValidateEngineFile(text, verdict);
   } else if (first != std::string::npos && text[first] == '{') {
     ValidateJson(text, verdict);

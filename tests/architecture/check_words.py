@@ -18,8 +18,7 @@ EXIT = re.compile(r"\bexit(?:s with)? (?:codes?|status|[0-9])", re.I)
 FIELD = re.compile(r"\{([a-zA-Z]\w*(?:\.\w+)?)\}")
 # What is said of other programs, and of style sheets, whose properties begin with two dashes.
 OTHERS = {"devices/lightcal_devices/transport/process.h": EXIT,
-          "devices/lightcal_devices/transport/process.cc": EXIT,
-          "lib/lightcal/presets/blender_program.cc": OPTION}
+          "devices/lightcal_devices/transport/process.cc": EXIT}
 UDEV = "udevadm control --reload"
 STYLE_SHEETS = "lib/lightcal/report/"
 

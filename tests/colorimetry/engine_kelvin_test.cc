@@ -25,26 +25,26 @@ TEST(KrystekUv, StaysWithinItsPublishedErrorOfTheLocus) {
 }
 
 TEST(GodotColor, EqualsWhatGodotRenders) {  // measured: 2700 K, and its default of 6500 K
-  const Rgb warm = GodotColorOfKelvin(Kelvin(2700));
+  const Rgb warm = KrystekRgbAtUnitPeak(Kelvin(2700));
   EXPECT_DOUBLE_EQ(warm.r, 1.0);
   EXPECT_NEAR(warm.g, 0.4159, 1e-4);
   EXPECT_NEAR(warm.b, 0.0984, 1e-4);
-  const Rgb neutral = GodotColorOfKelvin(Kelvin(6500));
+  const Rgb neutral = KrystekRgbAtUnitPeak(Kelvin(6500));
   EXPECT_NEAR(neutral.g, 0.942, 1e-3);
   EXPECT_NEAR(neutral.b, 0.992, 1e-3);
 }
 
 TEST(UnrealColor, HasUnitLuminanceAndIsClampedAtBothEnds) {
   for (const double kelvin : {1850.0, 3200.0, 6500.0, 15'000.0}) {
-    const Rgb c = UnrealColorOfKelvin(Kelvin(kelvin));
+    const Rgb c = KrystekRgbAtUnitY(Kelvin(kelvin));
     EXPECT_NEAR(LuminanceOfRgb(c, RgbSpace::kSrgb), 1.0, 1e-12);
   }
-  EXPECT_DOUBLE_EQ(UnrealColorOfKelvin(Kelvin(40'000)).r, UnrealColorOfKelvin(Kelvin(15'000)).r);
-  EXPECT_DOUBLE_EQ(UnrealColorOfKelvin(Kelvin(500)).r, UnrealColorOfKelvin(Kelvin(1000)).r);
+  EXPECT_DOUBLE_EQ(KrystekRgbAtUnitY(Kelvin(40'000)).r, KrystekRgbAtUnitY(Kelvin(15'000)).r);
+  EXPECT_DOUBLE_EQ(KrystekRgbAtUnitY(Kelvin(500)).r, KrystekRgbAtUnitY(Kelvin(1000)).r);
 }
 
 TEST(UnitLuminanceColor, EqualsBlendersBlackbodyNode) {  // rendered at 2700 K in 3.4 and 5.2
-  const Rgb c = UnitLuminanceColorOfKelvin(Kelvin(2700));
+  const Rgb c = PlanckianRgbAtUnitY(Kelvin(2700));
   EXPECT_NEAR(c.r, 1.935, 3e-3);
   EXPECT_NEAR(c.g, 0.8035, 3e-3);
   EXPECT_NEAR(c.b, 0.192, 3e-3);

@@ -4,7 +4,8 @@
 #include <exception>
 #include <stdexcept>
 
-#include "check/read_scenes.h"
+#include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/exporters.h"
 #include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -12,8 +13,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     throw std::runtime_error(name + " is not there");
   };
   try {
-    lightcal::app::RequireFinite(
-        lightcal::app::LightsOfUsda(std::string(lightcal::fuzz::TextOf(data, size)), no_file));
+    lightcal::RequireFinite(
+        lightcal::ReadUsd(std::string(lightcal::fuzz::TextOf(data, size)), no_file));
   } catch (const std::exception&) {
     // Refused: LightsOfPreset says so, with what the reader says of a name from the file.
     return 0;

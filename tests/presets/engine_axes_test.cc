@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "lightcal/light/lamp_axes.h"
+#include "lightcal/presets/unreal_light.h"
 
 namespace lightcal::test {
 namespace {
@@ -21,15 +22,15 @@ TEST(EngineAxes, GoldenMapOfAPoint) {
   const Vec3 lamp = {1, 2, 3};
   EXPECT_EQ(PositionIn(EngineAxes::kZUp, lamp), (Vec3{1, 2, 3}));
   EXPECT_EQ(PositionIn(EngineAxes::kYUp, lamp), (Vec3{1, 3, -2}));
-  EXPECT_EQ(PositionIn(EngineAxes::kUnreal, lamp), (Vec3{100, -200, 300}));
-  EXPECT_EQ(PositionIn(EngineAxes::kUnity, lamp), (Vec3{1, 3, 2}));
+  EXPECT_EQ(PositionIn(EngineAxes::kZUpLeftHanded, lamp), (Vec3{100, -200, 300}));
+  EXPECT_EQ(PositionIn(EngineAxes::kYUpLeftHanded, lamp), (Vec3{1, 3, 2}));
 }
 
 // engines.md 5.3: glTF (x,y,z) -> UE (x,z,y)*100.
 TEST(EngineAxes, UnrealAgreesWithItsOwnGltfImporter) {
   const Vec3 lamp = {0.3, -1.7, 2.2};
   const Vec3 gltf = PositionIn(EngineAxes::kYUp, lamp);
-  const Vec3 unreal = PositionIn(EngineAxes::kUnreal, lamp);
+  const Vec3 unreal = PositionIn(EngineAxes::kZUpLeftHanded, lamp);
   EXPECT_DOUBLE_EQ(unreal[0], gltf[0] * 100.0);
   EXPECT_DOUBLE_EQ(unreal[1], gltf[2] * 100.0);
   EXPECT_DOUBLE_EQ(unreal[2], gltf[1] * 100.0);
@@ -43,8 +44,8 @@ TEST(EngineAxes, LeftHandedEnginesAreMirroredAndOthersTurned) {
   };
   EXPECT_EQ(handedness(EngineAxes::kZUp), 1.0);
   EXPECT_EQ(handedness(EngineAxes::kYUp), 1.0);
-  EXPECT_EQ(handedness(EngineAxes::kUnreal), -1.0);
-  EXPECT_EQ(handedness(EngineAxes::kUnity), -1.0);
+  EXPECT_EQ(handedness(EngineAxes::kZUpLeftHanded), -1.0);
+  EXPECT_EQ(handedness(EngineAxes::kYUpLeftHanded), -1.0);
 }
 
 // The documented matrix of FRotator, written out from its Euler angles, must give the axes back.
@@ -53,9 +54,9 @@ TEST(UnrealRotator, ItsMatrixGivesBackForwardRightAndUp) {
   for (const Vec3& aim : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{0, 0, 1},
                           Vec3{0.6, -0.64, -0.48}, Vec3{-1, 0, 0}, Vec3{-0.36, 0.48, 0.8}}) {
     const LampAxes lamp = AxesOfAim(aim);
-    const Vec3 forward = DirectionIn(EngineAxes::kUnreal, lamp.aim);
-    const Vec3 right = DirectionIn(EngineAxes::kUnreal, lamp.c0);
-    const Vec3 up = DirectionIn(EngineAxes::kUnreal, lamp.c90);
+    const Vec3 forward = DirectionIn(EngineAxes::kZUpLeftHanded, lamp.aim);
+    const Vec3 right = DirectionIn(EngineAxes::kZUpLeftHanded, lamp.c0);
+    const Vec3 up = DirectionIn(EngineAxes::kZUpLeftHanded, lamp.c90);
     const UnrealRotator r = UnrealRotatorFromAxes(forward, right, up);
     const double sp = std::sin(r.pitch_deg * rad), cp = std::cos(r.pitch_deg * rad);
     const double sy = std::sin(r.yaw_deg * rad), cy = std::cos(r.yaw_deg * rad);
@@ -74,9 +75,9 @@ TEST(UnrealRotator, ItsMatrixGivesBackForwardRightAndUp) {
 TEST(UnrealRotator, GoldenAngles) {
   const auto of = [](const Vec3& aim) {
     const LampAxes lamp = AxesOfAim(aim);
-    return UnrealRotatorFromAxes(DirectionIn(EngineAxes::kUnreal, lamp.aim),
-                                 DirectionIn(EngineAxes::kUnreal, lamp.c0),
-                                 DirectionIn(EngineAxes::kUnreal, lamp.c90));
+    return UnrealRotatorFromAxes(DirectionIn(EngineAxes::kZUpLeftHanded, lamp.aim),
+                                 DirectionIn(EngineAxes::kZUpLeftHanded, lamp.c0),
+                                 DirectionIn(EngineAxes::kZUpLeftHanded, lamp.c90));
   };
   EXPECT_DOUBLE_EQ(of({1, 0, 0}).yaw_deg, 0.0);
   EXPECT_DOUBLE_EQ(of({1, 0, 0}).roll_deg, 0.0);

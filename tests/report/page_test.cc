@@ -79,10 +79,11 @@ TEST(ReportPage, HasNoNumberThatIsNone) {
 }
 
 TEST(ReportPage, SaysWhatAnArtistAndAnAuditorAsk) {
-  const std::string page =
-      ReportPage(FileOf({WarmPoint()}), "Desk lamp",
-                 {.figures = {{"key", "glTF", "intensity", "1928.4", "cd", "with its colour"},
-                              {"other", "x", "y", "z", "", ""}}});
+  const std::string page = ReportPage(
+      FileOf({WarmPoint()}), "Desk lamp",
+      {.engines = {.figures = {{"key", "glTF", "intensity", "1928.4", "cd", "with its colour"},
+                               {"other", "x", "y", "z", "", ""}},
+                   .parity = {}}});
   for (const char* words : {"Desk lamp",
                             "key",
                             "point light",
@@ -224,7 +225,8 @@ TEST(ChromaticityFigure, TheEllipseSpansTheIntervals) {
   std::istringstream data(
       svg.select_node("//path[@class='ellipse']").node().attribute("d").value());
   std::string path = data.str();
-  std::ranges::replace_if(path, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::ranges::replace_if(
+      path, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
   std::istringstream numbers(path);
   double low_u = 1e9;
   double high_u = -1e9;

@@ -3,20 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <string_view>
-
-#include "run_cli.h"
 
 namespace lightcal {
 namespace {
 
 TEST(SeedErrorSet, EveryErrorHasItsTest) {
   std::set<std::string> listed;
-  std::istringstream lines(
-      test::ReadFile(std::string(LIGHTCAL_SOURCE_DIR) + "/tests/seed_errors/rows.txt"));
+  std::ifstream lines(LIGHTCAL_SOURCE_DIR "/tests/seed_errors/rows.txt");
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with('#')) listed.insert(line.substr(0, line.find(' ')));
   }

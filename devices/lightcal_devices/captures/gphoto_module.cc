@@ -73,7 +73,7 @@ using OwnedList = Owned<CameraList, gp_list_free>;
 using OwnedPorts = Owned<GPPortInfoList, gp_port_info_list_free>;
 using OwnedAbilities = Owned<CameraAbilitiesList, gp_abilities_list_free>;
 using OwnedWidget = Owned<CameraWidget, gp_widget_free>;
-using OwnedFile = Owned<::StoredPicture, gp_file_free>;
+using OwnedFile = Owned<::CameraFile, gp_file_free>;
 using OwnedCamera = Owned<Camera, gp_camera_free>;
 
 struct ContextDeleter {
@@ -184,7 +184,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
                                               &info, context_.get());
     const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (fd < 0) return Unwritable(path, errno);
-    ::StoredPicture* raw = nullptr;
+    ::CameraFile* raw = nullptr;
     int status = gp_file_new_from_fd(&raw, fd);  // owns fd from here on
     if (status != GP_OK) {
       ::close(fd);

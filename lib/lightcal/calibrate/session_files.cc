@@ -19,7 +19,7 @@ Result<OneSpectrum> ReadTheOneSpectrum(const Sources& sources, const std::string
     return Refused("several_spectra", where,
                    path + " holds " + std::to_string(imported->spectra.size()) +
                        " spectra, one is needed; import the column you mean with "
-                       "{ImportFile} FILE {import.column} NAME");
+                       "{ImportFile} {import.column} NAME");
   }
   return OneSpectrum{std::move(imported->spectra.front()), std::move(imported->warnings)};
 }

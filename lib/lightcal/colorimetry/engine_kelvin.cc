@@ -62,15 +62,15 @@ Uv1960 KrystekUv(Kelvin temperature) {
               (1.0 + t * (-2.89741816e-5 + t * 1.61456053e-7))};
 }
 
-Rgb UnrealColorOfKelvin(Kelvin temperature) { return Rec709AtUnitY(ClampedKrystekUv(temperature)); }
+Rgb KrystekRgbAtUnitY(Kelvin temperature) { return Rec709AtUnitY(ClampedKrystekUv(temperature)); }
 
-Rgb GodotColorOfKelvin(Kelvin temperature) {
+Rgb KrystekRgbAtUnitPeak(Kelvin temperature) {
   const Rgb c = WithoutNegatives(Rec709AtUnitY(ClampedKrystekUv(temperature)));
   const double greatest = std::max({c.r, c.g, c.b});
   return {c.r / greatest, c.g / greatest, c.b / greatest};
 }
 
-Rgb UnitLuminanceColorOfKelvin(Kelvin temperature) {
+Rgb PlanckianRgbAtUnitY(Kelvin temperature) {
   return WithoutNegatives(Rec709AtUnitY(UvFromCct(temperature)));
 }
 

@@ -21,14 +21,14 @@ namespace lightcal {
 [[nodiscard]] Uv1960 KrystekUv(Kelvin temperature);
 
 // The linear Rec. 709 colour an engine multiplies its light with.
-//   Unreal: Krystek, Y = 1, T clamped to 1000-15000 K. Not clamped at zero.
-[[nodiscard]] Rgb UnrealColorOfKelvin(Kelvin temperature);
-//   Godot 4: Krystek, negative components to 0, then divided by the greatest, so a light loses
+//   Krystek, Y = 1, T clamped to 1000-15000 K. Not clamped at zero.
+[[nodiscard]] Rgb KrystekRgbAtUnitY(Kelvin temperature);
+//   Krystek, negative components to 0, then divided by the greatest, so a light loses
 //   brightness with its colour (0.95 stop at 2700 K). The same range is clamped.
-[[nodiscard]] Rgb GodotColorOfKelvin(Kelvin temperature);
-//   Y = 1 on the exact locus, negative components to 0: Blender's blackbody node to 3e-3, and
-//   UsdLux's, which interpolates a table (1000-10000 K).
-[[nodiscard]] Rgb UnitLuminanceColorOfKelvin(Kelvin temperature);
+[[nodiscard]] Rgb KrystekRgbAtUnitPeak(Kelvin temperature);
+//   Y = 1 on the exact locus, negative components to 0: black-body nodes to 3e-3, and those
+//   that interpolate a table (1000-10000 K).
+[[nodiscard]] Rgb PlanckianRgbAtUnitY(Kelvin temperature);
 
 // The Kelvin setting with which an engine of Krystek's locus comes nearest (CIE 1960) to a colour.
 // Found within 1000-15000 K; absent when the nearest lies at an end.

@@ -9,21 +9,18 @@
 // Cycles' spot falls smoothly (smoothstep) in the cosine from spot_blend's edge to spot_size.
 // Sources: Cycles 3.4 and 5.2, rendered (tests/engines/render).
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "lightcal/presets/blender_program.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/photometric_files.h"
+#include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
-#include "lightcal/presets/rig_pieces.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-
+using records::Node;
 constexpr double kLumensPerWatt = 683.0;
 constexpr double kLumensPerWattOfIes = 177.83;
 constexpr EngineForms kBlender{
@@ -63,54 +60,54 @@ double WattsOf(const PresetLight& light) {
   }
 }
 
-Json Axes(const Vec3& x, const Vec3& y, const Vec3& z) {
-  return {Array<Json>(x), Array<Json>(y), Array<Json>(z)};
+// Columns: the light's own x, y and z; it shines along -z.
+Node Axes(const PresetLight& light) {
+  const LampAxes& a = light.axes;
+  const bool table = light.form == LightForm::kTable;
+  const Vec3 columns[] = {table ? a.c90 : a.c0, table ? a.c0 * -1.0 : a.c90, a.aim * -1.0};
+  return Node::List(columns, [](const Vec3& v) { return NodeOf(v); });
 }
 
-void AddShape(const PresetLight& light, Json& json) {
-  const PunctualLight& p = light.punctual;
+Node Shape(const PresetLight& light) {
+  const SpotCone& cone = light.punctual.cone;
   const bool disk = light.form == LightForm::kDisk;
+  Node shape = Node::Table();
   switch (light.form) {
     case LightForm::kDirectional:
-      json["angle_rad"] = RadiansFromDegrees(light.angular_diameter_deg.value_or(0.0)).value();
-      return;
+      return {{"angle_rad", RadiansFromDegrees(light.angular_diameter_deg.value_or(0.0))}};
     case LightForm::kRect:
     case LightForm::kDisk:
-      json["shape"] = disk ? "DISK" : "RECTANGLE";
-      json["size_m"] = {disk ? 2.0 * light.radius_m : light.width_m,
-                        disk ? 2.0 * light.radius_m : light.height_m};
-      return;
+      return {{"shape", disk ? "DISK" : "RECTANGLE"},
+              {"size_m", Node{disk ? 2.0 * light.radius_m : light.width_m,
+                              disk ? 2.0 * light.radius_m : light.height_m}}};
     case LightForm::kSpot: {
-      const double outer = std::cos(p.cone.outer.value());
-      json["spot_size_rad"] = 2.0 * p.cone.outer.value();
-      json["spot_blend"] = (std::cos(p.cone.inner.value()) - outer) / (1.0 - outer);
+      const double outer = std::cos(cone.outer.value());
+      shape = {{"spot_size_rad", 2.0 * cone.outer.value()},
+               {"spot_blend", (std::cos(cone.inner.value()) - outer) / (1.0 - outer)}};
       break;
     }
     default:
       break;
   }
-  json["radius_m"] = light.form == LightForm::kSphere ? light.radius_m : 0.0;
+  shape.Put("radius_m", light.form == LightForm::kSphere ? light.radius_m : 0.0);
+  return shape;
 }
 
-Json LightJson(const FittedLight& lamp, const PresetLight& light) {
+Node LightNode(const FittedLight& lamp, const PresetLight& light) {
   const PunctualLight& p = light.punctual;
-  Json json = {{"name", p.name}, {"type", BlenderType(light.form)}};
-  const Rgb& c = p.color.max_normalised;
-  json["color"] = {c.r, c.g, c.b};
+  Node document = {{"name", p.name},
+                   {"type", BlenderType(light.form)},
+                   {"color", NodeOf(p.color.max_normalised)}};
   if (light.form == LightForm::kDome) {
-    json["strength"] = light.nits / (kLumensPerWatt * p.color.luminance);
+    document.Put("strength", light.nits / (kLumensPerWatt * p.color.luminance));
   } else {
-    json["energy_W"] = WattsOf(light);
-    // Columns: the light's own x, y and z; it shines along -z.
-    const LampAxes& a = light.axes;
-    const Vec3 back = a.aim * -1.0;
-    json["axes"] =
-        light.form == LightForm::kTable ? Axes(a.c90, a.c0 * -1.0, back) : Axes(a.c0, a.c90, back);
-    json["position_m"] = Array<Json>(p.position_m);
-    AddShape(light, json);
+    document.Put({{"energy_W", WattsOf(light)},
+                  {"axes", Axes(light)},
+                  {"position_m", NodeOf(p.position_m)}});
+    document.Put(Shape(light));
   }
-  json["measured"] = json_pieces::MeasuredJson<Json>(lamp, light);
-  return json;
+  document.Put("measured", MeasuredNode(lamp, light));
+  return document;
 }
 
 // C -> 360 - C. Planes that stand for their own mirror images stay as they are.
@@ -144,21 +141,6 @@ Result<std::string> MirroredIes(const LightFile& file, const FittedLight& lamp,
   return files->front()->contents;
 }
 
-Result<Json> LightsJson(const LightFile& file, const std::vector<PresetLight>& lights,
-                        const std::string& stem) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    Json json = LightJson(file.lights[i], lights[i]);
-    if (lights[i].form == LightForm::kTable) {
-      auto ies = MirroredIes(file, file.lights[i], lights[i], stem);
-      if (!ies) return Propagate(std::move(ies));
-      json["ies"] = *std::move(ies);
-    }
-    list.push_back(std::move(json));
-  }
-  return list;
-}
-
 }  // namespace
 
 Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
@@ -167,21 +149,28 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kBlender, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  auto list = LightsJson(lights, *forms, stem);
-  if (!list) return Propagate(std::move(list));
-  Json root = {{"name", stem}, {"lumens_per_watt", kLumensPerWatt}};
-  root["lights"] = *std::move(list);
-  for (const Json& light : root["lights"]) {
-    preset.derived.push_back(json_pieces::DerivedFrom(light));
+  Node list = Node::Array();
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    const FittedLight& lamp = lights.lights[i];
+    Node document = LightNode(lamp, (*forms)[i]);
+    preset.derived.push_back(DerivedFrom(document));
+    if ((*forms)[i].form == LightForm::kTable) {
+      auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);
+      if (!ies) return Propagate(std::move(ies));
+      document.Put("ies", *ies);
+    }
+    list.items.push_back(std::move(document));
   }
-  root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
-  if (!options.bare) root["rig"] = json_pieces::RigJson<Json>(rig);
-  root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
-  const auto text = json_pieces::TextOf(root, stem + ".blender.py");
+  const auto text = JsonText({{"name", stem},
+                              {"lumens_per_watt", kLumensPerWatt},
+                              {"lights", std::move(list)},
+                              {"exposure", NodeOf(rig.exposure)},
+                              {"rig", options.bare ? Node() : NodeOf(rig)},
+                              {"provenance", NodeOf(lights.provenance)}},
+                             stem + ".blender.py");
   if (!text) return tl::unexpected(text.error());
-  preset.files.push_back({stem + ".blender.py", std::string(kBlenderProgramHead) +
-                                                    json_pieces::Quotable(*text) +
-                                                    std::string(kBlenderProgramTail)});
+  preset.files.push_back(
+      {stem + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
   preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + stem + ".blender.py";
   return preset;
 }

@@ -18,16 +18,19 @@ struct DerivedField {
 struct DerivedLight {
   std::string type;  // "SpotLight3D", "RectLight", ...
   std::vector<DerivedField> fields;
-  std::vector<DerivedField> notes;  // how they came about; in no file but preset.json
-  std::string substitution;         // what this light does otherwise than the lamp; "" = nothing
+  std::vector<DerivedField> notes;      // how they came about; in no file but preset.json
+  std::vector<DerivedField> elsewhere;  // what its file says of it in another place; not listed
+  std::string substitution;  // what this light does otherwise than the lamp; "" = nothing
 
   void Put(std::string name, double value) { fields.push_back({std::move(name), {value}}); }
   void Put(std::string name, std::vector<double> values) {
     fields.push_back({std::move(name), std::move(values)});
   }
   [[nodiscard]] const DerivedField* Find(std::string_view name) const {
-    for (const DerivedField& field : fields) {
-      if (field.name == name) return &field;
+    for (const auto* part : {&fields, &elsewhere}) {
+      for (const DerivedField& field : *part) {
+        if (field.name == name) return &field;
+      }
     }
     return nullptr;
   }

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/photometry/falloff_windows.h"
 
 namespace lightcal {
 namespace {
@@ -13,10 +12,8 @@ namespace {
 constexpr double kPermittedLoss = 0.005;
 constexpr double kPermittedResidual = 0.005;
 
-Metres NearestGoodRange(EngineFalloff engine, double farthest_m) {
-  const WindowPower power =
-      engine == EngineFalloff::kGltf ? WindowPower::kPlain : WindowPower::kSquared;
-  return RangeForLoss(Metres(farthest_m), kPermittedLoss, power);
+Metres NearestGoodRange(const EngineFalloff& falloff, double farthest_m) {
+  return RangeForLoss(Metres(farthest_m), kPermittedLoss, falloff.window);
 }
 
 bool AtInfinity(const PresetLight& light) {
@@ -55,30 +52,12 @@ std::vector<FalloffRefit> RefitEach(const LightFile& file, std::span<const Light
     const std::vector<double> distances = ReadingDistances_m(file.lights[i]);
     refits.push_back(RefitFalloff(request, distances));
     WarnOfResidual(lights[i], refits.back(),
-                   NearestGoodRange(request.engine, std::ranges::max(distances)), warnings);
+                   NearestGoodRange(request.falloff, std::ranges::max(distances)), warnings);
   }
   return refits;
 }
 
 }  // namespace
-
-double FalloffOf(EngineFalloff engine, Metres d, Metres r) {
-  switch (engine) {
-    case EngineFalloff::kFilament:
-      return FilamentFalloff(d, r);
-    case EngineFalloff::kUnityHdrp:
-      return UnityHdrpFalloff(d, r);
-    case EngineFalloff::kThree:
-      return ThreeJsFalloff(d, r);
-    case EngineFalloff::kGltf:
-      return GltfFalloff(d, r);
-    case EngineFalloff::kUnreal:
-      return UnrealFalloff(d, r);
-    case EngineFalloff::kGodot:
-      return GodotFalloff(d, r);
-  }
-  return 0.0;
-}
 
 FalloffRefit RefitFalloff(const RefitRequest& request, std::span<const double> distances_m) {
   constexpr double kOneMetre[] = {1.0};
@@ -88,11 +67,11 @@ FalloffRefit RefitFalloff(const RefitRequest& request, std::span<const double> d
   refit.range = request.fixed
                     ? *request.fixed
                     : Metres(std::max(request.far_range.value(),
-                                      NearestGoodRange(request.engine, farthest).value()));
+                                      NearestGoodRange(request.falloff, farthest).value()));
   double least = 1e300;
   double most = 0.0;
   for (const double d : distances_m) {
-    const double g = FalloffOf(request.engine, Metres(d), refit.range) * d * d;
+    const double g = request.falloff.per_candela(Metres(d), refit.range) * d * d;
     least = std::min(least, g);
     most = std::max(most, g);
   }

@@ -2,22 +2,23 @@
 // Range and intensity that make an engine's own falloff give the lux that were read.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/photometry/falloff_windows.h"
 #include "lightcal/presets/preset_light.h"
 
 namespace lightcal {
 
-// The laws of photometry/falloff_windows.h by the engine that has them.
-enum class EngineFalloff : std::uint8_t { kFilament, kUnityHdrp, kThree, kGltf, kUnreal, kGodot };
-
-// Illuminance per candela [1/m^2] at distance d with range r, decay 2.
-[[nodiscard]] double FalloffOf(EngineFalloff engine, Metres d, Metres r);
+// How an engine lets light fall off: a law of photometry/falloff_windows.h.
+struct EngineFalloff {
+  // Illuminance per candela [1/m^2] at distance d with range r, decay 2.
+  double (*per_candela)(Metres d, Metres r) = nullptr;
+  WindowPower window = WindowPower::kSquared;
+};
 
 struct FalloffRefit {
   Metres range{0.0};
@@ -27,14 +28,14 @@ struct FalloffRefit {
 };
 
 // Range first: `wanted`, or far, but never so near that the window takes more than 0.5 % at the
-// farthest distance (4.47 d_max for a squared window, 3.76 d_max for glTF's plain one) unless
+// farthest distance (4.47 d_max for a squared window, 3.76 d_max for a plain one) unless
 // `fixed`. Intensity second: with g_j = falloff(d_j) d_j^2,
 //   factor = 1/sqrt(min g max g),   residual = sqrt(max g/min g) - 1,
 // the factor of least worst error; one nearer to 1 than a float can tell is 1. A distance beyond a
 // fixed range has g = 0: nothing repairs that, its residual is 1.   No distances: 1 m.   Holds for
 // distances, ranges above 0.
 struct RefitRequest {
-  EngineFalloff engine = EngineFalloff::kGltf;
+  EngineFalloff falloff;
   Metres far_range{10000.0};      // where nobody fixed one
   std::optional<Metres> fixed{};  // the person's
 };

@@ -9,21 +9,18 @@
 // own default in glTF files, 10 m, takes 12 % at 5 m.
 // Sources: Filament 1.53.4, rendered (tests/engines/render); filament/LightManager.h.
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
+#include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
-#include "lightcal/presets/rig_pieces.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-
+using records::Node;
 constexpr EngineForms kFilament{.dome = true};
 constexpr double kFalloff_m = 1000.0;
 // pixel = L/(1.2 2^EV100) and 2^EV100 = N^2/t at ISO 100: N = 16 gives t = 1.2 16^2 k.
@@ -31,53 +28,46 @@ constexpr double kAperture = 16.0;
 constexpr double kShutterPerScale = 1.2 * kAperture * kAperture;
 constexpr double kIso = 100.0;
 
-void AddFigures(const PresetLight& light, Json& json) {
+Node Figures(const PresetLight& light) {
   const PunctualLight& p = light.punctual;
   if (light.form == LightForm::kDome) {
-    json["type"] = "INDIRECT";
-    json["intensity"] = light.nits / p.color.luminance;
-    return;
+    return {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
   }
   if (p.type == PunctualType::kDirectional) {
-    json["type"] = light.angular_diameter_deg ? "SUN" : "DIRECTIONAL";
-    json["intensity_lx"] = p.intensity;
-    if (light.angular_diameter_deg) {
-      json["sun_angular_radius_deg"] = *light.angular_diameter_deg / 2.0;
-    }
-    return;
+    const auto angle = light.angular_diameter_deg;
+    return {{"type", angle ? "SUN" : "DIRECTIONAL"},
+            {"intensity_lx", p.intensity},
+            {"sun_angular_radius_deg", angle ? Node(*angle / 2.0) : Node()}};
   }
   double solid_angle_sr = 4.0 * std::numbers::pi;
+  Node figures = {{"type", "POINT"}};
   if (p.type == PunctualType::kSpot) {
-    json["type"] = "FOCUSED_SPOT";
-    json["inner_rad"] = p.cone.inner.value();
-    json["outer_rad"] = p.cone.outer.value();
+    figures = {{"type", "FOCUSED_SPOT"}, {"inner_rad", p.cone.inner}, {"outer_rad", p.cone.outer}};
     solid_angle_sr = 2.0 * std::numbers::pi * (1.0 - std::cos(p.cone.outer.value()));
-  } else {
-    json["type"] = "POINT";
   }
-  json["intensity_candela"] = p.intensity;
-  json["intensity_lm"] = p.intensity * solid_angle_sr;
-  json["falloff_m"] = kFalloff_m;
+  figures.Put({{"intensity_candela", p.intensity},
+               {"intensity_lm", p.intensity * solid_angle_sr},
+               {"falloff_m", kFalloff_m}});
+  return figures;
 }
 
-Json LightJson(const FittedLight& lamp, const PresetLight& light) {
+Node LightNode(const FittedLight& lamp, const PresetLight& light) {
   const PunctualLight& p = light.punctual;
-  Json json = {{"name", p.name}};
-  AddFigures(light, json);
-  const Rgb& c = p.color.max_normalised;
-  json["color"] = {c.r, c.g, c.b};
-  json["position_m"] = Array<Json>(GltfFromZUp(p.position_m));
-  json["direction"] = Array<Json>(GltfFromZUp(p.aim));
-  json["measured"] = json_pieces::MeasuredJson<Json>(lamp, light);
-  return json;
+  Node document = {{"name", p.name}};
+  document.Put(Figures(light));
+  document.Put({{"color", NodeOf(p.color.max_normalised)},
+                {"position_m", NodeOf(GltfFromZUp(p.position_m))},
+                {"direction", NodeOf(GltfFromZUp(p.aim))},
+                {"measured", MeasuredNode(lamp, light)}});
+  return document;
 }
 
 // ---- the snippet ----
 
-std::string Floats(const Json& list) {
+std::string Floats(const Node& light, const char* key) {
   std::string out;
-  for (const auto& v : list) {
-    out += (out.empty() ? "" : ", ") + RoundedText(v.get<double>(), 9);
+  for (const Node& v : light.Find(key)->items) {
+    out += (out.empty() ? "" : ", ") + RoundedText(v.number, 9);
   }
   return "{" + out + "}";
 }
@@ -89,16 +79,16 @@ std::string CommentOf(std::string name) {
   return name;
 }
 
-std::string Number(const Json& light, const char* key) {
-  return "float(" + RoundedText(light.at(key).get<double>(), 9) + ")";
+std::string Number(const Node& light, const char* key) {
+  return "float(" + RoundedText(light.Find(key)->number, 9) + ")";
 }
 
-std::string SnippetOf(const Json& light) {
-  const std::string type = light.at("type").get<std::string>();
-  std::string out = "  // " + CommentOf(light.at("name").get<std::string>()) + "\n";
+std::string SnippetOf(const Node& light) {
+  const std::string type = light.TextAt("type");
+  std::string out = "  // " + CommentOf(light.TextAt("name")) + "\n";
   if (type == "INDIRECT") {
     return out + "  {\n    const filament::math::float3 irradiance[1] = {" +
-           Floats(light.at("color")) +
+           Floats(light, "color") +
            "};\n    scene.setIndirectLight(filament::IndirectLight::Builder()\n"
            "        .irradiance(1, irradiance)\n        .intensity(" +
            Number(light, "intensity") + ")\n        .build(engine));\n  }\n";
@@ -109,31 +99,30 @@ std::string SnippetOf(const Json& light) {
       type +
       ")\n"
       "        .color(filament::math::float3" +
-      Floats(light.at("color")) + ")\n";
-  if (light.contains("intensity_lx")) {
+      Floats(light, "color") + ")\n";
+  if (light.Find("intensity_lx") != nullptr) {
     out += "        .intensity(" + Number(light, "intensity_lx") + ")\n";
   } else {
     out += "        .intensityCandela(" + Number(light, "intensity_candela") +
            ")\n"
            "        .position(" +
-           Floats(light.at("position_m")) +
+           Floats(light, "position_m") +
            ")\n"
            "        .falloff(" +
            Number(light, "falloff_m") + ")\n";
   }
-  if (light.contains("outer_rad")) {
+  if (light.Find("outer_rad") != nullptr) {
     out += "        .spotLightCone(" + Number(light, "inner_rad") + ", " +
            Number(light, "outer_rad") + ")\n";
   }
-  if (light.contains("sun_angular_radius_deg")) {
+  if (light.Find("sun_angular_radius_deg") != nullptr) {
     out += "        .sunAngularRadius(" + Number(light, "sun_angular_radius_deg") + ")\n";
   }
-  return out + "        .direction(" + Floats(light.at("direction")) +
+  return out + "        .direction(" + Floats(light, "direction") +
          ")\n        .build(engine, light);\n    scene.addEntity(light);\n  }\n";
 }
 
-std::string Snippet(const Json& root) {
-  const Json& exposure = root.at("exposure");
+std::string Snippet(const Node& lights, const Node& exposure) {
   std::string out =
       "// Written by lightcal: measured lights for Filament. Right-handed, Y up, metres.\n"
       "#pragma once\n#include <filament/Camera.h>\n#include <filament/Engine.h>\n"
@@ -145,7 +134,7 @@ std::string Snippet(const Json& root) {
       "  camera.setExposure(" +
       Number(exposure, "aperture") + ", " + Number(exposure, "shutter_s") + ", " +
       Number(exposure, "iso") + ");\n";
-  for (const Json& light : root.at("lights")) out += SnippetOf(light);
+  for (const Node& light : lights.items) out += SnippetOf(light);
   return out + "}\n";
 }
 
@@ -157,26 +146,24 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kFilament, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  Json root = {{"name", stem}};
-  root["lights"] = Json::array();
+  Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    root["lights"].push_back(LightJson(lights.lights[i], (*forms)[i]));
+    list.items.push_back(LightNode(lights.lights[i], (*forms)[i]));
+    preset.derived.push_back(DerivedFrom(list.items.back()));
   }
-  for (const Json& light : root["lights"]) {
-    preset.derived.push_back(json_pieces::DerivedFrom(light));
-  }
-  root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
-  root["exposure"]["aperture"] = kAperture;
-  root["exposure"]["shutter_s"] = kShutterPerScale * rig.exposure.scale;
-  root["exposure"]["iso"] = kIso;
-  if (!options.bare) {
-    root["rig"] = json_pieces::RigJson<Json>(json_pieces::Turned(rig, GltfFromZUp));
-  }
-  root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
-  auto text = json_pieces::TextOf(root, stem + ".filament.json");
+  Node exposure = NodeOf(rig.exposure);
+  exposure.Put({{"aperture", kAperture},
+                {"shutter_s", kShutterPerScale * rig.exposure.scale},
+                {"iso", kIso}});
+  auto text = JsonText({{"name", stem},
+                        {"lights", list},
+                        {"exposure", exposure},
+                        {"rig", options.bare ? Node() : NodeOf(Turned(rig, GltfFromZUp))},
+                        {"provenance", NodeOf(lights.provenance)}},
+                       stem + ".filament.json");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".filament.json", std::move(*text)});
-  preset.files.push_back({stem + ".filament.h", Snippet(root)});
+  preset.files.push_back({stem + ".filament.h", Snippet(list, exposure)});
   return preset;
 }
 

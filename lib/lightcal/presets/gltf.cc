@@ -8,25 +8,24 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
+#include "lightcal/core/base64.h"
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
-#include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/one_color_png.h"
 #include "lightcal/presets/photometric_files.h"
+#include "lightcal/presets/preset_document.h"
+#include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/rig.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-using json_pieces::Put;
+using records::Node;
 
 constexpr double kNear_m = 0.01;
 constexpr int kArrayBuffer = 34962;
@@ -34,94 +33,100 @@ constexpr int kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126;
 constexpr int kUnsignedShort = 5123;
 
+struct Scene {
+  std::string name;
+  std::vector<std::size_t> nodes;
+  Node extensions = Node::Table();
+};
+
+// What the file is made of; its parts refer to each other by their places in these lists.
+struct Gltf {
+  std::string generator;
+  std::vector<std::string> extensions_used;
+  Node extensions = Node::Table();
+  std::vector<Node> nodes;
+  Node meshes = Node::Table();  // accessors, bufferViews, buffers, materials, meshes
+  Node cameras, images;
+  std::vector<Scene> scenes;
+  Node extras;  // of every scene
+
+  [[nodiscard]] Node Document() const {
+    const auto scene_node = [&](const Scene& scene) -> Node {
+      return {{"name", scene.name},
+              {"nodes", scene.nodes},
+              {"extras", Node{{"lightcal", extras}}},
+              {"extensions", Node::UnlessEmpty(scene.extensions)}};
+    };
+    Node root = {{"asset", Node{{"version", "2.0"}, {"generator", generator}}},
+                 {"extensionsUsed", extensions_used},
+                 {"extensions", extensions},
+                 {"nodes", nodes}};
+    root.Put(meshes);
+    root.Put({{"cameras", cameras},
+              {"scenes", Node::List(scenes, scene_node)},
+              {"scene", 0},
+              {"images", images}});
+    return root;
+  }
+};
+
+// [node, ...]
+Node ListOf(std::vector<Node> nodes) { return Node(nodes); }
+
 // ---- lights ----
 
-Json LightDefinition(const GltfLight& light, const std::string& name) {
-  Json json = {{"name", name},
-               {"type", light.type},
-               {"color", Array<Json>(light.color)},
-               {"intensity", light.intensity}};
-  Put<Json>(json, "range", light.range_m);
+Node LightDefinition(const GltfLight& light, const std::string& name) {
+  Node spot;
   if (light.outer_cone_rad) {
-    json["spot"] = {{"innerConeAngle", *light.inner_cone_rad},
-                    {"outerConeAngle", *light.outer_cone_rad}};
+    spot = {{"innerConeAngle", light.inner_cone_rad}, {"outerConeAngle", light.outer_cone_rad}};
   }
-  return json;
+  return {{"name", name},
+          {"type", light.type},
+          {"color", NodeOf(light.color)},
+          {"intensity", light.intensity},
+          {"range", light.range_m},
+          {"spot", std::move(spot)}};
 }
 
 // What a person who opens the file in an engine can still read off the light.
-Json LightExtras(const FittedLight& lamp, const PunctualLight& light) {
-  Json json = {{"kind", LightKindName(lamp.kind)}};
-  Put<Json>(json, "intensity_cd", lamp.intensity_cd);
-  Put<Json>(json, "illuminance_lx", lamp.illuminance_lx);
-  Put<Json>(json, "flux_lm", lamp.flux_lm);
-  Put<Json>(json, "luminance_nits", lamp.luminance_nits);
-  Put<Json>(json, "distance_offset_m", lamp.distance_offset_m);
-  if (lamp.position_m) json["reference_position_m"] = Array<Json>(*lamp.position_m);
-  Put<Json>(json, "cct_K", lamp.color.cct_K);
-  Put<Json>(json, "duv", lamp.color.duv);
-  if (light.color.xy) json["xy"] = {light.color.xy->x, light.color.xy->y};
-  json["color_luminance"] = light.color.luminance;
-  Put<Json>(json, "intensity_u95", light.intensity_u95);
-  if (!light.substitution.empty()) json["substituted"] = light.substitution;
-  return json;
+Node LightExtras(const FittedLight& lamp, const PunctualLight& light) {
+  const std::optional<Xy>& xy = light.color.xy;
+  return {{"kind", LightKindName(lamp.kind)},
+          {"intensity_cd", NodeOf(lamp.intensity_cd)},
+          {"illuminance_lx", NodeOf(lamp.illuminance_lx)},
+          {"flux_lm", NodeOf(lamp.flux_lm)},
+          {"luminance_nits", NodeOf(lamp.luminance_nits)},
+          {"distance_offset_m", NodeOf(lamp.distance_offset_m)},
+          {"reference_position_m", lamp.position_m ? NodeOf(*lamp.position_m) : Node()},
+          {"cct_K", NodeOf(lamp.color.cct_K)},
+          {"duv", NodeOf(lamp.color.duv)},
+          {"xy", xy ? Node{xy->x, xy->y} : Node()},
+          {"color_luminance", light.color.luminance},
+          {"intensity_u95", light.intensity_u95},
+          {"substituted", Node::UnlessEmpty(light.substitution)}};
 }
 
-Json LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLight& light,
+Node LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLight& light,
                std::size_t index) {
   return {{"name", light.name},
-          {"translation", Array<Json>(gltf.translation)},
-          {"rotation", Array<Json>(gltf.rotation)},
-          {"extensions", {{"KHR_lights_punctual", {{"light", index}}}}},
-          {"extras", {{"lightcal", LightExtras(lamp, light)}}}};
-}
-
-// A file's name as a relative URI.
-std::string UriOf(const std::string& name) {
-  constexpr std::string_view kHex = "0123456789ABCDEF";
-  std::string uri;
-  for (const char c : name) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_' || c == '.';
-    if (plain) {
-      uri += c;
-      continue;
-    }
-    const auto byte = static_cast<unsigned char>(c);
-    uri += {'%', kHex[byte >> 4U], kHex[byte & 15U]};
-  }
-  return uri;
+          {"translation", NodeOf(gltf.translation)},
+          {"rotation", NodeOf(gltf.rotation)},
+          {"extensions", Node{{"KHR_lights_punctual", Node{{"light", index}}}}},
+          {"extras", Node{{"lightcal", LightExtras(lamp, light)}}}};
 }
 
 // ---- rig ----
 
-std::string Base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kAlphabet =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < left ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= left ? kAlphabet[group >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
 template <class T>
-void AppendLittleEndian(std::vector<std::uint8_t>& bytes, T value) {
+void AppendLittleEndian(std::string& bytes, T value) {
   static_assert(std::endian::native == std::endian::little);
-  std::array<std::uint8_t, sizeof(T)> raw{};
-  std::memcpy(raw.data(), &value, sizeof(T));
-  bytes.insert(bytes.end(), raw.begin(), raw.end());
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
 // A square in the local XY plane that faces +Z: 4 positions, 4 normals, 6 indices.
 struct SquareMesh {
   float half = 0.0F;
-  std::vector<std::uint8_t> bytes;
+  std::string bytes;
 };
 
 SquareMesh MakeSquare(Metres side) {
@@ -140,95 +145,94 @@ SquareMesh MakeSquare(Metres side) {
   return mesh;
 }
 
-void AddSquareBuffer(Json& root, const SquareMesh& mesh) {
+void AddSquareBuffer(Gltf& gltf, const SquareMesh& mesh) {
   constexpr int kVectorBytes = 48;
   constexpr int kIndexBytes = 12;
   const auto h = static_cast<double>(mesh.half);
-  root["accessors"] = {
-      {{"bufferView", 0},
-       {"componentType", kFloat},
-       {"count", 4},
-       {"type", "VEC3"},
-       {"min", {-h, -h, 0.0}},
-       {"max", {h, h, 0.0}}},
-      {{"bufferView", 1}, {"componentType", kFloat}, {"count", 4}, {"type", "VEC3"}},
-      {{"bufferView", 2}, {"componentType", kUnsignedShort}, {"count", 6}, {"type", "SCALAR"}}};
-  root["bufferViews"] = {
-      {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", kVectorBytes}, {"target", kArrayBuffer}},
-      {{"buffer", 0},
-       {"byteOffset", kVectorBytes},
-       {"byteLength", kVectorBytes},
-       {"target", kArrayBuffer}},
-      {{"buffer", 0},
-       {"byteOffset", 2 * kVectorBytes},
-       {"byteLength", kIndexBytes},
-       {"target", kElementArrayBuffer}}};
-  root["buffers"] = {{{"byteLength", mesh.bytes.size()},
-                      {"uri", "data:application/octet-stream;base64," + Base64(mesh.bytes)}}};
+  const auto view = [](int offset, int length, int target) -> Node {
+    return {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}, {"target", target}};
+  };
+  const std::string uri = "data:application/octet-stream;base64," + Base64(mesh.bytes);
+  gltf.meshes.Put(
+      {{"accessors",
+        ListOf({Node{{"bufferView", 0},
+                     {"componentType", kFloat},
+                     {"count", 4},
+                     {"type", "VEC3"},
+                     {"min", Node{-h, -h, 0.0}},
+                     {"max", Node{h, h, 0.0}}},
+                Node{{"bufferView", 1}, {"componentType", kFloat}, {"count", 4}, {"type", "VEC3"}},
+                Node{{"bufferView", 2},
+                     {"componentType", kUnsignedShort},
+                     {"count", 6},
+                     {"type", "SCALAR"}}})},
+       {"bufferViews",
+        ListOf({view(0, kVectorBytes, kArrayBuffer), view(kVectorBytes, kVectorBytes, kArrayBuffer),
+                view(2 * kVectorBytes, kIndexBytes, kElementArrayBuffer)})},
+       {"buffers", ListOf({Node{{"byteLength", mesh.bytes.size()}, {"uri", uri}}})}});
 }
 
-Json MattMaterial(const RigCard& card) {
+Node MattMaterial(const RigCard& card) {
   const double rho = card.reflectance;
   return {{"name", card.name},
-          {"pbrMetallicRoughness",
-           {{"baseColorFactor", {rho, rho, rho, 1.0}},
-            {"metallicFactor", 0.0},
-            {"roughnessFactor", 1.0}}},
-          {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.0}}}}}};
+          {"pbrMetallicRoughness", Node{{"baseColorFactor", Node{rho, rho, rho, 1.0}},
+                                        {"metallicFactor", 0.0},
+                                        {"roughnessFactor", 1.0}}},
+          {"extensions", Node{{"KHR_materials_specular", Node{{"specularFactor", 0.0}}}}}};
 }
 
-Json CardNode(const RigCard& card, const Quaternion& rotation, std::size_t mesh) {
+Node CardMesh(const RigCard& card, std::size_t material) {
+  return {{"name", card.name},
+          {"primitives", ListOf({Node{{"attributes", Node{{"POSITION", 0}, {"NORMAL", 1}}},
+                                      {"indices", 2},
+                                      {"material", material}}})}};
+}
+
+Node CardNode(const RigCard& card, const Quaternion& rotation, std::size_t mesh) {
   return {{"name", card.name},
           {"mesh", mesh},
-          {"translation", Array<Json>(GltfFromZUp(card.centre_m))},
-          {"rotation", Array<Json>(rotation)},
-          {"extras",
-           {{"lightcal",
-             {{"reflectance", card.reflectance},
-              {"illuminance_lx", card.illuminance.value()},
-              {"luminance_nits", card.luminance.value()}}}}}};
+          {"translation", NodeOf(GltfFromZUp(card.centre_m))},
+          {"rotation", NodeOf(rotation)},
+          {"extras", Node{{"lightcal", Node{{"reflectance", card.reflectance},
+                                            {"illuminance_lx", card.illuminance},
+                                            {"luminance_nits", card.luminance}}}}}};
 }
 
-void AddCards(Json& root, const Rig& rig) {
-  AddSquareBuffer(root, MakeSquare(rig.side));
+void AddCards(Gltf& gltf, const Rig& rig) {
+  AddSquareBuffer(gltf, MakeSquare(rig.side));
   const Vec3 x = GltfFromZUp(rig.row);
   const Vec3 z = GltfFromZUp(rig.normal);
   const Quaternion rotation = RotationFromAxes(x, Cross(z, x), z);
+  std::vector<Node> meshes;
   for (std::size_t i = 0; i < rig.cards.size(); ++i) {
-    root["materials"].push_back(MattMaterial(rig.cards[i]));
-    root["meshes"].push_back(
-        {{"name", rig.cards[i].name},
-         {"primitives",
-          {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}, {"indices", 2}, {"material", i}}}}});
-    root["nodes"].push_back(CardNode(rig.cards[i], rotation, i));
+    meshes.push_back(CardMesh(rig.cards[i], i));
+    gltf.nodes.push_back(CardNode(rig.cards[i], rotation, i));
   }
+  gltf.meshes.Put({{"materials", Node::List(rig.cards, MattMaterial)}, {"meshes", meshes}});
 }
 
-void AddCamera(Json& root, const RigCamera& camera) {
+void AddCamera(Gltf& gltf, const RigCamera& camera) {
   const Vec3 from_target = GltfFromZUp(camera.position_m - camera.target_m);
   const Vec3 back = from_target * (1.0 / Length(from_target));
   const Vec3 up = GltfFromZUp(camera.up);
-  root["cameras"] = {{{"name", "rig camera"},
-                      {"type", "perspective"},
-                      {"perspective",
-                       {{"aspectRatio", camera.aspect_ratio},
-                        {"yfov", camera.vertical_fov.value()},
-                        {"znear", kNear_m},
-                        {"zfar", kGltfRange_m}}}}};
-  root["nodes"].push_back({{"name", "rig camera"},
-                           {"camera", 0},
-                           {"translation", Array<Json>(GltfFromZUp(camera.position_m))},
-                           {"rotation", Array<Json>(RotationFromAxes(Cross(up, back), up, back))}});
+  gltf.cameras = ListOf({Node{{"name", "rig camera"},
+                              {"type", "perspective"},
+                              {"perspective", Node{{"aspectRatio", camera.aspect_ratio},
+                                                   {"yfov", camera.vertical_fov},
+                                                   {"znear", kNear_m},
+                                                   {"zfar", kGltfRange_m}}}}});
+  gltf.nodes.push_back({{"name", "rig camera"},
+                        {"camera", 0},
+                        {"translation", NodeOf(GltfFromZUp(camera.position_m))},
+                        {"rotation", NodeOf(RotationFromAxes(Cross(up, back), up, back))}});
 }
 
-Json SceneExtras(const LightFile& file, const Rig& rig) {
-  Json json = {{"exposure", {{"ev100", rig.exposure.ev100}, {"exposure", rig.exposure.scale}}},
-               {"cards_at",
-                {{"light", rig.light},
-                 {"distance_m", rig.distance.value()},
-                 {"from_reading", rig.from_reading}}}};
-  json["provenance"] = json_pieces::ProvenanceJson<Json>(file.provenance);
-  return json;
+Node SceneExtras(const LightFile& file, const Rig& rig) {
+  return {{"exposure", NodeOf(rig.exposure)},
+          {"cards_at", Node{{"light", rig.light},
+                            {"distance_m", rig.distance},
+                            {"from_reading", rig.from_reading}}},
+          {"provenance", NodeOf(file.provenance)}};
 }
 
 // ---- photometric files ----
@@ -236,36 +240,32 @@ Json SceneExtras(const LightFile& file, const Rig& rig) {
 // A second scene, "NAME (IES)", in which lamps with a table are EXT_lights_ies nodes instead of the
 // spots and points of the first: a loader that knows both extensions must not light them twice. The
 // file's candela are absolute, so the multiplier is 1/Y of the colour. C0 is the node's +X.
-void AddPhotometricScene(Json& root, const LightFile& file,
+void AddPhotometricScene(Gltf& gltf, const LightFile& file,
                          const std::vector<PunctualLight>& lights,
                          const std::vector<std::optional<PresetFile>>& ies) {
-  Json profiles = Json::array();
-  Json nodes = root["scenes"][0]["nodes"];
+  std::vector<Node> profiles;
+  Scene scene = gltf.scenes.front();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!file.lights[i].distribution || !ies[i]) continue;
     const PunctualLight& light = lights[i];
     const LampAxes axes = AxesOfAim(light.aim);
-    const Rgb& c = light.color.max_normalised;
-    nodes[i] = root["nodes"].size();
-    root["nodes"].push_back(
+    scene.nodes[i] = gltf.nodes.size();
+    const Node named = {{"light", profiles.size()},
+                        {"multiplier", 1.0 / light.color.luminance},
+                        {"color", NodeOf(light.color.max_normalised)}};
+    gltf.nodes.push_back(
         {{"name", light.name + " (IES)"},
-         {"translation", Array<Json>(GltfFromZUp(light.position_m))},
-         {"rotation", Array<Json>(RotationFromAxes(GltfFromZUp(axes.c0), GltfFromZUp(axes.c90),
-                                                   GltfFromZUp(axes.aim * -1.0)))},
-         {"extensions",
-          {{"EXT_lights_ies",
-            {{"light", profiles.size()},
-             {"multiplier", 1.0 / light.color.luminance},
-             {"color", Array<Json>(std::array<double, 3>{c.r, c.g, c.b})}}}}}});
-    profiles.push_back({{"name", light.name}, {"uri", UriOf(ies[i]->name)}});
+         {"translation", NodeOf(GltfFromZUp(light.position_m))},
+         {"rotation", NodeOf(RotationFromAxes(GltfFromZUp(axes.c0), GltfFromZUp(axes.c90),
+                                              GltfFromZUp(axes.aim * -1.0)))},
+         {"extensions", Node{{"EXT_lights_ies", named}}}});
+    profiles.push_back({{"name", light.name}, {"uri", preset_text::UriOf(ies[i]->name)}});
   }
   if (profiles.empty()) return;
-  root["extensionsUsed"].push_back("EXT_lights_ies");
-  root["extensions"]["EXT_lights_ies"] = {{"lights", std::move(profiles)}};
-  Json scene = root["scenes"][0];
-  scene["name"] = std::string(scene["name"]) + " (IES)";
-  scene["nodes"] = std::move(nodes);
-  root["scenes"].push_back(std::move(scene));
+  gltf.extensions_used.emplace_back("EXT_lights_ies");
+  gltf.extensions.Put("EXT_lights_ies", {{"lights", profiles}});
+  scene.name += " (IES)";
+  gltf.scenes.push_back(std::move(scene));
 }
 
 // ---- domes ----
@@ -288,73 +288,64 @@ std::array<std::uint8_t, 4> RgbdOf(const std::array<double, 3>& radiance) {
 // instead of the directional light of the others. Its irradiance, pi L in lux times the colour over
 // Y, is the one coefficient of a constant, over Y00; the mirror images are L in nits, clipped at
 // 255. The intensity stays 1: Babylon.js multiplies the coefficients by it twice.
-void AddImageBasedScene(Json& root, const LightFile& file,
+void AddImageBasedScene(Gltf& gltf, const LightFile& file,
                         const std::vector<PunctualLight>& lights) {
   constexpr double kPi = std::numbers::pi;
   constexpr int kFaces = 6;
   constexpr int kSide = 4;
+  constexpr int kCoefficients = 9;
   const auto dome = std::ranges::find(file.lights, LightKind::kDome, &FittedLight::kind);
   if (dome == file.lights.end()) return;
   const auto index = static_cast<std::size_t>(dome - file.lights.begin());
   const PunctualLight& light = lights[index];
   const Rgb& c = light.color.max_normalised;
   std::array<double, 3> radiance = {c.r, c.g, c.b};
-  Json coefficients = Json::array();
-  for (int k = 0; k < 9; ++k) coefficients.push_back({0.0, 0.0, 0.0});
+  std::vector<std::array<double, 3>> coefficients(kCoefficients);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     radiance[i] *= light.intensity / kPi;
     coefficients[0][i] = kPi * radiance[i] * std::sqrt(4.0 * kPi);
   }
-  root["images"] = {
-      {{"name", light.name},
-       {"uri", "data:image/png;base64," + Base64(PngOfOneColor(kSide, RgbdOf(radiance)))}}};
-  root["extensionsUsed"].push_back("EXT_lights_image_based");
-  root["extensions"]["EXT_lights_image_based"]["lights"] = {
-      {{"name", light.name},
-       {"intensity", 1.0},
-       {"irradianceCoefficients", std::move(coefficients)},
-       {"specularImages", Json::array({Json(std::vector<int>(kFaces, 0))})},
-       {"specularImageSize", kSide}}};
-  Json scene = root["scenes"].back();
-  scene["name"] = std::string(scene["name"]) + " (image based)";
-  Json nodes = Json::array();
-  for (const Json& node : scene["nodes"]) {
-    if (node != index) nodes.push_back(node);
-  }
-  scene["nodes"] = std::move(nodes);
-  scene["extensions"]["EXT_lights_image_based"]["light"] = 0;
-  root["scenes"].push_back(std::move(scene));
+  const std::string uri = "data:image/png;base64," + Base64(PngOfOneColor(kSide, RgbdOf(radiance)));
+  gltf.images = ListOf({Node{{"name", light.name}, {"uri", uri}}});
+  gltf.extensions_used.emplace_back("EXT_lights_image_based");
+  gltf.extensions.Put(
+      "EXT_lights_image_based",
+      {{"lights", ListOf({Node{{"name", light.name},
+                               {"intensity", 1.0},
+                               {"irradianceCoefficients", coefficients},
+                               {"specularImages", ListOf({Node(std::vector<int>(kFaces, 0))})},
+                               {"specularImageSize", kSide}}})}});
+  Scene scene = gltf.scenes.back();
+  scene.name += " (image based)";
+  std::erase(scene.nodes, index);
+  scene.extensions.Put("EXT_lights_image_based", {{"light", 0}});
+  gltf.scenes.push_back(std::move(scene));
 }
 
-Json Document(const LightFile& file, const std::string& stem,
-              const std::vector<PunctualLight>& lights, const std::vector<FalloffRefit>& refits,
-              const PresetOptions& options) {
+Gltf WithLights(const LightFile& file, const std::string& stem,
+                const std::vector<PunctualLight>& lights, const std::vector<FalloffRefit>& refits,
+                const PresetOptions& options) {
   const Rig rig = BuildRig(file, lights);
-  const std::string generator =
-      file.provenance.generator.empty() ? "lightcal" : file.provenance.generator;
-  Json root = {{"asset", {{"version", "2.0"}, {"generator", generator}}}};
-  root["extensionsUsed"] = {"KHR_lights_punctual"};
-  if (!options.bare) root["extensionsUsed"].push_back("KHR_materials_specular");
-  Json definitions = Json::array();
-  Json nodes = Json::array();
+  Gltf gltf;
+  gltf.generator = preset_text::GeneratorOf(file);
+  gltf.extensions_used = {"KHR_lights_punctual"};
+  if (!options.bare) gltf.extensions_used.emplace_back("KHR_materials_specular");
+  std::vector<Node> definitions;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const GltfLight gltf = GltfLightFrom(lights[i], refits[i]);
-    definitions.push_back(LightDefinition(gltf, lights[i].name));
-    nodes.push_back(LightNode(gltf, file.lights[i], lights[i], i));
+    const GltfLight light = GltfLightFrom(lights[i], refits[i]);
+    definitions.push_back(LightDefinition(light, lights[i].name));
+    gltf.nodes.push_back(LightNode(light, file.lights[i], lights[i], i));
   }
-  root["extensions"] = {{"KHR_lights_punctual", {{"lights", std::move(definitions)}}}};
-  root["nodes"] = std::move(nodes);
+  gltf.extensions.Put("KHR_lights_punctual", {{"lights", definitions}});
   if (!options.bare) {
-    AddCards(root, rig);
-    AddCamera(root, rig.camera);
+    AddCards(gltf, rig);
+    AddCamera(gltf, rig.camera);
   }
-  Json all = Json::array();
-  for (std::size_t i = 0; i < root["nodes"].size(); ++i) all.push_back(i);
-  root["scenes"] = Json::array({{{"name", stem},
-                                 {"nodes", std::move(all)},
-                                 {"extras", {{"lightcal", SceneExtras(file, rig)}}}}});
-  root["scene"] = 0;
-  return root;
+  Scene all{stem, std::vector<std::size_t>(gltf.nodes.size()), Node::Table()};
+  std::iota(all.nodes.begin(), all.nodes.end(), std::size_t{0});
+  gltf.scenes.push_back(std::move(all));
+  gltf.extras = SceneExtras(file, rig);
+  return gltf;
 }
 
 }  // namespace
@@ -367,12 +358,15 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
   const auto refits = RefitInGltf(lights, *punctual, options, preset.warnings);
-  Json document = Document(lights, stem, *punctual, refits, options);
-  AddPhotometricScene(document, lights, *punctual, *ies);
-  AddImageBasedScene(document, lights, *punctual);
-  auto text = json_pieces::TextOf(document, stem + ".gltf");
+  Gltf gltf = WithLights(lights, stem, *punctual, refits, options);
+  AddPhotometricScene(gltf, lights, *punctual, *ies);
+  AddImageBasedScene(gltf, lights, *punctual);
+  auto text = JsonText(gltf.Document(), stem + ".gltf");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".gltf", std::move(*text)});
+  for (std::size_t i = 0; i < punctual->size(); ++i) {
+    preset.derived.push_back(DerivedGltf((*punctual)[i], refits[i]));
+  }
   for (std::size_t i = 0; i < ies->size(); ++i) {
     if (lights.lights[i].distribution && (*ies)[i]) preset.files.push_back(*(*ies)[i]);
   }

@@ -2,6 +2,7 @@
 #include "lightcal/presets/gltf_light.h"
 
 #include <cmath>
+#include <utility>
 
 namespace lightcal {
 
@@ -35,10 +36,11 @@ Quaternion RotationFromAxes(const Vec3& x, const Vec3& y, const Vec3& z) {
 
 std::vector<FalloffRefit> RefitInGltf(const LightFile& file, std::span<const PunctualLight> lights,
                                       const PresetOptions& options, Warnings& warnings) {
-  return RefitLights(
-      file, lights,
-      {.engine = EngineFalloff::kGltf, .far_range = Metres(kGltfRange_m), .fixed = options.range},
-      warnings);
+  return RefitLights(file, lights,
+                     {.falloff = {&GltfFalloff, WindowPower::kPlain},
+                      .far_range = Metres(kGltfRange_m),
+                      .fixed = options.range},
+                     warnings);
 }
 
 GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit) {
@@ -60,6 +62,33 @@ GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit) {
     gltf.outer_cone_rad = light.cone.outer.value();
   }
   return gltf;
+}
+
+DerivedLight DerivedGltf(const PunctualLight& light, const FalloffRefit& refit) {
+  const GltfLight gltf = GltfLightFrom(light, refit);
+  DerivedLight derived;
+  derived.type = std::string(gltf.type);
+  const auto put = [&](const char* name, const std::optional<double>& value) {
+    if (value) derived.Put(name, *value);
+  };
+  const auto put_all = [&](const char* name, const auto& values) {
+    std::vector<double> plain;
+    for (const double v : values) plain.push_back(v == 0.0 ? 0.0 : v);  // -0 is written 0
+    derived.Put(name, std::move(plain));
+  };
+  put("intensity", gltf.intensity);
+  put("intensity_u95", gltf.intensity_u95);
+  put_all("color", gltf.color);
+  put("range", gltf.range_m);
+  put("innerConeAngle", gltf.inner_cone_rad);
+  put("outerConeAngle", gltf.outer_cone_rad);
+  put_all("translation", gltf.translation);
+  put_all("rotation", gltf.rotation);
+  if (light.type != PunctualType::kDirectional) {
+    derived.notes.push_back({"falloff_residual", {refit.residual}});
+  }
+  derived.substitution = light.substitution;
+  return derived;
 }
 
 }  // namespace lightcal

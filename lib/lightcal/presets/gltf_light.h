@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/engine_axes.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/punctual_light.h"
@@ -43,6 +44,9 @@ struct GltfLight {
   Quaternion rotation{};
 };
 [[nodiscard]] GltfLight GltfLightFrom(const PunctualLight& light, const FalloffRefit& refit);
+
+// The same for audit.
+[[nodiscard]] DerivedLight DerivedGltf(const PunctualLight& light, const FalloffRefit& refit);
 
 // Ranges and intensities in glTF's plain window; kGltfRange_m where nobody fixed a range.
 [[nodiscard]] std::vector<FalloffRefit> RefitInGltf(const LightFile& file,

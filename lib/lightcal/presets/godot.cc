@@ -8,24 +8,26 @@
 #include <numbers>
 #include <set>
 
+#include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/godot_temperature.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
 
-using text_pieces::Identifier;
-using text_pieces::Numbers;
-using text_pieces::Quoted;
+using preset_text::Identifier;
+using preset_text::Numbers;
+using preset_text::Quoted;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kTemperature = 6500.0;  // the engine's default, written out
 constexpr Metres kFarRange{4096.0};      // rendered without loss in 4.6.3
 constexpr EngineForms kForms = {.sphere = true, .dome = true};
+constexpr EngineFalloff kFalloff{[](Metres d, Metres r) { return GodotFalloff(d, r); }};
 
 // ---- colour ----
 
@@ -37,7 +39,7 @@ struct GodotColor {
 
 GodotColor ColorFor(const EmittedColor& color) {
   const Rgb& m = color.max_normalised;
-  const Rgb tint = GodotTemperatureColor(kTemperature);
+  const Rgb tint = KrystekRgbAtUnitPeak(Kelvin(kTemperature));
   const Rgb ratio = {m.r / tint.r, m.g / tint.g, m.b / tint.b};
   const double largest = std::max({ratio.r, ratio.g, ratio.b});
   GodotColor out;
@@ -257,7 +259,7 @@ std::string Scene(const LightFile& file, const std::string& stem,
     while (!taken.insert(name).second) name += "_";
     nodes += LightNode(name, file.lights[i], lights[i], derived[i]);
   }
-  std::string text = "[gd_scene format=3]\n\n; " + text_pieces::GeneratorOf(file) +
+  std::string text = "[gd_scene format=3]\n\n; " + preset_text::GeneratorOf(file) +
                      ", not executed in Godot by this run: schema-checked.\n"
                      "; In project.godot, or lumens and lux are ignored:\n"
                      ";   [rendering]\n;   lights_and_shadows/use_physical_light_units=true\n";
@@ -280,24 +282,44 @@ std::string Scene(const LightFile& file, const std::string& stem,
 Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
                            const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "godot", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "godot", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const auto refits =
-      RefitLights(lights, *forms,
-                  {.engine = EngineFalloff::kGodot, .far_range = kFarRange, .fixed = options.range},
-                  preset.warnings);
+  const auto refits = RefitLights(
+      lights, *forms, {.falloff = kFalloff, .far_range = kFarRange, .fixed = options.range},
+      preset.warnings);
   const double exposure = BuildRig(lights, *forms).exposure.scale;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(Derive((*forms)[i], refits[i], exposure, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
-    auto finite = text_pieces::CheckFinite(preset.derived.back(), (*forms)[i].name());
+    auto finite = preset_text::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));
   }
   preset.files.push_back({stem + ".tscn", Scene(lights, stem, *forms, preset.derived, options)});
   preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
                  ".tscn into a project with physical light units and open it";
   return preset;
+}
+
+Emission EmittedInGodot(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
+  const bool dome = light.type == "Environment";
+  const std::vector<double>& c = light.Find(dome ? "background_color" : "light_color")->values;
+  const Rgb tint = dome ? Rgb{1.0, 1.0, 1.0}
+                        : KrystekRgbAtUnitPeak(Kelvin(NumberIn(light, "light_temperature")));
+  const double luminance = Rec709Luminance(
+      Vec3{SrgbDecoded(c[0]) * tint.r, SrgbDecoded(c[1]) * tint.g, SrgbDecoded(c[2]) * tint.b});
+  if (dome) {
+    return {.lux = kPi * NumberIn(light, "background_intensity") *
+                   NumberIn(light, "background_energy_multiplier") * luminance};
+  }
+  if (light.type == "DirectionalLight3D") {
+    return {.lux = NumberIn(light, "light_intensity_lux") * luminance};
+  }
+  const bool spot = light.type == "SpotLight3D";
+  return {
+      .candela = NumberIn(light, "light_intensity_lumens") * luminance / (spot ? kPi : 4.0 * kPi),
+      .falloff = kFalloff,
+      .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
 }
 
 }  // namespace lightcal

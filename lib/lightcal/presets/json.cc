@@ -2,101 +2,78 @@
 // <stem>.preset.json, schema lightcal.preset/1: the canonical record of the lights with every
 // number other targets are given, so that a reader can audit them. schemas/preset.schema.json
 // describes it.
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "lightcal/presets/exporters.h"
-#include "lightcal/presets/gltf_light.h"
-#include "lightcal/presets/json_pieces.h"
+#include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
-#include "lightcal/presets/rig_pieces.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-using json_pieces::Put;
-
-Json RgbJson(const Rgb& c) { return Array<Json>(std::array<double, 3>{c.r, c.g, c.b}); }
-
-Json Photometry(const FittedLight& lamp) {
-  Json json = Json::object();
-  Put<Json>(json, "intensity_cd", lamp.intensity_cd);
-  Put<Json>(json, "flux_lm", lamp.flux_lm);
-  Put<Json>(json, "illuminance_lx", lamp.illuminance_lx);
-  Put<Json>(json, "luminance_nits", lamp.luminance_nits);
-  Put<Json>(json, "distance_offset_m", lamp.distance_offset_m);
-  return json;
+using records::Node;
+Node Photometry(const FittedLight& lamp) {
+  return {{"intensity_cd", NodeOf(lamp.intensity_cd)},
+          {"flux_lm", NodeOf(lamp.flux_lm)},
+          {"illuminance_lx", NodeOf(lamp.illuminance_lx)},
+          {"luminance_nits", NodeOf(lamp.luminance_nits)},
+          {"distance_offset_m", NodeOf(lamp.distance_offset_m)}};
 }
 
-Json RgbOf(const EmittedColor& color) {
-  return {{"unit_luminance", RgbJson(color.unit_luminance)},
-          {"max_normalised", RgbJson(color.max_normalised)},
+Node RgbOf(const EmittedColor& color) {
+  return {{"unit_luminance", NodeOf(color.unit_luminance)},
+          {"max_normalised", NodeOf(color.max_normalised)},
           {"luminance_of_max_normalised", color.luminance}};
 }
 
+Node Pair(const std::optional<Xy>& xy) { return xy ? Node{xy->x, xy->y} : Node(); }
+
 // What the engines of this export get, where that is not plain Rec. 709.
-Json PipelineColor(const EmittedColor& color) {
-  Json json = {{"space", RgbSpaceWord(color.target.space)}};
-  if (color.target.white) json["white_xy"] = {color.target.white->x, color.target.white->y};
-  json.update(RgbOf(color));
-  return json;
+Node PipelineColor(const EmittedColor& color) {
+  if (!color.target.white && color.target.space == RgbSpace::kSrgb) return {};
+  Node document = {{"space", RgbSpaceWord(color.target.space)},
+                   {"white_xy", Pair(color.target.white)}};
+  document.Put(RgbOf(color));
+  return document;
 }
 
-Json Color(const FittedLight& lamp, const EmittedColor& color) {
-  const FittedColor& measured = lamp.color;
-  Json json = {{"known", color.xy.has_value()}};
-  if (color.xy) json["xy"] = {color.xy->x, color.xy->y};
-  Put<Json>(json, "cct_K", measured.cct_K);
-  Put<Json>(json, "duv", measured.duv);
+Node Color(const FittedLight& lamp, const EmittedColor& color) {
   Warnings said_already;
-  json["rec709_linear"] = RgbOf(ColorOfLight(lamp, {}, said_already));
-  if (color.target.white || color.target.space != RgbSpace::kSrgb) {
-    json["pipeline_linear"] = PipelineColor(color);
-  }
-  return json;
+  return {{"known", color.xy.has_value()},
+          {"xy", Pair(color.xy)},
+          {"cct_K", NodeOf(lamp.color.cct_K)},
+          {"duv", NodeOf(lamp.color.duv)},
+          {"rec709_linear", RgbOf(ColorOfLight(lamp, {}, said_already))},
+          {"pipeline_linear", PipelineColor(color)}};
 }
 
-Json Geometry(const FittedLight& lamp) {
-  Json json = Json::object();
-  if (lamp.position_m) json["position_m"] = Array<Json>(*lamp.position_m);
-  if (lamp.aim) json["aim"] = Array<Json>(*lamp.aim);
-  if (lamp.axis) json["axis"] = Array<Json>(*lamp.axis);
-  Put<Json>(json, "inner_deg", lamp.inner_deg);
-  Put<Json>(json, "outer_deg", lamp.outer_deg);
-  Put<Json>(json, "diameter_m", lamp.diameter_m);
-  Put<Json>(json, "width_m", lamp.width_m);
-  Put<Json>(json, "height_m", lamp.height_m);
-  Put<Json>(json, "length_m", lamp.length_m);
-  Put<Json>(json, "radius_m", lamp.radius_m);
-  Put<Json>(json, "angular_diameter_deg", lamp.angular_diameter_deg);
-  return json;
+Node Triple(const std::optional<Vec3>& v) { return v ? NodeOf(*v) : Node(); }
+
+Node Geometry(const FittedLight& lamp) {
+  return {{"position_m", Triple(lamp.position_m)},
+          {"aim", Triple(lamp.aim)},
+          {"axis", Triple(lamp.axis)},
+          {"inner_deg", lamp.inner_deg},
+          {"outer_deg", lamp.outer_deg},
+          {"diameter_m", lamp.diameter_m},
+          {"width_m", lamp.width_m},
+          {"height_m", lamp.height_m},
+          {"length_m", lamp.length_m},
+          {"radius_m", lamp.radius_m},
+          {"angular_diameter_deg", lamp.angular_diameter_deg}};
 }
 
-Json Fit(const FitDiagnostics& fit) {
-  Json json = {{"readings", fit.readings},
-               {"used", fit.used},
-               {"rejected", fit.rejected},
-               {"degrees_of_freedom", fit.degrees_of_freedom}};
-  Put<Json>(json, "rms_relative", fit.rms_relative);
-  Put<Json>(json, "chi2_dof", fit.chi2_dof);
-  Put<Json>(json, "leave_one_out", fit.leave_one_out);
-  json["learned"] = fit.learned;
-  json["prior"] = fit.prior;
-  return json;
-}
-
-Json DerivedGltf(const GltfLight& light) {
-  Json json = {{"type", light.type}, {"intensity", light.intensity}};
-  Put<Json>(json, "intensity_u95", light.intensity_u95);
-  json["color"] = Array<Json>(light.color);
-  Put<Json>(json, "range", light.range_m);
-  Put<Json>(json, "innerConeAngle", light.inner_cone_rad);
-  Put<Json>(json, "outerConeAngle", light.outer_cone_rad);
-  json["translation"] = Array<Json>(light.translation);
-  json["rotation"] = Array<Json>(light.rotation);
-  return json;
+Node Fit(const FitDiagnostics& fit) {
+  return {{"readings", fit.readings},
+          {"used", fit.used},
+          {"rejected", fit.rejected},
+          {"degrees_of_freedom", fit.degrees_of_freedom},
+          {"rms_relative", fit.rms_relative},
+          {"chi2_dof", fit.chi2_dof},
+          {"leave_one_out", fit.leave_one_out},
+          {"learned", fit.learned},
+          {"prior", fit.prior}};
 }
 
 // ---- what other targets are given ----
@@ -119,69 +96,66 @@ std::vector<Derivation> Derivations(const LightFile& file, const std::string& st
   return all;
 }
 
-Json DerivedJson(const DerivedLight& light) {
-  Json json = {{"type", light.type}};
+Node DerivedNode(const DerivedLight& light) {
+  Node document = {{"type", light.type}};
   for (const DerivedField& field : light.fields) {
-    if (field.values.size() == 1) {
-      json[field.name] = field.values.front();
-    } else {
-      json[field.name] = field.values;
-    }
+    const bool one = field.values.size() == 1;
+    document.Put(field.name, one ? Node(field.values.front()) : Node(field.values));
   }
-  for (const DerivedField& note : light.notes) json[note.name] = note.values.front();
-  if (!light.substitution.empty()) json["substituted"] = light.substitution;
-  return json;
+  for (const DerivedField& note : light.notes) document.Put(note.name, note.values.front());
+  document.Put("substituted", Node::UnlessEmpty(light.substitution));
+  return document;
 }
 
+constexpr double kLargestHalf = 65504.0;
+
 // Values times the exposure, for pipelines that hold light in half floats.
-Json PreExposed(const PresetLight& light, double exposure) {
-  constexpr double kLargestHalf = 65504.0;
-  Json json = Json::object();
+Node PreExposed(const PresetLight& light, double exposure) {
+  Node document = Node::Table();
   bool safe = true;
   const std::pair<const char*, double> values[] = {{"intensity_cd", light.candela},
                                                    {"illuminance_lx", light.lux},
                                                    {"luminance_nits", light.nits}};
   for (const auto& [name, value] : values) {
     if (!(value > 0.0)) continue;
-    json[name] = value * exposure;
+    document.Put(name, value * exposure);
     safe = safe && value * exposure <= kLargestHalf;
   }
-  json["fits_fp16"] = safe;
-  return json;
+  document.Put("fits_fp16", safe);
+  return document;
 }
 
 void WarnOfHalfFloats(const PresetLight& light, double exposure, Warnings& warnings) {
-  constexpr double kLargestHalf = 65504.0;
   if (light.nits * exposure <= kLargestHalf) return;
   warnings.push_back({"exceeds_fp16", light.name(),
                       "its surface is brighter than half floats hold even at this exposure; hide "
                       "the disc, or let it clip at 65504"});
 }
 
-Json LightJson(const FittedLight& lamp, const PunctualLight& light, const FalloffRefit& refit,
-               const PresetLight& form, std::size_t index,
+Node Distribution(const PresetLight& form) {
+  if (!form.table) return {};
+  const auto& grid = form.table->grid();
+  return {{"peak_cd", form.candela},
+          {"flux_lm", form.lumens},
+          {"planes", grid.horizontal_deg.size()},
+          {"angles", grid.vertical_deg.size()}};
+}
+
+Node LightNode(const FittedLight& lamp, const PresetLight& form, std::size_t index,
                const std::vector<Derivation>& derivations, double exposure) {
-  Json json = {{"name", lamp.name},
-               {"kind", LightKindName(lamp.kind)},
-               {"photometry", Photometry(lamp)},
-               {"color", Color(lamp, light.color)},
-               {"geometry", Geometry(lamp)},
-               {"fit", Fit(lamp.fit)},
-               {"pre_exposed", PreExposed(form, exposure)}};
-  if (form.table) {
-    json["distribution"] = {{"peak_cd", form.candela}, {"flux_lm", form.lumens}};
-    const auto& grid = form.table->grid();
-    json["distribution"]["planes"] = grid.horizontal_deg.size();
-    json["distribution"]["angles"] = grid.vertical_deg.size();
-  }
-  json["derived"]["gltf"] = DerivedGltf(GltfLightFrom(light, refit));
-  if (form.candela > 0.0) json["derived"]["gltf"]["falloff_residual"] = refit.residual;
-  if (!light.substitution.empty()) json["derived"]["gltf"]["substituted"] = light.substitution;
+  Node derived = Node::Table();
   for (const Derivation& derivation : derivations) {
-    if (derivation.target == "gltf") continue;
-    json["derived"][std::string(derivation.target)] = DerivedJson(derivation.lights[index]);
+    derived.Put(derivation.target, DerivedNode(derivation.lights[index]));
   }
-  return json;
+  return {{"name", lamp.name},
+          {"kind", LightKindName(lamp.kind)},
+          {"photometry", Photometry(lamp)},
+          {"color", Color(lamp, form.color())},
+          {"geometry", Geometry(lamp)},
+          {"fit", Fit(lamp.fit)},
+          {"pre_exposed", PreExposed(form, exposure)},
+          {"distribution", Distribution(form)},
+          {"derived", Node::UnlessEmpty(std::move(derived))}};
 }
 
 // The rig's illuminances are those of the lamps themselves, whatever an engine makes of them.
@@ -199,19 +173,20 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  const auto refits = RefitInGltf(lights, *punctual, options, said_already);
   const auto derivations = Derivations(lights, stem, options);
-  Json root = {{"schema", "lightcal.preset/1"}, {"name", stem}};
-  root["lights"] = Json::array();
-  for (std::size_t i = 0; i < punctual->size(); ++i) {
-    root["lights"].push_back(LightJson(lights.lights[i], (*punctual)[i], refits[i], (*forms)[i], i,
-                                       derivations, rig.exposure.scale));
-    WarnOfHalfFloats((*forms)[i], rig.exposure.scale, preset.warnings);
+  Node list = Node::Array();
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    const PresetLight& form = (*forms)[i];
+    list.items.push_back(LightNode(lights.lights[i], form, i, derivations, rig.exposure.scale));
+    WarnOfHalfFloats(form, rig.exposure.scale, preset.warnings);
   }
-  root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
-  if (!options.bare) root["rig"] = json_pieces::RigJson<Json>(rig);
-  root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
-  auto text = json_pieces::TextOf(root, stem + ".preset.json");
+  auto text = JsonText({{"schema", "lightcal.preset/1"},
+                        {"name", stem},
+                        {"lights", std::move(list)},
+                        {"exposure", NodeOf(rig.exposure)},
+                        {"rig", options.bare ? Node() : NodeOf(rig)},
+                        {"provenance", NodeOf(lights.provenance)}},
+                       stem + ".preset.json");
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({stem + ".preset.json", std::move(*text)});
   return preset;

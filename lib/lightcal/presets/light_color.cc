@@ -98,10 +98,6 @@ std::string_view RgbSpaceWord(RgbSpace space) {
   return {};
 }
 
-double SrgbEncoded(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
 EmittedColor ColorOfLight(const FittedLight& light, const ColorTarget& target, Warnings& warnings) {
   EmittedColor color;
   color.target = target;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/fitted_light.h"
 
@@ -42,8 +43,5 @@ struct EmittedColor {
 // color_unknown. Clipped components give the warning out_of_gamut.
 [[nodiscard]] EmittedColor ColorOfLight(const FittedLight& light, const ColorTarget& target,
                                         Warnings& warnings);
-
-// IEC 61966-2-1 encoding of a linear component in [0,1], for engines whose colours are typed so.
-[[nodiscard]] double SrgbEncoded(double linear);
 
 }  // namespace lightcal

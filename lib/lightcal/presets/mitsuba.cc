@@ -6,13 +6,13 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
 
-using text_pieces::Numbers;
-using text_pieces::XmlEscaped;
+using preset_text::Numbers;
+using preset_text::XmlEscaped;
 
 constexpr EngineForms kForms = {
     .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
@@ -53,7 +53,7 @@ DerivedLight Derive(const PresetLight& light, double exposure, Warnings& warning
     default:
       out.type = "area";
       out.Put("radiance", Scaled(light, light.nits * exposure));
-      text_pieces::PutSize(light, out);
+      preset_text::PutSize(light, out);
       break;
   }
   return out;
@@ -164,24 +164,24 @@ std::string RigText(const Rig& rig) {
 Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
                              const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "mitsuba", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "mitsuba", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   const double exposure = options.bare ? 1.0 : rig.exposure.scale;
   std::string text =
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- " +
-      XmlEscaped(text_pieces::GeneratorOf(lights)) +
+      XmlEscaped(preset_text::GeneratorOf(lights)) +
       ", not executed in Mitsuba: schema-checked. Values are cd, lx and nits times " +
       ShortestText(exposure) + "; ev100 " + ShortestText(rig.exposure.ev100) +
       " -->\n<scene version=\"3.0.0\">\n  <integrator type=\"path\">"
       "<integer name=\"max_depth\" value=\"2\"/></integrator>\n";
   for (const PresetLight& light : *forms) {
     preset.derived.push_back(Derive(light, exposure, preset.warnings));
-    auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
+    auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     std::string comment = XmlEscaped(light.name());
-    const std::string note = text_pieces::SubstitutionNote(preset.derived.back());
+    const std::string note = preset_text::SubstitutionNote(preset.derived.back());
     if (!note.empty()) comment += "; " + note;
     // "--" ends no comment well.
     for (std::size_t at = 0; (at = comment.find("--", at)) != std::string::npos;) comment[at] = '_';
@@ -192,6 +192,17 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
   preset.paste =
       "mitsuba -m scalar_rgb " + std::string(kPasteDirectory) + "/" + stem + ".mitsuba.xml";
   return preset;
+}
+
+Emission EmittedInMitsuba(const DerivedLight& light, LightKind kind, double /*axial_part*/) {
+  double emitted = 0.0;
+  for (const char* name : {"intensity", "irradiance", "radiance"}) {
+    if (light.Find(name) != nullptr) {
+      emitted = LuminanceIn(light, name) / NumberIn(light, "pre_exposure");
+    }
+  }
+  return EmittedByPathTracer(light, kind, emitted,
+                             {.directional = "directional", .dome = "constant", .area = "area"});
 }
 
 }  // namespace lightcal

@@ -4,13 +4,12 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <string>
 
 namespace lightcal {
 
 // A PNG of side x side pixels (1 to 64), RGBA, eight bits, all of one colour. The pixels are
 // stored, not compressed.   Source: ISO/IEC 15948; RFC 1950, 1951.
-[[nodiscard]] std::vector<std::uint8_t> PngOfOneColor(int side,
-                                                      const std::array<std::uint8_t, 4>& rgba);
+[[nodiscard]] std::string PngOfOneColor(int side, const std::array<std::uint8_t, 4>& rgba);
 
 }  // namespace lightcal

@@ -8,13 +8,13 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
 
-using text_pieces::Numbers;
-using text_pieces::Quoted;
+using preset_text::Numbers;
+using preset_text::Quoted;
 
 constexpr EngineForms kForms = {
     .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
@@ -48,7 +48,7 @@ DerivedLight Derive(const PresetLight& light) {
     default:
       out.type = "diffuse";
       out.Put("scale", light.nits);
-      text_pieces::PutSize(light, out);
+      preset_text::PutSize(light, out);
       break;
   }
   return out;
@@ -178,11 +178,11 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   Preset preset;
   const bool known = ColorSpaceWord(asked.color.space).has_value();
   const PresetOptions options =
-      known ? asked : text_pieces::InRec709(asked, "pbrt", preset.warnings);
+      known ? asked : preset_text::InRec709(asked, "pbrt", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  std::string text = "# " + text_pieces::GeneratorOf(lights) +
+  std::string text = "# " + preset_text::GeneratorOf(lights) +
                      ", not executed in pbrt: schema-checked. cd, lx and nits; ev100 " +
                      ShortestText(rig.exposure.ev100) + ", exposure " +
                      ShortestText(rig.exposure.scale) + "\nColorSpace \"" +
@@ -191,9 +191,9 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   text += "WorldBegin\n";
   for (const PresetLight& light : *forms) {
     preset.derived.push_back(Derive(light));
-    auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
+    auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
-    const std::string note = text_pieces::SubstitutionNote(preset.derived.back());
+    const std::string note = preset_text::SubstitutionNote(preset.derived.back());
     text += "# " + Quoted(light.name()) + (note.empty() ? "" : " " + note) + "\n" +
             LightText(light, preset.derived.back());
   }
@@ -201,6 +201,12 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   preset.files.push_back({stem + ".pbrt", std::move(text)});
   preset.paste = "pbrt " + std::string(kPasteDirectory) + "/" + stem + ".pbrt";
   return preset;
+}
+
+Emission EmittedInPbrt(const DerivedLight& light, LightKind kind, double /*axial_part*/) {
+  const double scale = NumberIn(light, light.Find("scale") != nullptr ? "scale" : "illuminance");
+  return EmittedByPathTracer(light, kind, scale * LuminanceIn(light, "rgb"),
+                             {.directional = "distant", .dome = "infinite", .area = "diffuse"});
 }
 
 }  // namespace lightcal

@@ -40,7 +40,7 @@ inline constexpr std::string_view kPasteDirectory = "%DIR%";
 
 // Same input, same bytes. Refused: no_intensity, no_illuminance (a light without the figure its
 // kind is exported by), no_lights. Fails: not_finite.
-using Exporter = Result<Preset> (*)(const LightFile& lights, const std::string& stem,
-                                    const PresetOptions& options);
+using Exporter = Result<Preset>(const LightFile& lights, const std::string& stem,
+                                const PresetOptions& options);
 
 }  // namespace lightcal

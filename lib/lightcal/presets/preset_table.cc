@@ -1,29 +1,188 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/preset_table.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
+#include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
 namespace {
 
+// ---- what a person types in ----
+
+constexpr TypedNote kLinearColor{"color", "color ", " (linear)"};
+constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)"};
+constexpr TypedNote kRadius{"radius", "radius ", " m"};
+constexpr TypedNote kColorNotes[] = {kLinearColor};
+
+constexpr TypedNumber kGltfNumbers[] = {{"directional", "intensity", "intensity", "lx"},
+                                        {"", "intensity", "intensity", "cd"}};
+constexpr TypedNumber kGodotNumbers[] = {
+    {"", "light_intensity_lumens", "Intensity", "lm"},
+    {"", "light_intensity_lux", "Intensity", "lx"},
+    {"", "background_intensity", "Background intensity", "nits"}};
+// light_temperature is neutral and left out.
+constexpr TypedNote kGodotNotes[] = {
+    {"background_energy_multiplier", "Background energy multiplier ", ""},
+    kEncodedColor,
+    {"background_color", "Color ", " (sRGB)"}};
+constexpr TypedNumber kMitsubaNumbers[] = {{"", "intensity", "intensity", ""},
+                                           {"", "irradiance", "irradiance", ""},
+                                           {"", "radiance", "radiance", ""}};
+constexpr TypedNote kMitsubaNotes[] = {{"pre_exposure", "pre-exposed by ", ""}, kRadius};
+constexpr TypedNumber kPbrtNumbers[] = {{"", "illuminance", "illuminance", "lx"},
+                                        {"diffuse", "scale", "scale", "nits"},
+                                        {"infinite", "scale", "scale", "nits"},
+                                        {"", "scale", "scale", "cd"}};
+constexpr TypedNote kPbrtNotes[] = {{"rgb", "rgb ", ""}, kRadius};
+constexpr TypedNumber kUnityNumbers[] = {{"Directional", "intensity", "Intensity", "lx"},
+                                         {"Rectangle", "intensity", "Intensity", "nits"},
+                                         {"", "intensity", "Intensity", "cd"}};
+constexpr TypedNumber kUnrealNumbers[] = {{"DirectionalLight", "intensity", "Intensity", "lx"},
+                                          {"", "intensity", "Intensity", "cd"}};
+constexpr TypedNote kUnrealNotes[] = {{"temperature", "Temperature ", " K"}, kEncodedColor};
+constexpr TypedNumber kUsdNumbers[] = {{"DistantLight", "intensity", "intensity", "lx"},
+                                       {"", "intensity", "intensity", "nits"}};
+constexpr TypedNote kUsdNotes[] = {kLinearColor, kRadius};
+constexpr TypedNumber kBlenderNumbers[] = {{"SUN", "energy_W", "Strength", "W/m²"},
+                                           {"", "energy_W", "Power", "W"},
+                                           {"", "strength", "Strength", ""}};
+constexpr TypedNumber kThreeNumbers[] = {{"directional", "intensity", "intensity", "lx"},
+                                         {"rect", "intensity", "intensity", "nits"},
+                                         {"dome", "intensity", "intensity", "nits"},
+                                         {"", "intensity", "intensity", "cd"}};
+constexpr TypedNumber kFilamentNumbers[] = {{"INDIRECT", "intensity", "intensity", "nits"},
+                                            {"", "intensity_lx", "intensity", "lx"},
+                                            {"", "intensity_candela", "intensityCandela", "cd"}};
+
+// ---- who renders it ----
+
+constexpr Renderer kGodotRenderers[] = {{"godot"}};
+constexpr Renderer kUnityRenderers[] = {{"unity"}};
+constexpr Renderer kUnrealRenderers[] = {{"unreal"}};
+constexpr Renderer kBlenderRenderers[] = {{"blender", PixelUnit::kWatts}};
+constexpr Renderer kThreeRenderers[] = {{"three", PixelUnit::kNits}, {"babylon"}};
+constexpr Renderer kFilamentRenderers[] = {{"filament"}};
+
 constexpr std::array kTargets = {
-    PresetTarget{"gltf", &ExportGltf, "gltf-validator 2.0.0-dev.3.10: 0 errors, 0 warnings"},
-    PresetTarget{"godot", &ExportGodot, "schema-checked, not executed in Godot"},
-    PresetTarget{"mitsuba", &ExportMitsuba, "schema-checked, not executed in Mitsuba"},
-    PresetTarget{"pbrt", &ExportPbrt, "schema-checked, not executed in pbrt"},
-    PresetTarget{"unity", &ExportUnity, "compiled against stand-ins, not executed in Unity"},
-    PresetTarget{"unreal", &ExportUnreal, "run against a strict stand-in, not executed in Unreal"},
-    PresetTarget{"usd", &ExportUsd, "tinyusdz 0.9.0-rc10 loads it; not executed in a renderer"},
-    PresetTarget{"json", &ExportJson, "JSON Schema 2020-12 lightcal.preset/1"},
-    PresetTarget{"blender", &ExportBlender, "rendered in Cycles 3.4: lux within 0.5 %"},
-    PresetTarget{"three", &ExportThree, "rendered in three.js 0.187 and Babylon.js 9.34: 0.2 %"},
-    PresetTarget{"filament", &ExportFilament, "rendered in Filament 1.53.4: lux within 2 %"},
-    PresetTarget{"ies", &ExportIes, "three.js 0.187 IESLoader: texels within 1e-5 of the peak"},
-    PresetTarget{"ldt", &ExportLdt, "our own reader, and through it the .ies"},
+    PresetTarget{.name = "gltf",
+                 .exporter = &ExportGltf,
+                 .verified = "gltf-validator 2.0.0-dev.3.10: 0 errors, 0 warnings",
+                 .ending = ".gltf",
+                 .reader = &ReadGltf,
+                 .place_in_report = 6,
+                 .title = "glTF",
+                 .numbers = kGltfNumbers,
+                 .notes = kColorNotes},
+    PresetTarget{.name = "godot",
+                 .exporter = &ExportGodot,
+                 .verified = "schema-checked, not executed in Godot",
+                 .ending = ".tscn",
+                 .reader = &ReadGodot,
+                 .place_in_report = 3,
+                 .title = "Godot",
+                 .emission = &EmittedInGodot,
+                 .numbers = kGodotNumbers,
+                 .notes = kGodotNotes,
+                 .renderers = kGodotRenderers,
+                 .kelvin = KelvinSetting{"godot_rgb", "Godot's linear RGB at this CCT",
+                                         &KrystekRgbAtUnitPeak, "Godot"}},
+    PresetTarget{.name = "mitsuba",
+                 .exporter = &ExportMitsuba,
+                 .verified = "schema-checked, not executed in Mitsuba",
+                 .place_in_report = 9,
+                 .title = "Mitsuba",
+                 .emission = &EmittedInMitsuba,
+                 .numbers = kMitsubaNumbers,
+                 .notes = kMitsubaNotes},
+    PresetTarget{.name = "pbrt",
+                 .exporter = &ExportPbrt,
+                 .verified = "schema-checked, not executed in pbrt",
+                 .place_in_report = 10,
+                 .title = "pbrt",
+                 .emission = &EmittedInPbrt,
+                 .numbers = kPbrtNumbers,
+                 .notes = kPbrtNotes},
+    PresetTarget{.name = "unity",
+                 .exporter = &ExportUnity,
+                 .verified = "compiled against stand-ins, not executed in Unity",
+                 .place_in_report = 2,
+                 .title = "Unity HDRP",
+                 .emission = &EmittedInUnity,
+                 .numbers = kUnityNumbers,
+                 .notes = kColorNotes,
+                 .renderers = kUnityRenderers},
+    PresetTarget{.name = "unreal",
+                 .exporter = &ExportUnreal,
+                 .verified = "run against a strict stand-in, not executed in Unreal",
+                 .place_in_report = 1,
+                 .title = "Unreal Engine",
+                 .emission = &EmittedInUnreal,
+                 .numbers = kUnrealNumbers,
+                 .notes = kUnrealNotes,
+                 .renderers = kUnrealRenderers,
+                 .kelvin = KelvinSetting{"unreal_rgb", "Unreal's linear RGB at this CCT",
+                                         &KrystekRgbAtUnitY, "Unreal"}},
+    PresetTarget{.name = "usd",
+                 .exporter = &ExportUsd,
+                 .verified = "tinyusdz 0.9.0-rc10 loads it; not executed in a renderer",
+                 .ending = ".usda",
+                 .reader = &ReadUsd,
+                 .place_in_report = 8,
+                 .title = "USD",
+                 .numbers = kUsdNumbers,
+                 .notes = kUsdNotes},
+    PresetTarget{.name = "json",
+                 .exporter = &ExportJson,
+                 .verified = "JSON Schema 2020-12 lightcal.preset/1",
+                 .ending = ".preset.json",
+                 .reader = &ReadJson},
+    PresetTarget{.name = "blender",
+                 .exporter = &ExportBlender,
+                 .verified = "rendered in Cycles 3.4: lux within 0.5 %",
+                 .ending = ".blender.py",
+                 .reader = &ReadBlender,
+                 .place_in_report = 4,
+                 .title = "Blender",
+                 .numbers = kBlenderNumbers,
+                 .notes = kColorNotes,
+                 .renderers = kBlenderRenderers,
+                 .kelvin = KelvinSetting{"blender_usdlux_rgb", "Blender's and UsdLux's at this CCT",
+                                         &PlanckianRgbAtUnitY}},
+    PresetTarget{.name = "three",
+                 .exporter = &ExportThree,
+                 .verified = "rendered in three.js 0.187 and Babylon.js 9.34: 0.2 %",
+                 .ending = ".three.js",
+                 .reader = &ReadThree,
+                 .place_in_report = 5,
+                 .title = "three.js, Babylon.js",
+                 .numbers = kThreeNumbers,
+                 .notes = kColorNotes,
+                 .renderers = kThreeRenderers},
+    PresetTarget{.name = "filament",
+                 .exporter = &ExportFilament,
+                 .verified = "rendered in Filament 1.53.4: lux within 2 %",
+                 .ending = ".filament.json",
+                 .reader = &ReadFilament,
+                 .place_in_report = 7,
+                 .title = "Filament",
+                 .numbers = kFilamentNumbers,
+                 .notes = kColorNotes,
+                 .renderers = kFilamentRenderers},
+    PresetTarget{.name = "ies",
+                 .exporter = &ExportIes,
+                 .verified = "three.js 0.187 IESLoader: texels within 1e-5 of the peak",
+                 .ending = ".ies",
+                 .reader = &ReadPhotometricTable},
+    PresetTarget{.name = "ldt",
+                 .exporter = &ExportLdt,
+                 .verified = "our own reader, and through it the .ies",
+                 .ending = ".ldt",
+                 .reader = &ReadPhotometricTable},
 };
 
 }  // namespace
@@ -43,6 +202,41 @@ Result<PresetTarget> FindPresetTarget(std::string_view name) {
                     "is no preset target" +
                         (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
                         " (there are: " + list + ")");
+}
+
+const PresetTarget* TargetOfFile(std::string_view path) {
+  const auto row = std::ranges::find_if(kTargets, [&](const PresetTarget& target) {
+    return target.reader != nullptr && path.ends_with(target.ending);
+  });
+  return row == kTargets.end() ? nullptr : &*row;
+}
+
+std::string ReadableEndings(std::string_view between) {
+  std::string list;
+  for (const PresetTarget& target : kTargets) {
+    if (target.reader == nullptr) continue;
+    if (!list.empty()) list += between;
+    list += target.ending;
+  }
+  return list;
+}
+
+PixelUnit LinearPixelsOf(std::string_view renderer) {
+  for (const PresetTarget& target : kTargets) {
+    for (const Renderer& one : target.renderers) {
+      if (one.word == renderer) return one.linear_pixels;
+    }
+  }
+  return PixelUnit::kExposed;
+}
+
+std::vector<const PresetTarget*> ReportTargets() {
+  std::vector<const PresetTarget*> targets;
+  for (const PresetTarget& target : kTargets) {
+    if (target.place_in_report > 0) targets.push_back(&target);
+  }
+  std::ranges::sort(targets, {}, &PresetTarget::place_in_report);
+  return targets;
 }
 
 }  // namespace lightcal

@@ -6,112 +6,94 @@
 // penumbra = 1 - inner/outer; Babylon's as glTF. A disk becomes the square of its area.
 // Sources: three.js 0.187, Babylon.js 9.34, rendered (tests/engines/render).
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/photometric_files.h"
+#include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
-#include "lightcal/presets/rig_pieces.h"
-#include "lightcal/presets/three_program.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-
+using records::Node;
 constexpr EngineForms kThree{.rect = true, .table = true, .dome = true};
 
-void AddPunctual(const PunctualLight& light, Json& json) {
-  json["intensity"] = light.intensity;
-  switch (light.type) {
-    case PunctualType::kPoint:
-      json["type"] = "point";
-      json["unit"] = "cd";
-      return;
-    case PunctualType::kDirectional:
-      json["type"] = "directional";
-      json["unit"] = "lx";
-      return;
-    case PunctualType::kSpot:
-      json["type"] = "spot";
-      json["unit"] = "cd";
-      json["inner_rad"] = light.cone.inner.value();
-      json["outer_rad"] = light.cone.outer.value();
-      return;
-  }
+// Also what a light of another form is where the engine has no such kind.
+Node Punctual(const PunctualLight& light) {
+  const bool spot = light.type == PunctualType::kSpot;
+  const bool directional = light.type == PunctualType::kDirectional;
+  Node document = {{"intensity", light.intensity},
+                   {"type", spot          ? "spot"
+                            : directional ? "directional"
+                                          : "point"},
+                   {"unit", directional ? "lx" : "cd"}};
+  if (spot) document.Put({{"inner_rad", light.cone.inner}, {"outer_rad", light.cone.outer}});
+  return document;
 }
 
-// What the light is where the engine has no such kind.
-Json Fallback(const PunctualLight& light) {
-  Json json = Json::object();
-  AddPunctual(light, json);
-  return json;
-}
-
-void AddRect(const PresetLight& light, Json& json) {
-  json["type"] = "rect";
-  json["intensity"] = light.nits / light.color().luminance;
-  json["unit"] = "cd/m2";
-  json["width_m"] = light.width_m;
-  json["height_m"] = light.height_m;
-  json["axes"] = {Array<Json>(GltfFromZUp(light.axes.c0)), Array<Json>(GltfFromZUp(light.axes.c90)),
-                  Array<Json>(GltfFromZUp(light.axes.aim * -1.0))};
-  json["fallback"] = Fallback(light.punctual);
+Node Rectangle(const PresetLight& light) {
+  const Vec3 axes[] = {GltfFromZUp(light.axes.c0), GltfFromZUp(light.axes.c90),
+                       GltfFromZUp(light.axes.aim * -1.0)};
+  return {{"type", "rect"},
+          {"intensity", light.nits / light.color().luminance},
+          {"unit", "cd/m2"},
+          {"width_m", light.width_m},
+          {"height_m", light.height_m},
+          {"axes", Node::List(axes, [](const Vec3& v) { return NodeOf(v); })},
+          {"fallback", Punctual(light.punctual)}};
 }
 
 // The mean of all C planes over the peak, at the middle of each of 720 steps of gamma.
-Json RoundProfile(const IntensityTable& table) {
+Node RoundProfile(const IntensityTable& table) {
   constexpr int kSteps = 720;
   constexpr int kTurn = 72;
-  Json profile = Json::array();
+  Node profile = Node::Array();
   for (int i = 0; i < kSteps; ++i) {
     const Radians gamma((i + 0.5) * std::numbers::pi / kSteps);
     double sum = 0.0;
     for (int c = 0; c < kTurn; ++c) {
       sum += table.At(Radians(2.0 * std::numbers::pi * c / kTurn), gamma).value();
     }
-    profile.push_back(std::round(1e6 * sum / kTurn / table.peak().intensity.value()) / 1e6);
+    profile.items.push_back(std::round(1e6 * sum / kTurn / table.peak().intensity.value()) / 1e6);
   }
   return profile;
 }
 
-void AddTable(const PresetLight& light, const std::string& ies, Json& json) {
-  json["type"] = "ies";
-  json["intensity"] = light.candela / light.color().luminance;
-  json["unit"] = "cd";
-  json["ies"] = ies;
-  json["profile"] = RoundProfile(*light.table);
-  json["fallback"] = Fallback(light.punctual);
+Node Measured(const PresetLight& light, const std::string& ies) {
+  return {{"type", "ies"},
+          {"intensity", light.candela / light.color().luminance},
+          {"unit", "cd"},
+          {"ies", ies},
+          {"profile", RoundProfile(*light.table)},
+          {"fallback", Punctual(light.punctual)}};
 }
 
-Json LightJson(const FittedLight& lamp, const PresetLight& light, const std::string& ies) {
-  const PunctualLight& p = light.punctual;
-  Json json = {{"name", p.name}};
-  const Rgb& c = p.color.max_normalised;
-  json["color"] = {c.r, c.g, c.b};
-  json["position_m"] = Array<Json>(GltfFromZUp(p.position_m));
-  json["direction"] = Array<Json>(GltfFromZUp(p.aim));
+Node Figures(const PresetLight& light, const std::string& ies) {
   switch (light.form) {
     case LightForm::kRect:
-      AddRect(light, json);
-      break;
+      return Rectangle(light);
     case LightForm::kDome:
-      json["type"] = "dome";
-      json["intensity"] = light.nits / p.color.luminance;
-      json["unit"] = "cd/m2";
-      break;
+      return {
+          {"type", "dome"}, {"intensity", light.nits / light.color().luminance}, {"unit", "cd/m2"}};
     case LightForm::kTable:
-      AddTable(light, ies, json);
-      break;
+      return Measured(light, ies);
     default:
-      AddPunctual(p, json);
-      break;
+      return Punctual(light.punctual);
   }
-  json["measured"] = json_pieces::MeasuredJson<Json>(lamp, light);
-  return json;
+}
+
+Node LightNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies) {
+  const PunctualLight& p = light.punctual;
+  Node document = {{"name", p.name},
+                   {"color", NodeOf(p.color.max_normalised)},
+                   {"position_m", NodeOf(GltfFromZUp(p.position_m))},
+                   {"direction", NodeOf(GltfFromZUp(p.aim))}};
+  document.Put(Figures(light, ies));
+  document.Put("measured", MeasuredNode(lamp, light));
+  return document;
 }
 
 }  // namespace
@@ -124,25 +106,21 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   const auto ies = IesFiles(lights, stem);
   if (!ies) return tl::unexpected(ies.error());
   const Rig rig = BuildRig(lights, *forms);
-  Json root = {{"name", stem}};
-  root["lights"] = Json::array();
+  Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
-    root["lights"].push_back(LightJson(lights.lights[i], (*forms)[i], table));
+    list.items.push_back(LightNode(lights.lights[i], (*forms)[i], table));
+    preset.derived.push_back(DerivedFrom(list.items.back()));
   }
-  for (const Json& light : root["lights"]) {
-    preset.derived.push_back(json_pieces::DerivedFrom(light));
-  }
-  root["exposure"] = json_pieces::ExposureJson<Json>(rig.exposure);
-  if (!options.bare) {
-    root["rig"] = json_pieces::RigJson<Json>(json_pieces::Turned(rig, GltfFromZUp));
-  }
-  root["provenance"] = json_pieces::ProvenanceJson<Json>(lights.provenance);
-  auto text = json_pieces::TextOf(root, stem + ".three.js");
+  auto text = JsonText({{"name", stem},
+                        {"lights", std::move(list)},
+                        {"exposure", NodeOf(rig.exposure)},
+                        {"rig", options.bare ? Node() : NodeOf(Turned(rig, GltfFromZUp))},
+                        {"provenance", NodeOf(lights.provenance)}},
+                       stem + ".three.js");
   if (!text) return Propagate(std::move(text));
   text->pop_back();
-  preset.files.push_back({stem + ".three.js",
-                          std::string(kThreeProgramHead) + *text + std::string(kThreeProgramTail)});
+  preset.files.push_back({stem + ".three.js", ScriptWith("three.js", *text)});
   return preset;
 }
 

@@ -5,26 +5,22 @@
 // exposure/pi.   Sources: Unity Graphics LightUnitUtils.cs, HDAdditionalLightData, URP
 // Lighting.hlsl.
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/json_pieces.h"
-#include "lightcal/presets/text_pieces.h"
-#include "lightcal/presets/unity_importer.h"
+#include "lightcal/presets/preset_document.h"
+#include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
-using json_pieces::Array;
-
+using records::Node;
+constexpr EngineFalloff kFalloff{[](Metres d, Metres r) { return UnityHdrpFalloff(d, r); }};
 constexpr Metres kFarRange{10000.0};
 constexpr double kWidestSpot_deg = 179.0;  // full angle
-
-Json V(const Vec3& v) { return Array<Json>(v); }
 
 void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
   const double outer = 2.0 * DegreesFromRadians(light.punctual.cone.outer);
@@ -64,44 +60,43 @@ DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double 
   return out;
 }
 
-Json DerivedJson(const DerivedLight& derived) {
-  Json json = {{"type", derived.type}};
-  for (const DerivedField& field : derived.fields) json[field.name] = field.values[0];
-  if (!derived.substitution.empty()) json["substituted"] = derived.substitution;
-  return json;
+Node DerivedNode(const DerivedLight& derived) {
+  Node document = {{"type", derived.type}};
+  for (const DerivedField& field : derived.fields) document.Put(field.name, field.values[0]);
+  document.Put("substituted", Node::UnlessEmpty(derived.substitution));
+  return document;
 }
 
-Json PlaceJson(const std::string& name, const Vec3& at_m, const Vec3& forward, const Vec3& up) {
+Node PlaceNode(const std::string& name, const Vec3& at_m, const Vec3& forward, const Vec3& up) {
   return {{"name", name},
-          {"position", V(PositionIn(EngineAxes::kUnity, at_m))},
-          {"forward", V(DirectionIn(EngineAxes::kUnity, forward))},
-          {"up", V(DirectionIn(EngineAxes::kUnity, up))}};
+          {"position", NodeOf(PositionIn(EngineAxes::kYUpLeftHanded, at_m))},
+          {"forward", NodeOf(DirectionIn(EngineAxes::kYUpLeftHanded, forward))},
+          {"up", NodeOf(DirectionIn(EngineAxes::kYUpLeftHanded, up))}};
 }
 
-Json LightJson(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
-  Json json = PlaceJson(light.name(), light.position_m(), light.aim(), light.axes.c90);
-  const Rgb& c = light.color().max_normalised;
-  json["color_linear"] = {c.r, c.g, c.b};
-  json["color_luminance"] = light.color().luminance;
-  json["hdrp"] = DerivedJson(hdrp);
-  json["urp"] = DerivedJson(urp);
-  return json;
+Node LightNode(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
+  Node document = PlaceNode(light.name(), light.position_m(), light.aim(), light.axes.c90);
+  document.Put({{"color_linear", NodeOf(light.color().max_normalised)},
+                {"color_luminance", light.color().luminance},
+                {"hdrp", DerivedNode(hdrp)},
+                {"urp", DerivedNode(urp)}});
+  return document;
 }
 
-void AddRig(Json& root, const Rig& rig) {
-  root["side_m"] = rig.side.value();
-  root["cards"] = Json::array();
-  for (const RigCard& card : rig.cards) {
+Node RigNode(const Rig& rig) {
+  const auto card_node = [&](const RigCard& card) {
     // Unity's quad is seen from its back: it faces -forward.
-    Json json = PlaceJson(card.name, card.centre_m, rig.normal * -1.0, Cross(rig.normal, rig.row));
-    json["reflectance"] = card.reflectance;
-    json["illuminance_lx"] = card.illuminance.value();
-    root["cards"].push_back(std::move(json));
-  }
+    Node one = PlaceNode(card.name, card.centre_m, rig.normal * -1.0, Cross(rig.normal, rig.row));
+    one.Put({{"reflectance", card.reflectance}, {"illuminance_lx", card.illuminance}});
+    return one;
+  };
   const Vec3 view = rig.camera.target_m - rig.camera.position_m;
-  root["camera"] =
-      PlaceJson("rig camera", rig.camera.position_m, view * (1.0 / Length(view)), rig.camera.up);
-  root["camera"]["vertical_fov_deg"] = DegreesFromRadians(rig.camera.vertical_fov);
+  Node camera =
+      PlaceNode("rig camera", rig.camera.position_m, view * (1.0 / Length(view)), rig.camera.up);
+  camera.Put("vertical_fov_deg", DegreesFromRadians(rig.camera.vertical_fov));
+  return {{"side_m", rig.side},
+          {"cards", Node::List(rig.cards, card_node)},
+          {"camera", std::move(camera)}};
 }
 
 }  // namespace
@@ -109,7 +104,7 @@ void AddRig(Json& root, const Rig& rig) {
 Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                            const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "unity", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "unity", preset.warnings);
   const auto forms =
       PresetLightsFrom(lights, {.sphere = true, .rect = true}, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
@@ -117,31 +112,47 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
   const auto plain = PresetLightsFrom(lights, {.sphere = true}, options, of_urp);
   if (!plain) return tl::unexpected(plain.error());
   const RefitRequest request = {
-      .engine = EngineFalloff::kUnityHdrp, .far_range = kFarRange, .fixed = options.range};
+      .falloff = kFalloff, .far_range = kFarRange, .fixed = options.range};
   const auto refits = RefitLights(lights, *forms, request, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   const double unitless = rig.exposure.scale / std::numbers::pi;
-  Json root = {{"schema", "lightcal.unity/1"},
-               {"generator", text_pieces::GeneratorOf(lights)},
-               {"name", stem},
-               {"note", "not executed in Unity: schema-checked"},
-               {"exposure", {{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
-               {"lights", Json::array()}};
+  Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(Derive((*forms)[i], refits[i], 1.0, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
     const DerivedLight urp = Derive((*plain)[i], refits[i], unitless, of_urp);
-    root["lights"].push_back(LightJson((*forms)[i], preset.derived.back(), urp));
+    list.items.push_back(LightNode((*forms)[i], preset.derived.back(), urp));
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
+    const Rgb& c = (*forms)[i].color().max_normalised;
+    preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
   }
-  if (!options.bare) AddRig(root, rig);
-  auto text = json_pieces::TextOf(root, stem + ".unity.json");
+  Node root = {{"schema", "lightcal.unity/1"},
+               {"generator", preset_text::GeneratorOf(lights)},
+               {"name", stem},
+               {"note", "not executed in Unity: schema-checked"},
+               {"exposure", Node{{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
+               {"lights", std::move(list)}};
+  if (!options.bare) root.Put(RigNode(rig));
+  auto text = JsonText(root, stem + ".unity.json");
   if (!text) return Propagate(std::move(text));
   preset.files = {{stem + ".unity.json", *std::move(text)},
-                  {"LightcalImporter.cs", std::string(kUnityImporter)}};
+                  {"LightcalImporter.cs", std::string(Script("LightcalImporter.cs"))}};
   preset.paste = "copy both files from " + std::string(kPasteDirectory) +
                  " into Assets/Editor, then Tools > lightcal > Import preset";
   return preset;
+}
+
+Emission EmittedInUnity(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
+  const double emitted = NumberIn(light, "intensity") * LuminanceIn(light, "color");
+  if (light.type == "Directional") return {.lux = emitted};
+  Emission out{.candela = emitted, .falloff = kFalloff, .range_m = NumberIn(light, "range_m")};
+  if (light.type == "Rectangle") {
+    const double width = NumberIn(light, "area_width_m");
+    const double height = NumberIn(light, "area_height_m");
+    out.candela = emitted * width * height;
+    out.shape = {AxialShape::Outline::kRect, 0.5 * width, 0.5 * height};
+  }
+  return out;
 }
 
 }  // namespace lightcal

@@ -4,6 +4,7 @@
 // meaning depends on the light. Neither ran in the engine: the script runs against a strict
 // stand-in of the documented names, the T3D is parsed. Sources: Unreal 5.6 Python API and
 // LightComponent.h.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,17 +12,23 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
-#include "lightcal/presets/json_pieces.h"
 #include "lightcal/presets/photometric_files.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/scripts.h"
 #include "lightcal/presets/unreal_light.h"
-#include "lightcal/presets/unreal_script.h"
 
 namespace lightcal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using json_pieces::Array;
+
+// -0 is written 0.
+template <std::size_t N>
+Json Array(const std::array<double, N>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(v == 0.0 ? 0.0 : v);
+  return list;
+}
 
 struct Pose {
   Vec3 location_cm{};
@@ -29,8 +36,8 @@ struct Pose {
 };
 
 Pose PoseOf(const Vec3& forward, const Vec3& right, const Vec3& up, const Vec3& at_m) {
-  const auto in = [](const Vec3& v) { return DirectionIn(EngineAxes::kUnreal, v); };
-  return {PositionIn(EngineAxes::kUnreal, at_m),
+  const auto in = [](const Vec3& v) { return DirectionIn(EngineAxes::kZUpLeftHanded, v); };
+  return {PositionIn(EngineAxes::kZUpLeftHanded, at_m),
           UnrealRotatorFromAxes(in(forward), in(right), in(up))};
 }
 
@@ -42,9 +49,9 @@ Pose PoseOf(const PresetLight& light) {
 
 Json PoseJson(const std::string& name, const Pose& pose) {
   return {{"name", name},
-          {"location_cm", Array<Json>(pose.location_cm)},
+          {"location_cm", Array(pose.location_cm)},
           {"pitch_yaw_roll_deg",
-           Array<Json>(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
+           Array(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
                                              pose.rotation.roll_deg})}};
 }
 
@@ -87,18 +94,18 @@ Json RigJson(const Rig& rig) {
   return json;
 }
 
+bool AllFinite(const Json& json) {
+  if (json.is_number_float()) return std::isfinite(json.get<double>());
+  return !json.is_structured() || std::ranges::all_of(json, &AllFinite);
+}
+
 // JSON inside a raw triple-quoted Python string.
 Result<std::string> ScriptText(const Json& data, const std::string& name) {
-  if (!json_pieces::AllFinite(data)) {
+  if (!AllFinite(data)) {
     return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
   }
-  std::string text(kUnrealScript);
-  std::string literal = data.dump(1, ' ', true, Json::error_handler_t::replace);
-  for (std::size_t at = 0; (at = literal.find('\'', at)) != std::string::npos; at += 6) {
-    literal.replace(at, 1, "\\u0027");
-  }
-  const std::string_view mark = "@DATA@";
-  return text.replace(text.find(mark), mark.size(), literal);
+  const std::string text = data.dump(1, ' ', true, Json::error_handler_t::replace);
+  return ScriptWith("unreal.py", WithoutApostrophes(text));
 }
 
 // ---- T3D ----
@@ -142,7 +149,7 @@ std::string ActorText(const std::string& id, const PresetLight& light, const Unr
           "\n        RelativeRotation=" +
           triple("Pitch", pose.rotation.pitch_deg, "Yaw", pose.rotation.yaw_deg, "Roll",
                  pose.rotation.roll_deg) +
-          "\n      End Object\n      ActorLabel=" + text_pieces::Quoted(light.name()) +
+          "\n      End Object\n      ActorLabel=" + preset_text::Quoted(light.name()) +
           "\n    End Actor\n";
   return text;
 }
@@ -152,7 +159,7 @@ std::string T3dText(const std::vector<PresetLight>& lights,
   std::string text = "Begin Map\n  Begin Level\n";
   std::set<std::string> taken;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    text += ActorText("lightcal_" + text_pieces::Identifier(lights[i].name(), taken), lights[i],
+    text += ActorText("lightcal_" + preset_text::Identifier(lights[i].name(), taken), lights[i],
                       unreal[i]);
   }
   return text + "  End Level\nEnd Map\n";
@@ -163,17 +170,17 @@ std::string T3dText(const std::vector<PresetLight>& lights,
 Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                             const PresetOptions& asked) {
   Preset preset;
-  const PresetOptions options = text_pieces::InRec709(asked, "unreal", preset.warnings);
+  const PresetOptions options = preset_text::InRec709(asked, "unreal", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kUnrealForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
-  const auto refits = RefitLights(
-      lights, *forms,
-      {.engine = EngineFalloff::kUnreal, .far_range = kUnrealFarRange, .fixed = options.range},
-      preset.warnings);
+  const auto refits =
+      RefitLights(lights, *forms,
+                  {.falloff = kUnrealFalloff, .far_range = kUnrealFarRange, .fixed = options.range},
+                  preset.warnings);
   std::vector<UnrealLight> unreal;
-  Json data = {{"generator", text_pieces::GeneratorOf(lights)}, {"name", stem}};
+  Json data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", stem}};
   data["lights"] = Json::array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "lightcal/colorimetry/cct.h"
-#include "lightcal/presets/engine_axes.h"
+#include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/exporters.h"
 
 namespace lightcal {
 namespace {
@@ -14,8 +15,10 @@ namespace {
 constexpr double kCentimetres = 100.0;
 constexpr double kWidestOuter_deg = 88.9;  // the engine clamps here
 
-double SrgbDecoded(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+// Without the -0 that atan2 gives.
+double Degrees(double radians) {
+  const double degrees = DegreesFromRadians(Radians(radians));
+  return degrees == 0.0 ? 0.0 : degrees;
 }
 
 // The CCT of a source the engine's own black body renders, to within a Duv of .001.
@@ -87,6 +90,39 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
   derived.type = light.form == LightForm::kSpot ? "SpotLight" : "PointLight";
   derived.Put("source_radius", light.radius_m * kCentimetres);
   if (light.form == LightForm::kSpot) PutCone(light, derived, warnings);
+  return out;
+}
+
+Emission EmittedInUnreal(const DerivedLight& light, LightKind /*kind*/, double axial_part) {
+  double emitted = NumberIn(light, "intensity");
+  if (const DerivedField* color = light.Find("light_color")) {
+    const std::vector<double>& c = color->values;
+    emitted *= Rec709Luminance(
+        Vec3{SrgbDecoded(c[0] / 255.0), SrgbDecoded(c[1] / 255.0), SrgbDecoded(c[2] / 255.0)});
+  }
+  if (light.type == "DirectionalLight") return {.lux = emitted};
+  Emission out{.candela = emitted * axial_part,
+               .falloff = kUnrealFalloff,
+               .range_m = NumberIn(light, "attenuation_radius") / kCentimetres};
+  if (light.type == "RectLight") {
+    out.shape = {AxialShape::Outline::kRect, 0.5 * NumberIn(light, "source_width") / kCentimetres,
+                 0.5 * NumberIn(light, "source_height") / kCentimetres};
+  }
+  return out;
+}
+
+UnrealRotator UnrealRotatorFromAxes(const Vec3& forward, const Vec3& right, const Vec3& up) {
+  constexpr double kVertical = 1e-9;
+  const double level = std::hypot(forward[0], forward[1]);
+  UnrealRotator out;
+  out.pitch_deg = Degrees(std::atan2(forward[2], level));
+  if (level > kVertical) {
+    out.yaw_deg = Degrees(std::atan2(forward[1], forward[0]));
+    out.roll_deg = Degrees(std::atan2(-right[2], up[2]));
+  } else {
+    // right = (sin r sin p, cos r, 0)
+    out.roll_deg = Degrees(std::atan2(forward[2] > 0.0 ? right[0] : -right[0], right[1]));
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/vec3.h"
 #include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/preset_light.h"
@@ -15,6 +16,8 @@ inline constexpr EngineForms kUnrealForms = {.sphere = true, .rect = true, .tabl
 
 // Engine lights without a range get this; the editor's slider ends here.
 inline constexpr Metres kUnrealFarRange{163.84};
+
+inline constexpr EngineFalloff kUnrealFalloff{&UnrealFalloff};
 
 struct UnrealLight {
   DerivedLight derived;          // type "PointLight", "SpotLight", "RectLight", "DirectionalLight"
@@ -28,5 +31,15 @@ struct UnrealLight {
 // bits hold.   Source: Unreal 5.6 LightComponent, MakeFromColorTemperature.
 [[nodiscard]] UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
                                           Warnings& warnings);
+
+// Unreal's FRotator [degrees] of the object whose forward (+X), right (+Y) and up (+Z) axes point
+// along these unit vectors of Unreal's world:
+//   forward = (cos p cos y, cos p sin y, sin p),  right_z = -sin r cos p,  up_z = cos r cos p
+// Straight up or down (cos p = 0) takes yaw 0.   Source: FRotationMatrix of the engine's API.
+struct UnrealRotator {
+  double pitch_deg = 0.0, yaw_deg = 0.0, roll_deg = 0.0;
+};
+[[nodiscard]] UnrealRotator UnrealRotatorFromAxes(const Vec3& forward, const Vec3& right,
+                                                  const Vec3& up);
 
 }  // namespace lightcal

@@ -12,14 +12,14 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/photometric_files.h"
-#include "lightcal/presets/text_pieces.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
 
-using text_pieces::Identifier;
-using text_pieces::Numbers;
-using text_pieces::Quoted;
+using preset_text::Identifier;
+using preset_text::Numbers;
+using preset_text::Quoted;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPointRadius_m = 0.005;  // no light may have no size
@@ -176,7 +176,7 @@ std::string CameraPrim(const Rig& rig) {
 }
 
 std::string Head(const LightFile& file, const Rig& rig, const PresetOptions& options) {
-  return "#usda 1.0\n(\n  defaultPrim = \"lightcal\"\n  doc = \"" + text_pieces::GeneratorOf(file) +
+  return "#usda 1.0\n(\n  defaultPrim = \"lightcal\"\n  doc = \"" + preset_text::GeneratorOf(file) +
          ": checked by tinyusdz, not executed in Karma, Arnold or Omniverse\"\n"
          "  metersPerUnit = 1\n  upAxis = \"Z\"\n  customLayerData = {\n    double ev100 = " +
          ShortestText(rig.exposure.ev100) +
@@ -201,7 +201,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& light = (*forms)[i];
     preset.derived.push_back(Derive(light));
-    auto finite = text_pieces::CheckFinite(preset.derived.back(), light.name());
+    auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     text += LightPrim(Identifier(light.name(), taken), lights.lights[i], light,
                       preset.derived.back(), (*ies)[i]);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lightcal/report/figures.h"
-#include "lightcal/report/light_curve.h"
+#include "lightcal/records/light_curve.h"
 #include "lightcal/report/readings.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"

@@ -184,8 +184,8 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
                                    : "") +
                      "\" id=\"" + id + "\"" + lamp + ">\n<div class=\"summary\">\n<div>\n";
   html += Title(light) + Hero(light) + "</div>\n" + Cards(light) + "</div>\n";
-  html += TypeIn(light.name, extras.figures) + Figures(light, extras, id + "-");
-  html += Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.parity)) +
+  html += TypeIn(light.name, extras.engines.figures) + Figures(light, extras, id + "-");
+  html += Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
           Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
           Below(EffectTable(light.effects));
   return html + "</section>\n";

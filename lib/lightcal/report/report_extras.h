@@ -10,31 +10,10 @@
 
 #include "lightcal/colorimetry/color_fidelity.h"
 #include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/records/engine_answers.h"
 #include "lightcal/report/false_color.h"
 
 namespace lightcal {
-
-// A figure to type into an engine: one card of a light.
-struct EngineFigure {
-  std::string light;   // name of the light
-  std::string engine;  // "Unreal Engine"
-  std::string field;   // "SpotLight · Intensity"
-  std::string value;   // "1934.2", plain digits that can be pasted
-  std::string unit;    // "cd"; "" where the engine's number has none
-  std::string note;    // what must be set with it; may be empty
-};
-
-// What an engine makes of a light where a meter stood.
-struct ParityRow {
-  std::string light;
-  std::string engine;
-  double distance_m = 0.0;   // from the lamp's reference point; 0 for lights at infinity
-  double expected_lx = 0.0;  // what the measured lamp gives there
-  double engine_lx = 0.0;    // what the engine's own law makes of the numbers in its file
-  std::string law;           // "1/d², range 164 m"
-  std::string executed;      // how its exporter was checked: "rendered in Cycles 3.4: ..."
-  bool rendered = false;     // whether that ran the engine itself
-};
 
 // A light's spectrum as it was read, with what it does to colours where that is defined.
 struct LightSpectrum {
@@ -61,8 +40,7 @@ struct LuminancePicture {
 };
 
 struct ReportExtras {
-  std::vector<EngineFigure> figures{};
-  std::vector<ParityRow> parity{};
+  EngineAnswers engines{};
   std::vector<LightSpectrum> spectra{};
   std::vector<LuminancePicture> pictures{};
 };

@@ -32,7 +32,7 @@ struct Series {
     totals.push_back(total);
   }
 
-  [[nodiscard]] RunTimes Summary() const {
+  [[nodiscard]] RunTimes Summary() {  // reorders
     RunTimes out;
     out.runs = static_cast<int>(totals.size());
     if (totals.empty()) return out;

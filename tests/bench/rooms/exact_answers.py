@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from grid_posterior import (BEAM_OVER_FLUX, IN_ROOM, ORDINARY_ROOM, PRIORS, ROOM_POWER,
-                            UNKNOWN_KIND, offsets_of, posterior)
+from grid_posterior import (BEAM_OVER_FLUX, GAMMA_NEAR_WALL, IN_ROOM, NEAR_WALL, ORDINARY_ROOM,
+                            PRIORS, ROOM_POWER, UNKNOWN_KIND, offsets_of, posterior)
 from traced_table import area
 
 
@@ -26,9 +26,17 @@ def prior_of(kind, lamp):
 
 
 def walls_of(lamp):
-    if lamp.exact_kind != "point":
-        return [(1.0, prior_of(lamp.exact_kind, lamp), lamp.keys.get("size_m"))]
-    return [(weight, prior_of(kind, lamp), size) for weight, kind, size in UNKNOWN_KIND]
+    kinds = [(1.0, lamp.exact_kind, lamp.keys.get("size_m"))]
+    if lamp.exact_kind == "point":
+        kinds = UNKNOWN_KIND
+    walls = []
+    for weight, kind, size in kinds:
+        prior = prior_of(kind, lamp)
+        if kind in GAMMA_NEAR_WALL:
+            walls.append((weight * NEAR_WALL, (*prior[:2], *GAMMA_NEAR_WALL[kind], *prior[4:]), size))
+            weight *= 1 - NEAR_WALL
+        walls.append((weight, prior, size))
+    return walls
 
 
 def answer_exactly(lamp):

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kLeastSamples = 20.0;  // of a bin
 constexpr double kHighestLevel = 0.8;   // of the clip; above, sensors bend
-constexpr int kFitPasses = 3;
+constexpr int kGatePasses = 3;
 constexpr int kFitPasses = 8;
 constexpr double kLeastOffset = 1e-12;  // of a variance: no sensor is without read noise
 
@@ -73,7 +73,7 @@ std::optional<NoiseProfile> EstimateNoise(const SampledSignals& signals,
   std::optional<NoiseProfile> noise;
   const std::size_t pairs = signals.frames.empty() ? 0 : signals.frames.size() - 1;
   std::vector<std::array<double, kLevelBins>> gates(pairs);
-  for (int pass = 0; pass < kFitPasses; ++pass) {
+  for (int pass = 0; pass < kGatePasses; ++pass) {
     std::vector<std::vector<Point>> points(pairs);
     ParallelFor(static_cast<int>(pairs), [&](int i) {
       const auto a = static_cast<std::size_t>(i);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/compare_readings.h"
+
+#include <cmath>
+#include <utility>
+
+namespace lightcal {
+namespace {
+
+std::vector<const Reading*> ReadingsOf(const Session& session, const std::string& light) {
+  std::vector<const Reading*> out;
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light == light) out.push_back(&row.reading);
+  }
+  return out;
+}
+
+// A lamp as the session has it. A lamp that is turned somewhere has its effective source behind the
+// place its distances count from, by its offset; of any other that is a radius.
+struct MeteredLamp {
+  const LightDescription& description;
+  const FittedLight& fitted;
+  Vec3 place_m{}, aim{0.0, 0.0, -1.0};
+  bool turned = false;
+  double offset_m = 0.0, surface_m = 0.0;  // surface: of a sphere that distances count from
+};
+
+MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
+  MeteredLamp lamp{description, fitted};
+  lamp.place_m = description.position_m.value_or(Vec3{});
+  const LightKind kind = description.kind;
+  if (description.aim && kind != LightKind::kDome) lamp.aim = *description.aim;
+  lamp.turned = description.aim || kind == LightKind::kSpot || kind == LightKind::kDisk ||
+                kind == LightKind::kRect || kind == LightKind::kPhotometric;
+  if (fitted.distance_offset_m) lamp.offset_m = fitted.distance_offset_m->value;
+  for (const EffectReport& effect : fitted.effects) {
+    if (effect.name == "sphere_surface" && effect.state != EffectState::kOff) {
+      lamp.surface_m = fitted.diameter_m.value_or(0.0) / 2.0;
+    }
+  }
+  return lamp;
+}
+
+// A photometric file's light where the lamp hangs, C0 to the right as seen from behind it.
+EngineLight PlacedLike(const MeteredLamp& lamp, EngineLight light) {
+  light.position_m = lamp.place_m - lamp.aim * (lamp.turned ? lamp.offset_m : 0.0);
+  light.offset_m = lamp.turned ? 0.0 : lamp.offset_m;
+  light.aim = lamp.aim;
+  const Vec3 level = {lamp.aim[1], -lamp.aim[0], 0.0};
+  const double length = Length(level);
+  light.x = length > 1e-9 ? level * (1.0 / length) : Vec3{1.0, 0.0, 0.0};
+  light.y = Cross(light.x, lamp.aim);
+  return light;
+}
+
+// What the file's lights give where the meter stood.
+double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp,
+                 const Reading& reading) {
+  double sum = 0.0;
+  for (const EngineLight& light : lights) {
+    if (!light.name.empty() && light.name != lamp.fitted.name) continue;
+    const bool dome = lamp.description.kind == LightKind::kDome;
+    if (light.name.empty() && light.placed && !dome) continue;  // surroundings
+    const EngineLight placed = light.placed ? light : PlacedLike(lamp, light);
+    if (reading.position_m && reading.normal) {
+      const Vec3 normal = *reading.normal * (1.0 / Length(*reading.normal));
+      sum += LuxAt(placed, *reading.position_m, normal);
+      continue;
+    }
+    const double d = (reading.distance ? reading.distance->value() : 1.0) + lamp.surface_m +
+                     (lamp.turned ? 0.0 : placed.offset_m);
+    sum += LuxAt(placed, lamp.place_m + lamp.aim * d, lamp.aim * -1.0) *
+           std::cos(reading.tilt.value());
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<ComparedReading> CompareWithReadings(const Session& session, const LightFile& lamps,
+                                                 std::vector<EngineLight> lights) {
+  for (EngineLight& light : lights) {
+    if (!light.placed && FindLight(session, light.name) == nullptr) light.name.clear();
+  }
+  std::vector<ComparedReading> rows;
+  for (const FittedLight& lamp : lamps.lights) {
+    const auto readings = ReadingsOf(session, lamp.name);
+    const LightDescription* description = FindLight(session, lamp.name);
+    for (const ResidualRow& row : lamp.residuals) {
+      if (description == nullptr || row.index < 0 ||
+          static_cast<std::size_t>(row.index) >= readings.size()) {
+        continue;
+      }
+      const Reading& reading = *readings[static_cast<std::size_t>(row.index)];
+      rows.push_back({lamp.name, row.index, row.distance_m,
+                      row.measured_lx - (lamp.ambient_lx ? lamp.ambient_lx->value : 0.0),
+                      Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used});
+    }
+  }
+  return rows;
+}
+
+double RmsOf(const std::vector<ComparedReading>& rows) {
+  double sum = 0.0;
+  int count = 0;
+  for (const ComparedReading& row : rows) {
+    if (!row.used || !(row.predicted_lx > 0.0)) continue;
+    sum += std::pow(row.measured_lx / row.predicted_lx - 1.0, 2);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/engine_answers.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/parity.h"
+#include "lightcal/presets/check/read_preset.h"
+#include "lightcal/presets/preset_table.h"
+
+namespace lightcal {
+namespace {
+
+constexpr int kDigits = 5, kColorDigits = 4;
+
+// ---- the number to type in ----
+
+// Zeros behind the point say nothing.
+std::string WithoutZeros(std::string text) {
+  if (text.find('.') == std::string::npos || text.find('e') != std::string::npos) return text;
+  while (text.ends_with('0')) text.pop_back();
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string TextOf(const DerivedField& field, int digits) {
+  constexpr std::size_t kChannels = 3;  // a fourth is an opaque alpha
+  std::string text;
+  for (std::size_t i = 0; i < std::min(field.values.size(), kChannels); ++i) {
+    text += (i == 0 ? "" : ", ") + WithoutZeros(RoundedText(field.values[i], digits));
+  }
+  return text;
+}
+
+std::string NoteOf(const PresetTarget& engine, const DerivedLight& light) {
+  std::string note;
+  for (const TypedNote& row : engine.notes) {
+    const DerivedField* field = light.Find(row.field);
+    if (field == nullptr) continue;
+    note += (note.empty() ? "" : "; ") + std::string(row.before) + TextOf(*field, kColorDigits) +
+            std::string(row.after);
+  }
+  if (!light.substitution.empty()) note += (note.empty() ? "" : "; ") + light.substitution;
+  return note;
+}
+
+void AddFigure(const std::string& lamp, const PresetTarget& engine, const DerivedLight& light,
+               std::vector<EngineFigure>& figures) {
+  for (const TypedNumber& row : engine.numbers) {
+    const DerivedField* field = light.Find(row.field);
+    if (field == nullptr || !(row.type.empty() || row.type == light.type)) continue;
+    figures.push_back({lamp, std::string(engine.title), light.type + " · " + std::string(row.label),
+                       TextOf(*field, kDigits), std::string(row.unit), NoteOf(engine, light)});
+    return;
+  }
+}
+
+// What any engine that takes candela or lux gets while its colour stays white.
+void AddWhite(const FittedLight& lamp, std::vector<EngineFigure>& figures) {
+  LightFile alone;
+  alone.lights = {lamp};
+  Warnings said_by_export;
+  const auto punctual = PunctualLightsFrom(alone, said_by_export);
+  if (!punctual) return;
+  const PunctualLight& light = punctual->front();
+  const std::string unit = light.type == PunctualType::kDirectional ? "lx" : "cd";
+  figures.push_back({lamp.name, "Any engine", "colour left white",
+                     RoundedText(light.photometric, kDigits), unit, light.substitution});
+}
+
+// ---- all engines ----
+
+std::vector<EngineLight> ReadBack(const PresetTarget& engine, const Preset& preset) {
+  const auto beside = [&](const std::string& name) -> Result<std::string> {
+    const auto file = std::ranges::find(preset.files, name, &PresetFile::name);
+    if (file == preset.files.end()) return Failed("not_found", name, "is not in the preset");
+    return file->contents;
+  };
+  for (const PresetFile& file : preset.files) {
+    if (!file.name.ends_with(engine.ending)) continue;
+    auto lights = LightsOfPreset(file.name, file.contents, beside);
+    if (lights) return *std::move(lights);
+  }
+  return {};
+}
+
+std::vector<EngineExport> ExportsOf(const LightFile& lights) {
+  std::vector<EngineExport> all;
+  for (const PresetTarget* engine : ReportTargets()) {
+    auto preset = engine->exporter(lights, "report", {});
+    if (!preset || preset->derived.size() != lights.lights.size()) continue;
+    EngineExport one{engine, std::move(preset->derived), {}};
+    if (engine->emission == nullptr) one.read_back = ReadBack(*engine, *preset);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace
+
+EngineAnswers EngineAnswersOf(const LightFile& lights) {
+  const std::vector<EngineExport> exports = ExportsOf(lights);
+  EngineAnswers answers;
+  for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+    const FittedLight& lamp = lights.lights[i];
+    AddWhite(lamp, answers.figures);
+    for (const EngineExport& exported : exports) {
+      AddFigure(lamp.name, *exported.engine, exported.derived[i], answers.figures);
+    }
+  }
+  answers.parity = ParityOf(lights, exports);
+  return answers;
+}
+
+}  // namespace lightcal

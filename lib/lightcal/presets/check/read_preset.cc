@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/read_preset.h"
+
+#include <exception>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/preset_table.h"
+
+namespace lightcal {
+namespace {
+
+// Only files of the preset's own directory.
+FileText OwnDirectory(const FileBeside& beside) {
+  return [&beside](const std::string& name) {
+    const std::filesystem::path file(name);
+    if (file.filename() != file.lexically_normal()) {
+      throw std::runtime_error(name + " does not stand beside it");
+    }
+    auto text = beside(name);
+    if (!text) throw std::runtime_error(name + " " + text.error().message);
+    return *std::move(text);
+  };
+}
+
+}  // namespace
+
+Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const std::string& text,
+                                                const FileBeside& beside) {
+  const PresetTarget* target = TargetOfFile(path);
+  if (target == nullptr) return WrongUsage(path, "is none of " + ReadableEndings());
+  try {
+    auto lights = target->reader(text, OwnDirectory(beside));
+    if (lights.empty()) return Refused("bad_preset", path, "holds no light");
+    RequireFinite(lights);
+    return lights;
+  } catch (const std::exception& error) {
+    return Refused("bad_preset", path,
+                   std::string("is not as lightcal writes it: ") + error.what());
+  }
+}
+
+}  // namespace lightcal

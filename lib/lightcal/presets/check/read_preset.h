@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Preset files read back by what their formats mean, not by what the exporters did.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/presets/check/engine_light.h"
+
+namespace lightcal {
+
+// The text of a file that stands beside the preset, by its plain name.
+using FileBeside = std::function<Result<std::string>(const std::string& name)>;
+
+// By the ending of its name (TargetOfFile).   Wrong usage: another ending. Refused: bad_preset.
+[[nodiscard]] Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path,
+                                                              const std::string& text,
+                                                              const FileBeside& beside);
+
+}  // namespace lightcal

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// The preset inside a <stem>.three.js, by what three.js makes of its numbers.
+#include <nlohmann/json.hpp>
+
+#include "lightcal/presets/check/json_reader_parts.h"
+#include "lightcal/presets/exporters.h"
+
+namespace lightcal {
+namespace {
+
+using Json = nlohmann::json;
+
+EngineLight FromThree(const Json& json) {
+  EngineLight light;
+  light.name = json.at("name").get<std::string>();
+  const std::string type = json.at("type").get<std::string>();
+  light.emitted = json.at("intensity").get<double>() * LuminanceFrom(json.at("color"));
+  light.position_m = FromYUp(VecFrom(json.at("position_m")));
+  light.aim = FromYUp(VecFrom(json.at("direction")));
+  light.offset_m = OffsetIn(json.value("measured", Json()));
+  if (type == "directional") light.kind = EngineLightKind::kSun;
+  if (type == "dome") light.kind = EngineLightKind::kDome;
+  if (type == "spot") {
+    light.kind = EngineLightKind::kSpot;
+    light.law = ConeLaw::kSmooth;
+    light.inner_rad = json.at("inner_rad").get<double>();
+    light.outer_rad = json.at("outer_rad").get<double>();
+  }
+  if (type == "rect") {
+    light.kind = EngineLightKind::kFlat;
+    light.x = FromYUp(VecFrom(json.at("axes").at(0)));
+    light.y = FromYUp(VecFrom(json.at("axes").at(1)));
+    light.width_m = json.at("width_m").get<double>();
+    light.height_m = json.at("height_m").get<double>();
+  }
+  if (type == "ies") {
+    TakeTable(light, json.at("ies").get<std::string>());
+    light.emitted /= light.table->peak().intensity.value();  // the loader makes the peak 1
+    // Round about its aim; any frame will do for an axial table.
+    light.x = {light.aim[2], light.aim[0], light.aim[1]};
+    light.x = Cross(light.x, light.aim);
+    light.x = light.x * (1.0 / Length(light.x));
+    light.y = Cross(light.x, light.aim);
+  }
+  return light;
+}
+
+}  // namespace
+
+std::vector<EngineLight> ReadThree(const std::string& text, const FileText& /*beside*/) {
+  return EachLight(Json::parse(ObjectFrom(text, text.find("export const preset"))), &FromThree);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/reader_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "lightcal/presets/exporters.h"
+#include "lightcal/records/photometric_codec.h"
+
+namespace lightcal {
+
+void TakeTable(EngineLight& light, const std::string& photometric) {
+  auto read = PhotometricFromText(photometric, light.name);
+  if (!read) throw std::runtime_error(read.error().message);
+  light.kind = EngineLightKind::kTable;
+  light.table = std::move(read->file.table);
+  if (light.name.empty()) light.name = read->file.header.luminaire;
+}
+
+void RequireFinite(const std::vector<EngineLight>& lights) {
+  const auto finite = [](const Vec3& v) {
+    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+  };
+  for (const EngineLight& light : lights) {
+    const std::array numbers = {light.emitted, light.inner_rad,  light.outer_rad,
+                                light.decay,   light.cone_power, light.range_m,
+                                light.width_m, light.height_m,   light.offset_m};
+    if (std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); }) &&
+        finite(light.position_m) && finite(light.aim) && finite(light.x) && finite(light.y)) {
+      continue;
+    }
+    throw std::runtime_error(light.name + ": its numbers lead beyond all numbers");
+  }
+}
+
+double Above0(const std::string& what, double value) {
+  if (!(value > 0.0)) throw std::runtime_error(what + " is not above 0");
+  return value;
+}
+
+std::vector<double> NumbersIn(std::string_view text) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool in_word = false;  // the 3 of Vector3 is no number
+  while (at < end) {
+    const bool letter = (*at >= 'a' && *at <= 'z') || (*at >= 'A' && *at <= 'Z') || *at == '_';
+    const bool digit = *at >= '0' && *at <= '9';
+    double value = 0.0;
+    if (!in_word && (digit || *at == '-' || *at == '.')) {
+      const auto [next, error] = std::from_chars(at, end, value);
+      // "-inf" and "-nan" are words.
+      if (error == std::errc() && std::isfinite(value)) numbers.push_back(value);
+      at = std::max(next, at + 1);
+      continue;
+    }
+    in_word = letter || (in_word && digit);
+    ++at;
+  }
+  return numbers;
+}
+
+std::vector<EngineLight> ReadPhotometricTable(const std::string& text, const FileText& /*beside*/) {
+  EngineLight light;
+  TakeTable(light, text);
+  light.emitted = 1.0;
+  light.placed = false;
+  return {light};
+}
+
+}  // namespace lightcal

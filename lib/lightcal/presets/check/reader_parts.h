@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers of preset files share. They share nothing with the exporters, so that one slip
+// cannot hide in both. All throw std::exception with what is wrong.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/presets/check/engine_light.h"
+
+namespace lightcal {
+
+// Makes it a table light with the candela of an IES or EULUMDAT file, and its luminaire's name
+// where the light has none.
+void TakeTable(EngineLight& light, const std::string& photometric);
+
+// Y up to Z up.
+[[nodiscard]] inline Vec3 FromYUp(const Vec3& v) { return {v[0], -v[2], v[1]}; }
+
+// Luminance of linear Rec. 709, whose white D65 has 1. Rgb: anything of three numbers.
+template <class Rgb>
+[[nodiscard]] double Rec709Luminance(const Rgb& rgb) {
+  return 0.2126390 * rgb[0] + 0.7151687 * rgb[1] + 0.0721923 * rgb[2];
+}
+
+// Throws where a light has a NaN or infinity.
+void RequireFinite(const std::vector<EngineLight>& lights);
+// The value; throws where it is not above 0, naming `what`.
+[[nodiscard]] double Above0(const std::string& what, double value);
+
+// All finite numbers in "Color(1, .5, 0, 1)" or "( (1, 0), (0, 1) )", or one alone.
+[[nodiscard]] std::vector<double> NumbersIn(std::string_view text);
+
+}  // namespace lightcal

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/render_cause.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/presets/check/reader_parts.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kAsItShould = 0.02;   // |ln| of a factor that is nobody's mistake
+constexpr double kSameFactor = 0.025;  // |ln| between what is seen and what a mistake does
+constexpr double kSameTint = 0.03;     // largest difference of max-normalised components
+constexpr double kCurveShows = 0.08;   // |ln| of the cards' ratio over what it should be
+using Rgb3 = std::array<double, 3>;
+
+Rgb3 MaxNormalised(const Rgb3& c) {
+  const double top = std::max({c[0], c[1], c[2], 1e-30});
+  return {c[0] / top, c[1] / top, c[2] / top};
+}
+bool SameTint(const Rgb3& a, const Rgb3& b) {
+  double worst = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) worst = std::max(worst, std::abs(a[c] - b[c]));
+  return worst < kSameTint;
+}
+Rgb3 Mapped(const Rgb3& c, double (*map)(double)) { return {map(c[0]), map(c[1]), map(c[2])}; }
+
+// A white card of reflectance 1, by least squares over the cards that are not clipped.
+std::optional<Rgb3> PerfectWhite(const CheckedRig& rig, const std::array<CardPixels, 2>& cards) {
+  Rgb3 white{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    double above = 0.0, below = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (cards[i].clipped[c]) continue;
+      const double rho = rig.cards[i].reflectance;
+      const double weight =
+          cards[i].step[c] > 0.0 ? 1.0 / (cards[i].step[c] * cards[i].step[c]) : 1.0 / (rho * rho);
+      above += weight * cards[i].rgb[c] * rho;
+      below += weight * rho * rho;
+    }
+    if (!(below > 0.0)) return std::nullopt;
+    white[c] = above / below;
+  }
+  return white;
+}
+
+// Its luminance where the tint is the lamp's: one figure for all samples that are not clipped.
+// Eight bits with a clipped white card say more that way.
+double LuminanceInTint(const CheckedRig& rig, const std::array<CardPixels, 2>& cards,
+                       const Rgb3& tint) {
+  double above = 0.0, below = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (cards[i].clipped[c] || !(cards[i].step[c] > 0.0)) continue;
+      const double expected = rig.cards[i].reflectance * tint[c];
+      const double weight = 1.0 / (cards[i].step[c] * cards[i].step[c]);
+      above += weight * cards[i].rgb[c] * expected;
+      below += weight * expected * expected;
+    }
+  }
+  return below > 0.0 ? above / below * Rec709Luminance(tint) : 0.0;
+}
+
+double ScaleOf(const CheckedRig& rig, PixelUnit unit) {
+  constexpr double kBlenderLumensPerWatt = 683.0;
+  switch (unit) {
+    case PixelUnit::kNits:
+      return 1.0;
+    case PixelUnit::kWatts:
+      return 1.0 / kBlenderLumensPerWatt;
+    case PixelUnit::kExposed:
+      break;
+  }
+  return rig.scale;
+}
+
+// ---- the cards' ratio ----
+
+std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardPixels, 2>& cards) {
+  const double want = rig.cards[0].reflectance * rig.cards[0].expected_lx /
+                      (rig.cards[1].reflectance * rig.cards[1].expected_lx);
+  double worst = 0.0, raw = 0.0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (cards[0].clipped[c] || cards[1].clipped[c]) continue;
+    if (!(cards[0].rgb[c] > 0.0) || !(cards[1].rgb[c] > 4.0 * cards[1].step[c])) continue;
+    const double off = std::log(cards[0].rgb[c] / cards[1].rgb[c] / want);
+    if (std::abs(off) > std::abs(worst)) worst = off;
+    raw = std::log(cards[0].raw[c] / cards[1].raw[c] / want);
+  }
+  if (std::abs(worst) < kCurveShows) return std::nullopt;
+  if (std::abs(raw) < kCurveShows) {
+    return RenderCause{"not_srgb_encoded",
+                       "the file holds linear samples where sRGB codes belong; "
+                       "save an EXR, or switch the view transform to sRGB/Standard"};
+  }
+  const double srgb = std::log(SrgbEncoded(rig.cards[0].reflectance) /
+                               SrgbEncoded(rig.cards[1].reflectance) / want);
+  if (std::abs(worst - srgb) < kCurveShows) {
+    return RenderCause{"encoded_twice",
+                       "the samples are sRGB encoded once too often; save linear "
+                       "samples to EXR, and encode once to PNG"};
+  }
+  return RenderCause{"tone_mapped",
+                     "the white and the grey card are not as far apart as they are: "
+                     "a tone curve (Filmic, AgX, ACES) is on; use Standard or linear"};
+}
+
+// ---- the tint ----
+
+std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
+  const Rgb3 want = lamp.color;
+  if (SameTint(tint, want)) return std::nullopt;
+  const Rgb3 decoded = Mapped(want, &SrgbDecoded);
+  const Rgb3 encoded = Mapped(want, &SrgbEncoded);
+  if (SameTint(tint, MaxNormalised({1.0, 1.0, 1.0}))) {
+    return RenderCause{"color_missing",
+                       "the cards are white though the lamp is not: its colour was "
+                       "not set, while its intensity is divided by that colour's luminance",
+                       1.0 / lamp.color_luminance};
+  }
+  if (SameTint(tint, MaxNormalised(decoded))) {
+    return RenderCause{"color_read_as_srgb",
+                       "the lamp's linear colour was read as sRGB codes: too "
+                       "saturated; set it in linear (three.js: setRGB(.., LinearSRGBColorSpace))",
+                       Rec709Luminance(decoded) / lamp.color_luminance};
+  }
+  if (SameTint(tint, MaxNormalised(encoded))) {
+    return RenderCause{"color_encoded_twice",
+                       "the lamp's colour was written as sRGB codes where "
+                       "linear values belong: too pale",
+                       Rec709Luminance(encoded) / lamp.color_luminance};
+  }
+  return RenderCause{"other_color",
+                     "the cards have another tint than the lamp: its colour, the "
+                     "picture's RGB space or its white balance is not what was exported"};
+}
+
+// ---- the factor ----
+
+double ConeSr(double degrees) {
+  return 2.0 * kPi * (1.0 - std::cos(std::min(degrees, 90.0) * kPi / 180.0));
+}
+
+std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
+  const CheckedLamp& lamp = rig.lamps[rig.lamp];
+  const double d = rig.separation_m;
+  const double y = lamp.color_luminance;
+  const bool has_place = lamp.kind != "directional" && lamp.kind != "dome";
+  std::vector<RenderCause> list = {
+      {"missing_luminance_division",
+       "the intensity was not divided by the luminance Y of its colour; write I/Y", y},
+      {"luminance_divided_twice",
+       "the intensity was divided by Y although the engine's colour has luminance 1; write I",
+       1 / y},
+      {"times_pi",
+       "pi too much: an irradiance or flux factor; a white card under E lx is E/pi nits", kPi},
+      {"over_pi", "pi too little: a Lambert 1/pi is applied twice, or a flux was taken for pi I",
+       1 / kPi},
+      {"lumens_as_candela", "lumens were written where the engine takes candela (x 4 pi)", 4 * kPi},
+      {"candela_as_lumens", "candela were written where the engine takes lumens (/ 4 pi)",
+       1 / (4 * kPi)},
+      {"lumens_per_watt_683_for_177", "683 lm/W where the IES node counts 177.83: write 177.83/683",
+       683.0 / 177.83},
+      {"lumens_per_watt_177_for_683",
+       "177.83 lm/W where the light counts 683: write 1/683 per lumen", 177.83 / 683.0},
+      {"times_683", "lumens were written as watts: divide by 683", 683.0},
+      {"over_683",
+       "the picture is in watts (Blender EXR): give {render.engine} blender, or multiply by 683",
+       1.0 / 683.0},
+      {"area_factor", "an area light's factor: pi L A from Blender 4.0 on, 4 L A before", 4 / kPi},
+      {"area_factor", "an area light's factor: 4 L A before Blender 4.0, pi L A from it on",
+       kPi / 4},
+      {"diameter_for_radius", "a radius was given as a diameter, or a diameter as a radius", 4.0},
+      {"diameter_for_radius", "a diameter was given as a radius, or a radius as a diameter", 0.25},
+      {"centimetres", "centimetres and metres are mixed: 1 cd/cm2 = 10^4 cd/m2", 1e4},
+      {"centimetres", "centimetres and metres are mixed: 1 cd/m2 = 10^-4 cd/cm2", 1e-4},
+      {"footcandles", "footcandles were taken for lux (or feet for metres)", 1 / 10.7639},
+      {"footcandles", "lux were taken for footcandles (or metres for feet)", 10.7639},
+      {"exposure_missing", "the exposure was not applied: samples are cd/m2 (give {render.engine} three?)",
+       1 / rig.scale},
+      {"ev100_calibration", "EV100 = log2(1/(1.2 k)) and log2(1/k) were mixed up (Unreal)", 1.2},
+      {"ev100_calibration", "EV100 = log2(1/(1.2 k)) and log2(1/k) were mixed up (Unreal)",
+       1 / 1.2},
+  };
+  if (has_place) {
+    list.push_back({"falloff_1_over_d",
+                    "light falls with 1/d, not 1/d^2: set the decay or attenuation to 2", d});
+    list.push_back(
+        {"falloff_none", "light does not fall with distance: set its decay to 2", d * d});
+    if (const double edge = 1.0 - std::pow(d / 10.0, 4); edge > 0.0) {
+      list.push_back({"default_range",
+                      "the engine's range window of 10 m dims the light: write a "
+                      "larger range",
+                      edge * edge});
+    }
+  }
+  if (lamp.outer_deg > 0.0) {
+    const double own = ConeSr(lamp.outer_deg);
+    list.push_back(
+        {"full_cone_for_half",
+         "the full cone angle was given where the half angle belongs: lumens spread over "
+         "a wider cone",
+         own / ConeSr(2.0 * lamp.outer_deg)});
+    list.push_back({"half_cone_for_full",
+                    "the half cone angle was given where the full angle belongs: lumens squeezed "
+                    "into a narrower cone",
+                    own / ConeSr(lamp.outer_deg / 2.0)});
+    list.push_back({"spot_lumens",
+                    "the engine's spot lumens are pi I or 4 pi I, whatever the cone; "
+                    "write candela",
+                    own / kPi});
+  }
+  return list;
+}
+
+void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
+  const double seen = std::log(verdict.lux / verdict.expected_lx);
+  if (std::abs(seen) < kAsItShould) {
+    verdict.cause = {"none", "as bright as the meter says", 1.0};
+    return;
+  }
+  std::vector<RenderCause> fits;
+  for (RenderCause& cause : KnownFactors(rig)) {
+    const double log_factor = std::log(cause.factor);
+    if (std::abs(log_factor) > kAsItShould && std::abs(seen - log_factor) < kSameFactor) {
+      fits.push_back(std::move(cause));
+    }
+  }
+  std::ranges::stable_sort(
+      fits, {}, [&](const RenderCause& cause) { return std::abs(seen - std::log(cause.factor)); });
+  if (fits.empty()) {
+    verdict.cause = {
+        "exposure_unlocked",
+        "tint and contrast are right and no known mistake has this factor: exposure is "
+        "automatic or not the rig's, or another light is on",
+        std::exp(seen)};
+    return;
+  }
+  verdict.cause = fits.front();
+  verdict.alternatives.assign(fits.begin() + 1, fits.end());
+}
+
+}  // namespace
+
+Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPixels, 2>& cards,
+                                  PixelUnit unit, const std::string& picture) {
+  const auto white = PerfectWhite(rig, cards);
+  if (!white) {
+    return Refused("all_saturated", picture,
+                   "both cards are clipped; lock the rig's exposure, or render to EXR");
+  }
+  RenderVerdict verdict;
+  const double lux_per_pixel = kPi / ScaleOf(rig, unit);
+  verdict.expected_lx = (rig.cards[0].expected_lx + rig.cards[1].expected_lx) / 2.0;
+  verdict.lux = Rec709Luminance(*white) * lux_per_pixel;
+  for (std::size_t i = 0; i < 2; ++i) {
+    verdict.card_lx[i] = Rec709Luminance(cards[i].rgb) / rig.cards[i].reflectance * lux_per_pixel;
+  }
+  if (!(verdict.lux > 0.0) || cards[1].raw[1] < 2.0 * cards[1].step[1]) {
+    return Refused("too_dark", picture,
+                   "the cards are black; lock the rig's exposure, or render to EXR");
+  }
+  if (auto curve = CurveIn(rig, cards)) {
+    verdict.cause = *std::move(curve);
+    verdict.cause.factor = verdict.lux / verdict.expected_lx;
+    return verdict;
+  }
+  if (rig.lamps.size() == 1) {
+    if (auto tint = TintIn(rig.lamps.front(), MaxNormalised(*white))) {
+      verdict.cause = *std::move(tint);
+      return verdict;
+    }
+    if (cards[0].step[0] > 0.0) {
+      verdict.lux = LuminanceInTint(rig, cards, rig.lamps.front().color) * lux_per_pixel;
+    }
+  }
+  NameFactor(rig, verdict);
+  return verdict;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why a rendered card is not as bright as the meter says: known mistakes and what each does.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/presets/check/card_picture.h"
+#include "lightcal/presets/check/rig_file.h"
+#include "lightcal/presets/preset_table.h"
+
+namespace lightcal {
+
+struct RenderCause {
+  std::string code;     // "none", "missing_luminance_division", "falloff_1_over_d", ...
+  std::string message;  // what it is, and where to set it right
+  double factor = 1.0;  // by which it makes the cards brighter
+};
+
+struct RenderVerdict {
+  double lux = 0.0, expected_lx = 0.0;
+  std::array<double, 2> card_lx{};
+  RenderCause cause;
+  std::vector<RenderCause> alternatives;  // others that explain it as well
+};
+
+// Lux of the cards, Lambert: E = pi pixel/(reflectance scale). Clipped channels are left out; a
+// tone curve shows in the ratio of the cards, a colour mistake in their tint, the rest by their
+// factor.   Refused: all_saturated, too_dark.
+[[nodiscard]] Result<RenderVerdict> JudgeRender(const CheckedRig& rig,
+                                                const std::array<CardPixels, 2>& cards,
+                                                PixelUnit unit, const std::string& picture);
+
+}  // namespace lightcal

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/check/rig_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lightcal/records/json_codec.h"
+
+namespace lightcal {
+namespace {
+
+using records::Node;
+
+// Looks things up and remembers the first that is not there.
+class Finder {
+ public:
+  double Number(const Node& from, const char* key) {
+    const Node& node = Part(from, key);
+    if (!node.IsNumber()) Missing(key);
+    return node.number;
+  }
+  std::string Text(const Node& from, const char* key) {
+    const Node& node = Part(from, key);
+    if (node.kind != Node::Kind::kText) Missing(key);
+    return node.text;
+  }
+  Vec3 Triple(const Node& from, const char* key) {
+    const std::vector<Node>& items = Part(from, key).items;
+    if (items.size() != 3 || !std::ranges::all_of(items, &Node::IsNumber)) {
+      Missing(key);
+      return {};
+    }
+    return {items[0].number, items[1].number, items[2].number};
+  }
+  const Node& Part(const Node& from, const char* key) {
+    static const Node kNothing;
+    const Node* node = from.Find(key);
+    if (node == nullptr) Missing(key);
+    return node == nullptr ? kNothing : *node;
+  }
+  [[nodiscard]] const std::string& missing() const { return missing_; }
+  void Missing(const std::string& key) {
+    if (missing_.empty()) missing_ = key;
+  }
+
+ private:
+  std::string missing_;
+};
+
+CheckedCard CardFrom(Finder& find, const Node& rig, const Node& json) {
+  CheckedCard card;
+  card.name = find.Text(json, "name");
+  card.reflectance = find.Number(json, "reflectance");
+  card.expected_lx = find.Number(json, "illuminance_lx");
+  const Vec3 centre = find.Triple(json, "centre_m");
+  const Vec3 row = find.Triple(rig, "row");
+  const Vec3 across = Cross(find.Triple(rig, "normal"), row);
+  const double reach = find.Number(rig, "side_m") / 4.0;
+  const std::array<std::array<double, 2>, 4> kCorners = {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    card.inner_m[i] = centre + row * (reach * kCorners[i][0]) + across * (reach * kCorners[i][1]);
+  }
+  return card;
+}
+
+CheckedLamp LampFrom(Finder& find, const Node& json) {
+  CheckedLamp lamp;
+  lamp.name = find.Text(json, "name");
+  lamp.kind = find.Text(json, "kind");
+  const Node& rgb = find.Part(find.Part(json, "color"), "rec709_linear");
+  lamp.color = find.Triple(rgb, "max_normalised");
+  lamp.color_luminance = find.Number(rgb, "luminance_of_max_normalised");
+  const Node& geometry = find.Part(json, "geometry");
+  if (geometry.Find("outer_deg") != nullptr) lamp.outer_deg = find.Number(geometry, "outer_deg");
+  return lamp;
+}
+
+void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
+  rig.camera_m = find.Triple(json, "position_m");
+  rig.target_m = find.Triple(json, "target_m");
+  rig.up = find.Triple(json, "up");
+  rig.vertical_fov_rad = find.Number(json, "vertical_fov_deg") * std::numbers::pi / 180.0;
+}
+
+bool IsUsable(const CheckedRig& rig) {
+  return rig.scale > 0.0 && rig.vertical_fov_rad > 0.0 && rig.vertical_fov_rad < 3.0 &&
+         rig.cards[0].expected_lx > 0.0 && rig.cards[1].expected_lx > 0.0 &&
+         rig.cards[0].reflectance > 0.0 && rig.cards[1].reflectance > 0.0;
+}
+
+}  // namespace
+
+Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& path) {
+  const auto root = records::ParseJson(text);
+  if (!root || root->kind != Node::Kind::kTable) {
+    return Refused("bad_rig", path, "is no JSON; give the <stem>.preset.json that export wrote");
+  }
+  if (root->Find("rig") == nullptr) {
+    return Refused("no_rig", path,
+                   "has no rig; export it without {preset.bare}, with {preset.json}");
+  }
+  Finder find;
+  CheckedRig rig;
+  const Node& json = *root->Find("rig");
+  rig.scale = find.Number(find.Part(*root, "exposure"), "exposure");
+  rig.separation_m = find.Number(json, "separation_m");
+  const Node& cards = find.Part(json, "cards");
+  if (cards.items.size() == 2) {
+    rig.cards = {CardFrom(find, json, cards.items[0]), CardFrom(find, json, cards.items[1])};
+  } else {
+    find.Missing("cards");
+  }
+  FindCamera(find, find.Part(json, "camera"), rig);
+  const std::string chosen = find.Text(json, "light");
+  for (const Node& lamp : find.Part(*root, "lights").items) {
+    rig.lamps.push_back(LampFrom(find, lamp));
+    if (rig.lamps.back().name == chosen) rig.lamp = rig.lamps.size() - 1;
+  }
+  if (rig.lamps.empty()) find.Missing("lights");
+  if (!find.missing().empty()) {
+    return Refused(
+        "bad_rig", path,
+        "has no usable \"" + find.missing() + "\"; give the <stem>.preset.json that export wrote");
+  }
+  if (!IsUsable(rig)) return Refused("bad_rig", path, "its rig has numbers that cannot be");
+  return rig;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What check needs of a <stem>.preset.json: the cards, the camera, the exposure, the lamps' colour.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/vec3.h"
+
+namespace lightcal {
+
+struct CheckedCard {
+  std::string name;
+  double reflectance = 0.0;
+  double expected_lx = 0.0;
+  std::array<Vec3, 4> inner_m;  // corners of its middle half, where it is measured
+};
+
+struct CheckedLamp {
+  std::string name, kind;
+  std::array<double, 3> color{1.0, 1.0, 1.0};  // linear Rec. 709, largest component 1
+  double color_luminance = 1.0;
+  double outer_deg = 0.0;  // 0 = no cone
+};
+
+// Z up, metres. scale: pixel = luminance * scale.
+struct CheckedRig {
+  double scale = 1.0;
+  double separation_m = 1.0;
+  std::array<CheckedCard, 2> cards;  // white, grey
+  Vec3 camera_m{}, target_m{}, up{};
+  double vertical_fov_rad = 0.5;
+  std::vector<CheckedLamp> lamps;
+  std::size_t lamp = 0;  // the one whose reading the cards stand at
+};
+
+// Refused: bad_rig (names what is missing), no_rig (a bare preset).
+[[nodiscard]] Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& path);
+
+}  // namespace lightcal

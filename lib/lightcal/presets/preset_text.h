@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces of text that several exporters write.
+#pragma once
+
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lightcal/presets/preset.h"
+#include "lightcal/presets/preset_light.h"
+
+namespace lightcal::preset_text {
+
+// "1, 2.5, 3": shortest numbers that read back the same.
+[[nodiscard]] std::string Numbers(std::span<const double> values, std::string_view between = ", ");
+
+// Between double quotes: backslash, quote and control characters escaped as C and Python read them.
+[[nodiscard]] std::string Quoted(std::string_view text);
+
+// Letters, digits and underscores, no digit first, not in `taken` yet (and then in it).
+[[nodiscard]] std::string Identifier(std::string_view name, std::set<std::string>& taken);
+
+// Text for XML attributes and element contents.
+[[nodiscard]] std::string XmlEscaped(std::string_view text);
+
+// A file's name as a relative URI.
+[[nodiscard]] std::string UriOf(const std::string& name);
+
+// "lightcal 0.1.0"
+[[nodiscard]] std::string GeneratorOf(const LightFile& file);
+
+// For engines whose colours are Rec. 709 only: the same options in that space, with the warning
+// space_unsupported when another was asked for.
+[[nodiscard]] PresetOptions InRec709(PresetOptions options, std::string_view engine,
+                                     Warnings& warnings);
+
+// width and height of a rectangle, else the radius, and the length of a tube, for audit.
+void PutSize(const PresetLight& light, DerivedLight& derived);
+
+// What a light does otherwise than the lamp, as one line of a comment; "" = nothing.
+[[nodiscard]] std::string SubstitutionNote(const DerivedLight& derived);
+
+// Fails: not_finite, rather than write "inf" or "nan".
+[[nodiscard]] Result<void> CheckFinite(const DerivedLight& light, const std::string& subject);
+
+}  // namespace lightcal::preset_text

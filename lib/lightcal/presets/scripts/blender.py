@@ -1,0 +1,175 @@
+# Written by lightcal: measured lights for Blender 3.4 and later, Cycles.
+#   blender -b -P THIS_FILE -- [--save out.blend] [--render out.png|out.exr] [--samples N]
+# or open it in the Text editor and press Run. It makes a scene of its own; others stay as they are.
+# Lights are watts of W = lm/683 (as Blender's glTF importer has it): every radiance of the scene is
+# cd/m2 divided by 683, and the view's exposure brings the white card to 1.0 (reflectance 1).
+import json
+import math
+import os
+import sys
+
+import bpy
+from mathutils import Matrix, Vector
+
+PRESET = json.loads(r'''
+@DATA@''')
+
+
+def placed(name, data, scene, columns, position):
+    thing = bpy.data.objects.new(name, data)
+    matrix = Matrix.Identity(4)
+    for i, column in enumerate(columns):
+        for row in range(3):
+            matrix[row][i] = column[row]
+    matrix.translation = Vector(position)
+    thing.matrix_world = matrix
+    scene.collection.objects.link(thing)
+    return thing
+
+
+def ies_nodes(lamp, text):
+    """The distribution's candela as the light's strength; C0 is the node's -Y."""
+    lamp.use_nodes = True
+    tree = lamp.node_tree
+    tree.nodes.clear()
+    ies = tree.nodes.new('ShaderNodeTexIES')
+    ies.mode = 'INTERNAL'
+    block = bpy.data.texts.new(lamp.name + '.ies')
+    block.write(text)
+    ies.ies = block
+    emission = tree.nodes.new('ShaderNodeEmission')
+    output = tree.nodes.new('ShaderNodeOutputLight')
+    tree.links.new(ies.outputs[0], emission.inputs['Strength'])
+    tree.links.new(emission.outputs[0], output.inputs[0])
+
+
+def add_light(scene, light):
+    kind = light['type']
+    lamp = bpy.data.lights.new(light['name'], 'POINT' if kind == 'IES' else kind)
+    lamp.color = light['color']
+    energy = light['energy_W']
+    if kind == 'AREA':
+        lamp.shape = light['shape']
+        lamp.size = light['size_m'][0]
+        if light['shape'] == 'RECTANGLE':
+            lamp.size_y = light['size_m'][1]
+        if bpy.app.version < (4, 0):
+            energy *= 4 / math.pi  # before 4.0 an area light of P watts has P/4 on its axis
+    elif kind == 'SUN':
+        lamp.angle = light['angle_rad']
+    else:
+        lamp.shadow_soft_size = light['radius_m']
+    if kind == 'SPOT':
+        lamp.spot_size = light['spot_size_rad']
+        lamp.spot_blend = light['spot_blend']
+    lamp.energy = energy
+    if hasattr(lamp, 'exposure'):
+        lamp.exposure = 0.0
+    if hasattr(lamp, 'normalize'):
+        lamp.normalize = True
+    if hasattr(lamp, 'use_temperature'):
+        lamp.use_temperature = False
+    if kind == 'IES':
+        ies_nodes(lamp, light['ies'])
+    lamp['lightcal'] = json.dumps(light['measured'])
+    placed(light['name'], lamp, scene, light['axes'], light['position_m'])
+
+
+def set_world(scene, domes):
+    if not domes:
+        return  # no world at all: black, and no samples spent on it
+    world = bpy.data.worlds.new(scene.name)
+    world.use_nodes = True
+    background = world.node_tree.nodes['Background']
+    total = [sum(d['strength'] * d['color'][i] for d in domes) for i in range(3)]
+    largest = max(total)
+    background.inputs['Color'].default_value = (
+        [v / largest for v in total] + [1.0] if largest > 0 else [0.0, 0.0, 0.0, 1.0])
+    background.inputs['Strength'].default_value = largest
+    scene.world = world
+
+
+def add_card(scene, rig, card):
+    material = bpy.data.materials.new(card['name'])
+    material.use_nodes = True
+    tree = material.node_tree
+    tree.nodes.clear()
+    diffuse = tree.nodes.new('ShaderNodeBsdfDiffuse')
+    diffuse.inputs['Color'].default_value = [card['reflectance']] * 3 + [1.0]
+    diffuse.inputs['Roughness'].default_value = 0.0
+    output = tree.nodes.new('ShaderNodeOutputMaterial')
+    tree.links.new(diffuse.outputs[0], output.inputs['Surface'])
+    half = rig['side_m'] / 2
+    mesh = bpy.data.meshes.new(card['name'])
+    mesh.from_pydata([(-half, -half, 0), (half, -half, 0), (half, half, 0), (-half, half, 0)], [],
+                     [(0, 1, 2, 3)])
+    mesh.materials.append(material)
+    row, normal = Vector(rig['row']), Vector(rig['normal'])
+    placed(card['name'], mesh, scene, [row, normal.cross(row), normal], card['centre_m'])
+
+
+def add_camera(scene, camera):
+    data = bpy.data.cameras.new('rig camera')
+    data.lens_unit = 'FOV'
+    data.sensor_fit = 'VERTICAL'
+    data.angle = math.radians(camera['vertical_fov_deg'])
+    data.clip_start = 0.001
+    back = (Vector(camera['position_m']) - Vector(camera['target_m'])).normalized()
+    up = Vector(camera['up'])
+    scene.camera = placed('rig camera', data, scene, [up.cross(back), up, back],
+                          camera['position_m'])
+
+
+def set_exposure(scene, scale):
+    scene.render.engine = 'CYCLES'
+    cycles = scene.cycles
+    cycles.samples = 64
+    cycles.use_denoising = False
+    cycles.film_exposure = 1.0
+    cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
+    if hasattr(cycles, 'light_sampling_threshold'):
+        cycles.light_sampling_threshold = 0.0
+    scene.display_settings.display_device = 'sRGB'
+    scene.view_settings.view_transform = 'Standard'
+    scene.view_settings.look = 'None'
+    scene.view_settings.gamma = 1.0
+    scene.view_settings.exposure = math.log2(scale * PRESET['lumens_per_watt'])
+    scene.render.resolution_x, scene.render.resolution_y = 600, 400
+    scene.render.resolution_percentage = 100
+    scene.render.dither_intensity = 0.0  # Blender's only adds: .42 of an 8 bit code, 1 % of the grey
+
+
+def build():
+    scene = bpy.data.scenes.new('lightcal ' + PRESET['name'])
+    for light in PRESET['lights']:
+        if light['type'] != 'WORLD':
+            add_light(scene, light)
+    set_world(scene, [light for light in PRESET['lights'] if light['type'] == 'WORLD'])
+    set_exposure(scene, PRESET['exposure']['exposure'])
+    if 'rig' in PRESET:
+        for card in PRESET['rig']['cards']:
+            add_card(scene, PRESET['rig'], card)
+        add_camera(scene, PRESET['rig']['camera'])
+    if bpy.context.window:
+        bpy.context.window.scene = scene
+    return scene
+
+
+def run(arguments):
+    scene = build()
+    options = dict(zip(arguments[0::2], arguments[1::2]))
+    if '--samples' in options:
+        scene.cycles.samples = int(options['--samples'])
+    if '--save' in options:
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(options['--save']))
+    if '--render' in options:
+        path = os.path.abspath(options['--render'])
+        settings = scene.render.image_settings
+        settings.file_format = 'OPEN_EXR' if path.endswith('.exr') else 'PNG'
+        settings.color_depth = '32' if path.endswith('.exr') else '8'
+        scene.render.filepath = path
+        bpy.ops.render.render(write_still=True, scene=scene.name)
+
+
+if __name__ == '__main__':
+    run(sys.argv[sys.argv.index('--') + 1:] if '--' in sys.argv else [])

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whoever links the library gets the pictures that whoever types the command gets.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "dome_pictures.h"
+#include "lightcal/calibrate/dome/make_dome.h"
+#include "lightcal/calibrate/inspect_picture.h"
+#include "lightcal/calibrate/merge_bracket.h"
+#include "lightcal_devices/captures/picture.h"
+#include "lightcal_devices/disk_sources.h"
+#include "merge_brackets.h"
+
+namespace lightcal::test {
+namespace {
+
+using nlohmann::json;
+
+TEST(MergeBracket, GivesTheSamplesThatTheCommandWrites) {
+  const TempDir folder;
+  const SyntheticCamera camera = merge::Camera();
+  const auto files = merge::ShootAll(folder, camera, merge::Series(), merge::Wedge(camera).Scene());
+  const std::string output = folder.path() + "/lum.exr";
+  const json answer = merge::MergeJson(files, output);
+  const auto merged = MergeBracket(files, DiskSources(), {});
+  ASSERT_TRUE(merged) << merged.error().message;
+  EXPECT_EQ(merged->picture, merge::ReadExr(output).samples);
+  EXPECT_EQ(WordOf(merged->scale_source), answer["scale"]["source"]);
+  EXPECT_EQ(merged->nits_per_unit, answer["scale"]["nits_per_unit"].get<double>());
+}
+
+TEST(MakeDome, GivesTheSamplesThatTheCommandWrites) {
+  const TempDir folder;
+  SkyScene scene = dome::ClearSky(RayAt(37.3, 41.7));
+  scene.lamps = {dome::Sun(RayAt(37.3, 41.7))};
+  const SkyPicture sky = Photograph(scene, LatLongView(256, 128), 256, 128);
+  const std::string file = dome::WritePicture(folder, "sky.exr", sky, 1.0, true);
+  const std::string out = folder.path() + "/out";
+  const json answer = dome::DomeJson(file, out, {"--extract", "1"});
+  DomeSettings settings;
+  settings.extract = 1;
+  const auto made = MakeDome({file}, DiskSources(), settings);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->measured.input.dome.samples, dome::ReadPictureFile(out + "/dome.exr").rgb);
+  ASSERT_TRUE(made->light_file);
+  EXPECT_EQ(made->light_file->lights.front().name, answer["lights"][0]["name"]);
+  EXPECT_EQ(made->light_file->provenance.inputs.size(), 1U);
+}
+
+TEST(InspectPicture, GivesTheLuminanceThatTheCommandPrints) {
+  const TempDir folder;
+  const std::string file = folder.path() + "/flat.exr";
+  const std::vector<float> nits(64, 12.5F);
+  ExrPicture exr;
+  exr.samples = View2d<const float>(nits.data(), 8, 8);
+  exr.channel_names = {"Y"};
+  exr.white_luminance = Nits(2.0);
+  ASSERT_TRUE(WriteExr(file, exr));
+  const auto seen = InspectPicture(file, DiskSources(), {}, LuminanceConvention::kPhotometric);
+  ASSERT_TRUE(seen) << seen.error().message;
+  const CliResult printed = RunCli({"inspect", file, "--json"});
+  EXPECT_EQ(json::parse(printed.out)["luminance_nits"]["mean"], 25.0);
+  EXPECT_EQ(seen->luminance.nits, std::vector<float>(64, 25.0F));
+}
+
+TEST(DiskSources, HashTheBytesThatWereReadAndNotThoseThatCameLater) {
+  const TempDir folder;
+  const std::string file = folder.Write("camera.json", "one");
+  const Sources sources = DiskSources();
+  ASSERT_EQ(*sources.read_text(file), "one");
+  folder.Write("camera.json", "other");
+  EXPECT_EQ(*sources.read_text(file), "one");
+  // SHA-256 of "one" and of "other".
+  EXPECT_EQ(*sources.sha256(file),
+            "7692c3ad3540bb803c020b3aee66cd8887123234ea0c6e7143c0add73ff431ed");
+  EXPECT_EQ(*DiskSources().sha256(file),
+            "d9298a10d1b0735837dc4bd85dac641b0f3cef27a47e5d53a54f2f3f5b2fcffa");
+}
+
+TEST(DiskSources, SayWhichFileIsNotThere) {
+  const auto text = DiskSources().read_text("/nowhere/camera.json");
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().code, "not_found");
+  EXPECT_EQ(text.error().subject, "/nowhere/camera.json");
+}
+
+}  // namespace
+}  // namespace lightcal::test
