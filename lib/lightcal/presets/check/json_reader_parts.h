@@ -1,26 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of presets in JSON share. All throw std::exception with what is wrong.
+// What the readers of presets in JSON share. Json is nlohmann::json, which only .cc files may name;
+// all throw its exceptions.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
-#include <string>
 #include <vector>
 
 #include "lightcal/presets/check/reader_parts.h"
 
 namespace lightcal {
 
-[[nodiscard]] Vec3 VecFrom(const nlohmann::json& three);
-// Luminance of linear Rec. 709.
-[[nodiscard]] double LuminanceFrom(const nlohmann::json& rgb);
-// The value of "distance_offset_m"; 0 where there is none.
-[[nodiscard]] double OffsetIn(const nlohmann::json& extras);
+template <class Json>
+[[nodiscard]] Vec3 VecFrom(const Json& three) {
+  return {three.at(0).template get<double>(), three.at(1).template get<double>(),
+          three.at(2).template get<double>()};
+}
 
-// The {...} that starts at or after `from`, by its braces.
-[[nodiscard]] std::string ObjectFrom(const std::string& text, std::size_t from);
+// Luminance of linear Rec. 709.
+template <class Json>
+[[nodiscard]] double LuminanceFrom(const Json& rgb) {
+  return Rec709Luminance(VecFrom(rgb));
+}
+
+// The value of "distance_offset_m"; 0 where there is none.
+template <class Json>
+[[nodiscard]] double OffsetIn(const Json& extras) {
+  if (!extras.is_object() || !extras.contains("distance_offset_m")) return 0.0;
+  return extras.at("distance_offset_m").at("value").template get<double>();
+}
 
 // Every one of "lights".
-[[nodiscard]] std::vector<EngineLight> EachLight(const nlohmann::json& root,
-                                                 EngineLight (*read)(const nlohmann::json&));
+template <class Json>
+[[nodiscard]] std::vector<EngineLight> EachLight(const Json& root,
+                                                 EngineLight (*read)(const Json&)) {
+  std::vector<EngineLight> lights;
+  for (const Json& json : root.at("lights")) lights.push_back(read(json));
+  return lights;
+}
 
 }  // namespace lightcal

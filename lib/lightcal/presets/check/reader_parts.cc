@@ -64,6 +64,24 @@ std::vector<double> NumbersIn(std::string_view text) {
   return numbers;
 }
 
+std::string ObjectFrom(const std::string& text, std::size_t from) {
+  const std::size_t start = text.find('{', from);
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = start; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      if (c == '"') quoted = false;
+      continue;
+    }
+    if (c == '"') quoted = true;
+    if (c == '{') ++depth;
+    if (c == '}' && --depth == 0) return text.substr(start, i - start + 1);
+  }
+  return {};
+}
+
 std::vector<EngineLight> ReadPhotometricTable(const std::string& text, const FileText& /*beside*/) {
   EngineLight light;
   TakeTable(light, text);

@@ -29,6 +29,9 @@ void RequireFinite(const std::vector<EngineLight>& lights);
 // The value; throws where it is not above 0, naming `what`.
 [[nodiscard]] double Above0(const std::string& what, double value);
 
+// The {...} that starts at or after `from`, by its braces.
+[[nodiscard]] std::string ObjectFrom(const std::string& text, std::size_t from);
+
 // All finite numbers in "Color(1, .5, 0, 1)" or "( (1, 0), (0, 1) )", or one alone.
 [[nodiscard]] std::vector<double> NumbersIn(std::string_view text);
 
