@@ -22,6 +22,7 @@ using ::testing::UnorderedElementsAre;
 const char* const kTwoReadings = R"(lightcal = 1
 [[light]]
 name = "key"
+kind = "point"
 [[reading]]
 light = "key"
 distance_m = 0.5
@@ -116,6 +117,7 @@ TEST(CalibrateSession, TheTimeOfProvenanceIsTheOneGivenElseThatOfTheNewestReadin
   folder.Write("session.toml", R"(lightcal = 1
 [[light]]
 name = "key"
+kind = "point"
 [[reading]]
 light = "key"
 distance_m = 0.5

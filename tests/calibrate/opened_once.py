@@ -19,12 +19,14 @@ OPENED = re.compile(r'open(?:at)?\([^"]*"([^"]+)".*= \d+$', re.M)
 SESSION = """lightcal = 1
 [[light]]
 name = "key"
+kind = "point"
 [[light]]
 name = "downlight"
 kind = "photometric"
 distribution = "lamp.ies"
 [[light]]
 name = "card_lamp"
+kind = "point"
 [[light]]
 name = "sky"
 kind = "dome"
@@ -48,7 +50,6 @@ frames = "captures/*.dng"
 use = "card"
 reflectance = 0.18
 distance_m = 0.8
-spectrum = "lamp.xls"
 [[capture]]
 light = "sky"
 frames = "lobby.hdr"

@@ -41,12 +41,14 @@ file(WRITE ${WORK}/session/session.toml [[
 lightcal = 1
 [[light]]
 name = "key"
+kind = "point"
 [[light]]
 name = "downlight"
 kind = "photometric"
 distribution = "lamp.ies"
 [[light]]
 name = "card_lamp"
+kind = "point"
 [[reading]]
 light = "key"
 distance_m = 0.5
