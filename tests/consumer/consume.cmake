@@ -37,7 +37,7 @@ file(GLOB frames ${SAMPLES}/sessions/grey_card_dng/captures/*.dng)
 file(COPY ${frames} DESTINATION ${WORK}/session/captures)
 file(COPY_FILE "${SAMPLES}/spectra/uprtek_cv600/Osram Osconiq 3000K.xls" ${WORK}/session/lamp.xls)
 step(${lightcal} photometric ${SAMPLES}/photometric/sample2.ldt --to ies -o session/lamp.ies)
-file(WRITE ${WORK}/session/session.toml [[
+file(WRITE ${WORK}/session/session.toml [=[
 lightcal = 1
 [[light]]
 name = "key"
@@ -68,7 +68,7 @@ frames = "captures/*.dng"
 use = "card"
 reflectance = 0.18
 distance_m = 0.8
-]])
+]=])
 step(${lightcal} run session -o by_command --to gltf,unreal)
 step(${lightcal} merge ${frames} -o merged.exr)
 step(${configure} -B build)
