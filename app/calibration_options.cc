@@ -2,8 +2,12 @@
 #include "calibration_options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <utility>
 
+#include "clock.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -61,16 +65,62 @@ Result<AccuracyProfile> ProfileAsked(const CalibrationOptions& options) {
 
 }  // namespace
 
-Result<CalibrationRequest> RequestAsked(const CalibrationOptions& options) {
+Result<CalibrationSettings> SettingsAsked(const CalibrationOptions& options) {
   auto profile = ProfileAsked(options);
   if (!profile) return Propagate(std::move(profile));
-  return CalibrationRequest{*std::move(profile), options.monte_carlo, options.full_angles, nullptr};
+  CalibrationSettings settings;
+  settings.profile = *std::move(profile);
+  settings.monte_carlo = options.monte_carlo;
+  settings.full_angles = options.full_angles;
+  return settings;
 }
 
 Result<CalibratedSession> Calibrate(const CalibrationOptions& options, Console& console) {
-  const auto request = RequestAsked(options);
-  if (!request) return tl::unexpected(request.error());
-  return CalibrateSession(options.session, *request, console);
+  const auto settings = SettingsAsked(options);
+  if (!settings) return tl::unexpected(settings.error());
+  return CalibrateAloud(options.session, *settings, console);
+}
+
+namespace {
+
+void Say(const Remarks& remarks, Console& console) {
+  console.Warn(remarks.warnings);
+  for (const std::string& note : remarks.notes) console.Note(note);
+}
+
+template <class T>
+Result<T> Told(Calibrated<T>&& answer, Console& console) {
+  Say(answer ? answer->remarks : answer.error().remarks, console);
+  if (!answer) return tl::unexpected<Error>(std::move(answer).error());
+  return *std::move(answer);
+}
+
+}  // namespace
+
+Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationSettings& settings,
+                                     Console& console) {
+  return Told(MeasureSession(path, DiskSources(), settings), console);
+}
+
+Result<CalibratedSession> CalibrateAloud(const std::string& path, CalibrationSettings settings,
+                                         Console& console) {
+  settings.time = SourceDateIso8601().value_or("");
+  return Told(CalibrateSession(path, DiskSources(), settings), console);
+}
+
+std::string DefaultOutputDirectory(const Session& session) {
+  return (std::filesystem::path(session.directory) / "out").string();
+}
+
+Result<double> ParseTolerance(const std::string& text) {
+  const auto split = SplitNumberAndUnit(text);
+  if (!split) return tl::unexpected(split.error());
+  const double tolerance = split->unit == "%" ? split->number / 100.0 : split->number;
+  const bool known_unit = split->unit.empty() || split->unit == "%";
+  if (!known_unit || !(tolerance > 0.0) || tolerance >= 1.0) {
+    return WrongUsage(text, "a tolerance is a part of one above 0 and below 1, e.g. 1% or 0.01");
+  }
+  return tolerance;
 }
 
 }  // namespace lightcal::app

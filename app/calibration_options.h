@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options every command shares that fits a session: run, fit, explain.
+// What every command shares that calibrates a session: options, and warnings said aloud.
 #pragma once
 
 #include <string>
 
 #include "console.h"
+#include "lightcal/calibrate/calibrate_session.h"
 #include "lightcal/core/result.h"
-#include "session_input.h"
 
 namespace CLI {
 class App;
@@ -29,10 +29,25 @@ void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
 // The same without SESSION, for commands that take several.
 void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options);
 
-// What the options ask for, and CalibrateSession by it. Wrong usage: a tolerance outside 0..1.
+// What the options ask for, and CalibrateAloud by it. Wrong usage: a tolerance outside 0..1.
 // Refused as AccuracyProfileFromJson.
-[[nodiscard]] Result<CalibrationRequest> RequestAsked(const CalibrationOptions& options);
+[[nodiscard]] Result<CalibrationSettings> SettingsAsked(const CalibrationOptions& options);
 [[nodiscard]] Result<CalibratedSession> Calibrate(const CalibrationOptions& options,
                                                   Console& console);
+
+// MeasureSession and CalibrateSession from disk, warnings and notes on the console, those of a
+// refusal too. SOURCE_DATE_EPOCH is the time of provenance.
+[[nodiscard]] Result<MeasuredSession> MeasureAloud(const std::string& path,
+                                                   const CalibrationSettings& settings,
+                                                   Console& console);
+[[nodiscard]] Result<CalibratedSession> CalibrateAloud(const std::string& path,
+                                                       CalibrationSettings settings,
+                                                       Console& console);
+
+// Where a session's outputs go when the person names no place: <session directory>/out.
+[[nodiscard]] std::string DefaultOutputDirectory(const Session& session);
+
+// "1%" or "0.01" -> 0.01.
+[[nodiscard]] Result<double> ParseTolerance(const std::string& text);
 
 }  // namespace lightcal::app

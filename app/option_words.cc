@@ -42,6 +42,8 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"meter.option", "--set"},
     {"meter.settle", "--settle"},
     {"meter.tape", "--record"},
+    {"place.aim", "--aim"},
+    {"place.position", "--position"},
     {"preset.bare", "--bare"},
     {"preset.json", "--to json"},
     {"preset.range", "--range"},
@@ -55,6 +57,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"shoot.resume", "--resume"},
     {"shutter.mains", "--mains"},
     {"study.knobs", "--knobs"},
+    {"study.synthetic", "--synthetic"},
     {"study.tolerance", "--tol"},
     {"view.field_of_view", "--fov"},
 });

@@ -2,6 +2,8 @@
 #include "reading_source.h"
 
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <utility>
 
 #include "clock.h"
@@ -9,12 +11,29 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "lightcal_devices/meters/text/frame.h"
 #include "option_words.h"
 #include "terminal.h"
 
 namespace lightcal::app {
 namespace {
+
+// Where a person keeps meters.toml: beside the session ("" = none), whose word counts first, and in
+// $XDG_CONFIG_HOME/lightcal (~/.config/lightcal where that is not set).
+std::vector<std::string> DirectoriesOfMeters(const std::string& session_path) {
+  namespace fs = std::filesystem;
+  std::vector<std::string> directories;
+  if (!session_path.empty()) {
+    directories.push_back(fs::path(JournalPath(session_path)).parent_path().string());
+  }
+  if (const char* const settings = std::getenv("XDG_CONFIG_HOME"); settings && *settings) {
+    directories.push_back((fs::path(settings) / "lightcal").string());
+  } else if (const char* const home = std::getenv("HOME"); home && *home) {
+    directories.push_back((fs::path(home) / ".config" / "lightcal").string());
+  }
+  return directories;
+}
 
 // What the driver `typed` understands; what is no number is a wrong command line.
 Result<Summary> TypedSummary(const std::string& text) {
@@ -104,7 +123,7 @@ std::string SayReading(const TakenReading& taken) {
 Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_type,
                                           Console& console) {
   ReadingSource source;
-  auto calibrations = MeterCalibrations::Load(settings.session);
+  auto calibrations = MeterCalibrations::Load(DirectoriesOfMeters(settings.session), DiskSources());
   if (!calibrations) return Propagate(std::move(calibrations));
   source.calibrations_ = *std::move(calibrations);
   if (settings.typed) return source;

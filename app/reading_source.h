@@ -9,10 +9,10 @@
 #include <string>
 
 #include "console.h"
+#include "lightcal/calibrate/meter_calibrations.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/reading.h"
 #include "measuring.h"
-#include "meter_calibrations.h"
 #include "meter_session.h"
 
 namespace lightcal::app {

@@ -5,12 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/rendering_input.h"
 #include "lightcal/presets/check/engine_answers.h"
 #include "lightcal/report/page.h"
-#include "lightcal_devices/disk_sources.h"
 #include "raster_png.h"
 
 namespace lightcal::app {
@@ -26,29 +24,6 @@ std::optional<LightSpectrum::Rendering> RenderingOf(const Spectrum& spectrum) {
   rendering.fidelity = ColorFidelityOf(*input);
   rendering.gamut = GamutAndBinsOf(rendering.fidelity);
   return rendering;
-}
-
-// The light's first; a file that cannot be read was reported where it counted.
-void AddSpectrum(const Session& session, const std::string& light, const std::string& file,
-                 std::vector<LightSpectrum>& spectra) {
-  if (file.empty() || std::ranges::find(spectra, light, &LightSpectrum::light) != spectra.end()) {
-    return;
-  }
-  auto one = ReadTheOneSpectrum(DiskSources(), PathInSession(session, file), file);
-  if (!one) return;
-  auto rendering = RenderingOf(one->imported.spectrum);
-  spectra.push_back({light, file, std::move(one->imported.spectrum), std::move(rendering)});
-}
-
-std::vector<LightSpectrum> SpectraOf(const Session& session) {
-  std::vector<LightSpectrum> spectra;
-  for (const SessionReading& row : session.readings) {
-    AddSpectrum(session, row.reading.light, row.reading.spectrum_file, spectra);
-  }
-  for (const CaptureDescription& capture : session.captures) {
-    AddSpectrum(session, capture.light, capture.spectrum_file, spectra);
-  }
-  return spectra;
 }
 
 LuminancePicture InFalseColors(const RecordedPicture& picture) {
@@ -75,10 +50,12 @@ ReportExtras ExtrasOf(const LightFile& lights) {
   return extras;
 }
 
-ReportExtras ExtrasOf(const CalibratedSession& calibrated, const PictureRecord& record) {
+ReportExtras ExtrasOf(const CalibratedSession& calibrated) {
   ReportExtras extras = ExtrasOf(calibrated.lights);
-  extras.spectra = SpectraOf(calibrated.session);
-  for (const RecordedPicture& picture : record.pictures()) {
+  for (const NamedSpectrum& one : calibrated.spectra) {
+    extras.spectra.push_back({one.light, one.file, one.spectrum, RenderingOf(one.spectrum)});
+  }
+  for (const RecordedPicture& picture : calibrated.pictures) {
     extras.pictures.push_back(InFalseColors(picture));
   }
   return extras;
@@ -92,8 +69,8 @@ std::string ReportHtml(const LightFile& lights, std::string_view title) {
   return ReportPage(lights, title, ExtrasOf(lights));
 }
 
-std::string ReportHtml(const CalibratedSession& calibrated, const PictureRecord& record) {
-  return ReportPage(calibrated.lights, TitleOf(calibrated.session), ExtrasOf(calibrated, record));
+std::string ReportHtml(const CalibratedSession& calibrated) {
+  return ReportPage(calibrated.lights, TitleOf(calibrated.session), ExtrasOf(calibrated));
 }
 
 }  // namespace lightcal::app

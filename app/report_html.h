@@ -5,24 +5,21 @@
 #include <string>
 #include <string_view>
 
-#include "captures/picture_record.h"
+#include "lightcal/calibrate/calibrate_session.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/report/report_extras.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 
 // What engines make of the lights (of those presets can export).
 [[nodiscard]] ReportExtras ExtrasOf(const LightFile& lights);
-// With the session's spectra, and the pictures that were recorded while it was calibrated.
-[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated,
-                                    const PictureRecord& record);
+// With the session's spectra and pictures.
+[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated);
 
 // The session's name, else its directory's.
 [[nodiscard]] const std::string& TitleOf(const Session& session);
 
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
-[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated,
-                                     const PictureRecord& record);
+[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated);
 
 }  // namespace lightcal::app

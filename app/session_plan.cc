@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "calibration_options.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/plan/plan_readings.h"
-#include "session_input.h"
 #include "session_names.h"
 
 namespace lightcal::app {
@@ -104,17 +104,17 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
 }  // namespace
 
 Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
-  const auto request = RequestAsked(options.calibration);
-  if (!request) return tl::unexpected(request.error());
-  const auto measured = LoadMeasuredSession(options.calibration.session, *request, console);
+  const auto asked = SettingsAsked(options.calibration);
+  if (!asked) return tl::unexpected(asked.error());
+  const auto measured = MeasureAloud(options.calibration.session, *asked, console);
   if (!measured) return tl::unexpected(measured.error());
   const Session* session = &measured->session;
   if (!options.light.empty()) {
     if (auto known = CheckNames(*session, options.light, ""); !known) return known;
   }
   FitSettings settings;
-  settings.tolerance_relative = request->profile.tolerance_relative;
-  settings.effects = request->profile.effects;
+  settings.tolerance_relative = asked->profile.tolerance_relative;
+  settings.effects = asked->profile.effects;
   std::vector<PlannedLight> planned;
   const Error* refused = nullptr;
   bool any = false;

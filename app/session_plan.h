@@ -17,7 +17,7 @@ struct SessionPlanOptions {
 };
 
 // Prints the plan. A light whose readings are refused shows what the refusal asks for; refused only
-// where every light is. Fails as LoadMeasuredSession.
+// where every light is. Fails as MeasureSession.
 [[nodiscard]] Result<void> PlanSession(const SessionPlanOptions& options, Console& console);
 
 }  // namespace lightcal::app

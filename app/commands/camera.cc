@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "calibration_options.h"
+#include "clock.h"
 #include "commands.h"
 #include "lightcal/calibrate/camera/calibrate_camera.h"
 #include "lightcal/core/numbers_text.h"
@@ -12,7 +14,6 @@
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
@@ -87,7 +88,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
   auto profile = CalibrateCamera(session, DiskSources(), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
-  auto provenance = ProvenanceOf(session);
+  auto provenance = ProvenanceOf(session, DiskSources(), SourceDateIso8601().value_or(""));
   if (!provenance) return Propagate(std::move(provenance));
   profile->provenance = std::move(*provenance);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/card_picture.h"
@@ -19,7 +20,6 @@
 #include "lightcal_devices/captures/picture.h"
 #include "output_files.h"
 #include "preset_input.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
@@ -112,7 +112,7 @@ Result<void> CheckPreset(const Options& options, Console& console) {
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.preset, *text, FilesBeside(options.preset));
   if (!lights) return tl::unexpected(lights.error());
-  const auto calibrated = CalibrateSession(options.session, {}, console);
+  const auto calibrated = CalibrateAloud(options.session, {}, console);
   if (!calibrated) return tl::unexpected(calibrated.error());
   const auto rows = CompareWithReadings(calibrated->session, calibrated->lights, *lights);
   if (rows.empty()) {

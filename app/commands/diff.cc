@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "commands.h"
-#include "compare/compare_lights.h"
 #include "light_input.h"
+#include "lightcal/calibrate/compare_lights.h"
 #include "lightcal/core/numbers_text.h"
 #include "told_error.h"
 

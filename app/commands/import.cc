@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "commands.h"
+#include "distribution_plan.h"
 #include "import_plan.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
-#include "session_distributions.h"
 
 namespace lightcal::app {
 namespace {

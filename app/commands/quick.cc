@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
@@ -15,7 +16,6 @@
 #include "lightcal/records/light_codec.h"
 #include "one_of.h"
 #include "output_files.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {

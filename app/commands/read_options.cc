@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "calibration_options.h"
 #include "lightcal/core/units_text.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {

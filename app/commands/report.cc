@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
@@ -16,7 +17,6 @@
 #include "output_files.h"
 #include "picture_file.h"
 #include "report_html.h"
-#include "session_input.h"
 
 namespace lightcal::app {
 namespace {
@@ -126,10 +126,9 @@ Result<Source> FromLightFile(const std::string& path) {
 }
 
 Result<Source> FromSession(const std::string& path, Console& console) {
-  const PictureRecord pictures;
-  auto calibrated = CalibrateSession(path, CalibrationRequest{}, console);
+  auto calibrated = CalibrateAloud(path, {}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
-  ReportExtras extras = ExtrasOf(*calibrated, pictures);
+  ReportExtras extras = ExtrasOf(*calibrated);
   const Session& session = calibrated->session;
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),
                 (fs::path(DefaultOutputDirectory(session)) / "report.html").string()};

@@ -56,8 +56,7 @@ OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFi
 }
 
 Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::string& directory,
-                                          const CalibratedSession& calibrated,
-                                          const PictureRecord& pictures, Console& console) {
+                                          const CalibratedSession& calibrated, Console& console) {
   const LightFile& lights = calibrated.lights;
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
@@ -66,7 +65,7 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportHtml(calibrated, pictures)}};
+                                   {"report.html", ReportHtml(calibrated)}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }
@@ -75,12 +74,11 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
 }
 
 Result<void> RunSession(const Options& options, const StampSeed& stamp, Console& console) {
-  const PictureRecord pictures;
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string directory =
       options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
-  auto files = OutputsOf(options, directory, *calibrated, pictures, console);
+  auto files = OutputsOf(options, directory, *calibrated, console);
   if (!files) return Propagate(std::move(files));
   if (stamp) files->push_back(StampFile(*stamp, directory, calibrated->lights, *files));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;

@@ -6,16 +6,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "calibration_options.h"
 #include "commands.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
-#include "session_input.h"
+#include "simulate/lamp_places.h"
 #include "simulate/map_files.h"
 #include "simulate/map_plane.h"
 #include "simulate/simulate_answer.h"
-#include "simulate/simulated_lamps.h"
 
 namespace lightcal::app {
 namespace {
@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> at, lights, outputs;
   std::string normal = "up";
   MapPlaneWords plane{"", "512", "", ""};
-  LampPlaces places;
+  LampPlaceWords places;
   std::string room, tolerance = "1%", effects = "auto", title, scale;
   double reflectance = 0.5;
   bool timing = false, force = false;
@@ -48,9 +48,9 @@ Result<Input> ReadInput(const Options& options, double tolerance, Console& conso
     return Input{std::move(*lights), std::nullopt, fs::path(options.input).stem().string()};
   }
   // The fit has its own gate; --effects is about the prediction.
-  CalibrationRequest request;
-  request.profile.tolerance_relative = tolerance;
-  auto calibrated = CalibrateSession(options.input, request, console);
+  CalibrationSettings settings;
+  settings.profile.tolerance_relative = tolerance;
+  auto calibrated = CalibrateAloud(options.input, settings, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string title =
       calibrated->session.name.empty() ? calibrated->session.stem : calibrated->session.name;
@@ -189,6 +189,18 @@ void Predict(Simulated& simulated) {
   simulated.elapsed_ms = took.count();
 }
 
+Result<std::vector<PlacedLamp>> LampsAsked(const Options& options, const Input& input,
+                                           Console& console) {
+  const auto chosen = ChooseLights(input.lights, options.lights);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const auto places = ParseLampPlaces(options.places, *chosen);
+  if (!places) return tl::unexpected(places.error());
+  Warnings warnings;
+  auto lamps = PlaceLamps(*chosen, input.session ? &*input.session : nullptr, *places, warnings);
+  if (lamps) console.Warn(warnings);
+  return lamps;
+}
+
 Result<Simulated> Prepare(const Options& options, const Input& input, double tolerance,
                           Console& console) {
   const auto effects = ParseEffects(options.effects);
@@ -196,11 +208,8 @@ Result<Simulated> Prepare(const Options& options, const Input& input, double tol
   const auto room = RoomOf(options, input);
   if (!room) return tl::unexpected(room.error());
   Simulated out;
-  Warnings warnings;
-  auto lamps = PlaceLamps(input.lights, input.session ? &*input.session : nullptr, options.lights,
-                          options.places, warnings);
+  auto lamps = LampsAsked(options, input, console);
   if (!lamps) return Propagate(std::move(lamps));
-  console.Warn(warnings);
   out.lamps = *std::move(lamps);
   out.settings.tolerance = tolerance;
   out.settings.finite_source = effects->finite_source;

@@ -12,10 +12,10 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "lightcal/calibrate/session_twin.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
-#include "tradeoff/session_runner.h"
-#include "tradeoff/session_twin.h"
 #include "tradeoff/tradeoff_answer.h"
 #include "tradeoff/truth_answer.h"
 
@@ -85,17 +85,20 @@ Result<Measurements> Measure(const Options& options, const tradeoff::Question& q
   Measurements out;
   SessionTwin twin;
   if (options.synthetic) {
-    auto made = TwinOf(options.session, question.tolerance_relative);
+    auto made = TwinOf(options.session, DiskSources(), question.tolerance_relative);
     if (!made) return Propagate(std::move(made));
     twin = *std::move(made);
   }
-  auto study = tradeoff::StudyTradeoff(
-      options.synthetic ? TwinRunner(twin) : SessionRunner(options.session), question, watch);
+  auto study =
+      tradeoff::StudyTradeoff(options.synthetic ? TwinRunner(twin, DiskSources)
+                                                : SessionRunner(options.session, DiskSources),
+                              question, watch);
   if (!study) return Propagate(std::move(study));
   out.study = *std::move(study);
   if (!options.synthetic) return out;
   const std::vector<tradeoff::Named> settings = SettingsForTruth(out.study);
-  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin), twin.truth, settings, {}, watch);
+  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, DiskSources()), twin.truth, settings,
+                                          {}, watch);
   if (!truth) return Propagate(std::move(truth));
   out.truth = *std::move(truth);
   return out;
@@ -105,9 +108,9 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
   const auto question = QuestionOf(options);
   if (!question) return tl::unexpected(question.error());
   // Once aloud: what the session's own warnings are.
-  CalibrationRequest usual;
+  CalibrationSettings usual;
   usual.profile.tolerance_relative = question->tolerance_relative;
-  auto calibrated = CalibrateSession(options.session, usual, console);
+  auto calibrated = CalibrateAloud(options.session, usual, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const auto measured = Measure(options, *question, console.json());
   if (!measured) return tl::unexpected(measured.error());

@@ -7,18 +7,18 @@
 #include <optional>
 #include <thread>
 
+#include "calibration_options.h"
 #include "commands.h"
-#include "guide/reading_guide.h"
 #include "guide/watch_series.h"
 #include "guide/watch_view.h"
 #include "interrupt.h"
 #include "light_summary.h"
 #include "light_table.h"
+#include "lightcal/calibrate/reading_guide.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "read_options.h"
 #include "reading_source.h"
-#include "session_input.h"
 #include "session_names.h"
 
 namespace lightcal::app {
@@ -55,7 +55,7 @@ Result<Watched> WatchedLamp(const Options& options, Console& console) {
   }
   const auto distance = ParseLength(options.distance);
   if (!distance) return tl::unexpected(distance.error());
-  auto measured = LoadMeasuredSession(options.session, {}, console);
+  auto measured = MeasureAloud(options.session, {}, console);
   if (!measured) return Propagate(std::move(measured));
   if (auto known = CheckNames(measured->session, options.light, ""); !known) {
     return Propagate(std::move(known));

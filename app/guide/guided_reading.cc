@@ -6,19 +6,19 @@
 #include <cstdio>
 #include <utility>
 
+#include "calibration_options.h"
 #include "guide/drawings.h"
-#include "guide/reading_guide.h"
 #include "guide/shell_word.h"
 #include "guide/step_answer.h"
 #include "interrupt.h"
 #include "light_summary.h"
 #include "light_table.h"
+#include "lightcal/calibrate/reading_guide.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "option_words.h"
 #include "reading_source.h"
-#include "session_input.h"
 #include "session_names.h"
 #include "terminal.h"
 
@@ -60,7 +60,7 @@ class Walk {
   enum class Ending { kReached, kNoGain, kPerson, kTape };
 
   Result<void> Begin() {
-    auto measured = LoadMeasuredSession(options_.session, {}, console_);
+    auto measured = MeasureAloud(options_.session, {}, console_);
     if (!measured) return Propagate(std::move(measured));
     const Session& session = measured->session;
     if (auto named = ChooseNames(session); !named) return named;

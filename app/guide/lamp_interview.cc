@@ -8,11 +8,11 @@
 #include <sstream>
 #include <utility>
 
+#include "calibration_options.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal_devices/meters/find_meters.h"
-#include "session_input.h"
 #include "simulate/map_plane.h"
 
 namespace lightcal::app {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/camera_profile.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/meter_calibration.h"
 #include "lightcal/records/tethered_shoot.h"
@@ -30,7 +30,7 @@ namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using records::Node;
 
 constexpr std::uintmax_t kMostBytes = 256U << 20U;
 constexpr int kTableDigits = 4;
@@ -142,10 +142,8 @@ void Take(Contents contents, FileVerdict& verdict) {
 std::string SchemaIn(std::string_view text) {
   const std::string_view first_line = text.substr(0, text.find('\n'));
   for (const std::string_view part : {text, first_line}) {
-    const Json json = Json::parse(part, nullptr, false);
-    if (!json.is_object()) continue;
-    const auto schema = json.find("schema");
-    return schema != json.end() && schema->is_string() ? schema->get<std::string>() : "";
+    const auto node = records::ParseJson(part);
+    if (node && node->kind == Node::Kind::kTable) return node->TextAt("schema");
   }
   for (const JsonFormat& format : kJsonFormats) {
     if (text.find('"' + std::string(format.schema) + '"') != std::string_view::npos) {
@@ -171,11 +169,11 @@ void ValidateJson(const std::string& text, FileVerdict& verdict) {
     }
     return;
   }
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) {
+  const auto node = records::ParseJson(text);
+  if (!node) {
     verdict.error = Error{ErrorKind::kRefused, "bad_json", verdict.path,
                           "is broken JSON and does not say what it is; copy or write it again"};
-  } else if (json.is_object() && json.contains("spectral_data")) {
+  } else if (node->Find("spectral_data") != nullptr) {
     verdict.format = "camera sensitivities";
     Take(SensitivityContents(text, verdict.path), verdict);
   } else {

@@ -15,12 +15,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "lightcal/calibrate/session_twin.h"
 #include "lightcal/tradeoff/study.h"
+#include "lightcal_devices/disk_sources.h"
 #include "lux_twin.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
 #include "terminal_dialogue.h"
-#include "tradeoff/session_runner.h"
 #include "twin_judge.h"
 
 namespace lightcal::test {
@@ -110,7 +111,7 @@ TEST(TradeoffTwins, TheRecommendationMeetsTheToleranceAndItsIntervalHoldsTheLamp
     const TempDir dir;
     const LuxTwin twin = RandomLuxTwin(random);
     SCOPED_TRACE(twin.toml);
-    const auto run = InProcessorTime(app::SessionRunner(dir.Write("twin.toml", twin.toml)));
+    const auto run = InProcessorTime(SessionRunner(dir.Write("twin.toml", twin.toml), DiskSources));
     tradeoff::Question question;
     question.tolerance_relative = kTolerance;
     question.knobs = {"effects", "source_model", "bounce_patches", "solver", "rejection"};

@@ -11,11 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/session_twin.h"
 #include "lightcal/tradeoff/study.h"
+#include "lightcal_devices/disk_sources.h"
 #include "lux_twin.h"
 #include "run_cli.h"
 #include "synthetic_dng.h"
-#include "tradeoff/session_runner.h"
 #include "twin_judge.h"
 
 namespace lightcal::test {
@@ -140,7 +141,7 @@ std::vector<Combination> Finalists(const tradeoff::Runner& run, const Twin& twin
 }
 
 void Judge(const Twin& twin, int number, Tally& tally) {
-  const tradeoff::Runner run = InProcessorTime(app::SessionRunner(twin.session));
+  const tradeoff::Runner run = InProcessorTime(SessionRunner(twin.session, DiskSources));
   ++tally.twins;
   tradeoff::Question question;
   question.tolerance_relative = kTolerance;

@@ -2,6 +2,7 @@
 // The whole of lightcal_pictures.so: the one file that sees OpenImageIO.
 #include "lightcal_devices/captures/oiio_module.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 
 namespace {
 
+using lightcal::OiioBytes;
 using lightcal::OiioOutcome;
 using lightcal::OiioPicture;
 
@@ -44,22 +46,15 @@ bool ReadSamples(OIIO::ImageInput& input, OiioPicture& picture) {
   return true;
 }
 
-OiioOutcome Read(const std::string& path, bool with_samples, OiioPicture& picture,
-                 std::string& error) {
-  // Alpha must not be multiplied into codes.
-  OIIO::ImageSpec config;
-  config["oiio:UnassociatedAlpha"] = 1;
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-  if (!input) {
-    error = OIIO::geterror();
-    return OiioOutcome::kUnknownFormat;
-  }
-  const OIIO::ImageSpec& spec = input->spec();
+OiioOutcome ReadOpened(OIIO::ImageInput& input, bool with_samples, OiioPicture& picture,
+                       std::string& error) {
+  const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1 || spec.width < 1 || spec.height < 1) {
     return OiioOutcome::kNoColor;
   }
   const double samples = 1.0 * spec.width * spec.height * spec.nchannels;
   if (samples > kMostSamples) return OiioOutcome::kTooLarge;
+  picture = {};
   picture.width = spec.width;
   picture.height = spec.height;
   picture.channels = spec.nchannels >= 3 ? 3 : 1;
@@ -67,19 +62,36 @@ OiioOutcome Read(const std::string& path, bool with_samples, OiioPicture& pictur
   picture.top_code = spec.format.size() > 1 ? 0xFFFF : 0xFF;
   for (int c = 0; c < picture.channels; ++c) picture.channel_names.push_back(spec.channel_name(c));
   TakeAttributes(spec, picture);
-  if (with_samples && !ReadSamples(*input, picture)) {
-    error = input->geterror();
+  if (with_samples && !ReadSamples(input, picture)) {
+    error = input.geterror();
     return OiioOutcome::kBad;
   }
   return OiioOutcome::kRead;
 }
 
+OiioOutcome Read(const OiioBytes& file, bool with_samples, OiioPicture& picture,
+                 std::string& error) {
+  OIIO::ImageSpec config, header;
+  config["oiio:UnassociatedAlpha"] = 1;  // alpha must not be multiplied into codes
+  OIIO::Filesystem::IOMemReader reader(const_cast<void*>(file.bytes), file.size);  // only read
+  const auto in_memory = OIIO::ImageInput::create(file.format);
+  if (in_memory && in_memory->set_ioproxy(&reader) && in_memory->open(file.path, header, config)) {
+    const OiioOutcome outcome = ReadOpened(*in_memory, with_samples, picture, error);
+    if (outcome != OiioOutcome::kBad) return outcome;
+  }
+  // What is wrong is said best, and most alike from version to version, of the file itself.
+  const auto on_disk = OIIO::ImageInput::open(file.path, &config);
+  if (on_disk) return ReadOpened(*on_disk, with_samples, picture, error);
+  error = OIIO::geterror();
+  return OiioOutcome::kUnknownFormat;
+}
+
 }  // namespace
 
 extern "C" __attribute__((visibility("default"))) OiioOutcome lightcal_oiio_read(
-    const std::string& path, bool with_samples, OiioPicture& picture, std::string& error) noexcept {
+    const OiioBytes& file, bool with_samples, OiioPicture& picture, std::string& error) noexcept {
   try {
-    return Read(path, with_samples, picture, error);
+    return Read(file, with_samples, picture, error);
   } catch (const std::exception& thrown) {
     error = thrown.what();
   } catch (...) {

@@ -3,6 +3,7 @@
 // shows; both sides are built together.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -24,8 +25,16 @@ struct OiioPicture {
 
 enum class OiioOutcome { kRead, kUnknownFormat, kTooLarge, kNoColor, kBad };
 
+// A file that was read or mapped.
+struct OiioBytes {
+  const void* bytes = nullptr;
+  std::size_t size = 0;
+  std::string path;    // for messages
+  std::string format;  // OpenImageIO's word: "png" "jpeg" "tiff" "hdr"
+};
+
 // Samples only where asked. `error` says what OpenImageIO says.
-using OiioRead = OiioOutcome (*)(const std::string& path, bool with_samples, OiioPicture& picture,
+using OiioRead = OiioOutcome (*)(const OiioBytes& file, bool with_samples, OiioPicture& picture,
                                  std::string& error) noexcept;
 inline constexpr const char* kOiioReadSymbol = "lightcal_oiio_read";
 inline constexpr const char* kOiioModuleName = "lightcal_pictures.so";

@@ -84,12 +84,24 @@ Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
   return {};
 }
 
-Result<OiioPicture> ReadThroughModule(const std::string& path, bool with_samples) {
+struct Opened {
+  MappedFile file;
+  std::string format;
+  [[nodiscard]] std::string_view bytes() const {
+    return {static_cast<const char*>(file.bytes.get()), file.size};
+  }
+  [[nodiscard]] OiioBytes ForModule(const std::string& path) const {
+    return {file.bytes.get(), file.size, path, format};
+  }
+};
+
+Result<OiioPicture> ReadThroughModule(const Opened& opened, const std::string& path,
+                                      bool with_samples) {
   auto module = PictureModule();
   if (!module) return Propagate(std::move(module));
   OiioPicture picture;
   std::string error;
-  switch ((*module)(path, with_samples, picture, error)) {
+  switch ((*module)(opened.ForModule(path), with_samples, picture, error)) {
     case OiioOutcome::kRead:
       return picture;
     case OiioOutcome::kTooLarge:
@@ -187,14 +199,6 @@ Result<Frame> FrameOf(OiioPicture picture, FrameInfo info, SampleStore store) {
   return Kept(std::move(picture.floats), std::move(info), store);
 }
 
-struct Opened {
-  MappedFile file;
-  std::string format;
-  [[nodiscard]] std::string_view bytes() const {
-    return {static_cast<const char*>(file.bytes.get()), file.size};
-  }
-};
-
 Result<Opened> Open(const std::string& path, OpenFiles* files) {
   auto file = MapFile(path, files);
   if (!file) return Propagate(std::move(file));
@@ -216,7 +220,7 @@ Result<Frame> ReadUnchecked(const std::string& path, SampleStore store, OpenFile
   auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
   if (opened->format == "exr") return ReadExr(path, opened->file, store);
-  auto picture = ReadThroughModule(path, true);
+  auto picture = ReadThroughModule(*opened, path, true);
   if (!picture) return Propagate(std::move(picture));
   auto info = Describe(*picture, path, opened->format, opened->bytes());
   if (!info) return Propagate(std::move(info));
@@ -229,7 +233,7 @@ Result<FrameInfo> ReadPictureInfo(const std::string& path, OpenFiles* files) {
   auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
   if (opened->format == "exr") return ReadExrInfo(path, opened->file);
-  auto picture = ReadThroughModule(path, false);
+  auto picture = ReadThroughModule(*opened, path, false);
   if (!picture) return Propagate(std::move(picture));
   return Describe(*picture, path, opened->format, opened->bytes());
 }

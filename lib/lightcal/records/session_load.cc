@@ -2,13 +2,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "lightcal/records/field_reader.h"
 #include "lightcal/records/reading_codec.h"
-#include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "lightcal/records/session_toml.h"
 #include "lightcal/records/shot_captures.h"
 
@@ -54,17 +53,25 @@ SessionPaths PathsOf(const std::string& path) {
           directory / (stem + "." + std::string(kCapturesFolder)), directory, stem};
 }
 
-std::optional<std::string> ReadWhole(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
+Result<std::string> ReadWhole(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) return std::nullopt;
+  if (!stream.is_open() || stream.bad()) {
+    return Failed("unreadable", path, "cannot be read as a file");
+  }
   return text;
 }
 
-Result<std::string> ReadSessionFile(const SessionPaths& paths, const std::string& given) {
+Result<std::string> ReadRegular(const fs::path& path, const TextReader& read) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) {
+    if (auto text = read(path.string())) return text;
+  }
+  return Failed("unreadable", path.string(), "cannot be read as a file");
+}
+
+Result<std::string> ReadSessionFile(const SessionPaths& paths, const std::string& given,
+                                    const TextReader& read) {
   std::error_code error;
   if (fs::is_directory(given, error) && !fs::exists(paths.toml, error)) {
     return Failed("not_found", given,
@@ -75,9 +82,7 @@ Result<std::string> ReadSessionFile(const SessionPaths& paths, const std::string
     return Failed("not_found", given,
                   "no such session; give a directory that holds a session.toml, or a .toml file");
   }
-  auto text = ReadWhole(paths.toml);
-  if (!text) return Failed("unreadable", paths.toml.string(), "cannot be read as a file");
-  return *std::move(text);
+  return ReadRegular(paths.toml, read);
 }
 
 // Takes the rows of a journal into a session.
@@ -159,9 +164,11 @@ std::string CapturesPath(const std::string& session_path) {
   return PathsOf(session_path).captures.string();
 }
 
-Result<LoadedSession> LoadSession(const std::string& path) {
+Result<LoadedSession> LoadSession(const std::string& path) { return LoadSession(path, ReadWhole); }
+
+Result<LoadedSession> LoadSession(const std::string& path, const TextReader& read) {
   const SessionPaths paths = PathsOf(path);
-  const auto text = ReadSessionFile(paths, path);
+  const auto text = ReadSessionFile(paths, path, read);
   if (!text) return tl::unexpected(text.error());
   auto loaded = records::ParseSession(*text, paths.toml.filename().string());
   if (!loaded) return loaded;
@@ -170,13 +177,13 @@ Result<LoadedSession> LoadSession(const std::string& path) {
   session.stem = paths.stem;
   if (session.name.empty()) session.name = paths.stem;
   session.input_files.push_back(paths.toml.string());
-  if (auto added = records::AddShotCaptures(paths.captures, *loaded); !added) {
+  if (auto added = records::AddShotCaptures(paths.captures, read, *loaded); !added) {
     return Propagate(std::move(added));
   }
   std::error_code error;
   if (fs::exists(paths.journal, error)) {
-    const auto journal = ReadWhole(paths.journal);
-    if (!journal) return Failed("unreadable", paths.journal.string(), "cannot be read as a file");
+    const auto journal = ReadRegular(paths.journal, read);
+    if (!journal) return tl::unexpected(journal.error());
     session.input_files.push_back(paths.journal.string());
     JournalReader(*loaded, paths.journal.filename().string()).Read(*journal);
   }

@@ -2,8 +2,6 @@
 #include "lightcal/records/shot_captures.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -42,14 +40,13 @@ std::string HowFar(const TetheredShoot& shoot) {
   return std::to_string(taken) + " of " + std::to_string(shoot.frames.size()) + " frames";
 }
 
-Result<void> AddOne(const fs::path& record, LoadedSession& loaded) {
+Result<void> AddOne(const fs::path& record, const TextReader& read, LoadedSession& loaded) {
   Session& session = loaded.session;
-  std::ifstream stream(record, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) return Failed("unreadable", record.string(), "cannot be read as a file");
+  const auto text = read(record.string());
+  if (!text) return Failed("unreadable", record.string(), "cannot be read as a file");
   const fs::path folder = record.parent_path().lexically_proximate(session.directory);
   const std::string where = (folder / kTetheredShootFile).generic_string();
-  auto shoot = TetheredShootFromJson(text, where);
+  auto shoot = TetheredShootFromJson(*text, where);
   if (!shoot) return Propagate(std::move(shoot));
   if (PersonDescribes(session, folder)) return {};
   if (!shoot->complete) {
@@ -78,9 +75,10 @@ Result<void> AddOne(const fs::path& record, LoadedSession& loaded) {
 
 }  // namespace
 
-Result<void> AddShotCaptures(const fs::path& captures, LoadedSession& loaded) {
+Result<void> AddShotCaptures(const fs::path& captures, const TextReader& read,
+                             LoadedSession& loaded) {
   for (const fs::path& record : RecordsBelow(captures)) {
-    if (auto added = AddOne(record, loaded); !added) return added;
+    if (auto added = AddOne(record, read, loaded); !added) return added;
   }
   return {};
 }

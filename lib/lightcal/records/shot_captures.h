@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "lightcal/core/result.h"
-#include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 
 namespace lightcal::records {
 
@@ -14,6 +14,6 @@ namespace lightcal::records {
 // place of the shot one. Warns: unfinished_capture, capture_not_described. Refused: as
 // TetheredShootFromJson, unknown_light. Fails: unreadable.
 [[nodiscard]] Result<void> AddShotCaptures(const std::filesystem::path& captures,
-                                           LoadedSession& loaded);
+                                           const TextReader& read, LoadedSession& loaded);
 
 }  // namespace lightcal::records

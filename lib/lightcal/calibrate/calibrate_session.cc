@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/calibrate_session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "lightcal/calibrate/captures/capture_readings.h"
+#include "lightcal/calibrate/captures/wall_capture.h"
+#include "lightcal/calibrate/distributions.h"
+#include "lightcal/calibrate/session_files.h"
+#include "lightcal/colorimetry/resample.h"
+#include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/generator_name.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/records/session_reader.h"
+
+namespace lightcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The spectrum at a wider step, where it has a finer one.
+Spectrum ThinnedTo(const Spectrum& spectrum, double step_nm) {
+  if (!(step_nm > 0.0) || spectrum.wavelengths_nm.size() < 2) return spectrum;
+  const std::vector<double> edges = BinEdgesNm(spectrum);
+  const int count = static_cast<int>((edges.back() - edges.front()) / step_nm * (1.0 + 1e-12));
+  if (static_cast<std::size_t>(count) >= spectrum.wavelengths_nm.size()) return spectrum;
+  auto wider = ResampleByArea(spectrum, Nanometres(edges.front() + 0.5 * step_nm),
+                              Nanometres(step_nm), count);
+  return wider ? *std::move(wider) : spectrum;
+}
+
+// Every n-th of each light's readings with the lamp on; what they are compared with stays.
+std::vector<SessionReading> ThinnedReadings(int n, std::vector<SessionReading> readings) {
+  if (n <= 1) return readings;
+  std::map<std::string, int> seen;
+  std::erase_if(readings, [&](const SessionReading& row) {
+    const Reading& reading = row.reading;
+    if (reading.lamp == LampState::kOff || reading.shadow_card) return false;
+    return seen[reading.light]++ % n != 0;
+  });
+  return readings;
+}
+
+// The session as the settings have it, before any file that it names is opened.
+Session AsSet(Session session, const CalibrationSettings& settings) {
+  for (LightDescription& light : session.lights) {
+    if (settings.full_angles && light.inner) light.inner = *light.inner * 0.5;
+    if (settings.full_angles && light.outer) light.outer = *light.outer * 0.5;
+  }
+  session.readings = ThinnedReadings(settings.profile.reading_stride, std::move(session.readings));
+  for (CaptureDescription& capture : session.captures) capture.work = settings.profile.pictures;
+  return session;
+}
+
+FitSettings FitSettingsOf(const CalibrationSettings& settings) {
+  const AccuracyProfile& profile = settings.profile;
+  return {profile.tolerance_relative, profile.effects, settings.monte_carlo, profile.estimator,
+          profile.cct_method};
+}
+
+void Lap(const CalibrationSettings& settings, tradeoff::Stage stage) {
+  if (settings.clock != nullptr) settings.clock->Lap(stage);
+}
+
+// A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
+// none and the file's unit is an irradiance.
+Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, double step_nm,
+                             const Sources& sources, Evidence& evidence) {
+  Reading reading = row.reading;
+  if (reading.spectrum_file.empty()) return reading;
+  const std::string path = PathInSession(session, reading.spectrum_file);
+  const auto one = ReadTheOneSpectrum(sources, path, row.where);
+  if (!one) return tl::unexpected(one.error());
+  evidence.AddWarnings(one->warnings);
+  const Spectrum spectrum = ThinnedTo(one->imported.spectrum, step_nm);
+  const auto xyz = XyzFromSpectrum(spectrum);
+  if (!xyz) return tl::unexpected(xyz.error());
+  reading.xy = XyFromXyz(*xyz);
+  if (reading.color_source == ColorSource::kUnknown) {
+    reading.color_source = ColorSource::kSpectrometer;
+  }
+  const bool absolute = spectrum.quantity == SpectralQuantity::kIrradiance;
+  if (!reading.illuminance && absolute) reading.illuminance = Lux(xyz->Y);
+  evidence.AddFile(path);
+  evidence.AddSpectrum(reading.light, reading.spectrum_file, one->imported.spectrum);
+  return reading;
+}
+
+// Spectra of lamps that captures name, for lights whose readings have none; one that cannot be read
+// was reported where it counted.
+void AddSpectraOfCaptures(const Session& session, const Sources& sources, Evidence& evidence) {
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.spectrum_file.empty()) continue;
+    const std::string& file = capture.spectrum_file;
+    const auto one = ReadTheOneSpectrum(sources, PathInSession(session, file), file);
+    if (one) evidence.AddSpectrum(capture.light, file, one->imported.spectrum);
+  }
+}
+
+Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
+                                const CalibrationSettings& settings, Evidence& evidence) {
+  auto loaded = LoadSession(path, sources.read_text);
+  if (!loaded) return Propagate(std::move(loaded));
+  evidence.AddWarnings(loaded->warnings);
+  MeasuredSession measured;
+  Session& session = measured.session;
+  session = AsSet(std::move(loaded->session), settings);
+  evidence.files = std::move(session.input_files);
+  Lap(settings, tradeoff::Stage::kLoad);
+  for (SessionReading& row : session.readings) {
+    auto resolved =
+        WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence);
+    if (!resolved) return Propagate(std::move(resolved));
+    row.reading = *std::move(resolved);
+  }
+  for (LightDescription& light : session.lights) {
+    auto described =
+        WithDistribution(session, light, settings.profile.table_step_deg, sources, evidence);
+    if (!described) return Propagate(std::move(described));
+    light = *std::move(described);
+  }
+  Lap(settings, tradeoff::Stage::kSpectra);
+  auto placed = PlaceByBalls(session, sources, evidence);
+  if (!placed) return Propagate(std::move(placed));
+  measured.placed = *std::move(placed);
+  for (const BallPlacement& ball : measured.placed) {
+    auto light = std::ranges::find(session.lights, ball.light, &LightDescription::name);
+    if (!light->position_m) light->position_m = ball.position_m;
+  }
+  auto captured = ReadCaptures(session, sources, evidence);
+  if (!captured) return Propagate(std::move(captured));
+  session.lights = std::move(captured->lights);
+  std::ranges::move(captured->readings, std::back_inserter(session.readings));
+  AddSpectraOfCaptures(session, sources, evidence);
+  Lap(settings, tradeoff::Stage::kPictures);
+  return measured;
+}
+
+struct FoundLights {
+  LightFile file;
+  std::vector<std::string> notes;
+};
+
+Result<FoundLights> FindLights(const Session& session, const Sources& sources,
+                               const CalibrationSettings& settings, Evidence& evidence) {
+  auto walls = MeasureWalls(session, sources, evidence);
+  Lap(settings, tradeoff::Stage::kPictures);
+  if (!walls) return Propagate(std::move(walls));
+  const auto by_wall = [&](const std::string& name) {
+    return std::ranges::find(*walls, name, &FittedLight::name);
+  };
+  Session others = session;
+  std::erase_if(others.lights,
+                [&](const LightDescription& light) { return by_wall(light.name) != walls->end(); });
+  const auto unused = std::erase_if(others.readings, [&](const SessionReading& row) {
+    return by_wall(row.reading.light) != walls->end();
+  });
+  if (unused > 0) {
+    evidence.warnings.push_back(
+        {"readings_not_used", session.name,
+         std::to_string(unused) +
+             " readings of lights that a wall measured are not used; give one as "
+             "anchor_illuminance_lx with wall.anchor_rect to set the scale"});
+  }
+  FoundLights found;
+  if (others.lights.empty()) {
+    found.file.lights = *std::move(walls);
+    return found;
+  }
+  auto fitted = FitSession(others, FitSettingsOf(settings));
+  if (!fitted) return Propagate(std::move(fitted));
+  evidence.AddWarnings(fitted->warnings);
+  found.notes = std::move(fitted->notes);
+  for (const LightDescription& light : session.lights) {
+    const auto wall = by_wall(light.name);
+    const auto read = std::ranges::find(fitted->lights.lights, light.name, &FittedLight::name);
+    if (wall != walls->end()) found.file.lights.push_back(*wall);
+    if (read != fitted->lights.lights.end()) found.file.lights.push_back(*read);
+  }
+  return found;
+}
+
+// What measured a light beside its readings, where that counts for how sure it is.
+void AddPriors(const Session& session, const std::vector<BallPlacement>& placed,
+               FittedLight& light) {
+  const auto ball = std::ranges::find(placed, light.name, &BallPlacement::light);
+  if (ball != placed.end() && light.position_m == ball->position_m) {
+    light.position_u95_m = ball->u95_m;
+  }
+  if (RestsOnCameraScale(session, light.name)) light.fit.prior.emplace_back(kCameraScalePrior);
+}
+
+Result<FoundLights> FindLightsWithProvenance(MeasuredSession& measured, const Sources& sources,
+                                             const CalibrationSettings& settings,
+                                             Evidence& evidence) {
+  auto found = FindLights(measured.session, sources, settings, evidence);
+  Lap(settings, tradeoff::Stage::kFit);
+  if (!found) return found;
+  for (FittedLight& light : found->file.lights) {
+    AddPriors(measured.session, measured.placed, light);
+  }
+  measured.session.input_files = evidence.files;
+  auto provenance = ProvenanceOf(measured.session, sources, settings.time);
+  if (!provenance) return Propagate(std::move(provenance));
+  found->file.provenance = *std::move(provenance);
+  Lap(settings, tradeoff::Stage::kLoad);
+  return found;
+}
+
+tl::unexpected<CalibrationRefusal> RefusedWith(Error error, Evidence evidence) {
+  return tl::unexpected(
+      CalibrationRefusal{std::move(error), Remarks{std::move(evidence.warnings), {}}});
+}
+
+}  // namespace
+
+Calibrated<MeasuredSession> MeasureSession(const std::string& path, const Sources& sources,
+                                           const CalibrationSettings& settings) {
+  Evidence evidence;
+  auto measured = Measure(path, sources, settings, evidence);
+  if (!measured) return RefusedWith(std::move(measured).error(), std::move(evidence));
+  measured->session.input_files = std::move(evidence.files);
+  measured->spectra = std::move(evidence.spectra);
+  measured->pictures = std::move(evidence.pictures);
+  measured->remarks.warnings = std::move(evidence.warnings);
+  return *std::move(measured);
+}
+
+Calibrated<CalibratedSession> FitMeasured(MeasuredSession measured, const Sources& sources,
+                                          const CalibrationSettings& settings) {
+  Evidence evidence{std::move(measured.session.input_files), std::move(measured.spectra),
+                    std::move(measured.pictures), std::move(measured.remarks.warnings)};
+  auto found = FindLightsWithProvenance(measured, sources, settings, evidence);
+  if (!found) return RefusedWith(std::move(found).error(), std::move(evidence));
+  return CalibratedSession{std::move(measured.session), std::move(found->file),
+                           std::move(evidence.spectra), std::move(evidence.pictures),
+                           Remarks{std::move(evidence.warnings), std::move(found->notes)}};
+}
+
+Calibrated<CalibratedSession> CalibrateSession(const std::string& path, const Sources& sources,
+                                               const CalibrationSettings& settings) {
+  auto measured = MeasureSession(path, sources, settings);
+  if (!measured) return tl::unexpected(std::move(measured).error());
+  return FitMeasured(*std::move(measured), sources, settings);
+}
+
+Result<Provenance> ProvenanceOf(const Session& session, const Sources& sources,
+                                const std::string& time) {
+  Provenance provenance;
+  provenance.generator = GeneratorName();
+  for (const std::string& path : session.input_files) {
+    auto hash = sources.sha256(path);
+    if (!hash) return Propagate(std::move(hash));
+    const fs::path relative = fs::path(path).lexically_proximate(session.directory);
+    provenance.inputs.push_back({relative.generic_string(), *std::move(hash)});
+  }
+  for (const SessionReading& row : session.readings) {
+    const std::string& device = row.reading.device;
+    const bool new_one = std::ranges::find(provenance.devices, device) == provenance.devices.end();
+    if (!device.empty() && new_one) provenance.devices.push_back(device);
+  }
+  provenance.time = time;
+  if (!time.empty()) return provenance;
+  for (const SessionReading& row : session.readings) {
+    provenance.time = std::max(provenance.time, row.reading.time);
+  }
+  return provenance;
+}
+
+void StageClock::Lap(tradeoff::Stage stage) {
+  const auto now = std::chrono::steady_clock::now();
+  seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/captures/capture_reading.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/calibrate/merge_bracket.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
+
+namespace lightcal {
+namespace {
+
+// What capture.camera is, where it is given.
+Result<CameraFile> CameraOfCapture(const Session& session, const CaptureDescription& capture,
+                                   const Sources& sources) {
+  if (capture.camera.empty()) return CameraFile{};
+  const auto text = sources.read_text(PathInSession(session, capture.camera));
+  if (!text) return tl::unexpected(text.error());
+  return CameraFileFromJson(*text, capture.camera);
+}
+
+Result<std::optional<KnownCamera>> UseOf(const CameraFile& camera,
+                                         const CaptureDescription& capture) {
+  if (capture.camera.empty()) return std::nullopt;
+  if (!camera.profile) {
+    if (capture.nd.empty()) return std::nullopt;
+    return Refused("unknown_nd", capture.nd,
+                   capture.camera +
+                       " holds spectral sensitivities, which know no filters; give a "
+                       "profile made by {CalibrateCamera}");
+  }
+  KnownCamera use;
+  use.profile = std::make_shared<const CameraProfile>(*camera.profile);
+  use.nd = capture.nd;
+  return use;
+}
+
+}  // namespace
+
+tl::unexpected<Error> AtCapture(const CaptureDescription& capture, Error error) {
+  if (error.code == "no_exposure_metadata") {
+    error.message =
+        "the frames do not say their exposure; give exposure_s = [..], f_number and iso in the "
+        "[[capture]], or anchor_illuminance_lx (" +
+        error.message + ")";
+  }
+  error.subject = capture.where + " (" + error.subject + ")";
+  return tl::unexpected(std::move(error));
+}
+
+Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& capture,
+                            const Sources& sources) {
+  BracketOverrides overrides;
+  for (const double time : capture.exposure_s) overrides.exposure.emplace_back(time);
+  overrides.f_number = capture.f_number;
+  overrides.iso = capture.iso;
+  const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
+  auto bracket = sources.open_bracket(patterns, overrides);
+  if (!bracket || capture.work.frame_stride <= 1) return bracket;
+  std::vector<FrameInfo> kept;
+  const auto stride = static_cast<std::size_t>(capture.work.frame_stride);
+  for (std::size_t i = 0; i < bracket->frames.size(); i += stride) {
+    kept.push_back(std::move(bracket->frames[i]));
+  }
+  bracket->frames = std::move(kept);
+  return bracket;
+}
+
+Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescription& capture,
+                                    const Bracket& bracket,
+                                    const std::optional<SpotReading>& anchor,
+                                    const Sources& sources) {
+  const FrameInfo& info = bracket.frames.front();
+  auto color = ColorOfPicture(info);
+  if (!color) return Propagate(std::move(color));
+  auto camera = CameraOfCapture(session, capture, sources);
+  if (!camera) return Propagate(std::move(camera));
+  auto use = UseOf(*camera, capture);
+  if (!use) return Propagate(std::move(use));
+  BracketMergeRequest request;
+  request.anchor = anchor;
+  request.want_sigma = true;
+  request.work = capture.work;
+  request.camera = *std::move(use);
+  const bool profiled = request.camera && request.camera->profile->color;
+  if (color->has_colour || profiled) request.space = RgbSpace::kSrgb;
+  auto merged = MergeBracket(bracket, sources, request);
+  if (!merged) return Propagate(std::move(merged));
+  return CapturePicture{info, *std::move(color), *std::move(camera), ThinningOf(info, capture.work),
+                        *std::move(merged)};
+}
+
+Result<Region> RegionOfCapture(const CaptureDescription& capture, const FrameInfo& info,
+                               const Region& otherwise) {
+  Region region = otherwise;
+  if (capture.rect) {
+    const auto& r = *capture.rect;
+    region = {r[0], r[1], r[2], r[3]};
+  }
+  if (auto inside = CheckRegion(region, info.width, info.height); !inside) {
+    return Propagate(std::move(inside));
+  }
+  return region;
+}
+
+Nits AnchorLuminance(const CaptureDescription& capture) {
+  return Nits(capture.anchor_illuminance->value() * capture.reflectance / std::numbers::pi);
+}
+
+double AnchorSigma(const Session& session, const CaptureDescription& capture) {
+  Reading anchor;
+  anchor.meter = capture.meter;
+  return SigmaRelative(session, anchor);
+}
+
+Rgb RgbAt(const MergedBracket& merged, std::size_t pixel) {
+  const float* p = &merged.picture[pixel * static_cast<std::size_t>(merged.channels)];
+  return merged.channels == 3 ? Rgb{p[0], p[1], p[2]} : Rgb{p[0], p[0], p[0]};
+}
+
+std::vector<float> LuminanceOf(const MergedBracket& merged, double factor) {
+  std::vector<float> nits;
+  const std::size_t pixels = merged.picture.size() / static_cast<std::size_t>(merged.channels);
+  nits.reserve(pixels);
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double value = merged.channels == 3 ? LuminanceOfRgb(RgbAt(merged, i), RgbSpace::kSrgb)
+                                              : double{merged.picture[i]};
+    nits.push_back(static_cast<float>(factor * value));
+  }
+  return nits;
+}
+
+void AddCapture(const Session& session, const CaptureDescription& capture,
+                const MergedBracket& merged, Evidence& evidence) {
+  for (const MergedFrame& frame : merged.frames) evidence.AddFile(frame.info.file);
+  for (const std::string& name : {capture.camera, capture.spectrum_file}) {
+    if (!name.empty()) evidence.AddFile(PathInSession(session, name));
+  }
+  if (capture.anchor_illuminance || merged.scale_source == ScaleSource::kCamera) return;
+  evidence.warnings.push_back(
+      {"scale_prior", capture.where,
+       "its absolute scale is what the ISO speed promises, +-" +
+           RoundedText(100.0 * merged.scale_u95_relative, 2) +
+           " %; one lux reading of this light, or anchor_illuminance_lx, makes it sure"});
+}
+
+CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription& capture,
+                                const CapturePicture& picture, const LampLuminance& lamp,
+                                const PictureFindings& findings) {
+  const FrameInfo& info = picture.info;
+  CaptureReading out;
+  out.camera = info.camera;
+  out.anchored = capture.anchor_illuminance.has_value();
+  out.independent_sd = findings.independent_sd;
+  out.shared_sd = out.anchored ? AnchorSigma(session, capture)
+                               : std::hypot(picture.merged.scale_u95_relative / kZ95, lamp.sigma,
+                                            findings.method_sd);
+  Reading& reading = out.reading;
+  reading.light = capture.light;
+  reading.distance = capture.distance;
+  reading.illuminance = capture.anchor_illuminance.value_or(findings.illuminance);
+  reading.xy = lamp.xy;
+  reading.color_source = lamp.xy ? ColorSource::kCamera : ColorSource::kUnknown;
+  if (lamp.xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
+  reading.quality = MeterQuality::kDerived;
+  reading.device = (picture.merged.scale_source == ScaleSource::kCamera ? kCalibratedDevicePrefix
+                                                                        : kCameraDevicePrefix) +
+                   (info.camera.empty() ? info.format : info.camera);
+  reading.time = info.time;
+  return out;
+}
+
+}  // namespace lightcal

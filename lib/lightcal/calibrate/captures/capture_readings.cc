@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/captures/capture_readings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "lightcal/calibrate/captures/capture_reading.h"
+#include "lightcal/calibrate/captures/card_capture.h"
+#include "lightcal/calibrate/captures/dome_capture.h"
+#include "lightcal/calibrate/captures/source_capture.h"
+
+namespace lightcal {
+namespace {
+
+// None where the pictures tell something else of the light than how bright it is.
+Result<std::optional<CaptureReading>> ReadCapture(const Session& session,
+                                                  const CaptureDescription& capture,
+                                                  const Sources& sources, Evidence& evidence) {
+  switch (capture.use) {
+    case CaptureUse::kCard:
+      return ReadCard(session, capture, sources, evidence);
+    case CaptureUse::kSource:
+      return ReadSource(session, capture, sources, evidence);
+    case CaptureUse::kDome:
+      return ReadDomeCapture(session, capture, sources, evidence);
+    case CaptureUse::kWall:  // MeasureWalls
+    case CaptureUse::kBall:  // PlaceByBalls
+      return std::nullopt;
+  }
+  return Refused("capture_unsupported", capture.where, "this use is not built");
+}
+
+}  // namespace
+
+Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sources,
+                                     Evidence& evidence) {
+  struct Read {
+    CaptureReading one;
+    std::string where;
+  };
+  std::vector<Read> all;
+  std::map<std::pair<std::string, std::string>, int> sharing;  // captures by light and camera
+  Session sized = session;
+  for (const CaptureDescription& capture : session.captures) {
+    auto read = ReadCapture(sized, capture, sources, evidence);
+    if (!read) return AtCapture(capture, std::move(read).error());
+    if (!*read) continue;
+    CaptureReading& one = **read;
+    if (one.sized) {
+      *std::ranges::find(sized.lights, one.sized->name, &LightDescription::name) = *one.sized;
+    }
+    if (!one.anchored) ++sharing[{one.reading.light, one.camera}];
+    all.push_back({std::move(one), capture.where});
+  }
+  CaptureReadings out;
+  out.lights = std::move(sized.lights);
+  for (auto& [one, where] : all) {
+    const int others = one.anchored ? 1 : sharing[{one.reading.light, one.camera}];
+    one.reading.sigma_relative =
+        std::min(0.99, std::hypot(one.independent_sd, std::sqrt(others) * one.shared_sd));
+    out.readings.push_back({std::move(one.reading), where});
+  }
+  return out;
+}
+
+bool RestsOnCameraScale(const Session& session, const std::string& light) {
+  bool any = false;
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light || !row.reading.illuminance) continue;
+    if (!row.reading.device.starts_with(kCameraDevicePrefix)) return false;
+    any = true;
+  }
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.light == light && capture.anchor_illuminance) return false;
+  }
+  return any;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/captures/card_capture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/calibrate/captures/lamp_luminance.h"
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kLargestCardUnevenness =
+    0.1;                               // sd of the card's pixels beyond their noise, relative
+constexpr double kLostSigma = 0.9;     // a pixel's sigma / value where it says nothing
+constexpr double kLargestLost = 0.01;  // share of such pixels
+
+// Mean colour of the card in cd/m^2 and how well it is known.
+struct CardPatch {
+  Xyz color;              // as ColorOfPicture has it
+  double noise_sd = 0.0;  // of the mean luminance, relative
+  double uneven_sd = 0.0;
+};
+
+Result<CardPatch> MeasureCard(const MergedBracket& merged, const Region& card) {
+  double sum[3] = {}, luminance = 0.0, luminance2 = 0.0, variance = 0.0;
+  int lost = 0;
+  for (int y = card.y; y < card.y + card.height; ++y) {
+    for (int x = card.x; x < card.x + card.width; ++x) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(merged.width) +
+                     static_cast<std::size_t>(x);
+      const Rgb rgb = RgbAt(merged, i);
+      sum[0] += rgb.r;
+      sum[1] += rgb.g;
+      sum[2] += rgb.b;
+      const double value = LuminanceOfRgb(rgb, RgbSpace::kSrgb);
+      const double sigma = double{merged.sigma[i]};
+      luminance += value;
+      luminance2 += value * value;
+      variance += sigma * sigma;
+      if (!(sigma < kLostSigma * value)) ++lost;
+    }
+  }
+  const double count = static_cast<double>(card.width) * card.height;
+  if (!(luminance > 0.0) || lost > kLargestLost * count) {
+    return Refused("card_unreadable", "rect",
+                   "the card is saturated in every frame or lost in the noise; expose shorter or "
+                   "longer, or give its place with rect = [x, y, width, height]");
+  }
+  const double mean = luminance / count;
+  const double scatter2 = std::max(0.0, luminance2 / count - mean * mean);
+  CardPatch patch;
+  patch.color = XyzFromLinearRgb({sum[0] / count, sum[1] / count, sum[2] / count}, RgbSpace::kSrgb);
+  patch.noise_sd = kInterpolatedNoise * std::sqrt(variance) / luminance;
+  patch.uneven_sd = std::sqrt(std::max(0.0, scatter2 - variance / count)) / mean;
+  if (patch.uneven_sd > kLargestCardUnevenness) {
+    return Refused("card_uneven", "rect",
+                   "what should be the card varies by " + RoundedText(100.0 * patch.uneven_sd, 2) +
+                       " %; give its place with rect = [x, y, width, height], inside its edges");
+  }
+  return patch;
+}
+
+}  // namespace
+
+Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription& capture,
+                                const Sources& sources, Evidence& evidence) {
+  const auto bracket = OpenCapture(session, capture, sources);
+  if (!bracket) return tl::unexpected(bracket.error());
+  const FrameInfo& info = bracket->frames.front();
+  const Region middle{info.width / 3, info.height / 3, info.width / 3, info.height / 3};
+  const auto stated = RegionOfCapture(capture, info, middle);
+  if (!stated) return tl::unexpected(stated.error());
+  const Region card = ThinRegion(*stated, ThinningOf(info, capture.work));
+  std::optional<SpotReading> anchor;
+  if (capture.anchor_illuminance) {
+    anchor = SpotReading{card.x, card.y, card.width, card.height, AnchorLuminance(capture)};
+  }
+  const auto picture = MergeCapture(session, capture, *bracket, anchor, sources);
+  if (!picture) return tl::unexpected(picture.error());
+  evidence.AddWarnings(picture->merged.warnings);
+  const auto patch = MeasureCard(picture->merged, card);
+  if (!patch) return tl::unexpected(patch.error());
+  const auto lamp = LuminanceOfLamp(session, capture, *picture, patch->color, sources);
+  if (!lamp) return tl::unexpected(lamp.error());
+  AddCapture(session, capture, picture->merged, evidence);
+  evidence.pictures.push_back(
+      RecordedOf(capture, picture->merged, anchor ? 1.0 : lamp->nits / patch->color.Y));
+  CaptureReading out =
+      ReadingOfPicture(session, capture, *picture, *lamp,
+                       {.illuminance = Lux(std::numbers::pi * lamp->nits / capture.reflectance),
+                        .independent_sd = std::hypot(patch->noise_sd, patch->uneven_sd),
+                        .method_sd = capture.reflectance_sigma});
+  out.reading.tilt = capture.tilt;
+  return out;
+}
+
+}  // namespace lightcal

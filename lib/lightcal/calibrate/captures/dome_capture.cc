@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/captures/dome_capture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lightcal/calibrate/dome/read_dome.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/camera/spectral_mismatch.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kUnstatedSd = 0.05;  // of a picture in cd/m^2 that does not say how sure
+
+// Colour of the light that falls on an upward plane.
+std::optional<Xy> ColorFromAbove(const Dome& dome) {
+  const LatLongGrid grid = dome.grid();
+  Column3 sum{};
+  for (int y = 0; y < dome.height / 2; ++y) {
+    for (int x = 0; x < dome.width; ++x) {
+      const auto at = 3 * (static_cast<std::size_t>(y) * dome.width + x);
+      const double weight = grid.Flow(x, y)[2];
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * double{dome.samples[at + c]};
+    }
+  }
+  const Column3 xyz = Times(dome.xyz_from_rgb, sum);
+  if (!(xyz[0] + xyz[1] + xyz[2] > 0.0)) return std::nullopt;
+  return XyFromXyz({xyz[0], xyz[1], xyz[2]});
+}
+
+Result<DomeRequest> RequestOf(const Session& session, const CaptureDescription& capture,
+                              const Sources& sources) {
+  const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
+  auto files = sources.expand_files(patterns);
+  if (!files) return Propagate(std::move(files));
+  if (files->size() != 1) {
+    return Refused("several_pictures", capture.frames,
+                   "a dome is one panorama; merge its bracket ({MergeBracket}), or compose views "
+                   "({MakeDome}), and name the result");
+  }
+  DomeRequest request;
+  request.input.files = std::move(*files);
+  request.input.projection = capture.projection.value_or(Projection::kLatLong);
+  request.input.field_of_view = capture.field_of_view.value_or(Radians(0.0));
+  if (capture.anchor_illuminance) {
+    request.reading = DomeReading{.illuminance = *capture.anchor_illuminance,
+                                  .sigma_relative = AnchorSigma(session, capture),
+                                  .shaded = std::nullopt};
+  }
+  return request;
+}
+
+}  // namespace
+
+Result<CaptureReading> ReadDomeCapture(const Session& session, const CaptureDescription& capture,
+                                       const Sources& sources, Evidence& evidence) {
+  const LightDescription* const light = FindLight(session, capture.light);
+  if (light == nullptr || light->kind != LightKind::kDome) {
+    return Refused("not_a_dome", capture.light,
+                   "use = \"dome\" measures all that surrounds the scene: its light is one of "
+                   "kind = \"dome\"");
+  }
+  const auto request = RequestOf(session, capture, sources);
+  if (!request) return tl::unexpected(request.error());
+  const auto measured = MeasureDome(*request, sources);
+  if (!measured) return tl::unexpected(measured.error());
+  const DomeInput& input = measured->input;
+  if (!capture.anchor_illuminance && !input.absolute) {
+    return Refused("no_scale", input.files.front(),
+                   "nobody knows this picture's unit; give anchor_illuminance_lx, read where it "
+                   "was taken, lying flat");
+  }
+  evidence.AddWarnings(measured->warnings);
+  evidence.AddFile(input.files.front());
+  evidence.pictures.push_back(RecordedOf(capture, input.dome.luminance()));
+
+  CaptureReading out;
+  out.anchored = capture.anchor_illuminance.has_value();
+  const double stated = input.scale_u95_relative ? *input.scale_u95_relative / kZ95 : kUnstatedSd;
+  out.shared_sd = out.anchored ? AnchorSigma(session, capture) : stated;
+  Reading& reading = out.reading;
+  reading.light = capture.light;
+  reading.illuminance = capture.anchor_illuminance.value_or(
+      IlluminanceOn(input.dome.luminance(), input.dome.grid(), {0.0, 0.0, 1.0}));
+  if (input.has_colour) reading.xy = ColorFromAbove(input.dome);
+  if (reading.xy) {
+    reading.color_source = ColorSource::kCamera;
+    reading.sigma_mired = GenericColorSigma(capture.lamp_class);
+  }
+  reading.quality = MeterQuality::kDerived;
+  reading.device = "panorama";
+  return out;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What measuring a session brings to light beside its readings.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/calibrate/captures/recorded_picture.h"
+#include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/result.h"
+
+namespace lightcal {
+
+// The first spectrum of a light, as its file has it.
+struct NamedSpectrum {
+  std::string light;
+  std::string file;  // as the session names it
+  Spectrum spectrum;
+};
+
+struct Evidence {
+  std::vector<std::string> files;  // that were read, each once, in this order
+  std::vector<NamedSpectrum> spectra;
+  std::vector<RecordedPicture> pictures;
+  Warnings warnings;
+
+  void AddFile(const std::string& path);
+  void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum);
+  void AddWarnings(const Warnings& more);
+};
+
+}  // namespace lightcal

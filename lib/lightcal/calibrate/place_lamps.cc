@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/place_lamps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/did_you_mean.h"
+#include "lightcal/core/uncertain.h"
+
+namespace lightcal {
+namespace {
+
+constexpr Vec3 kDown = {0.0, 0.0, -1.0};
+
+std::optional<Vec3> Find(const LampPlaces::ByLight& overrides, const std::string& name,
+                         const std::optional<Vec3>& otherwise) {
+  const auto at = overrides.find(name);
+  return at != overrides.end() ? std::optional<Vec3>(at->second) : otherwise;
+}
+
+bool HasPlace(LightKind kind) {
+  return kind != LightKind::kDirectional && kind != LightKind::kDome;
+}
+bool NeedsAim(const FittedLight& light) {
+  return light.kind == LightKind::kDisk || light.kind == LightKind::kRect ||
+         light.kind == LightKind::kSpot || light.kind == LightKind::kPhotometric ||
+         light.kind == LightKind::kDirectional;
+}
+
+Result<Uncertain> StrengthOf(const FittedLight& light) {
+  std::optional<Uncertain> strength =
+      HasPlace(light.kind) ? light.intensity_cd : light.illuminance_lx;
+  if (light.kind == LightKind::kDome && !strength && light.luminance_nits) {
+    const Uncertain& nits = *light.luminance_nits;
+    strength = Uncertain{std::numbers::pi * nits.value, std::numbers::pi * nits.u95, std::nullopt,
+                         std::nullopt};
+  }
+  if (strength && strength->value > 0.0) return *strength;
+  return Refused(
+      "no_intensity", light.name,
+      "has no luminous intensity (or illuminance) to predict from; fit it from a reading");
+}
+
+LampSource SourceOf(const FittedLight& light, Warnings& warnings) {
+  const auto unknown_size = [&](const char* size) {
+    warnings.push_back({"size_unknown", light.name,
+                        std::string("no ") + size + " is known: simulated as a small " +
+                            std::string(LightKindName(light.kind)) +
+                            "; near it that is too bright"});
+  };
+  const auto cone = [&]() -> std::optional<LampSource> {
+    if (!light.outer_deg || !(*light.outer_deg > 0.0)) return std::nullopt;
+    const double outer = std::min(*light.outer_deg, 180.0);
+    return SpotSource{{RadiansFromDegrees(std::min(light.inner_deg.value_or(0.0), outer)),
+                       RadiansFromDegrees(outer)}};
+  };
+  switch (light.kind) {
+    case LightKind::kDirectional:
+      return SunSource{RadiansFromDegrees(0.5 * light.angular_diameter_deg.value_or(0.0)).value()};
+    case LightKind::kDome:
+      return EvenSky{};
+    case LightKind::kSphere:
+      return SphereSource{0.5 * light.diameter_m.value_or(0.0)};
+    case LightKind::kDisk:
+      if (!light.diameter_m) unknown_size("diameter_m");
+      return DiskSource{0.5 * light.diameter_m.value_or(0.0)};
+    case LightKind::kRect:
+      if (!light.width_m || !light.height_m) unknown_size("size_m");
+      return RectSource{0.5 * light.width_m.value_or(0.0), 0.5 * light.height_m.value_or(0.0)};
+    case LightKind::kTube:
+      if (light.length_m && *light.length_m > 0.0) {
+        return TubeSource{0.5 * *light.length_m, light.radius_m.value_or(0.0)};
+      }
+      unknown_size("length_m");
+      return PointSource{};
+    case LightKind::kPhotometric:
+      if (light.distribution) {
+        return TableSource{std::make_shared<IntensityTable>(light.distribution->table)};
+      }
+      [[fallthrough]];
+    case LightKind::kSpot:
+      if (const auto spot = cone()) return *spot;
+      warnings.push_back(
+          {"cone_unknown", light.name,
+           "no outer_deg is known: simulated as shining evenly all round, right along "
+           "its aim only; give outer_deg or measure off the axis"});
+      return PointSource{};
+    case LightKind::kPoint:
+      break;
+  }
+  return PointSource{};
+}
+
+// Standard deviation of ln strength of an estimate that has no covariance.
+double SdOfLog(const Uncertain& u) {
+  if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
+  return u.u95 / (u.value * kZ95);
+}
+
+LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stated_position) {
+  LampDoubt doubt;
+  const double sd = SdOfLog(strength);
+  doubt.variance_ln = sd * sd;
+  if (light.covariance_lnI_d0_E0) {
+    const auto& c = *light.covariance_lnI_d0_E0;
+    doubt.variance_ln = c[0];
+    doubt.covariance = c[1];
+    doubt.variance_offset = c[4];
+  } else if (light.distance_offset_m) {
+    const double offset = light.distance_offset_m->u95 / kZ95;
+    doubt.variance_offset = offset * offset;
+  }
+  if (light.position_u95_m && stated_position) {
+    doubt.position_m = *light.position_u95_m * (1.0 / kZ95);
+  }
+  const auto radians = [](const std::optional<double>& u95_deg) {
+    return RadiansFromDegrees(u95_deg.value_or(0.0) / kZ95).value();
+  };
+  doubt.aim_rad = radians(light.aim_u95_deg);
+  doubt.inner_rad = radians(light.inner_u95_deg);
+  doubt.outer_rad = radians(light.outer_u95_deg);
+  return doubt;
+}
+
+// AxesOfAim puts a table's C0 along c0 and C90 along c90: right-handed with -aim.
+SourceFrame FrameOfTable(const Vec3& aim) {
+  const LampAxes axes = AxesOfAim(aim);
+  return {axes.c0, axes.c90, axes.aim};
+}
+
+class Placer {
+ public:
+  Placer(const Session* session, const LampPlaces& places) : session_(session), places_(places) {}
+
+  Result<PlacedLamp> Place(const FittedLight& light, Warnings& warnings) const {
+    const auto strength = StrengthOf(light);
+    if (!strength) return tl::unexpected(strength.error());
+    const auto position = Find(places_.position_m, light.name, light.position_m);
+    if (!position && HasPlace(light.kind)) {
+      return Refused("position_unknown", light.name,
+                     "was measured by distances: where it stands is not known; say so with "
+                     "{place.position} " +
+                         light.name + "=x,y,z (metres, Z up), or give position_m in its session");
+    }
+    const LightDescription* stated = session_ ? FindLight(*session_, light.name) : nullptr;
+    const Vec3 axis =
+        Find(places_.axis, light.name, stated ? stated->axis : std::nullopt).value_or(Vec3{});
+    auto aim = Find(places_.aim, light.name, light.aim);
+    if (!aim && NeedsAim(light)) {
+      warnings.push_back({"aim_unknown", light.name,
+                          "no aim is known: it shines straight down; {place.aim} " + light.name +
+                              "=x,y,z says otherwise"});
+    }
+    PlacedLamp lamp;
+    lamp.name = light.name;
+    lamp.source = SourceOf(light, warnings);
+    lamp.strength = strength->value;
+    lamp.pose.position_m = position.value_or(Vec3{});
+    // A tube known by its axis alone: any direction square to it serves as z.
+    const Vec3 z = aim ? *aim * (1.0 / Length(*aim))
+                   : light.kind == LightKind::kTube && Length(axis) > 0.0
+                       ? SourceFrame::Facing(axis).y
+                       : kDown;
+    lamp.pose.frame = std::holds_alternative<TableSource>(lamp.source)
+                          ? FrameOfTable(z)
+                          : SourceFrame::Facing(z, axis);
+    lamp.pose.offset_m = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
+    lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name));
+    if (std::holds_alternative<SpotSource>(lamp.source)) return lamp;
+    lamp.doubt.inner_rad = lamp.doubt.outer_rad = 0.0;
+    if (std::holds_alternative<PointSource>(lamp.source)) lamp.doubt.aim_rad = 0.0;
+    return lamp;
+  }
+
+ private:
+  const Session* session_;
+  const LampPlaces& places_;
+};
+
+}  // namespace
+
+Result<std::vector<const FittedLight*>> ChooseLights(const LightFile& file,
+                                                     const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (std::ranges::find(file.lights, name, &FittedLight::name) == file.lights.end()) {
+      return Refused("unknown_light", name,
+                     "is not among the lights" + DidYouMean(name, file.lights));
+    }
+  }
+  std::vector<const FittedLight*> chosen;
+  for (const FittedLight& light : file.lights) {
+    if (names.empty() || std::ranges::find(names, light.name) != names.end()) {
+      chosen.push_back(&light);
+    }
+  }
+  if (chosen.empty()) return Refused("no_lights", "", "there is no light to simulate");
+  return chosen;
+}
+
+Result<std::vector<PlacedLamp>> PlaceLamps(const std::vector<const FittedLight*>& lights,
+                                           const Session* session, const LampPlaces& places,
+                                           Warnings& warnings) {
+  const Placer placer(session, places);
+  std::vector<PlacedLamp> lamps;
+  for (const FittedLight* light : lights) {
+    auto lamp = placer.Place(*light, warnings);
+    if (!lamp) return Propagate(std::move(lamp));
+    lamps.push_back(*std::move(lamp));
+  }
+  return lamps;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fitted lights where they are to stand.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/light/placed_lamp.h"
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal {
+
+// What overrides the lights, by their names: metres; aim and axis of unit length.
+struct LampPlaces {
+  using ByLight = std::map<std::string, Vec3, std::less<>>;
+  ByLight position_m, aim, axis;
+};
+
+// The lights named (none: all), in the file's order.  Refused: unknown_light, no_lights.
+[[nodiscard]] Result<std::vector<const FittedLight*>> ChooseLights(
+    const LightFile& file, const std::vector<std::string>& names);
+
+// session, where there is one, adds the axes of rects and tubes, which a light.json does not hold.
+// A disk, rect, spot or photometric light without an aim shines straight down (aim_unknown); a spot
+// without a cone shines evenly (cone_unknown), a flat lamp or tube without a size is a point of its
+// kind (size_unknown).   Refused: position_unknown, no_intensity.
+[[nodiscard]] Result<std::vector<PlacedLamp>> PlaceLamps(
+    const std::vector<const FittedLight*>& lights, const Session* session, const LampPlaces& places,
+    Warnings& warnings);
+
+}  // namespace lightcal

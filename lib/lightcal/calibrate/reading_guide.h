@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What to measure next of one lamp, and when it is enough. Asks nobody, prints nothing.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/plan/plan_readings.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal {
+
+struct GuideAdvice {
+  enum class Kind : std::uint8_t {
+    kMeasure,
+    kReached,  // the wanted uncertainty
+    kNoGain,   // `step` is the best there is, and it would hardly help
+  };
+  Kind kind = Kind::kMeasure;
+  PlannedReading step{};
+};
+
+class ReadingGuide {
+ public:
+  // until_relative: half of the 95 % interval wanted, over the value.
+  ReadingGuide(const Session& session, const std::string& light, double until_relative,
+               bool shadow_cards);
+
+  // A card goes before each new reading's lamp while other light matters: more than
+  // kOtherLightMatters of the reading, by the last card. Else the reading that PlanReadings finds
+  // best, until it would lower the uncertainty by less than kLeastGain.
+  // Refused: as PlanReadings.
+  [[nodiscard]] Result<GuideAdvice> Next() const;
+
+  // The lamp as the readings so far and this one say.  Refused: as FitSession, no_readings.
+  [[nodiscard]] Result<FittedLight> FitWith(const Reading& reading) const;
+  // Why this reading looks like a mistake, "" where it does not.
+  [[nodiscard]] std::string DoubtAbout(const Reading& reading) const;
+  void Add(const Reading& reading);
+  // This step is not advised again; a card skipped once is not asked for again anywhere.
+  void Skip(const PlannedReading& step);
+
+  // What the readings so far say; absent before the first, and where they say nothing.
+  [[nodiscard]] const std::optional<FittedLight>& light() const { return fitted_; }
+  [[nodiscard]] std::optional<double> u95_relative() const;
+  // Of the last pair: what the card left over what the meter saw without it.
+  [[nodiscard]] std::optional<double> other_light_share() const { return other_share_; }
+
+ private:
+  [[nodiscard]] Result<FittedLight> FitOf(const std::vector<SessionReading>& readings) const;
+  [[nodiscard]] std::optional<PlannedReading> PendingCard() const;
+  // The lit reading of the same place, the newest; null = none.
+  [[nodiscard]] const Reading* LitAtPlaceOf(const Reading& card) const;
+  [[nodiscard]] bool IsSkipped(const PlannedReading& step) const;
+
+  Session session_;  // this light only
+  double until_relative_;
+  bool shadow_cards_;
+  std::vector<PlannedReading> skipped_;
+  std::optional<Reading> uncarded_;  // the newest lit reading without a card
+  std::optional<FittedLight> fitted_;
+  std::optional<double> other_share_, other_lux_;
+};
+
+}  // namespace lightcal
