@@ -23,6 +23,24 @@ Result<Lux> ParseReading(const char* option, const std::string& text) {
   return *lux;
 }
 
+// "up", "down", or "AZIMUTH,ELEVATION" in degrees: right of +Y, above the horizon.
+Result<Vec3> ParseDirection(const std::string& option, const std::string& text) {
+  if (text == "up") return Vec3{0.0, 0.0, 1.0};
+  if (text == "down") return Vec3{0.0, 0.0, -1.0};
+  const std::size_t comma = text.find(',');
+  const auto wrong = [&] {
+    return WrongUsage(option, "\"" + text +
+                                  "\" is neither up, down nor AZIMUTH,ELEVATION in degrees (right "
+                                  "of the picture's centre, above the horizon)");
+  };
+  if (comma == std::string::npos) return wrong();
+  const auto azimuth = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
+  const auto elevation = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
+  if (!azimuth || !elevation || std::abs(*elevation) > 90.0) return wrong();
+  const double a = RadiansFromDegrees(*azimuth).value(), e = RadiansFromDegrees(*elevation).value();
+  return Vec3{std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
+}
+
 Result<std::optional<DomeReading>> ReadingOf(const DomeOptions& options) {
   if (options.lux.empty()) {
     if (!options.lux_shaded.empty()) return WrongUsage("--lux-shaded", "belongs to a --lux");
@@ -44,24 +62,6 @@ Result<std::optional<DomeReading>> ReadingOf(const DomeOptions& options) {
     reading.shaded = *shaded;
   }
   return std::optional(reading);
-}
-
-// "up", "down", or "AZIMUTH,ELEVATION" in degrees: right of +Y, above the horizon.
-Result<Vec3> ParseDirection(const std::string& option, const std::string& text) {
-  if (text == "up") return Vec3{0.0, 0.0, 1.0};
-  if (text == "down") return Vec3{0.0, 0.0, -1.0};
-  const std::size_t comma = text.find(',');
-  const auto wrong = [&] {
-    return WrongUsage(option, "\"" + text +
-                                  "\" is neither up, down nor AZIMUTH,ELEVATION in degrees (right "
-                                  "of the picture's centre, above the horizon)");
-  };
-  if (comma == std::string::npos) return wrong();
-  const auto azimuth = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
-  const auto elevation = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
-  if (!azimuth || !elevation || std::abs(*elevation) > 90.0) return wrong();
-  const double a = RadiansFromDegrees(*azimuth).value(), e = RadiansFromDegrees(*elevation).value();
-  return Vec3{std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
 }
 
 Result<ViewAim> ParseAim(const std::string& text) {
@@ -164,7 +164,7 @@ void AddDomeOptions(CLI::App& parser, DomeOptions& w) {
 Result<DomeRequest> DomeRequestOf(const DomeOptions& options) {
   DomeRequest request;
   request.input.files = options.files;
-  if (auto views = TakeViews(words, request.input); !views) return Propagate(std::move(views));
+  if (auto views = TakeViews(options, request.input); !views) return Propagate(std::move(views));
   if (!options.convention.empty()) {
     const auto convention = ParseConvention("--luminance-convention", options.convention);
     if (!convention) return tl::unexpected(convention.error());
@@ -182,7 +182,7 @@ Result<DomeRequest> DomeRequestOf(const DomeOptions& options) {
     if (!north) return tl::unexpected(north.error());
     request.north = *north;
   }
-  auto reading = ReadingOf(words);
+  auto reading = ReadingOf(options);
   if (!reading) return Propagate(std::move(reading));
   request.reading = *reading;
   return request;
