@@ -2,11 +2,9 @@
 #include "output_files.h"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
 #include <signal.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -219,29 +217,7 @@ void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {
   for (OutputFile& file : files) file.path = (fs::path(directory) / file.path).string();
 }
 
-Result<std::string> ReadWholeFile(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return Failed("not_found", path, "no such file");
-  std::ifstream stream(path, std::ios::binary);
-  std::string contents{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad() || fs::is_directory(path, error)) {
-    return Failed("unreadable", path, "cannot be read; is it a file you may open?");
-  }
-  return contents;
-}
-
-std::string Sha256Hex(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
-  constexpr std::string_view kHex = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kHex[digest[i] >> 4U];
-    text += kHex[digest[i] & 0xFU];
-  }
-  return text;
-}
+Result<std::string> ReadWholeFile(const std::string& path) { return DiskSources().read_text(path); }
 
 std::string GeneratorName() { return "lightcal " LIGHTCAL_VERSION; }
 

@@ -5,10 +5,10 @@
 
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal_devices/disk_sources.h"
 
 namespace lightcal::app {
 
@@ -44,9 +44,6 @@ void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);
 
 // Whole file as bytes. Fails: not_found, unreadable.
 [[nodiscard]] Result<std::string> ReadWholeFile(const std::string& path);
-
-// SHA-256 of bytes, lower-case hex.
-[[nodiscard]] std::string Sha256Hex(std::string_view bytes);
 
 // "lightcal 0.1.0"
 [[nodiscard]] std::string GeneratorName();

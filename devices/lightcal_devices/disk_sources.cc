@@ -29,19 +29,6 @@ namespace {
 constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
 constexpr std::size_t kMostOfAnExport = std::size_t{256} << 20U;
 
-std::string Sha256Hex(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
-  constexpr std::string_view kHex = "0123456789abcdef";
-  std::string text;
-  for (unsigned int i = 0; i < length; ++i) {
-    text += kHex[digest[i] >> 4U];
-    text += kHex[digest[i] & 0xFU];
-  }
-  return text;
-}
-
 // Files that were read, by path.
 class Disk {
  public:
@@ -94,6 +81,19 @@ class Disk {
 };
 
 }  // namespace
+
+std::string Sha256Hex(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr);
+  constexpr std::string_view kHex = "0123456789abcdef";
+  std::string text;
+  for (unsigned int i = 0; i < length; ++i) {
+    text += kHex[digest[i] >> 4U];
+    text += kHex[digest[i] & 0xFU];
+  }
+  return text;
+}
 
 Sources DiskSources() {
   const auto disk = std::make_shared<Disk>();

@@ -137,13 +137,6 @@ TEST(Models, ASpotIsAPointTimesItsProfile) {
   }
 }
 
-TEST(Models, GodotsSpotIsFullOnTheAxisAndDarkAtItsRim) {
-  const double outer = HalfVersine(0.6);
-  EXPECT_NEAR(GodotSpotProfile(0.0, outer, 1.0), 1.0, 1e-4);
-  EXPECT_NEAR(GodotSpotProfile(0.5 * outer, outer, 2.0), 0.75, 1e-12);
-  EXPECT_EQ(GodotSpotProfile(outer, outer, 1.0), 0.0);
-}
-
 TEST(Models, ASunsDiskMattersOnlyAtTheHorizon) {
   const double radius = 0.00465;
   for (const double elevation : {0.0047, 0.3, 1.5}) {

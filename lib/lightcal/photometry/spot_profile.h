@@ -39,14 +39,4 @@ template <class T>
   return falloff == SpotFalloff::kSquaredLinear ? T(t * t) : T(t * t * (T(3) - T(2) * t));
 }
 
-// Godot's spot: f = 1 - max(s/s_o, 1e-4)^a inside the cone of half angle o, a its angle
-// attenuation.   Source: Godot, scene_forward_lights_inc.glsl, light_process_spot.
-template <class T>
-[[nodiscard]] T GodotSpotProfile(const T& s, const T& s_outer, double angle_attenuation) {
-  using std::pow;
-  const T rim = s / s_outer;
-  if (!(rim < T(1))) return T(0);
-  return T(1) - pow(rim > T(1e-4) ? rim : T(1e-4), angle_attenuation);
-}
-
 }  // namespace lightcal

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/srgb_encoding.h"
 
 namespace lightcal::report {
 namespace {
@@ -13,8 +14,7 @@ namespace {
 // Two hex digits.
 std::string EncodedHex(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
-  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-  const auto code = static_cast<unsigned int>(std::lround(encoded * 255.0));
+  const auto code = static_cast<unsigned int>(std::lround(SrgbEncoded(c) * 255.0));
   constexpr std::string_view kHex = "0123456789abcdef";
   return {kHex[code >> 4U], kHex[code & 0xFU]};
 }
