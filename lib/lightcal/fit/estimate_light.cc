@@ -8,6 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/fit/model/parameter.h"
 #include "lightcal/fit/model/prepare.h"
 #include "lightcal/fit/model/robust.h"
 #include "lightcal/fit/model/starts.h"
@@ -16,7 +17,6 @@ namespace lightcal::fit {
 namespace {
 
 constexpr double kPriorConflict = 2.0;  // prior standard deviations
-constexpr double kLearned = 0.8;        // of the prior standard deviation
 constexpr double kConditionFull = 100.0;
 constexpr double kConditionPriors = 1000.0;
 
@@ -127,7 +127,7 @@ void NameLearned(const Estimation& estimation, const Covariance& covariance, boo
     const ParameterRule& rule = estimation.rules[k];
     if (!rule.free) return false;
     return !(rule.prior_sd > 0.0) ||
-           std::sqrt(covariance[k * kParameters + k]) < kLearned * rule.prior_sd;
+           std::sqrt(covariance[k * kParameters + k]) < kLearnedShare * rule.prior_sd;
   };
   diagnostics.learned.emplace_back(distance_law ? "intensity" : "illuminance");
   if (distance_law) {

@@ -19,7 +19,7 @@ namespace {
 constexpr double kHalfPi = 0.5 * std::numbers::pi;
 constexpr double kDarkShare = 0.002;  // of the beam's peak: what a meter still sees in the dark
 constexpr std::size_t kStartsTried = 12;
-constexpr double kSpread = 1.5;
+constexpr double kBeamSpread = 1.5;
 
 using Parameters = std::array<double, kSpotParameters>;
 
@@ -178,7 +178,7 @@ Information InformationAt(const Beam& beam, const Parameters& p) {
   return information;
 }
 
-// The covariance averaged over the estimate's own spread (itself and kSpread standard deviations to
+// The covariance averaged over the estimate's own spread (itself and kBeamSpread standard deviations to
 // both sides along each axis). A reading on the edge of the inner cone tells much on one side of it
 // and nothing on the other, so that the curvature at the estimate alone may claim four times too
 // much.
@@ -188,7 +188,7 @@ Information SpreadCovariance(const Beam& beam, const Parameters& p) {
   Information sum = at.inverse();
   int count = 1;
   for (int k = 0; k < kSpotParameters; ++k) {
-    const double sd = kSpread / std::sqrt(axes.eigenvalues()[k]);
+    const double sd = kBeamSpread / std::sqrt(axes.eigenvalues()[k]);
     for (const double side : {-1.0, 1.0}) {
       Parameters moved = p;
       for (int j = 0; j < kSpotParameters; ++j) {

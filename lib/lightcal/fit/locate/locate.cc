@@ -142,12 +142,11 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
   std::ranges::sort(d.rejected);
   d.condition = condition;
   d.learned = {"intensity", "position"};
-  constexpr double kLearned = 0.8;  // as in estimate_light.cc
   const double ambient_sd =
       std::sqrt(covariance[kPlacedAmbient * kPlacedParameters + kPlacedAmbient]);
   const bool told = estimation.rules[kPlacedAmbient].free &&
                     (!(estimation.rules[kPlacedAmbient].prior_sd > 0.0) ||
-                     ambient_sd < kLearned * estimation.rules[kPlacedAmbient].prior_sd);
+                     ambient_sd < kLearnedShare * estimation.rules[kPlacedAmbient].prior_sd);
   (told ? d.learned : d.prior).emplace_back("ambient");
   d.degrees_of_freedom = std::max(0, DegreesOfFreedom(estimation));
   if (d.degrees_of_freedom < 1) return;

@@ -14,6 +14,10 @@ struct ParameterRule {
   double prior_sd = 0.0;
 };
 
+// Readings have taught a parameter something where its standard deviation fell below this share of
+// its prior's.
+inline constexpr double kLearnedShare = 0.8;
+
 // Where a free parameter must stay.
 struct Bounds {
   double low = -std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ constexpr double kNearest = 0.25;  // metres a person holds a meter from a lamp
 constexpr double kFarthest = 10.0;
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
-constexpr double kSpread = 1.25;
+constexpr double kPlaceSpread = 1.25;
 
 // Length of what a meter must stay clear of.
 double SizeOf(const LightDescription& light) {
@@ -178,7 +178,7 @@ class Candidates {
       for (int j = -steps[1]; j <= steps[1]; ++j) {
         for (int k = -steps[2]; k <= steps[2]; ++k) {
           const Vec3 offset{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
-          AddPlace(middle + offset * (kSpread * reach / kPlaneSteps), out);
+          AddPlace(middle + offset * (kPlaceSpread * reach / kPlaneSteps), out);
         }
       }
     }
