@@ -61,7 +61,7 @@ TEST(InspectPicture, GivesTheLuminanceThatTheCommandPrints) {
   ASSERT_TRUE(WriteExr(file, exr));
   const auto seen = InspectPicture(file, DiskSources(), {}, LuminanceConvention::kPhotometric);
   ASSERT_TRUE(seen) << seen.error().message;
-  const CliResult printed = RunCli({"inspect", file, "--json"});
+  const CliResult printed = RunLightcal({"inspect", file, "--json"});
   EXPECT_EQ(json::parse(printed.out)["luminance_nits"]["mean"], 25.0);
   EXPECT_EQ(seen->luminance.nits, std::vector<float>(64, 25.0F));
 }
