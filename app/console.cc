@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/json_codec.h"
@@ -87,11 +88,18 @@ Node DocumentOf(const Error& error) {
 }
 
 void PrintError(const Error& error, bool json) {
-  if (error.code.empty()) return;  // told already, see told_error.h
+  if (error.code.empty()) return;  // said by EndWithError
   if (json) {
     WriteDocument({{"error", DocumentOf(error)}});
   }
   Write(stderr, Sentence("", error.subject, error.message));
+}
+
+Result<void> EndWithError(Console& console, Node document, const Error& error) {
+  document.Put("error", DocumentOf(error));
+  console.PrintDocument(std::move(document));
+  PrintError(error, false);
+  return tl::unexpected(Error{error.kind, "", "", ""});
 }
 
 std::string TextTable(const std::vector<std::string>& header,

@@ -52,6 +52,9 @@ class Console {
 [[nodiscard]] Node DocumentOf(const Error& error);
 // Prints an error as people or machines read it.
 void PrintError(const Error& error, bool json);
+// Ends a command whose whole answer is given though something in it went wrong: adds "error" to the
+// document and prints it, or says the error on stderr. The error that it returns says no more.
+[[nodiscard]] Result<void> EndWithError(Console& console, Node document, const Error& error);
 
 // A table with a header, columns aligned by display width (UTF-8), numbers to the right.
 [[nodiscard]] std::string TextTable(const std::vector<std::string>& header,

@@ -22,7 +22,6 @@
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
-#include "told_error.h"
 
 namespace lightcal::app {
 namespace {
@@ -316,7 +315,7 @@ Result<void> RunBatch(const BatchRequest& request, const Console& console) {
   if (auto written = WriteSummary(request, outcomes); !written) return written;
   const Node document = Summary(request.items, outcomes);
   answer.Print(Table(request.items, outcomes) + "\n");
-  if (const auto worst = WorstOf(outcomes)) return EndTold(answer, document, *worst);
+  if (const auto worst = WorstOf(outcomes)) return EndWithError(answer, document, *worst);
   answer.Print(Counted(outcomes) + "\n");
   answer.PrintDocument(document);
   return {};

@@ -9,7 +9,6 @@
 #include "light_input.h"
 #include "lightcal/calibrate/compare_lights.h"
 #include "lightcal/core/numbers_text.h"
-#include "told_error.h"
 
 namespace lightcal::app {
 namespace {
@@ -138,9 +137,9 @@ Result<void> RunDiff(const Options& options, Console& console) {
   const Node document = ToJson(options, comparison);
   console.Print(Table(comparison) + "\n" + Assumption(options, comparison));
   if (options.fail_on_change && comparison.Changed()) {
-    return EndTold(console, document,
-                   {ErrorKind::kFailed, "changed", options.b,
-                    "differs from " + options.a + " beyond what both are unsure of"});
+    return EndWithError(console, document,
+                        {ErrorKind::kFailed, "changed", options.b,
+                         "differs from " + options.a + " beyond what both are unsure of"});
   }
   console.PrintDocument(document);
   return {};

@@ -9,7 +9,6 @@
 #include "batch/find_sessions.h"
 #include "commands.h"
 #include "lightcal/presets/preset_table.h"
-#include "told_error.h"
 #include "validate/validate_file.h"
 
 namespace lightcal::app {
@@ -80,17 +79,17 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
   };
   const auto of_all = " of " + std::to_string(verdicts.size()) + " files";
   if (const auto n = count("unreadable"); n > 0) {
-    return EndTold(console, document,
-                   {ErrorKind::kFailed, "unreadable", "validate",
-                    std::to_string(n) + of_all + " cannot be read"});
+    return EndWithError(console, document,
+                        {ErrorKind::kFailed, "unreadable", "validate",
+                         std::to_string(n) + of_all + " cannot be read"});
   }
   if (const auto n = count("refused"); n > 0) {
-    return EndTold(console, document,
-                   {ErrorKind::kRefused, "invalid", "validate",
-                    std::to_string(n) + of_all + " refused; each says what to do"});
+    return EndWithError(console, document,
+                        {ErrorKind::kRefused, "invalid", "validate",
+                         std::to_string(n) + of_all + " refused; each says what to do"});
   }
   if (auto strict = console.RefuseIfStrict(); !strict) {
-    return EndTold(console, document, strict.error());
+    return EndWithError(console, document, strict.error());
   }
   console.PrintDocument(document);
   return {};

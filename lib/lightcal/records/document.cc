@@ -62,6 +62,7 @@ std::string Node::TextAt(std::string_view key) const {
 }
 
 void Node::Put(std::string_view key, Node value) {
+  if (kind == Kind::kNull) kind = Kind::kTable;
   if (value.kind != Kind::kNull) members.emplace_back(key, std::move(value));
 }
 
