@@ -56,7 +56,8 @@ struct Row {
 };
 
 Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
-  Row row{lamp.name, "finite_source", "off", "", "", DirectCost_ns(lamp, account), {}, {}, 0};
+  Row row{lamp.name, "finite_source", "off", "", "", DirectCost_ns(lamp, account),
+          {},        Node::Table(),   0};
   const std::int64_t all = DirectPoints(account);
   std::int64_t sized = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(MapForm::kBounce); ++k) {
@@ -93,7 +94,7 @@ Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
 }
 
 Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
-  Row row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account), {}, {}, 0};
+  Row row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account), {}, Node::Table(), 0};
   const std::int64_t all = DirectPoints(account);
   const std::int64_t between = Count(account, MapForm::kBounceBetween);
   const std::int64_t each = Count(account, MapForm::kBounce);

@@ -77,9 +77,12 @@ OiioOutcome Read(const OiioBytes& file, bool with_samples, OiioPicture& picture,
   const auto in_memory = OIIO::ImageInput::create(file.format);
   if (in_memory && in_memory->set_ioproxy(&reader) && in_memory->open(file.path, header, config)) {
     const OiioOutcome outcome = ReadOpened(*in_memory, with_samples, picture, error);
-    if (outcome != OiioOutcome::kBad) return outcome;
+    if (outcome != OiioOutcome::kBad || file.format == "png") return outcome;
+  } else if (in_memory && file.format == "png") {
+    error = in_memory->geterror();  // the same words as of a file; libpng speaks on stderr, too
+    return OiioOutcome::kUnknownFormat;
   }
-  // What is wrong is said best, and most alike from version to version, of the file itself.
+  // What is wrong in others is said in other words of memory than of a file.
   const auto on_disk = OIIO::ImageInput::open(file.path, &config);
   if (on_disk) return ReadOpened(*on_disk, with_samples, picture, error);
   error = OIIO::geterror();
