@@ -8,7 +8,7 @@
 namespace lightcal {
 namespace {
 
-Result<OiioRead> Open() {
+Result<OiioRead> OpenPictureReader() {
   auto symbol = OpenModule(kOiioModuleName, kOiioReadSymbol, "no_picture_module",
                            "the part that reads HDR, TIFF, PNG and JPEG");
   if (!symbol) return Propagate(std::move(symbol));
@@ -18,7 +18,7 @@ Result<OiioRead> Open() {
 }  // namespace
 
 Result<OiioRead> PictureModule() {
-  static const Result<OiioRead> module = Open();
+  static const Result<OiioRead> module = OpenPictureReader();
   return module;
 }
 

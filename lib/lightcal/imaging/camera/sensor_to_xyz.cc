@@ -22,7 +22,7 @@ PictureColor GreenOnly(const FrameInfo& info, bool warn) {
   return color;
 }
 
-Result<PictureColor> CameraColor(const FrameInfo& info) {
+Result<PictureColor> ColorOfCamera(const FrameInfo& info) {
   auto xyz_from_raw = DaylightXyzFromRaw(*info.matrices);
   if (!xyz_from_raw) {
     return Refused("no_colour", info.file, xyz_from_raw.error().message);
@@ -46,7 +46,7 @@ Result<PictureColor> ColorOfPicture(const FrameInfo& info) {
                    "has " + std::to_string(info.channels) + " channels; 1 or 3 are understood");
   }
   if (mosaic || info.meaning == SampleMeaning::kSensor) {
-    return info.matrices ? CameraColor(info) : GreenOnly(info, true);
+    return info.matrices ? ColorOfCamera(info) : GreenOnly(info, true);
   }
   PictureColor color;
   if (info.channel_names == std::vector<std::string>{"X", "Y", "Z"}) {

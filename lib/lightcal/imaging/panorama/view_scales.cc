@@ -17,9 +17,9 @@
 namespace lightcal {
 namespace {
 
-constexpr int kCellRows = 90, kCellColumns = 180;  // cells of 2 degrees
-constexpr int kCellSide = 4;                       // kCellSide x kCellSide points of a cell
-constexpr int kBlock = 6;                          // cells on the side of a block of common errors
+constexpr int kOverlapRows = 90, kCellColumns = 180;  // cells of 2 degrees
+constexpr int kCellSide = 4;                          // kCellSide x kCellSide points of a cell
+constexpr int kBlock = 6;             // cells on the side of a block of common errors
 constexpr double kLeastCells = 12.0;  // that join a view to the others, as cells of the equator
 constexpr double kLeastSd = 0.005;    // of a cell: edges, reflections, resampling
 constexpr double kFalloffSd = 0.7;    // prior of its coefficients: half the light at the rim
@@ -48,7 +48,7 @@ std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int 
   for (int i = 0; i < kCellSide * kCellSide; ++i) {
     const double azimuth =
         2.0 * std::numbers::pi * (x + (i % kCellSide + 0.5) / kCellSide) / kCellColumns;
-    const double zenith = std::numbers::pi * (y + (i / kCellSide + 0.5) / kCellSide) / kCellRows;
+    const double zenith = std::numbers::pi * (y + (i / kCellSide + 0.5) / kCellSide) / kOverlapRows;
     const auto point =
         picture.view.PointOf({-std::sin(azimuth) * std::sin(zenith),
                               -std::cos(azimuth) * std::sin(zenith), std::cos(zenith)});
@@ -73,13 +73,13 @@ std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int 
 }
 
 std::vector<Cell> SharedCells(std::span<const AimedPicture> views) {
-  const LatLongGrid grid(kCellColumns, kCellRows);
-  std::vector<std::vector<Cell>> rows(kCellRows);
-  ParallelFor(kCellRows, [&](int y) {
+  const LatLongGrid grid(kCellColumns, kOverlapRows);
+  std::vector<std::vector<Cell>> rows(kOverlapRows);
+  ParallelFor(kOverlapRows, [&](int y) {
     for (int x = 0; x < kCellColumns; ++x) {
       Cell cell;
       cell.block = static_cast<std::size_t>(y / kBlock * (kCellColumns / kBlock) + x / kBlock);
-      cell.area = grid.SolidAngle(y) / grid.SolidAngle(kCellRows / 2);
+      cell.area = grid.SolidAngle(y) / grid.SolidAngle(kOverlapRows / 2);
       for (std::size_t i = 0; i < views.size(); ++i) {
         if (auto sight = SightOf(views[i], i, x, y)) cell.sights.push_back(*sight);
       }
