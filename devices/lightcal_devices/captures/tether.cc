@@ -58,7 +58,7 @@ std::string WithEventPort(std::string port) {
   return port + port.substr(first);
 }
 
-Result<GphotoOpen> Open() {
+Result<GphotoOpen> OpenTetherModule() {
   auto symbol = OpenModule(kGphotoModuleName, kGphotoOpenSymbol, "no_tether_module",
                            "the part that speaks to cameras");
   if (!symbol) return Propagate(std::move(symbol));
@@ -66,7 +66,7 @@ Result<GphotoOpen> Open() {
 }
 
 Result<GphotoOpen> TetherModule() {
-  static const Result<GphotoOpen> module = Open();
+  static const Result<GphotoOpen> module = OpenTetherModule();
   return module;
 }
 
