@@ -32,7 +32,12 @@ struct Node {
   std::vector<Member> members;  // kTable, in file order
   int line = 0;                 // 1-based; 0 = the syntax does not say
 
-  Node() = default;  // null
+  Node();  // null
+  Node(const Node& other);
+  Node(Node&& other) noexcept;
+  Node& operator=(const Node& other);
+  Node& operator=(Node&& other) noexcept;
+  ~Node();
   template <std::same_as<bool> T>
   Node(T value) : kind(Kind::kBoolean), boolean(value) {}
   template <std::integral T>
@@ -95,6 +100,14 @@ struct Member {
   std::string key;
   Node value;
 };
+
+// Where a member is whole: a vector of what is not yet whole can be named, not made.
+inline Node::Node() = default;
+inline Node::Node(const Node& other) = default;
+inline Node::Node(Node&& other) noexcept = default;
+inline Node& Node::operator=(const Node& other) = default;
+inline Node& Node::operator=(Node&& other) noexcept = default;
+inline Node::~Node() = default;
 
 // "a number", "a table", ... for messages.
 [[nodiscard]] std::string_view KindName(Node::Kind kind);
