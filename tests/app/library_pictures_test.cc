@@ -28,7 +28,7 @@ TEST(MergeBracket, GivesTheSamplesThatTheCommandWrites) {
   const auto merged = MergeBracket(files, DiskSources(), {});
   ASSERT_TRUE(merged) << merged.error().message;
   EXPECT_EQ(merged->picture, merge::ReadExr(output).samples);
-  EXPECT_EQ(WordOf(merged->scale_source), answer["scale"]["source"]);
+  EXPECT_EQ(WordOf(merged->scale_source), answer["scale"]["source"].get<std::string>());
   EXPECT_EQ(merged->nits_per_unit, answer["scale"]["nits_per_unit"].get<double>());
 }
 
@@ -46,7 +46,7 @@ TEST(MakeDome, GivesTheSamplesThatTheCommandWrites) {
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(made->measured.input.dome.samples, dome::ReadPictureFile(out + "/dome.exr").rgb);
   ASSERT_TRUE(made->light_file);
-  EXPECT_EQ(made->light_file->lights.front().name, answer["lights"][0]["name"]);
+  EXPECT_EQ(made->light_file->lights.front().name, answer["lights"][0]["name"].get<std::string>());
   EXPECT_EQ(made->light_file->provenance.inputs.size(), 1U);
 }
 
