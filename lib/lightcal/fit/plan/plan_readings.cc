@@ -194,22 +194,42 @@ class Planner {
     return row;
   }
 
-  // The reading at the illuminance that a fit with it predicts for it.
+  // What the fit of a session predicts for its last reading.
+  static std::optional<double> PredictedOfLast(const Outcome& outcome) {
+    const int index = outcome.light.fit.readings - 1;
+    for (const ResidualRow& row : outcome.light.residuals) {
+      if (row.index == index && row.predicted_lx > 0.0) return row.predicted_lx;
+    }
+    return std::nullopt;
+  }
+
+  // The reading at the illuminance at which it would change nothing: what a fit with it predicts
+  // for it, and again. Where it tells much, the second answer is still drawn to the first guess,
+  // and the limit of the series is taken (Aitken, in logarithms).
   bool Judge(PlannedReading& candidate) const {
     Session with = session_;
-    candidate.expected = FirstGuess(candidate);
-    if (!(candidate.expected.value() >= 0.0)) return false;
+    double guess = FirstGuess(candidate).value();
+    if (!(guess >= 0.0)) return false;
     with.readings.push_back(RowOf(candidate));
-    std::optional<Outcome> outcome = FitOf(with, settings_);
-    if (!outcome) return false;
-    if (candidate.action == PlannedAction::kRead && now_) {
-      const int index = outcome->light.fit.readings - 1;
-      for (const ResidualRow& row : outcome->light.residuals) {
-        if (row.index != index || !(row.predicted_lx > 0.0)) continue;
-        candidate.expected = Lux(row.predicted_lx);
-        with.readings.back().reading.illuminance = candidate.expected;
-        outcome = FitOf(with, settings_);
-        break;
+    const auto fit_at = [&](double lux) {
+      candidate.expected = Lux(lux);
+      with.readings.back().reading.illuminance = candidate.expected;
+      return FitOf(with, settings_);
+    };
+    std::optional<Outcome> outcome = fit_at(guess);
+    if (candidate.action == PlannedAction::kRead && now_ && guess > 0.0 && outcome) {
+      constexpr double kSame = 0.01, kSlowest = 0.97;
+      double former_step = 0.0;
+      for (int i = 0; i < 2 && outcome; ++i) {
+        const auto predicted = PredictedOfLast(*outcome);
+        if (!predicted) break;
+        double step = std::log(*predicted / guess);
+        const double slow = former_step != 0.0 ? step / former_step : 0.0;
+        if (i > 0 && std::abs(step) < kSame) break;
+        former_step = step;
+        if (slow > 0.0 && slow < kSlowest) step /= 1.0 - slow;
+        guess *= std::exp(step);
+        outcome = fit_at(guess);
       }
     }
     if (!outcome) return false;
@@ -246,12 +266,29 @@ class Planner {
 
   // A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
   [[nodiscard]] double OtherLight(const PlannedReading& planned) const {
-    if (planned.action != PlannedAction::kShadowCard || Ambient() > 0.0) return 0.0;
+    if (planned.action != PlannedAction::kShadowCard) return 0.0;
     constexpr double kShare = 0.01;
+    int index = -1;
     for (const SessionReading& row : session_.readings) {
-      if (fit::IsLit(row.reading) && row.reading.distance == planned.distance &&
-          row.reading.position_m == planned.position_m) {
-        return kShare * row.reading.illuminance->value();
+      ++index;
+      if (!fit::IsLit(row.reading) || row.reading.distance != planned.distance ||
+          row.reading.position_m != planned.position_m) {
+        continue;
+      }
+      const double seen = row.reading.illuminance->value();
+      const double other = WallsAt(index, planned);
+      return other > 0.0 || Ambient() > 0.0 ? other : kShare * seen;
+    }
+    return 0.0;
+  }
+
+  // Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient.
+  [[nodiscard]] double WallsAt(int index, const PlannedReading& planned) const {
+    if (!now_ || !now_->intensity_cd || !planned.distance) return 0.0;
+    const auto own = PredictIlluminance(*now_, *planned.distance, 0.05);
+    for (const ResidualRow& row : now_->residuals) {
+      if (own && row.index == index) {
+        return std::max(0.0, row.predicted_lx - own->model_lx.value);
       }
     }
     return 0.0;
