@@ -96,7 +96,8 @@ Run BuildNew(CLI::App& parser) {
   parser.add_option("--box", flags.box, "What the box says: \"9W 806lm 2900K 36deg\" [asked]");
   parser.add_option("--meter", flags.meter,
                     "none (you type what it shows), or a device [asked; the one plugged in]");
-  parser.add_option("--accuracy", flags.accuracy, "Of a meter that is typed: 3% [asked; 10%]");
+  parser.add_option("--accuracy", flags.accuracy,
+                    "Of a meter that is typed, as its maker says, taken as 95 %: 3% [asked; 10%]");
   parser.add_option("--to", flags.targets, "Engines: gltf,blender or all [asked; all]");
   parser.add_option("--room", flags.room, "Width, depth, height in metres: 5,4,2.6 [asked]");
   parser.add_option("--reflectance", flags.reflectance, "Of the room's walls [asked; 0.5]");

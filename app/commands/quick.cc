@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
-  std::string cct, diameter, sigma, beam, field, lumens, watts, inner, outer;
+  std::string cct, diameter, meter, sigma, beam, field, lumens, watts, inner, outer;
   std::vector<std::string> predict_at;
   std::vector<std::string> targets;
   std::string output = "lightcal-quick";
@@ -113,23 +113,34 @@ Result<LightDescription> DescribeLight(const Options& options) {
   return light;
 }
 
+constexpr const char* kQuickMeter = "meter";
+
+// 1 sigma of a reading as it was typed, or by what the meter's maker says; absent where neither is.
+Result<std::optional<double>> SigmaAsked(const Options& options) {
+  if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
+  const auto sigma =
+      options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMakersFigure(options.meter);
+  if (!sigma) return tl::unexpected(sigma.error());
+  return *sigma;
+}
+
 Result<void> AddReadings(Session& session, const Options& options) {
   std::optional<Kelvin> cct;
   if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
       !filled) {
     return filled;
   }
-  std::optional<double> sigma;
-  if (!options.sigma.empty()) {
-    const auto parsed = ParseTolerance(options.sigma);
-    if (!parsed) return tl::unexpected(parsed.error());
-    sigma = *parsed;
-  }
+  const auto sigma = SigmaAsked(options);
+  if (!sigma) return tl::unexpected(sigma.error());
   for (const std::string& text : options.readings) {
     auto reading = ParseTypedReading(text, options.name);
     if (!reading) return Propagate(std::move(reading));
     reading->cct = cct;
-    reading->sigma_relative = sigma;
+    if (options.meter.empty()) {
+      reading->sigma_relative = *sigma;
+    } else {
+      reading->meter = kQuickMeter;
+    }
     session.readings.push_back({std::move(*reading), text});
   }
   if (options.readings.empty() && cct) {
@@ -141,14 +152,14 @@ Result<void> AddReadings(Session& session, const Options& options) {
   return {};
 }
 
-// What the first reading will be taken with, where none is there to tell.
+// What all readings are taken with, and the first will be, where none is there to tell.
 Result<void> AddMeter(Session& session, const Options& options) {
-  if (options.sigma.empty()) return {};
-  const auto sigma = ParseTolerance(options.sigma);
+  const auto sigma = SigmaAsked(options);
   if (!sigma) return tl::unexpected(sigma.error());
+  if (!*sigma || (options.meter.empty() && !options.readings.empty())) return {};
   MeterDescription meter;
-  meter.name = "meter";
-  meter.sigma_relative = *sigma;
+  meter.name = kQuickMeter;
+  meter.sigma_relative = **sigma;
   session.meters.push_back(std::move(meter));
   return {};
 }
@@ -165,7 +176,6 @@ Result<Session> SessionFromOptions(const Options& options) {
   session.directory = ".";
   session.lights.push_back(std::move(*light));
   if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
-  if (!options.readings.empty()) return session;
   if (auto added = AddMeter(session, options); !added) return Propagate(std::move(added));
   return session;
 }
@@ -177,8 +187,9 @@ struct Prediction {
 
 Result<std::vector<Prediction>> Predict(const Options& options, const FittedLight& light) {
   std::vector<Prediction> predictions;
-  const double sigma =
-      options.sigma.empty() ? kSigmaUnnamedMeter : ParseTolerance(options.sigma).value();
+  const auto asked = SigmaAsked(options);
+  if (!asked) return tl::unexpected(asked.error());
+  const double sigma = asked->value_or(kSigmaUnnamedMeter);
   for (const std::string& text : options.predict_at) {
     const auto distance = ParseLength(text);
     if (!distance) return tl::unexpected(distance.error());
@@ -305,7 +316,13 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("--inner", options->inner, "Half angle where the spot starts to fall off");
   parser.add_option("--outer", options->outer, "Half angle where the spot ends");
   parser.add_flag("--full-angles", options->full_angles, "--inner and --outer are full angles");
-  parser.add_option("--sigma", options->sigma, "1 sigma of a reading, e.g. 3% [5%]");
+  CLI::Option* const sigma =
+      parser.add_option("--sigma", options->sigma, "1 sigma of a reading, e.g. 3% [5%]");
+  parser
+      .add_option("--meter", options->meter,
+                  "What its maker says of the meter, e.g. 3%: taken as 95 %, so half of it is 1 "
+                  "sigma, and shared by all readings as a meter's are")
+      ->excludes(sigma);
   parser.add_option("--lumens", options->lumens, "Data sheet: luminous flux, e.g. 806");
   parser.add_option("--beam", options->beam, "Data sheet: full beam angle (50 % of the peak)");
   parser.add_option("--field", options->field, "Data sheet: full field angle (10 % of the peak)");

@@ -291,13 +291,10 @@ class Interview {
       return WrongUsage("--accuracy", "is for a meter without a cable; the driver of " +
                                           session_.device + " knows its own");
     }
-    double accuracy = 0.0;
-    auto taken = Take(
-        accuracy,
+    return Take(
+        session_.meter_sigma_relative,
         {"--accuracy", "How far may it be off, as its data sheet says, for example 3%?", "10%"},
-        flags_.accuracy, ParseTolerance);
-    session_.meter_sigma_relative = 0.5 * accuracy;
-    return taken;
+        flags_.accuracy, SigmaOfMakersFigure);
   }
 
   Result<void> AskTargets() {

@@ -157,6 +157,24 @@ TEST(Quick, WithJsonAnErrorIsOneDocumentToo) {
   EXPECT_EQ(document["error"]["subject"], "192lx@0m");
 }
 
+// A maker's figure is 95 %: 3 % of it are 1.5 % of 1 sigma. With as many readings as one likes an
+// interval stays above what they share.
+TEST(QuickMeter, AMakersFigureIsTwoSigmaAndSharedByItsReadings) {
+  const std::vector<std::string> six = {"800lx@0.5m", "800lx@0.5m", "200lx@1m",
+                                        "200lx@1m",   "50lx@2m",    "50lx@2m"};
+  const auto u95 = [&](std::vector<std::string> words) {
+    words.insert(words.end(), six.begin(), six.end());
+    return double(QuickJson(words)["lights"][0]["intensity_cd"]["u95"]);
+  };
+  EXPECT_GT(u95({"--meter", "3%"}), 1.05 * u95({"--sigma", "1.5%"}));
+  EXPECT_LT(u95({"--meter", "3%"}), u95({"--meter", "6%"}));
+  const json plan = QuickJson({"--plan", "--meter", "3%"});
+  const json same = QuickJson({"--plan", "--sigma", "1.5%"});
+  EXPECT_EQ(plan["minutes"].dump(), same["minutes"].dump());
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m", "--meter", "3%", "--sigma", "3%"}).exit_code, 2);
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m", "--meter", "good"}).exit_code, 2);
+}
+
 TEST(QuickPlan, WithoutAReadingItSaysWhatMinutesBuy) {
   const json document = QuickJson({"--plan", "--sigma", "3%", "--reach", "2m"});
   EXPECT_FALSE(document.contains("lights"));
