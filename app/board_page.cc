@@ -64,7 +64,7 @@ Result<Metres> LargestSquare(const CharucoBoard& board, const Paper& paper) {
 }
 
 Result<std::string> BoardPage(const CharucoBoard& board, const Paper& paper) {
-  const auto module = BoardModule();
+  const auto module = devices::BoardModule();
   if (!module) return tl::unexpected(module.error());
   const auto layout = (*module)->lay_out(board);
   if (!layout) return tl::unexpected(layout.error());

@@ -85,10 +85,10 @@ Result<void> RunCamera(const Options& options, Console& console) {
   console.Warn(loaded->warnings);
   Session& session = loaded->session;
   Warnings warnings;
-  auto profile = CalibrateCamera(session, DiskSources(), warnings);
+  auto profile = CalibrateCamera(session, devices::DiskSources(), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
-  auto provenance = ProvenanceOf(session, DiskSources(), SourceDateIso8601().value_or(""));
+  auto provenance = ProvenanceOf(session, devices::DiskSources(), SourceDateIso8601().value_or(""));
   if (!provenance) return Propagate(std::move(provenance));
   profile->provenance = std::move(*provenance);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;

@@ -68,7 +68,7 @@ Result<void> CheckRender(const Options& options, Console& console) {
   if (!text) return tl::unexpected(text.error());
   const auto rig = RigFromPreset(*text, options.rig);
   if (!rig) return tl::unexpected(rig.error());
-  const auto picture = ReadPicture(options.render);
+  const auto picture = devices::ReadPicture(options.render);
   if (!picture) return tl::unexpected(picture.error());
   const bool linear = picture->info.meaning == SampleMeaning::kLinear;
   const PixelUnit unit = linear ? LinearPixelsOf(options.engine) : PixelUnit::kExposed;

@@ -178,7 +178,7 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
 Result<void> RunDome(const Options& options, Console& console) {
   const auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
-  const Sources sources = DiskSources();
+  const Sources sources = devices::DiskSources();
   auto measured = MeasureDome(plan->request, sources);
   if (!measured) return Propagate(std::move(measured));
   console.Warn(measured->warnings);

@@ -73,7 +73,7 @@ Result<InspectedPicture> Inspect(const Options& options, Console& console) {
   if (!convention) return tl::unexpected(convention.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
-  auto inspected = InspectPicture(options.image, DiskSources(), *overrides, *convention);
+  auto inspected = InspectPicture(options.image, devices::DiskSources(), *overrides, *convention);
   if (inspected) console.Warn(inspected->warnings);
   return inspected;
 }

@@ -192,7 +192,7 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
 OutputWriter PictureWriter(const Options& options, const BracketMergeRequest& request,
                            const MergedBracket& merged) {
   return {options.output, [&options, &request, &merged](const std::string& temporary) {
-            ExrPicture exr;
+            devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.picture.data(), merged.width, merged.height,
                                               merged.channels);
             exr.channel_names = {"Y"};
@@ -203,19 +203,19 @@ OutputWriter PictureWriter(const Options& options, const BracketMergeRequest& re
             exr.white_luminance = Nits(1.0);
             exr.attributes = Attributes(merged, "luminance, cd/m2");
             exr.compressed = !options.uncompressed;
-            return WriteExr(temporary, exr);
+            return devices::WriteExr(temporary, exr);
           }};
 }
 
 OutputWriter SigmaWriter(const Options& options, const MergedBracket& merged) {
   return {options.sigma, [&options, &merged](const std::string& temporary) {
-            ExrPicture exr;
+            devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.sigma.data(), merged.width, merged.height);
             exr.channel_names = {"Y"};
             exr.white_luminance = Nits(1.0);
             exr.attributes = Attributes(merged, "standard deviation of luminance, cd/m2");
             exr.compressed = !options.uncompressed;
-            return WriteExr(temporary, exr);
+            return devices::WriteExr(temporary, exr);
           }};
 }
 
@@ -304,7 +304,7 @@ std::string Table(const MergedBracket& merged) {
 }
 
 Result<void> RunMerge(const Options& options, Console& console) {
-  const Sources sources = DiskSources();
+  const Sources sources = devices::DiskSources();
   const auto request = RequestOf(options, sources);
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);

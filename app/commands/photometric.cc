@@ -158,7 +158,7 @@ std::string Table(const Options& options, const PhotometricFile& file) {
 
 Result<void> RunPhotometric(const Options& options, Console& console) {
   if (auto ok = CheckOptions(options); !ok) return ok;
-  const auto read = ReadPhotometricFile(options.file);
+  const auto read = devices::ReadPhotometricFile(options.file);
   if (!read) return tl::unexpected(read.error());
   console.Warn(read->warnings);
   std::vector<OutputFile> files;

@@ -50,7 +50,7 @@ OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFi
   stamp.inputs = lights.provenance.inputs;
   for (const OutputFile& file : files) {
     const std::string name = fs::path(file.path).lexically_proximate(directory).generic_string();
-    stamp.outputs.push_back({name, Sha256Hex(file.contents)});
+    stamp.outputs.push_back({name, devices::Sha256Hex(file.contents)});
   }
   return {(fs::path(directory) / kRunStampFile).string(), RunStampToJson(stamp)};
 }
@@ -110,10 +110,10 @@ Result<std::string> SettingsHash(const Options& options) {
   if (!asked.profile.empty()) {
     auto profile = ReadWholeFile(asked.profile);
     if (!profile) return profile;
-    text += '\n' + Sha256Hex(*profile);
+    text += '\n' + devices::Sha256Hex(*profile);
   }
   for (const std::string& target : options.targets) text += '\n' + target;
-  return Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
+  return devices::Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
 }
 
 Result<void> RunOfBatch(const Options& options, const std::string& settings, const BatchItem& item,

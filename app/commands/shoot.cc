@@ -92,7 +92,7 @@ Result<ShootRequest> RequestOf(const Options& options) {
   if (options.bracket.empty()) {
     return WrongUsage("--bracket", "give half the range and the step, for example ±4EV/1EV");
   }
-  auto bracket = ParseBracket(options.bracket);
+  auto bracket = devices::ParseBracket(options.bracket);
   if (!bracket) return Propagate(std::move(bracket));
   request.bracket = *std::move(bracket);
   if (!options.mains.empty() || !options.pwm.empty()) {

@@ -85,20 +85,20 @@ Result<Measurements> Measure(const Options& options, const tradeoff::Question& q
   Measurements out;
   SessionTwin twin;
   if (options.synthetic) {
-    auto made = TwinOf(options.session, DiskSources(), question.tolerance_relative);
+    auto made = TwinOf(options.session, devices::DiskSources(), question.tolerance_relative);
     if (!made) return Propagate(std::move(made));
     twin = *std::move(made);
   }
-  auto study =
-      tradeoff::StudyTradeoff(options.synthetic ? TwinRunner(twin, DiskSources)
-                                                : SessionRunner(options.session, DiskSources),
-                              question, watch);
+  auto study = tradeoff::StudyTradeoff(options.synthetic
+                                           ? TwinRunner(twin, devices::DiskSources)
+                                           : SessionRunner(options.session, devices::DiskSources),
+                                       question, watch);
   if (!study) return Propagate(std::move(study));
   out.study = *std::move(study);
   if (!options.synthetic) return out;
   const std::vector<tradeoff::Named> settings = SettingsForTruth(out.study);
-  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, DiskSources()), twin.truth, settings,
-                                          {}, watch);
+  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, devices::DiskSources()), twin.truth,
+                                          settings, {}, watch);
   if (!truth) return Propagate(std::move(truth));
   out.truth = *std::move(truth);
   return out;

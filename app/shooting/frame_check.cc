@@ -30,7 +30,7 @@ void Compare(const std::string& file, const std::string& what, std::optional<dou
 }  // namespace
 
 Result<Warnings> CheckFrame(const std::string& path, const TetheredShoot& shoot, ShotFrame& frame) {
-  auto info = ReadFrameInfo(path);
+  auto info = devices::ReadFrameInfo(path);
   if (!info) return Propagate(std::move(info));
   Warnings warnings = info->warnings;
   frame.exposure = info->exposure.time;

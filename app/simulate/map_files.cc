@@ -98,7 +98,7 @@ Result<void> WriteMapExr(const Simulated& s, const std::string& path) {
   }
   const MapPlane& plane = *s.plane;
   const auto number = [](double v) { return ShortestText(v); };
-  ExrPicture exr;
+  devices::ExrPicture exr;
   exr.samples = View2d<const float>(samples.data(), s.map.width, s.map.height, 2);
   exr.channel_names = {"Y", "u95"};
   exr.attributes = {
@@ -108,7 +108,7 @@ Result<void> WriteMapExr(const Simulated& s, const std::string& path) {
       {"axes", plane.across_axis + " to the right, " + plane.up_axis + " up"},
       {"edges_m", "left " + number(plane.left) + " right " + number(plane.right) + " bottom " +
                       number(plane.bottom) + " top " + number(plane.top)}};
-  return WriteExr(path, exr);
+  return devices::WriteExr(path, exr);
 }
 
 }  // namespace

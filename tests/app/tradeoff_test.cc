@@ -111,7 +111,8 @@ TEST(TradeoffTwins, TheRecommendationMeetsTheToleranceAndItsIntervalHoldsTheLamp
     const TempDir dir;
     const LuxTwin twin = RandomLuxTwin(random);
     SCOPED_TRACE(twin.toml);
-    const auto run = InProcessorTime(SessionRunner(dir.Write("twin.toml", twin.toml), DiskSources));
+    const auto run =
+        InProcessorTime(SessionRunner(dir.Write("twin.toml", twin.toml), devices::DiskSources));
     tradeoff::Question question;
     question.tolerance_relative = kTolerance;
     question.knobs = {"effects", "source_model", "bounce_patches", "solver", "rejection"};
