@@ -20,7 +20,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct QuickOptions {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
@@ -83,7 +83,7 @@ Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
 constexpr std::array<std::string_view, 5> kQuickKinds = {"point", "spot", "sphere", "disk",
                                                          "directional"};
 
-Result<LightDescription> DescribeLight(const Options& options) {
+Result<LightDescription> DescribeLight(const QuickOptions& options) {
   LightDescription light;
   light.name = options.name;
   const std::string kind = !options.kind.empty()                             ? options.kind
@@ -110,7 +110,7 @@ Result<LightDescription> DescribeLight(const Options& options) {
   return light;
 }
 
-Result<void> AddReadings(Session& session, const Options& options) {
+Result<void> AddReadings(Session& session, const QuickOptions& options) {
   std::optional<Kelvin> cct;
   if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
       !filled) {
@@ -138,7 +138,7 @@ Result<void> AddReadings(Session& session, const Options& options) {
   return {};
 }
 
-Result<Session> SessionFromOptions(const Options& options) {
+Result<Session> SessionFromOptions(const QuickOptions& options) {
   if (options.readings.empty() && options.lumens.empty()) {
     return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
   }
@@ -158,7 +158,7 @@ struct Prediction {
   PredictedIlluminance predicted;
 };
 
-Result<std::vector<Prediction>> Predict(const Options& options, const FittedLight& light) {
+Result<std::vector<Prediction>> Predict(const QuickOptions& options, const FittedLight& light) {
   std::vector<Prediction> predictions;
   const double sigma =
       options.sigma.empty() ? kSigmaUnnamedMeter : ParseTolerance(options.sigma).value();
@@ -186,7 +186,7 @@ std::string PredictionTable(const std::vector<Prediction>& predictions) {
   return TextTable({"at", "a meter will read", "95 %"}, rows);
 }
 
-void PrintAnswer(const Options& options, const FittedSession& fitted, const std::string& next,
+void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const std::string& next,
                  const std::vector<Prediction>& predictions, Console& console) {
   const FittedLight& light = fitted.lights.lights.front();
   console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
@@ -210,7 +210,7 @@ void PrintAnswer(const Options& options, const FittedSession& fitted, const std:
   }
 }
 
-Result<void> RunQuick(const Options& options, Console& console) {
+Result<void> RunQuick(const QuickOptions& options, Console& console) {
   auto session = SessionFromOptions(options);
   if (!session) return Propagate(std::move(session));
   auto fitted = FitSession(*session, FitSettings{});
@@ -242,7 +242,7 @@ Result<void> RunQuick(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildQuick(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QuickOptions>();
   parser.add_option("readings", options->readings,
                     "What the meter showed and where: 192lx@0.5m, 17.8fc@20in ...");
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();

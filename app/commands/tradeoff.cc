@@ -22,13 +22,13 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct TradeoffOptions {
   std::string session, tolerance = "1%", budget, output;
   std::vector<std::string> knobs;
   bool synthetic = false, force = false;
 };
 
-Result<tradeoff::Question> QuestionOf(const Options& options) {
+Result<tradeoff::Question> QuestionOf(const TradeoffOptions& options) {
   tradeoff::Question question;
   const auto tolerance = ParseTolerance(options.tolerance);
   if (!tolerance) return tl::unexpected(tolerance.error());
@@ -76,7 +76,7 @@ struct Measurements {
   std::vector<tradeoff::TruthRow> truth;
 };
 
-Result<Measurements> Measure(const Options& options, const tradeoff::Question& question,
+Result<Measurements> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
                              bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
@@ -104,7 +104,7 @@ Result<Measurements> Measure(const Options& options, const tradeoff::Question& q
   return out;
 }
 
-Result<void> RunTradeoff(const Options& options, Console& console) {
+Result<void> RunTradeoff(const TradeoffOptions& options, Console& console) {
   const auto question = QuestionOf(options);
   if (!question) return tl::unexpected(question.error());
   // Once aloud: what the session's own warnings are.
@@ -142,7 +142,7 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildTradeoff(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TradeoffOptions>();
   parser.add_option("session", options->session, "Session directory or .toml file")->required();
   parser.add_option("--tol", options->tolerance, "How far from the strictest setting is allowed")
       ->capture_default_str();

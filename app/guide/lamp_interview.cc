@@ -42,7 +42,7 @@ std::vector<Choice> KindChoices() {
   return choices;
 }
 
-Result<LightKind> ParseKind(const std::string& text) {
+Result<LightKind> ParseKindChoice(const std::string& text) {
   const auto at = ParseChoice(text, KindChoices());
   if (!at) return tl::unexpected(at.error());
   return kKinds[*at].kind;
@@ -182,7 +182,7 @@ class Interview {
     return Take(
         light.kind,
         {"--kind", "What is it? A number or a word:", "point", MenuText(KindChoices()), true},
-        flags_.kind, ParseKind);
+        flags_.kind, ParseKindChoice);
   }
 
   // The sizes that this kind has; a flag of another kind is a mistake.

@@ -20,7 +20,6 @@ using NumberOfChoice = std::optional<double> (*)(std::string_view);
 
 // A choice is what was asked for when they differ by less than this, relative: half of a third of
 // a stop, of the f-number and of the ISO.
-constexpr double kNearFNumber = 0.06, kNearIso = 0.12;
 
 Result<std::string> ChoiceOf(const CameraSetting& setting, const std::string& option,
                              const std::string& wish, double near, NumberOfChoice number_of) {

@@ -12,6 +12,9 @@
 
 namespace lightcal::app {
 
+// Values nearer than this part of each other are one choice of a camera.
+inline constexpr double kNearFNumber = 0.06, kNearIso = 0.12;
+
 // As typed; empty = as the camera is set.
 struct ExposureWish {
   std::string center;  // the middle shutter time

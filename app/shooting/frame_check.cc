@@ -8,11 +8,12 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "shooting/camera_setup.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr double kTimeStops = 1.0 / 6.0, kNearFNumber = 0.06, kNearIso = 0.12;
+constexpr double kTimeStops = 1.0 / 6.0;
 
 std::string TimeText(double seconds) {
   if (seconds >= 0.3) return RoundedText(seconds, 3) + " s";

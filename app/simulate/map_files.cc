@@ -13,7 +13,7 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kScaleRows = 512;
+constexpr int kMapScaleRows = 512;
 constexpr int kLuxDigits = 6;
 
 bool EndsWith(const std::string& path, std::string_view ending) {
@@ -68,7 +68,7 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
                                          : "direct light alone: no walls, nothing in between");
   return report::IlluminancePicture(
       figure, scale, UriOf(report::FalseColors(lux, scale), s.map.width, s.map.height),
-      UriOf(report::ScaleColors(kScaleRows), 1, kScaleRows));
+      UriOf(report::ScaleColors(kMapScaleRows), 1, kMapScaleRows));
 }
 
 std::string CsvOf(const Simulated& s) {

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 using records::Node;
 
 constexpr std::uintmax_t kMostBytes = 256U << 20U;
-constexpr int kTableDigits = 4;
+constexpr int kValidateDigits = 4;
 
 // What a reader found in the file, in a few words.
 using Contents = Result<std::string>;
@@ -194,8 +194,8 @@ void ValidatePhotometric(FileVerdict& verdict) {
   verdict.version = header.version;
   verdict.warnings = std::move(read->warnings);
   const IntensityTable& table = read->file.table;
-  verdict.holds = RoundedText(table.Flux().value(), kTableDigits) + " lm, peak " +
-                  RoundedText(table.peak().intensity.value(), kTableDigits) + " cd";
+  verdict.holds = RoundedText(table.Flux().value(), kValidateDigits) + " lm, peak " +
+                  RoundedText(table.peak().intensity.value(), kValidateDigits) + " cd";
 }
 
 void ValidateImport(FileVerdict& verdict) {
