@@ -11,6 +11,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick 192lx@0.5m --cct 2900K\n"
      "  lightcal quick 192lx@0.5m 52lx@1m --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
+     "  lightcal quick --plan --reach 3m --minutes move=5\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
     {"new", "Begin a session: asks about the lamp and the meter, writes session.toml",
      "  lightcal new my_lamp --kind spot --box \"35W 36deg\" --to gltf,blender --yes\n"
@@ -49,6 +50,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal merge bracket/*.dng -o lum.exr --camera camera.json", BuildCamera},
     {"plan", "The next readings that lower the uncertainty most; the board for a lit wall",
      "  lightcal plan sample_data/sessions/amaran_200x_s_bare --light 5600K\n"
+     "  lightcal plan sample_data/sessions/grey_card_exr --reach 3m --plot minutes.svg\n"
      "  lightcal plan --board board.pdf\n"
      "  lightcal plan --board board.svg --paper a3 --square 40mm", BuildPlan},
     {"merge", "A bracket of frames into absolute luminance with a sigma for every pixel",

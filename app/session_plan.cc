@@ -9,6 +9,7 @@
 #include "calibration_options.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/plan/plan_readings.h"
+#include "minutes_answer.h"
 #include "session_names.h"
 
 namespace lightcal::app {
@@ -16,18 +17,6 @@ namespace {
 
 constexpr double kAdvisedSpan = 8.0;
 constexpr std::size_t kCandidatesShown = 8;
-
-const char* WordOf(PlannedAction action) {
-  if (action == PlannedAction::kShadowCard) return "shadow_card";
-  return action == PlannedAction::kLampOff ? "lamp_off" : "read";
-}
-
-Node NodeOf(const PlannedReading& reading) {
-  return {{"action", WordOf(reading.action)}, {"distance_m", reading.distance},
-          {"position_m", reading.position_m}, {"normal", reading.normal},
-          {"expected_lx", reading.expected},  {"u95_relative", reading.u95_relative},
-          {"say", SayPlannedReading(reading)}};
-}
 
 struct PlannedLight {
   const LightDescription* light = nullptr;
@@ -68,11 +57,10 @@ Node NodeOf(const PlannedLight& planned, const Session& session) {
     return node;
   }
   const ReadingPlan& plan = *planned.plan;
-  const auto reading = [](const PlannedReading& one) { return NodeOf(one); };
   node.Put({{"u95_relative", plan.u95_relative},
             {"span", plan.span},
-            {"steps", Node::List(plan.steps, reading)},
-            {"candidates", Node::List(plan.candidates, reading)},
+            {"steps", Node::List(plan.steps, PlannedReadingNode)},
+            {"candidates", Node::List(plan.candidates, PlannedReadingNode)},
             {"advice", Node::UnlessEmpty(AdviceOf(planned, session))}});
   return node;
 }
@@ -106,6 +94,8 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
 Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   const auto asked = SettingsAsked(options.calibration);
   if (!asked) return tl::unexpected(asked.error());
+  const auto wishes = LadderWishesOf(options.minutes);
+  if (!wishes) return tl::unexpected(wishes.error());
   const auto measured = MeasureAloud(options.calibration.session, *asked, console);
   if (!measured) return tl::unexpected(measured.error());
   const Session* session = &measured->session;
@@ -126,13 +116,27 @@ Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   if (!any && !planned.empty()) refused = &planned.front().plan.error();
   if (refused != nullptr) return tl::unexpected(*refused);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  std::vector<MinutesLadder> ladders;
+  if (options.with_minutes) {
+    ladders = LaddersOf(*session, settings, *wishes);
+    if (!options.light.empty()) {
+      std::erase_if(ladders, [&](const auto& ladder) { return ladder.light != options.light; });
+    }
+  }
+  const auto pictures = MinutesPictures(options.minutes, ladders);
+  if (!pictures) return tl::unexpected(pictures.error());
+  if (auto written = WriteOutputs(*pictures, options.force); !written) return written;
   std::vector<Node> lights;
   for (const PlannedLight& light : planned) {
     console.Print((&light == planned.data() ? "" : "\n") +
                   TextOf(light, *session, console.verbose()));
     lights.push_back(NodeOf(light, *session));
   }
-  console.PrintDocument({{"lights", lights}});
+  if (!ladders.empty()) console.Print("\n" + MinutesTable(ladders) + "\n");
+  for (const std::string& sentence : MinutesSentences(ladders)) console.Print(sentence + "\n");
+  for (const OutputFile& file : *pictures) console.Note("wrote " + file.path);
+  console.PrintDocument(
+      {{"lights", lights}, {"minutes", Node::UnlessEmpty(Node::List(ladders, MinutesNode))}});
   return {};
 }
 

@@ -7,6 +7,7 @@
 #include "calibration_options.h"
 #include "console.h"
 #include "lightcal/core/result.h"
+#include "minutes_answer.h"
 
 namespace lightcal::app {
 
@@ -14,6 +15,9 @@ struct SessionPlanOptions {
   CalibrationOptions calibration;
   std::string light;  // "" = all
   int steps = 3;
+  MinutesOptions minutes;
+  bool force = false;
+  bool with_minutes = false;  // any of those was given
 };
 
 // Prints the plan. A light whose readings are refused shows what the refusal asks for; refused only

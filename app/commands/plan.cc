@@ -21,7 +21,6 @@ namespace {
 struct PlanOptions {
   SessionPlanOptions session;
   std::string board, paper = "a4", square, squares, dictionary;
-  bool force = false;
 };
 
 // "9x6"
@@ -82,7 +81,7 @@ Result<void> PrintBoard(const PlanOptions& options, Console& console) {
   if (!page) return tl::unexpected(page.error());
   const auto file = PrintFile(options.board, *page, paper->width_mm, paper->height_mm);
   if (!file) return tl::unexpected(file.error());
-  if (auto written = WriteOutputs({*file}, options.force); !written) return written;
+  if (auto written = WriteOutputs({*file}, options.session.force); !written) return written;
   console.Print("wrote " + options.board +
                 "; print it at 100 % on matt paper, measure ten squares, correct square_m, and "
                 "tape it flat to the wall beside the beam:\n\n" +
@@ -118,6 +117,7 @@ Run BuildPlan(CLI::App& parser) {
   parser.add_option("--steps", options->session.steps, "Readings to plan, one on top of the other")
       ->check(CLI::Range(1, 20))
       ->capture_default_str();
+  AddMinutesOptions(parser, options->session.minutes);
   parser.add_option("--board", options->board, "Write the board to print here, .pdf or .svg");
   parser.add_option("--paper", options->paper, "Of the board, landscape")
       ->check(OneOfAnyCase(PaperWords()))
@@ -126,8 +126,13 @@ Run BuildPlan(CLI::App& parser) {
   parser.add_option("--squares", options->squares, "COLUMNSxROWS [9x6]");
   parser.add_option("--dictionary", options->dictionary, "The markers' dictionary [4x4_50]")
       ->check(OneOf(kMarkerDictionaryWords));
-  parser.add_flag("--force", options->force, "Replace a file that lightcal did not write");
-  return [options](Console& console) { return RunPlan(*options, console); };
+  parser.add_flag("--force", options->session.force, "Replace a file that lightcal did not write");
+  return [options, &parser](Console& console) {
+    for (const char* name : {"--minutes", "--reach", "--plot"}) {
+      if (parser.count(name) > 0) options->session.with_minutes = true;
+    }
+    return RunPlan(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

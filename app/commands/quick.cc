@@ -14,6 +14,7 @@
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
 
@@ -31,6 +32,8 @@ struct QuickOptions {
   bool full_angles = false;
   bool bare = false;
   bool force = false;
+  bool plan = false;
+  MinutesOptions minutes;
 };
 
 // "192lx@0.5m" -> a reading.
@@ -138,8 +141,20 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
   return {};
 }
 
+// What the first reading will be taken with, where none is there to tell.
+Result<void> AddMeter(Session& session, const QuickOptions& options) {
+  if (options.sigma.empty()) return {};
+  const auto sigma = ParseTolerance(options.sigma);
+  if (!sigma) return tl::unexpected(sigma.error());
+  MeterDescription meter;
+  meter.name = "meter";
+  meter.sigma_relative = *sigma;
+  session.meters.push_back(std::move(meter));
+  return {};
+}
+
 Result<Session> SessionFromOptions(const QuickOptions& options) {
-  if (options.readings.empty() && options.lumens.empty()) {
+  if (options.readings.empty() && options.lumens.empty() && !options.plan) {
     return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
   }
   auto light = DescribeLight(options);
@@ -150,6 +165,8 @@ Result<Session> SessionFromOptions(const QuickOptions& options) {
   session.directory = ".";
   session.lights.push_back(std::move(*light));
   if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
+  if (!options.readings.empty()) return session;
+  if (auto added = AddMeter(session, options); !added) return Propagate(std::move(added));
   return session;
 }
 
@@ -186,8 +203,32 @@ std::string PredictionTable(const std::vector<Prediction>& predictions) {
   return TextTable({"at", "a meter will read", "95 %"}, rows);
 }
 
+// What the minutes buy, at the end of whatever else is said.
+Result<void> PrintMinutes(const QuickOptions& options, const std::vector<MinutesLadder>& ladders,
+                          Console& console) {
+  auto pictures = MinutesPictures(options.minutes, ladders);
+  if (!pictures) return Propagate(std::move(pictures));
+  if (auto written = WriteOutputs(*pictures, options.force); !written) return written;
+  console.Print("\n" + MinutesTable(ladders) + "\n");
+  for (const std::string& sentence : MinutesSentences(ladders)) console.Print(sentence + "\n");
+  for (const OutputFile& file : *pictures) console.Note("wrote " + file.path);
+  return {};
+}
+
+// Before any reading: the ladder alone.
+Result<void> PlanFromNone(const QuickOptions& options, const Session& session,
+                          const LadderWishes& wishes, Console& console) {
+  auto ladder = PlanMinutes(session, options.name, FitSettings{}, wishes);
+  if (!ladder) return Propagate(std::move(ladder));
+  const std::vector<MinutesLadder> ladders = {*std::move(ladder)};
+  if (auto printed = PrintMinutes(options, ladders, console); !printed) return printed;
+  console.PrintDocument({{"minutes", Node::List(ladders, MinutesNode)}});
+  return {};
+}
+
 void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const std::string& next,
-                 const std::vector<Prediction>& predictions, Console& console) {
+                 const std::vector<Prediction>& predictions,
+                 const std::vector<MinutesLadder>& ladders, Console& console) {
   const FittedLight& light = fitted.lights.lights.front();
   console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
   if (light.intensity_cd && light.intensity_cd->low && light.intensity_cd->high) {
@@ -204,6 +245,7 @@ void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const
                          {"model_lx", DocumentOf(p.predicted.model_lx)},
                          {"reading_lx", DocumentOf(p.predicted.reading_lx)}};
                })));
+  document.Put("minutes", Node::UnlessEmpty(Node::List(ladders, MinutesNode)));
   console.PrintDocument(std::move(document));
   if (options.targets.empty()) {
     console.Note("add --to gltf,json -o DIR to write presets");
@@ -213,6 +255,11 @@ void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const
 Result<void> RunQuick(const QuickOptions& options, Console& console) {
   auto session = SessionFromOptions(options);
   if (!session) return Propagate(std::move(session));
+  const auto wishes = LadderWishesOf(options.minutes);
+  if (!wishes) return tl::unexpected(wishes.error());
+  if (options.readings.empty() && options.lumens.empty()) {
+    return PlanFromNone(options, *session, *wishes, console);
+  }
   auto fitted = FitSession(*session, FitSettings{});
   if (!fitted) return Propagate(std::move(fitted));
   fitted->lights.provenance.generator = GeneratorName();
@@ -234,7 +281,12 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;
-  PrintAnswer(options, *fitted, NextStep(*session, light), *predictions, console);
+  std::vector<MinutesLadder> ladders;
+  if (options.plan) ladders = LaddersOf(*session, {}, *wishes);
+  PrintAnswer(options, *fitted, NextStep(*session, light), *predictions, ladders, console);
+  if (options.plan) {
+    if (auto printed = PrintMinutes(options, ladders, console); !printed) return printed;
+  }
   for (const OutputFile& file : files) console.Note("wrote " + file.path);
   return {};
 }
@@ -265,6 +317,13 @@ Run BuildQuick(CLI::App& parser) {
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();
+  CLI::Option* const plan =
+      parser.add_flag("--plan", options->plan,
+                      "What the next minutes of measuring buy, from these readings or from none");
+  AddMinutesOptions(parser, options->minutes);
+  for (const char* name : {"--minutes", "--reach", "--plot"}) {
+    parser.get_option(name)->needs(plan);
+  }
   parser.add_flag("--bare", options->bare, "Presets hold the light only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunQuick(*options, console); };

@@ -14,6 +14,7 @@
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
 #include "lightcal/report/plots.h"
+#include "minutes_answer.h"
 #include "output_files.h"
 #include "picture_file.h"
 #include "report_html.h"
@@ -130,6 +131,7 @@ Result<Source> FromSession(const std::string& path, Console& console) {
   if (!calibrated) return Propagate(std::move(calibrated));
   ReportExtras extras = ExtrasOf(*calibrated);
   const Session& session = calibrated->session;
+  extras.ladders = LaddersOf(session, {}, {});
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),
                 (fs::path(DefaultOutputDirectory(session)) / "report.html").string()};
 }

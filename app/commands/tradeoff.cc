@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "calibration_options.h"
@@ -15,6 +16,7 @@
 #include "lightcal/calibrate/session_twin.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/disk_sources.h"
+#include "minutes_answer.h"
 #include "output_files.h"
 #include "tradeoff/tradeoff_answer.h"
 #include "tradeoff/truth_answer.h"
@@ -25,6 +27,7 @@ namespace {
 struct TradeoffOptions {
   std::string session, tolerance = "1%", budget, output;
   std::vector<std::string> knobs;
+  MinutesOptions minutes;
   bool synthetic = false, force = false;
 };
 
@@ -64,35 +67,30 @@ class Progress {
 
  private:
   static constexpr std::array kPhases = {"measuring each knob ", "measuring combinations ",
-                                         "reading the twin again "};
+                                         "making sure ", "reading the twin again "};
   bool shown_;
   double last_ = 0.0;
   std::size_t phase_ = 0;
 };
 
-// What a run of the command found; `truth` is empty without --synthetic.
-struct Measurements {
-  tradeoff::Study study;
-  std::vector<tradeoff::TruthRow> truth;
-};
-
-Result<Measurements> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
-                             bool quiet) {
+Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
+                               bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
   const tradeoff::Watch watch = {[] { return InterruptGuard::StopRequest().Requested(); },
                                  [&](double share) { progress.At(share); }};
-  Measurements out;
+  TradeoffAnswer out;
+  out.tolerance_relative = question.tolerance_relative;
   SessionTwin twin;
   if (options.synthetic) {
     auto made = TwinOf(options.session, devices::DiskSources(), question.tolerance_relative);
     if (!made) return Propagate(std::move(made));
     twin = *std::move(made);
   }
-  auto study = tradeoff::StudyTradeoff(options.synthetic
-                                           ? TwinRunner(twin, devices::DiskSources)
-                                           : SessionRunner(options.session, devices::DiskSources),
-                                       question, watch);
+  const tradeoff::Runner run = options.synthetic
+                                   ? TwinRunner(twin, devices::DiskSources)
+                                   : SessionRunner(options.session, devices::DiskSources);
+  auto study = tradeoff::StudyTradeoff(run, question, watch);
   if (!study) return Propagate(std::move(study));
   out.study = *std::move(study);
   if (!options.synthetic) return out;
@@ -101,41 +99,57 @@ Result<Measurements> Measure(const TradeoffOptions& options, const tradeoff::Que
                                           settings, {}, watch);
   if (!truth) return Propagate(std::move(truth));
   out.truth = *std::move(truth);
+  if (question.budget_s) return out;
+  auto judged =
+      tradeoff::RecommendByTruth(run, question, watch, out.truth.front(), out.truth, out.study);
+  if (!judged) return Propagate(std::move(judged));
   return out;
+}
+
+FitSettings FitSettingsAt(double tolerance_relative) {
+  FitSettings settings;
+  settings.tolerance_relative = tolerance_relative;
+  return settings;
+}
+
+Result<std::vector<OutputFile>> Outputs(const TradeoffOptions& options,
+                                        const TradeoffAnswer& answer, const Session& session) {
+  auto files = MinutesPictures(options.minutes, answer.ladders);
+  if (!files || options.output.empty()) return files;
+  const std::string title = session.name.empty() ? session.stem : session.name;
+  auto more = TradeoffFiles(answer, options.synthetic ? title + " (synthetic twin)" : title);
+  if (!more) return more;
+  PlaceUnder(options.output, *more);
+  std::ranges::move(*more, std::back_inserter(*files));
+  return files;
 }
 
 Result<void> RunTradeoff(const TradeoffOptions& options, Console& console) {
   const auto question = QuestionOf(options);
   if (!question) return tl::unexpected(question.error());
+  const auto wishes = LadderWishesOf(options.minutes);
+  if (!wishes) return tl::unexpected(wishes.error());
   // Once aloud: what the session's own warnings are.
   CalibrationSettings usual;
   usual.profile.tolerance_relative = question->tolerance_relative;
   auto calibrated = CalibrateAloud(options.session, usual, console);
   if (!calibrated) return Propagate(std::move(calibrated));
-  const auto measured = Measure(options, *question, console.json());
-  if (!measured) return tl::unexpected(measured.error());
-  const auto& [study, truth] = *measured;
+  auto answer = Measure(options, *question, console.json());
+  if (!answer) return Propagate(std::move(answer));
+  answer->ladders =
+      LaddersOf(calibrated->session, FitSettingsAt(question->tolerance_relative), *wishes);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-
-  const Session& session = calibrated->session;
-  if (!options.output.empty()) {
-    const std::string title = session.name.empty() ? session.stem : session.name;
-    auto files = TradeoffFiles(study, truth, question->tolerance_relative,
-                               options.synthetic ? title + " (synthetic twin)" : title);
-    if (!files) return Propagate(std::move(files));
-    PlaceUnder(options.output, *files);
-    if (auto written = WriteOutputs(*files, options.force); !written) return written;
-    for (const OutputFile& file : *files) console.Note("wrote " + file.path);
-  }
-  console.Print(TradeoffTable(study, truth) + "\n");
-  for (const std::string& sentence : TradeoffSentences(study, truth)) {
-    console.Print(sentence + "\n");
-  }
-  if (!options.output.empty()) {
+  const auto files = Outputs(options, *answer, calibrated->session);
+  if (!files) return tl::unexpected(files.error());
+  if (auto written = WriteOutputs(*files, options.force); !written) return written;
+  for (const OutputFile& file : *files) console.Note("wrote " + file.path);
+  console.Print(TradeoffTable(*answer) + "\n");
+  for (const std::string& sentence : TradeoffSentences(*answer)) console.Print(sentence + "\n");
+  if (!options.output.empty() && answer->study.saved_share > 0.0) {
     console.Print("next: lightcal run " + options.session + " --profile " + options.output +
                   "/profile.json\n");
   }
-  console.PrintDocument(TradeoffNode(study, truth, question->tolerance_relative));
+  console.PrintDocument(TradeoffNode(*answer));
   return {};
 }
 
@@ -147,16 +161,17 @@ Run BuildTradeoff(CLI::App& parser) {
   parser.add_option("--tol", options->tolerance, "How far from the strictest setting is allowed")
       ->capture_default_str();
   parser.add_option("--budget", options->budget,
-                    "The most accurate setting within this time: 50ms");
+                    "The most accurate setting within this processor time: 50ms");
   parser.add_option("--knobs", options->knobs, "Which knobs to move [all]")
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_flag(
       "--synthetic", options->synthetic,
       "On a synthetic twin: the fitted lamps, read anew with the meter's noise, so that "
-      "errors against the truth are known too");
+      "settings are judged by their errors against the truth");
+  AddMinutesOptions(parser, options->minutes);
   parser.add_option("-o,--output", options->output,
-                    "Where profile.json, the figure and the page go [nothing is written]");
+                    "Where profile.json, the figures and the page go [nothing is written]");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunTradeoff(*options, console); };
 }

@@ -3,14 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "console.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/json_codec.h"
+#include "lightcal/report/minutes_figure.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/text.h"
 #include "lightcal/report/work_precision.h"
+#include "minutes_answer.h"
 #include "picture_file.h"
 #include "truth_answer.h"
 
@@ -58,7 +62,7 @@ std::string LevelOf(const SweepRow& row) {
 double TimesFaster(const Study& study, const Setting& setting) {
   const auto& usual = study.usual.measured.times;
   const auto& own = setting.measured.times;
-  return tradeoff::TimesOverlap(usual, own) ? 1.0 : usual.total / own.total;
+  return tradeoff::TimesDiffer(usual, own) ? usual.total / own.total : 1.0;
 }
 
 // "0.02 %", "none, u -3 %".
@@ -69,25 +73,30 @@ std::string OffBy(const Setting& setting) {
 }
 
 struct Cells {
-  std::string knob, level, time, speed, error, label;
+  std::string knob, level, time, spread, speed, error, label;
 };
+
+std::string Spread(const tradeoff::RunTimes& times) {
+  return Milliseconds(times.low) + " to " + Milliseconds(times.high);
+}
 
 Cells CellsOf(std::string knob, std::string level, const Setting& setting, double times_faster) {
   if (setting.measured.refused) {
-    return {std::move(knob),     std::move(level), "", "", setting.measured.refused->code,
+    return {std::move(knob),     std::move(level), "", "", "", setting.measured.refused->code,
             VerdictWord(setting)};
   }
-  return {std::move(knob),     std::move(level), Milliseconds(setting.measured.times.total),
+  const tradeoff::RunTimes& times = setting.measured.times;
+  return {std::move(knob),     std::move(level), Milliseconds(times.total), Spread(times),
           Speed(times_faster), OffBy(setting),   VerdictWord(setting)};
 }
 
-// The usual setting, then every knob's every level.
+// The usual setting, then every knob's every level that is in play.
 std::vector<Cells> KnobRows(const Study& study) {
   std::vector<Cells> rows = {CellsOf("as usual", "", study.usual, 1.0)};
   for (const SweepRow& row : study.rows) {
+    if (!row.in_play) continue;
     rows.push_back(CellsOf(std::string(tradeoff::Knobs()[row.knob].name), LevelOf(row), row.setting,
                            row.times_faster));
-    if (!row.in_play) rows.back().label = "not in play";
   }
   return rows;
 }
@@ -115,6 +124,21 @@ std::string Effect(const Setting& setting, double times_faster) {
   }
   what = moves || widens ? what + ", " + Share(setting.error.over_u) : "changes nothing";
   return Speed(times_faster) + ", " + what + ": " + VerdictWord(setting);
+}
+
+bool NothingToTrade(const Study& study) { return study.recommended.levels == study.usual.levels; }
+
+std::string Recommendation(const Study& study) {
+  const std::string takes =
+      Milliseconds(study.recommended.measured.times.total) + " ms of processor time";
+  if (NothingToTrade(study)) {
+    return "Nothing to trade here: leave it as it is (" + takes +
+           "), your readings are the limit; no setting that is good enough saves " +
+           PercentText(tradeoff::kLeastSaved) + " of that.";
+  }
+  return "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" + takes + ", saves " +
+         PercentText(study.saved_share) + "; " +
+         Effect(study.recommended, TimesFaster(study, study.recommended)) + ").";
 }
 
 Node TimesNode(const tradeoff::RunTimes& times) {
@@ -154,13 +178,17 @@ report::WorkPrecision PlotOf(const Study& study, double tolerance, const std::st
   report::WorkPrecision plot{
       title + ": accuracy against time", {}, {}, tolerance, study.allowed_relative};
   plot.points.push_back(PointOf(study.usual, Kind::kUsual));
-  const std::vector<const Setting*> all = tradeoff::AllSettings(study);
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    if (!all[i]->measured.refused) plot.points.push_back(PointOf(*all[i], Kind::kSetting));
+  const auto add = [&](const Setting& one) {
+    if (!one.measured.refused) plot.points.push_back(PointOf(one, Kind::kSetting));
+  };
+  for (const SweepRow& row : study.rows) {
+    if (row.in_play) add(row.setting);
   }
+  for (const Setting& one : study.combinations) add(one);
   if (study.recommended.levels != study.usual.levels) {
     plot.points.push_back(PointOf(study.recommended, Kind::kRecommended));
   }
+  const std::vector<const Setting*> all = tradeoff::AllSettings(study);
   for (const std::size_t i : tradeoff::ParetoOf(study)) {
     plot.best.push_back(PointOf(*all[i], i == 0 ? Kind::kUsual : Kind::kSetting));
     if (all[i]->levels == study.recommended.levels) plot.best.back().kind = Kind::kRecommended;
@@ -185,15 +213,25 @@ std::string HtmlTable(const std::vector<std::vector<std::string>>& rows) {
 
 std::string HtmlTable(const std::string& heading, const std::vector<Cells>& cells) {
   std::vector<std::vector<std::string>> rows = {
-      {heading, "level", "time (ms)", "against usual", "off by", "label"}};
+      {heading, "level", "processor ms", "quartiles", "against usual", "off by", "label"}};
   for (const Cells& row : cells) {
-    rows.push_back({row.knob, row.level, row.time, row.speed, row.error, row.label});
+    rows.push_back({row.knob, row.level, row.time, row.spread, row.speed, row.error, row.label});
   }
   return HtmlTable(rows);
 }
 
-std::string Page(const Study& study, const TruthRows& truth, const std::string& title,
-                 const std::string& svg) {
+// One table a light.
+std::string MinutesHtml(const std::vector<MinutesLadder>& ladders) {
+  std::string html;
+  for (const MinutesLadder& ladder : ladders) {
+    const auto rows = MinutesCells(ladder);
+    if (rows.size() > 1) html += HtmlTable(rows);
+  }
+  return html;
+}
+
+std::string Page(const TradeoffAnswer& answer, const std::string& title, const std::string& svg) {
+  const auto& [study, truth, ladders, tolerance] = answer;
   std::string html =
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
       "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
@@ -201,16 +239,22 @@ std::string Page(const Study& study, const TruthRows& truth, const std::string& 
       Escaped(GeneratorName()) + "\"/>\n<title>" + Escaped(title) +
       " · accuracy and time</title>\n<style>" + report::StyleSheet() +
       "</style>\n</head>\n<body>\n<main>\n<header><h1>" + Escaped(title) +
-      "</h1>\n<p class=\"lead\">What accuracy costs in time, measured on this session</p></header>"
+      "</h1>\n<p class=\"lead\">What accuracy costs in processor time, measured on this session, "
+      "and in yours</p></header>"
       "\n<figure>" +
       svg + "</figure>\n<div class=\"block\">\n";
-  for (const std::string& sentence : TradeoffSentences(study, truth)) {
+  for (const std::string& sentence : TradeoffSentences(answer)) {
     html += "<p>" + Escaped(sentence) + "</p>\n";
   }
   html += "</div>\n" + HtmlTable("knob", KnobRows(study));
   const std::vector<Cells> together = CombinationRows(study);
   if (!together.empty()) html += HtmlTable("together", together);
   if (!truth.empty()) html += HtmlTable(TruthCells(truth));
+  const std::string minutes = report::MinutesPlot(ladders);
+  if (!minutes.empty()) {
+    html += "<h2>What the next minutes of measuring buy</h2>\n<figure>\n" + minutes +
+            "</figure>\n" + MinutesHtml(ladders);
+  }
   return html +
          "<p class=\"small soft\">Off by: the largest change of strength, flux, colour temperature "
          "or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 of Duv; and what "
@@ -221,36 +265,48 @@ std::string Page(const Study& study, const TruthRows& truth, const std::string& 
 
 }  // namespace
 
-std::string TradeoffTable(const Study& study, const TruthRows& truth) {
+std::string TradeoffTable(const TradeoffAnswer& answer) {
+  const auto& [study, truth, ladders, tolerance] = answer;
   std::vector<std::vector<std::string>> rows;
   for (const Cells& row : KnobRows(study)) {
-    rows.push_back({row.knob, row.level, row.time, row.speed, row.error, row.label});
+    rows.push_back({row.knob, row.level, row.time, row.spread, row.speed, row.error, row.label});
   }
-  std::string text = TextTable({"knob", "level", "ms", "against usual", "off by", "label"}, rows);
+  std::string text =
+      TextTable({"knob", "level", "ms", "quartiles", "against usual", "off by", "label"}, rows);
   rows.clear();
   for (const Cells& row : CombinationRows(study)) {
-    rows.push_back({row.time, row.speed, row.error, row.label, row.level});
+    rows.push_back({row.time, row.spread, row.speed, row.error, row.label, row.level});
   }
   if (!rows.empty()) {
-    text += "\n" + TextTable({"ms", "against usual", "off by", "label", "together"}, rows);
+    text +=
+        "\n" + TextTable({"ms", "quartiles", "against usual", "off by", "label", "together"}, rows);
   }
-  if (truth.empty()) return text;
-  rows = TruthCells(truth);
-  const std::vector<std::string> header = std::move(rows.front());
-  rows.erase(rows.begin());
-  return text + "\n" + TextTable(header, rows);
+  if (!truth.empty()) {
+    rows = TruthCells(truth);
+    const std::vector<std::string> header = std::move(rows.front());
+    rows.erase(rows.begin());
+    text += "\n" + TextTable(header, rows);
+  }
+  const std::string minutes = MinutesTable(ladders);
+  return minutes.empty() ? text : text + "\n" + minutes;
 }
 
-std::vector<std::string> TradeoffSentences(const Study& study, const TruthRows& truth) {
-  std::vector<std::string> out = {
-      "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" +
-      Milliseconds(study.recommended.measured.times.total) + " ms; " +
-      Effect(study.recommended, TimesFaster(study, study.recommended)) + ")."};
-  if (!truth.empty()) out.push_back(TruthSentence(truth));
+std::vector<std::string> TradeoffSentences(const TradeoffAnswer& answer) {
+  const auto& [study, truth, ladders, tolerance] = answer;
+  std::vector<std::string> out = {Recommendation(study)};
+  if (!truth.empty()) {
+    if (std::string judged = TruthSentence(study, truth); !judged.empty()) {
+      out.push_back(std::move(judged));
+    }
+  }
+  if (const auto idle = tradeoff::KnobsNotInPlay(study); !idle.empty()) {
+    out.push_back("Not in play here: " + Joined(idle) + ".");
+  }
   for (const SweepRow& row : study.rows) {
     const bool good = row.setting.verdict == tradeoff::Verdict::kFree ||
                       row.setting.verdict == tradeoff::Verdict::kSafe;
-    if (!good || !(row.times_faster > 1.0)) continue;
+    const double saved = 1.0 - 1.0 / row.times_faster;
+    if (!good || saved < tradeoff::kLeastSaved) continue;
     out.push_back(tradeoff::NameOf(row.setting.levels) + ": " +
                   Effect(row.setting, row.times_faster));
   }
@@ -262,33 +318,40 @@ std::vector<std::string> TradeoffSentences(const Study& study, const TruthRows& 
       out.push_back("What limits " + light.name + ": " + light.limit + ".");
     }
   }
+  std::ranges::copy(MinutesSentences(ladders), std::back_inserter(out));
   return out;
 }
 
-Node TradeoffNode(const Study& study, const TruthRows& truth, double tolerance_relative) {
-  const auto knob = [&](const SweepRow& row) {
+Node TradeoffNode(const TradeoffAnswer& answer) {
+  const auto& [study, truth, ladders, tolerance] = answer;
+  const auto knob = [&study = study](const SweepRow& row) {
     Node node = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
     node.Put(SettingNode(study, row.setting));
     node.Put("in_play", row.in_play);
     return node;
   };
-  const auto setting = [&](const Setting& one) { return SettingNode(study, one); };
+  const auto setting = [&study = study](const Setting& one) { return SettingNode(study, one); };
   return {
-      {"tolerance_relative", tolerance_relative},
+      {"tolerance_relative", tolerance},
       {"allowed_relative", study.allowed_relative},
       {"meter_limits", study.meter_limits},
       {"reference",
        {{"time_ms", TimesNode(study.reference.times)}, {"self_difference", study.self_difference}}},
       {"usual", SettingNode(study, study.usual)},
       {"knobs", Node::List(study.rows, knob)},
+      {"not_in_play", tradeoff::KnobsNotInPlay(study)},
       {"combinations", Node::List(study.combinations, setting)},
       {"recommended", SettingNode(study, study.recommended)},
+      {"nothing_to_trade", NothingToTrade(study)},
+      {"saved_relative", study.saved_share},
       {"against_truth", Node::UnlessEmpty(Node::List(truth, TruthNode))},
-      {"sentences", TradeoffSentences(study, truth)}};
+      {"minutes", Node::UnlessEmpty(Node::List(ladders, MinutesNode))},
+      {"sentences", TradeoffSentences(answer)}};
 }
 
-Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, const TruthRows& truth,
-                                              double tolerance_relative, const std::string& title) {
+Result<std::vector<OutputFile>> TradeoffFiles(const TradeoffAnswer& answer,
+                                              const std::string& title) {
+  const Study& study = answer.study;
   Node measured = SettingNode(study, study.recommended);
   measured.Put("session", title);
   Node with_figures = DocumentOf(study.recommended.measured.profile);
@@ -296,16 +359,22 @@ Result<std::vector<OutputFile>> TradeoffFiles(const Study& study, const TruthRow
   auto profile = records::FiniteJson(with_figures);
   if (!profile) return Propagate(std::move(profile));
   Node whole = {{"generator", GeneratorName()}};
-  whole.Put(TradeoffNode(study, truth, tolerance_relative));
-  const std::string svg = report::WorkPrecisionPlot(PlotOf(study, tolerance_relative, title));
-  auto png = PictureFile("tradeoff.png", svg);
-  if (!png) return Propagate(std::move(png));
-  return std::vector<OutputFile>{
+  whole.Put(TradeoffNode(answer));
+  const std::string svg =
+      report::WorkPrecisionPlot(PlotOf(study, answer.tolerance_relative, title));
+  std::vector<OutputFile> files = {
       {"tradeoff.json", PrintJson(whole, records::JsonLayout::kPretty) + "\n"},
       {"profile.json", *std::move(profile)},
-      {"tradeoff.svg", svg},
-      std::move(*png),
-      {"tradeoff.html", Page(study, truth, title, svg)}};
+      {"tradeoff.html", Page(answer, title, svg)}};
+  for (const auto& [name, drawing] : {std::pair<std::string, std::string>("tradeoff", svg),
+                                      {"minutes", report::MinutesPlot(answer.ladders)}}) {
+    if (drawing.empty()) continue;
+    files.push_back({name + ".svg", drawing});
+    auto png = PictureFile(name + ".png", drawing);
+    if (!png) return Propagate(std::move(png));
+    files.push_back(*std::move(png));
+  }
+  return files;
 }
 
 }  // namespace lightcal::app

@@ -11,7 +11,6 @@ namespace {
 using tradeoff::TruthRow;
 
 constexpr const char* kStrictest = "strictest";
-constexpr const char* kRecommended = "recommended";
 // Behind an interval of each of hundreds of replicas: tells a width to 3 %, what counts to less.
 constexpr int kDraws = 1000;
 
@@ -22,15 +21,20 @@ const TruthRow& RowOf(const std::vector<TruthRow>& rows, const std::string& name
 }  // namespace
 
 std::vector<tradeoff::Named> SettingsForTruth(const tradeoff::Study& study) {
-  std::vector<tradeoff::Named> out = {
-      {kStrictest, study.reference.profile},
-      {tradeoff::NameOf(study.usual.levels), study.usual.measured.profile},
-      {kRecommended, study.recommended.measured.profile}};
+  std::vector<tradeoff::Named> out = {{kStrictest, study.reference.profile}};
+  const auto add = [&](const tradeoff::Setting& setting) {
+    const AccuracyProfile& profile = setting.measured.profile;
+    if (setting.measured.refused || profile.estimator.interval_samples > kDraws) return;
+    const std::string name = tradeoff::NameOf(setting.levels);
+    if (std::ranges::find(out, name, &tradeoff::Named::name) == out.end()) {
+      out.push_back({name, profile});
+    }
+  };
+  add(study.usual);
   for (const tradeoff::SweepRow& row : study.rows) {
-    if (!row.in_play || row.setting.measured.refused) continue;
-    if (row.setting.measured.profile.estimator.interval_samples > kDraws) continue;
-    out.push_back({tradeoff::NameOf(row.setting.levels), row.setting.measured.profile});
+    if (row.in_play) add(row.setting);
   }
+  for (const tradeoff::Setting& one : study.combinations) add(one);
   for (tradeoff::Named& one : out) {
     int& draws = one.profile.estimator.interval_samples;
     draws = std::min(draws, kDraws);
@@ -49,14 +53,17 @@ std::vector<std::vector<std::string>> TruthCells(const std::vector<TruthRow>& ro
   return cells;
 }
 
-std::string TruthSentence(const std::vector<TruthRow>& rows) {
+std::string TruthSentence(const tradeoff::Study& study, const std::vector<TruthRow>& rows) {
   const TruthRow& strict = RowOf(rows, kStrictest);
-  const TruthRow& recommended = RowOf(rows, kRecommended);
-  return "Against the truth of a synthetic twin, read " + std::to_string(recommended.replicas) +
-         " times: the recommended setting is " + PercentText(recommended.rms) +
+  const std::string name = tradeoff::NameOf(study.recommended.levels);
+  const auto recommended = std::ranges::find(rows, name, &TruthRow::name);
+  if (recommended == rows.end()) return "";
+  return "Judged by the truth of a synthetic twin, read " + std::to_string(recommended->replicas) +
+         " times: the recommended setting is " + PercentText(recommended->rms) +
          " off (the strictest " + PercentText(strict.rms) +
-         "), and its 95 % interval holds the truth in " + PercentText(recommended.held_share(), 3) +
-         " (" + PercentText(strict.held_share(), 3) + ").";
+         "), and its 95 % interval holds the truth in " +
+         PercentText(recommended->held_share(), 3) + " (" + PercentText(strict.held_share(), 3) +
+         ").";
 }
 
 records::Node TruthNode(const TruthRow& row) {

@@ -157,5 +157,43 @@ TEST(Quick, WithJsonAnErrorIsOneDocumentToo) {
   EXPECT_EQ(document["error"]["subject"], "192lx@0m");
 }
 
+TEST(QuickPlan, WithoutAReadingItSaysWhatMinutesBuy) {
+  const json document = QuickJson({"--plan", "--sigma", "3%", "--reach", "2m"});
+  EXPECT_FALSE(document.contains("lights"));
+  const json& ladder = document["minutes"][0];
+  EXPECT_FALSE(ladder.contains("u95_relative")) << "nothing is known yet";
+  ASSERT_GE(ladder["steps"].size(), 2U);
+  EXPECT_EQ(ladder["steps"][0]["total_minutes"], 5.0) << "a move and a reading";
+  double left = 100.0;
+  for (const json& step : ladder["steps"]) {
+    EXPECT_LT(double(step["u95_relative"]), left);
+    left = step["u95_relative"];
+    if (step.contains("distance_m")) {
+      EXPECT_LE(double(step["distance_m"]), 2.0);
+    }
+  }
+}
+
+TEST(QuickPlan, FromReadingsItDrawsAccuracyAgainstMinutes) {
+  const TempDir dir;
+  const std::string svg = dir.path() + "/minutes.svg";
+  const CliResult result =
+      RunLightcal({"quick", "52lx@1m", "--plan", "--minutes", "move=0,reading=1", "--plot", svg});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("as it is"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("light: now ± "), std::string::npos) << result.out;
+  EXPECT_NE(ReadFile(svg).find("minutes of measuring"), std::string::npos);
+}
+
+TEST(QuickPlan, AskedWrongItSaysWhatToWrite) {
+  for (const char* wrong : {"card", "cards=1", "move=-1", "move=soon"}) {
+    const CliResult result = RunLightcal({"quick", "--plan", "--minutes", wrong});
+    EXPECT_EQ(result.exit_code, 2) << wrong;
+    EXPECT_NE(result.err.find("reading=2,card=1,move=3"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m", "--reach", "2m"}).exit_code, 2) << "no --plan";
+  EXPECT_EQ(RunLightcal({"quick", "--plan", "--plot", "minutes.gif"}).exit_code, 2);
+}
+
 }  // namespace
 }  // namespace lightcal::test

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <pugixml.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "lightcal/report/luminance_figure.h"
+#include "lightcal/report/minutes_figure.h"
 #include "lightcal/report/spectrum_figure.h"
 #include "sample_lights.h"
 
@@ -44,7 +46,8 @@ std::vector<std::pair<double, double>> PointsOf(const pugi::xml_document& svg, c
                          .node()
                          .attribute("d")
                          .value();
-  std::ranges::replace_if(data, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::ranges::replace_if(
+      data, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
   std::istringstream numbers(data);
   std::vector<std::pair<double, double>> points;
   for (double x = 0.0, y = 0.0; numbers >> x >> y;) points.emplace_back(x, y);
@@ -99,8 +102,9 @@ TEST(LuminanceFigure, FramesWhatWasMeasuredAndNamesTheUnit) {
 }
 
 TEST(Plots, EveryNameGivesFilesOfTheLightsThatHaveIt) {
-  EXPECT_THAT(report::PlotNames(), ElementsAre("distance", "residuals", "luminance", "polar",
-                                               "chromaticity", "spectrum", "tm30", "gate"));
+  EXPECT_THAT(report::PlotNames(),
+              ElementsAre("distance", "residuals", "luminance", "polar", "chromaticity", "spectrum",
+                          "tm30", "minutes", "gate"));
   const LightFile file = FileOf({WarmPoint(), Sun()});
   ReportExtras extras;
   extras.spectra = {Line(SpectralQuantity::kRelative)};
@@ -116,7 +120,37 @@ TEST(Plots, EveryNameGivesFilesOfTheLightsThatHaveIt) {
   EXPECT_EQ(report::PlotFilesOf("gate", file, extras).size(), 1U);
   EXPECT_TRUE(report::PlotFilesOf("polar", file, extras).empty());
   EXPECT_TRUE(report::PlotFilesOf("tm30", file, extras).empty()) << "no rendering is known";
+  EXPECT_TRUE(report::PlotFilesOf("minutes", file, extras).empty()) << "no ladder is known";
   EXPECT_TRUE(report::PlotFilesOf("nonsense", file, extras).empty());
+}
+
+// The ordinate is the logarithm, from 0.75 times the least to 1.6 times the most.
+TEST(MinutesFigure, StairsGoFromWhatIsKnownDownToWhatTheMeterLeaves) {
+  MinutesLadder ladder;
+  ladder.light = "key";
+  ladder.u95_relative = 0.8;
+  ladder.meter_u95_relative = 0.04;
+  for (const double u : {0.2, 0.05}) {
+    LadderStep step;
+    step.reading.distance = Metres(1.0);
+    step.reading.u95_relative = u;
+    step.minutes = 5.0;
+    step.total_minutes = 5.0 * static_cast<double>(ladder.steps.size() + 1);
+    ladder.steps.push_back(step);
+  }
+  const auto svg = Parsed(report::MinutesPlot({&ladder, 1}));
+  const auto points = PointsOf(svg, "model");
+  ASSERT_EQ(points.size(), 5U) << "one level before the first step, two a step";
+  EXPECT_NEAR(points[0].first, 84.0, 0.01);
+  EXPECT_NEAR(points[4].first, 84.0 + (468.0 - 84.0) / 1.12, 0.01);
+  const double decade = (286.0 - 16.0) / std::log10(128.0 / 3.0);
+  EXPECT_NEAR(points[2].second - points[0].second, decade * std::log10(80.0 / 20.0), 0.02);
+  EXPECT_NEAR(points[4].second - points[2].second, decade * std::log10(20.0 / 5.0), 0.02);
+  ReportExtras extras;
+  extras.ladders = {ladder};
+  EXPECT_EQ(report::PlotFilesOf("minutes", FileOf({WarmPoint()}), extras).size(), 1U);
+  ladder.steps.clear();
+  EXPECT_EQ(report::MinutesPlot({&ladder, 1}), "");
 }
 
 }  // namespace

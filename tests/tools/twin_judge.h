@@ -3,11 +3,8 @@
 // study's own code.
 #pragma once
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/tradeoff/outcome.h"
@@ -17,31 +14,6 @@ namespace lightcal::test {
 
 // As often as a recommendation needs, not as often as a table for people deserves.
 inline constexpr tradeoff::TimingRules kFewRuns{.least_runs = 7, .most_runs = 9, .seconds = 0.2};
-
-// Of this process and those it has waited for.
-inline double ProcessorSeconds() {
-  rusage children{};
-  ::getrusage(RUSAGE_CHILDREN, &children);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC + seconds(children.ru_utime) +
-         seconds(children.ru_stime);
-}
-
-// Stages in processor time, so that what else the machine does is left out.
-inline tradeoff::Runner InProcessorTime(const tradeoff::Runner& run) {
-  return [run](const AccuracyProfile& profile) -> Result<tradeoff::Outcome> {
-    const double start = ProcessorSeconds();
-    auto outcome = run(profile);
-    const double spent = ProcessorSeconds() - start;
-    if (!outcome) return outcome;
-    double total = 0.0;
-    for (const double stage : outcome->seconds) total += stage;
-    for (double& stage : outcome->seconds) stage *= total > 0.0 ? spent / total : 1.0;
-    return outcome;
-  };
-}
 
 // What the strictest profile is.
 inline AccuracyProfile StrictestByHand(double tolerance) {

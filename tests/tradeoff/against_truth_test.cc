@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace lightcal::tradeoff {
 namespace {
@@ -77,6 +79,57 @@ TEST(AgainstTruth, StopsWhenAsked) {
   const auto rows = CompareWithTruth(Read, kLights, profiles, kMany, watch);
   ASSERT_FALSE(rows);
   EXPECT_EQ(rows.error().code, "interrupted");
+}
+
+TruthRow Row(const std::string& name, double rms, int held) {
+  TruthRow row;
+  row.name = name;
+  row.replicas = row.intervals = 200;
+  row.rms = rms;
+  row.held = held;
+  return row;
+}
+
+// A third more of an error adds 5.4 % to the root of squares; 190 of 200 are 95 %, 184 two standard
+// errors fewer.
+TEST(AgainstTruth, ASettingHoldsWhereItsErrorsAndIntervalsAreAsGood) {
+  const TruthRow strict = Row("strictest", 0.03, 190);
+  EXPECT_TRUE(HoldsTruth(Row("a", 0.0316, 190), strict, 0.02));
+  EXPECT_FALSE(HoldsTruth(Row("a", 0.0317, 190), strict, 0.02));
+  EXPECT_FALSE(HoldsTruth(Row("a", 0.0302, 190), strict, 0.001)) << "beyond the tolerance";
+  EXPECT_TRUE(HoldsTruth(Row("a", 0.03, 184), strict, 0.02));
+  EXPECT_FALSE(HoldsTruth(Row("a", 0.03, 183), strict, 0.02));
+  TruthRow refused = Row("a", 0.03, 190);
+  refused.replicas = 199;
+  EXPECT_FALSE(HoldsTruth(refused, strict, 0.02));
+}
+
+// Errors of the reference say nothing of it: the loose solver is cheap, and wrong.
+TEST(AgainstTruth, TheRecommendationIsTheCheapestThatHoldsTheTruth) {
+  const Runner run = [](const AccuracyProfile& p) -> Result<Outcome> {
+    const bool loose = p.estimator.solver == SolverChoice::kLoose;
+    const bool few = p.pictures.pixel_stride == 4;
+    Outcome out;
+    out.lights = {Light("key", kTruth)};
+    out.seconds = {0.0, 0.0, few ? 0.02 : 0.10, loose ? 0.01 : 0.10, 0.0};
+    return out;
+  };
+  Question question;
+  question.knobs = {"solver", "pixels"};
+  question.alone = question.together = question.sure = {.least_runs = 5, .most_runs = 5};
+  auto study = StudyTradeoff(run, question, {});
+  ASSERT_TRUE(study) << study.error().message;
+  ASSERT_NEAR(study->saved_share, 0.85, 1e-9) << "both seem free";
+  std::vector<TruthRow> rows = {Row("strictest", 0.03, 190), Row("as usual", 0.03, 190),
+                                Row("solver loose", 0.09, 100), Row("pixels quarter", 0.03, 189),
+                                Row(NameOf(study->recommended.levels), 0.09, 100)};
+  ASSERT_TRUE(RecommendByTruth(run, question, {}, rows.front(), rows, *study));
+  EXPECT_EQ(NameOf(study->recommended.levels), "pixels quarter");
+  EXPECT_NEAR(study->saved_share, 0.4, 1e-9);
+  rows[3].held = 100;
+  ASSERT_TRUE(RecommendByTruth(run, question, {}, rows.front(), rows, *study));
+  EXPECT_EQ(NameOf(study->recommended.levels), "as usual");
+  EXPECT_EQ(study->saved_share, 0.0);
 }
 
 }  // namespace

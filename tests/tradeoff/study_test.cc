@@ -96,6 +96,34 @@ TEST(Study, RecommendsTheCheapestThatMeetsTheTolerance) {
   EXPECT_TRUE(study->meter_limits);
 }
 
+// Whatever saves less than a tenth of the run is left as it is.
+TEST(Study, NothingIsRecommendedForASmallSaving) {
+  Invented session;
+  const Runner run = [&](const AccuracyProfile& p) -> Result<Outcome> {
+    Outcome out = session(p);
+    const double saved = p.pictures.pixel_stride == 4 ? 0.08 : 0.0;
+    out.seconds = {0.0, 0.0, 0.1 * (1.0 - saved), 0.0, 0.0};
+    return out;
+  };
+  Question question;
+  question.knobs = {"pixels", "solver"};
+  const auto little = StudyTradeoff(run, question, {});
+  ASSERT_TRUE(little) << little.error().message;
+  EXPECT_TRUE(RowOf(*little, "pixels", "quarter").in_play);
+  EXPECT_EQ(NameOf(little->recommended.levels), "as usual");
+  EXPECT_EQ(little->saved_share, 0.0);
+  EXPECT_EQ(KnobsNotInPlay(*little), std::vector<std::string_view>{"solver"});
+}
+
+TEST(Study, TheShareSavedIsMeasuredBesideTheUsualSetting) {
+  Invented session;
+  const auto study = StudyTradeoff(RunnerOf(session), {}, {});
+  ASSERT_TRUE(study);
+  // Of 103.5 ms: a quarter of the pixels 75, a solver that is none 8 at most.
+  EXPECT_GT(study->saved_share, 0.70);
+  EXPECT_LT(study->saved_share, 0.85);
+}
+
 // On a busy machine, where the quartiles of every setting's runs overlap, medians still part.
 TEST(Study, RunsThatScatterDoNotMakeADearSettingPassForCheap) {
   Invented session;

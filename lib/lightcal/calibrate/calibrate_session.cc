@@ -272,8 +272,8 @@ Result<Provenance> ProvenanceOf(const Session& session, const Sources& sources,
 }
 
 void StageClock::Lap(tradeoff::Stage stage) {
-  const auto now = std::chrono::steady_clock::now();
-  seconds_[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
+  const double now = ProcessorSeconds();
+  seconds_[static_cast<std::size_t>(stage)] += now - last_;
   last_ = now;
 }
 

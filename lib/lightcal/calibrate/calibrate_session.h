@@ -2,12 +2,12 @@
 // A session -> fitted lights: readings, spectra, photometric files, captures and walls, all of it.
 #pragma once
 
-#include <chrono>
 #include <string>
 #include <vector>
 
 #include "lightcal/calibrate/captures/ball_capture.h"
 #include "lightcal/calibrate/evidence.h"
+#include "lightcal/core/processor_time.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
@@ -17,7 +17,7 @@
 
 namespace lightcal {
 
-// Seconds that each stage of a calibration took so far.
+// Seconds of processor time that each stage of a calibration took so far.
 class StageClock {
  public:
   // Counts the time since the last lap for `stage`.
@@ -25,7 +25,7 @@ class StageClock {
   [[nodiscard]] const tradeoff::StageSeconds& seconds() const { return seconds_; }
 
  private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  double last_ = ProcessorSeconds();
   tradeoff::StageSeconds seconds_{};
 };
 

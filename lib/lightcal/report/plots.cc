@@ -9,6 +9,7 @@
 #include "lightcal/report/figures.h"
 #include "lightcal/report/gate_figure.h"
 #include "lightcal/report/luminance_figure.h"
+#include "lightcal/report/minutes_figure.h"
 #include "lightcal/report/spectrum_figure.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/text.h"
@@ -103,6 +104,17 @@ std::string LuminanceCaption(const FittedLight& light, const ReportExtras& extra
          (picture.region ? ", framed what was measured" : "");
 }
 
+std::string DrawMinutes(const FittedLight& light, const ReportExtras& extras, std::string_view id) {
+  const MinutesLadder* ladder = FirstOf(extras.ladders, light);
+  return ladder == nullptr ? "" : MinutesFigure({ladder, 1}, id);
+}
+
+std::string MinutesKeys(const FittedLight& light, const ReportExtras& extras) {
+  const bool meter = FirstOf(extras.ladders, light)->meter_u95_relative > 0.0;
+  return Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "predicted, a further step") +
+         (meter ? LineKey("second", "what the meter's own calibration leaves") : "");
+}
+
 template <std::string (*kDraw)(const FittedLight&, std::string_view)>
 std::string OfLight(const FittedLight& light, const ReportExtras& /*extras*/, std::string_view id) {
   return kDraw(light, id);
@@ -117,6 +129,7 @@ constexpr std::array kLightPlots = {
               &ChromaticityKeys},
     LightPlot{"spectrum", "Spectrum", &DrawSpectrum, &SpectrumCaption},
     LightPlot{"tm30", "Colour rendering, TM-30", &DrawTm30, &Tm30Keys},
+    LightPlot{"minutes", "What the next minutes of measuring buy", &DrawMinutes, &MinutesKeys},
 };
 
 }  // namespace

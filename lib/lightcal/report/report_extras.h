@@ -11,6 +11,7 @@
 #include "lightcal/colorimetry/color_fidelity.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/records/engine_answers.h"
+#include "lightcal/records/reading_plan.h"
 #include "lightcal/report/false_color.h"
 
 namespace lightcal {
@@ -43,6 +44,7 @@ struct ReportExtras {
   EngineAnswers engines{};
   std::vector<LightSpectrum> spectra{};
   std::vector<LuminancePicture> pictures{};
+  std::vector<MinutesLadder> ladders{};
 };
 
 }  // namespace lightcal

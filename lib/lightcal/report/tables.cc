@@ -73,9 +73,8 @@ std::string PairTable(std::string_view heading,
 }
 
 std::string FitTable(const FitDiagnostics& fit) {
-  std::vector<std::pair<std::string, std::string>> rows;
-  rows.emplace_back("Readings used",
-                    std::to_string(fit.used) + " of " + std::to_string(fit.readings));
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"Readings used", std::to_string(fit.used) + " of " + std::to_string(fit.readings)}};
   if (!fit.rejected.empty()) {
     rows.emplace_back("Rejected", "<span class=\"off\">no. " + Numbers(fit.rejected) + "</span>");
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "lightcal/core/uncertain.h"
+#include "lightcal/tradeoff/recommend.h"
 
 namespace lightcal::tradeoff {
 namespace {
@@ -82,6 +83,33 @@ Result<std::vector<TruthRow>> CompareWithTruth(const ReplicaRunner& run,
     rows.push_back(accounts[i].Row(profiles[i].name, truth));
   }
   return rows;
+}
+
+bool HoldsTruth(const TruthRow& own, const TruthRow& strictest, double tolerance) {
+  if (own.replicas < strictest.replicas || own.intervals == 0) return false;
+  const double more = std::min(tolerance, kSafeShare * strictest.rms);
+  if (own.rms > std::hypot(strictest.rms, more)) return false;
+  constexpr double kStated = 0.95;
+  const double chance = 2.0 * std::sqrt(kStated * (1.0 - kStated) / own.intervals);
+  return own.held_share() >= std::min(kStated, strictest.held_share()) - chance;
+}
+
+Result<void> RecommendByTruth(const Runner& run, const Question& question, const Watch& watch,
+                              const TruthRow& strictest, std::span<const TruthRow> rows,
+                              Study& study) {
+  const Setting* cheapest = nullptr;
+  bool usual_holds = false;
+  for (const Setting* one : AllSettings(study)) {
+    const auto row = std::ranges::find(rows, NameOf(one->levels), &TruthRow::name);
+    if (row == rows.end() || !HoldsTruth(*row, strictest, question.tolerance_relative)) continue;
+    usual_holds = usual_holds || one->levels == study.usual.levels;
+    if (cheapest == nullptr || one->measured.times.total < cheapest->measured.times.total) {
+      cheapest = one;
+    }
+  }
+  if (cheapest == nullptr) return {};
+  const Setting candidate = *cheapest;
+  return RecommendIfItSaves(run, question.sure, watch, candidate, usual_holds, study);
 }
 
 }  // namespace lightcal::tradeoff

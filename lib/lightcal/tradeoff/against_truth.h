@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/tradeoff/outcome.h"
+#include "lightcal/tradeoff/study.h"
 #include "lightcal/tradeoff/timing.h"
 
 namespace lightcal::tradeoff {
@@ -50,5 +51,16 @@ struct ReplicaRules {
                                                              std::span<const Named> profiles,
                                                              const ReplicaRules& rules,
                                                              const Watch& watch);
+
+// Whether a setting is as good as the strictest against the truth: its rms error exceeds that one's
+// by no more than the tolerance and a third of it, added in squares, and its intervals hold the
+// truth as often as 95 % says, or as the strictest's do, to two standard errors of the count.
+[[nodiscard]] bool HoldsTruth(const TruthRow& own, const TruthRow& strictest, double tolerance);
+
+// Recommends anew, by the truth alone: of the settings that `rows` name (NameOf) and that hold it,
+// the cheapest, as RecommendIfItSaves. Where none does, `study` stays as it is.
+[[nodiscard]] Result<void> RecommendByTruth(const Runner& run, const Question& question,
+                                            const Watch& watch, const TruthRow& strictest,
+                                            std::span<const TruthRow> rows, Study& study);
 
 }  // namespace lightcal::tradeoff

@@ -35,7 +35,7 @@ struct LightFigures {
 
 struct Outcome {
   std::vector<LightFigures> lights;
-  StageSeconds seconds{};
+  StageSeconds seconds{};  // of processor time
 };
 
 [[nodiscard]] std::vector<LightFigures> FiguresOf(const LightFile& lights);

@@ -11,6 +11,7 @@
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/tradeoff/combine.h"
+#include "lightcal/tradeoff/recommend.h"
 
 namespace lightcal::tradeoff {
 namespace {
@@ -24,12 +25,8 @@ constexpr std::size_t kCombinations = 6;
 constexpr double kSeenTime = 0.01;   // of the run: a smaller change of time is none
 constexpr double kSeenError = 1e-9;  // relative
 constexpr double kSeenShareOfU = 1e-6;
-// A setting whose runs overlap the cheapest's passes for as cheap, up to this much by the medians.
-constexpr double kAsCheap = 1.2;
 
 using Levels = std::vector<std::size_t>;
-
-std::string MillisecondsText(double seconds) { return RoundedText(1e3 * seconds, 3) + " ms"; }
 
 std::string WhereText(const SettingError& error) {
   return std::string(error.quantity) + " of " + error.light;
@@ -121,23 +118,6 @@ void Judge(const Study& study, Setting& setting) {
                                                          : Verdict::kCosts;
 }
 
-std::vector<double> SignedDifferences(const Study& study, const Measured& measured) {
-  std::vector<double> out;
-  for (const Difference& d : DifferencesFrom(study.reference.lights, measured.lights)) {
-    out.push_back(d.relative);
-  }
-  return out;
-}
-
-bool Meets(const Setting& setting, const Study& study, const std::vector<double>& limits) {
-  if (setting.measured.refused) return false;
-  const std::vector<double> differences = SignedDifferences(study, setting.measured);
-  for (std::size_t i = 0; i < limits.size(); ++i) {
-    if (std::abs(differences[i]) > limits[i]) return false;
-  }
-  return true;
-}
-
 // In the knob's own stage: what a noisy machine does in the others is none of its doing.
 double SavedSeconds(const Study& study, const SweepRow& row) {
   const RunTimes& usual = study.usual.measured.times;
@@ -145,7 +125,7 @@ double SavedSeconds(const Study& study, const SweepRow& row) {
   const Stage stage = Knobs()[row.knob].stage;
   const auto i = static_cast<std::size_t>(stage);
   const double saved = usual.median[i] - own.median[i];
-  const bool apart = !TimesOverlap(usual, own, stage) && std::abs(saved) > kSeenTime * usual.total;
+  const bool apart = TimesDiffer(usual, own, stage) && std::abs(saved) > kSeenTime * usual.total;
   return apart ? saved : 0.0;
 }
 
@@ -184,85 +164,6 @@ CombineInput InputOf(const Study& study, const std::vector<double>& limits, doub
   return input;
 }
 
-std::size_t KnobsMoved(const Setting& setting) {
-  std::size_t moved = 0;
-  for (std::size_t k = 0; k < setting.levels.size(); ++k) {
-    if (setting.levels[k] != Knobs()[k].usual) ++moved;
-  }
-  return moved;
-}
-
-// Among settings that meet the limits the cheapest; of those as cheap as it the most accurate,
-// then the one that moves the fewest knobs.
-const Setting* CheapestOf(const std::vector<const Setting*>& settings) {
-  const auto cheapest = std::ranges::min_element(
-      settings, {}, [](const Setting* s) { return s->measured.times.total; });
-  const Setting* best = *cheapest;
-  for (const Setting* one : settings) {
-    const RunTimes &own = one->measured.times, &least = (*cheapest)->measured.times;
-    if (TimesOverlap(own, least) && own.total <= kAsCheap * least.total &&
-        std::pair(one->error.relative, KnobsMoved(*one)) <
-            std::pair(best->error.relative, KnobsMoved(*best))) {
-      best = one;
-    }
-  }
-  return best;
-}
-
-// Where its time goes, and what its worst light's uncertainty comes from.
-std::string LimitText(const Setting& setting) {
-  const StageSeconds& stages = setting.measured.times.median;
-  const auto longest = std::ranges::max_element(stages);
-  std::string text = "; most of the time goes into " +
-                     std::string(kStageWords[static_cast<std::size_t>(longest - stages.begin())]) +
-                     " (" + MillisecondsText(*longest) + ")";
-  const auto& lights = setting.measured.lights;
-  const auto light = std::ranges::find(lights, setting.error.light, &LightFigures::name);
-  if (light == lights.end() || light->limit.empty()) return text;
-  return text + ", and the uncertainty of " + light->name + " comes mostly from " + light->limit;
-}
-
-Result<void> Recommend(const Question& question, const std::vector<double>& limits, Study& study) {
-  std::vector<const Setting*> all = AllSettings(study);
-  std::erase_if(all, [](const Setting* s) { return s->measured.refused.has_value(); });
-  std::vector<const Setting*> fit;
-  for (const Setting* one : all) {
-    const bool in_time = !question.budget_s || one->measured.times.total <= *question.budget_s;
-    const bool good = question.budget_s ? one->error.relative <= question.tolerance_relative &&
-                                              std::abs(one->u_change) <= kSafeShare
-                                        : Meets(*one, study, limits);
-    if (in_time && good) fit.push_back(one);
-  }
-  if (!fit.empty()) {
-    study.recommended = question.budget_s
-                            ? **std::ranges::min_element(fit, {},
-                                                         [](const Setting* s) {
-                                                           return std::pair(s->error.relative,
-                                                                            std::abs(s->u_change));
-                                                         })
-                            : *CheapestOf(fit);
-    return {};
-  }
-  const Setting* nearest = all.front();
-  for (const Setting* one : all) {
-    const bool late = question.budget_s && one->measured.times.total > *question.budget_s;
-    const bool nearest_late =
-        question.budget_s && nearest->measured.times.total > *question.budget_s;
-    if (std::pair(late, late ? one->measured.times.total : one->error.relative) <
-        std::pair(nearest_late,
-                  nearest_late ? nearest->measured.times.total : nearest->error.relative)) {
-      nearest = one;
-    }
-  }
-  return Refused("no_setting", "tradeoff",
-                 "no setting stays within " + PercentText(question.tolerance_relative) +
-                     (question.budget_s ? " in " + MillisecondsText(*question.budget_s) : "") +
-                     "; the nearest (" + NameOf(nearest->levels) + ") takes " +
-                     MillisecondsText(nearest->measured.times.total) + " and is " +
-                     PercentText(nearest->error.relative) + " off in the " +
-                     WhereText(nearest->error) + LimitText(*nearest));
-}
-
 Result<void> MeasureCombinations(const Runner& run, const Question& question,
                                  const std::vector<double>& limits, const Watch& watch,
                                  Study& study) {
@@ -290,6 +191,18 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
 }
 
 }  // namespace
+
+std::vector<std::string_view> KnobsNotInPlay(const Study& study) {
+  std::vector<std::string_view> names;
+  for (std::size_t k = 0; k < Knobs().size(); ++k) {
+    const auto of_knob = [k](const SweepRow& row) { return row.knob == k; };
+    const auto in_play = [k](const SweepRow& row) { return row.knob == k && row.in_play; };
+    if (std::ranges::any_of(study.rows, of_knob) && std::ranges::none_of(study.rows, in_play)) {
+      names.push_back(Knobs()[k].name);
+    }
+  }
+  return names;
+}
 
 std::vector<const Setting*> AllSettings(const Study& study) {
   std::vector<const Setting*> all = {&study.usual};
@@ -347,8 +260,9 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
   if (auto done = MeasureCombinations(run, question, limits, watch, study); !done) {
     return Propagate(std::move(done));
   }
-  if (auto chosen = Recommend(question, limits, study); !chosen)
+  if (auto chosen = Recommend(run, question, limits, watch, study); !chosen) {
     return Propagate(std::move(chosen));
+  }
   return study;
 }
 

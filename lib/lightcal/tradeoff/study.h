@@ -21,6 +21,8 @@ struct Question {
   std::vector<std::string> knobs;  // those to move; empty = all
   TimingRules alone{};             // each knob alone
   TimingRules together{.least_runs = 7, .most_runs = 101, .seconds = 6.0};  // combinations
+  // What seems worth taking beside the usual profile, once more.
+  TimingRules sure{.least_runs = 9, .most_runs = 101, .seconds = 2.0};
 };
 
 // An error against the session's own standard uncertainty u: below u/10 nobody will ever see it,
@@ -30,6 +32,8 @@ inline constexpr std::array<std::string_view, 4> kVerdictWords = {"free", "safe"
                                                                   "no answer"};
 inline constexpr double kFreeShare = 0.1;
 inline constexpr double kSafeShare = 1.0 / 3.0;
+// Of the usual profile's time: who saves less has nothing to trade.
+inline constexpr double kLeastSaved = 0.10;
 
 struct Setting {
   std::vector<std::size_t> levels;  // of each knob of Knobs()
@@ -55,7 +59,9 @@ struct Study {
   Setting usual;
   std::vector<SweepRow> rows;
   std::vector<Setting> combinations;  // the most promising, measured; cheapest first
-  Setting recommended;
+  Setting recommended;                // the usual one where nothing saves kLeastSaved
+  // Of the usual profile's time, by runs of both in turn; see recommend.h.
+  double saved_share = 0.0;
   // What limited the choice: min(tolerance, u/3).
   double allowed_relative = 0.0;
   bool meter_limits = false;  // u/3 is below the tolerance: a finer setting buys nothing
@@ -67,6 +73,9 @@ struct Study {
 // interrupted, and as the runner.
 [[nodiscard]] Result<Study> StudyTradeoff(const Runner& run, const Question& question,
                                           const Watch& watch);
+
+// Of the knobs moved, those of which no level changes an answer, an interval or the time.
+[[nodiscard]] std::vector<std::string_view> KnobsNotInPlay(const Study& study);
 
 // Every setting measured: the usual one, each row's, the combinations. They live in `study`.
 [[nodiscard]] std::vector<const Setting*> AllSettings(const Study& study);

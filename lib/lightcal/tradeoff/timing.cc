@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "lightcal/core/statistics.h"
@@ -49,6 +50,21 @@ struct Series {
   }
 };
 
+struct Spread {
+  double median, low, high;
+  int runs;
+};
+
+double ErrorOfMedian(const Spread& s) {
+  constexpr double kQuartilesOverSd = 1.349, kMedianOverMean = 1.2533;
+  return kMedianOverMean * (s.high - s.low) / kQuartilesOverSd / std::sqrt(std::max(1, s.runs));
+}
+
+bool Differ(const Spread& a, const Spread& b) {
+  constexpr double kSure = 3.0;  // standard errors
+  return std::abs(a.median - b.median) > kSure * std::hypot(ErrorOfMedian(a), ErrorOfMedian(b));
+}
+
 }  // namespace
 
 Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
@@ -87,9 +103,14 @@ bool TimesOverlap(const RunTimes& a, const RunTimes& b) {
   return a.low <= b.high && b.low <= a.high;
 }
 
-bool TimesOverlap(const RunTimes& a, const RunTimes& b, Stage stage) {
+bool TimesDiffer(const RunTimes& a, const RunTimes& b) {
+  return Differ({a.total, a.low, a.high, a.runs}, {b.total, b.low, b.high, b.runs});
+}
+
+bool TimesDiffer(const RunTimes& a, const RunTimes& b, Stage stage) {
   const auto i = static_cast<std::size_t>(stage);
-  return a.stage_low[i] <= b.stage_high[i] && b.stage_low[i] <= a.stage_high[i];
+  return Differ({a.median[i], a.stage_low[i], a.stage_high[i], a.runs},
+                {b.median[i], b.stage_low[i], b.stage_high[i], b.runs});
 }
 
 }  // namespace lightcal::tradeoff

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long calibrations by several profiles take, measured side by side.
+// How long calibrations by several profiles take, measured side by side, in processor time.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace lightcal::tradeoff {
 struct TimingRules {
   int least_runs = 7;  // of each profile; three, where more take five times `seconds`
   int most_runs = 61;
-  double seconds = 8.0;  // for all profiles together, beyond the least runs
+  double seconds = 8.0;  // by the clock, for all profiles together, beyond the least runs
 };
 
 struct Watch {
@@ -22,8 +22,8 @@ struct Watch {
   std::function<void(double)> progress = [](double /*share*/) {};  // of one measurement, 0 to 1
 };
 
-// Seconds of one profile's runs. `median` of the whole is the sum of the stages' medians, which is
-// what profiles are ranked by; low and high are the quartiles of whole runs.
+// Processor seconds of one profile's runs. `median` of the whole is the sum of the stages' medians,
+// which is what profiles are ranked by; low and high are the quartiles of whole runs.
 struct RunTimes {
   int runs = 0;
   StageSeconds median{}, stage_low{}, stage_high{};  // of each stage, with its quartiles
@@ -44,9 +44,12 @@ struct Measured {
                                                           const TimingRules& rules,
                                                           const Watch& watch);
 
-// Whether the quartiles of two profiles' runs overlap: neither is then the faster.
+// Whether the quartiles of two profiles' runs overlap.
 [[nodiscard]] bool TimesOverlap(const RunTimes& a, const RunTimes& b);
-// The same of one stage.
-[[nodiscard]] bool TimesOverlap(const RunTimes& a, const RunTimes& b, Stage stage);
+
+// Whether their medians differ by more than three standard errors (of normal runs, by the
+// quartiles); of the whole, or of one stage.
+[[nodiscard]] bool TimesDiffer(const RunTimes& a, const RunTimes& b);
+[[nodiscard]] bool TimesDiffer(const RunTimes& a, const RunTimes& b, Stage stage);
 
 }  // namespace lightcal::tradeoff

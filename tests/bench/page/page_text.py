@@ -15,7 +15,9 @@ Down and to the left is better. A mark is the median processor time (all cores a
 else the machine does is left out) at the worst error; the bar across spans the quartiles of the
 times, the thin line down reaches the median error (none: the lower edge). Blue and filled is
 lightcal, orange and open public tools, grey methods written here as they were published. Compare
-the ratios: the seconds are this machine's. One command writes this part:
+the ratios: the seconds are this machine's. Every error is against what made the data, or against
+the number itself worked out in 80 bits or by brute force; where a rival wins, the line below the
+table says so. One command writes this part:
 
 ```sh
 tests/bench/standing_page                 # root: installs what it compares with, builds, measures
@@ -49,13 +51,36 @@ def table(figure):
     return "\n".join(lines)
 
 
+def rivals(figure):
+    """What of others nothing of lightcal beats in both time and error: one setting a method, the
+    most accurate of those no slower than the baseline, else the cheapest."""
+    own = [row for row in figure.rows if row.kind == measure.OWN]
+    base = figure.base()
+    best = {}
+    for row in figure.rows:
+        if row.kind == measure.OWN or any(
+                mine.median <= row.median and mine.error <= row.error for mine in own):
+            continue
+        slow = row.median > base.median
+        rank = (slow, row.median if slow else row.error)
+        if row.method not in best or rank < best[row.method][0]:
+            best[row.method] = (rank, row)
+    if not best:
+        return "No rival here is faster or nearer than every setting of lightcal."
+    words = []
+    for _, row in best.values():
+        name = f"{row.method}{', ' + row.setting if row.setting else ''}"
+        words.append(f"{name} ({measure.times(row.median / base.median)}, {measure.off(row.error)})")
+    return "Nothing of lightcal beats in both time and error: " + "; ".join(words) + "."
+
+
 def section(figure):
     method, setting = figure.baseline
     beside = "; ".join(figure.versions)
     left_out = f" Not there: {', '.join(figure.missing)}." if figure.missing else ""
     picture = f"![{figure.title}: error against time](figures/{figure.key}.svg)\n\n"
     return (f"## {figure.title}\n\n**{figure.sentence}**\n\n{picture}{figure.what}\n\n"
-            f"{table(figure)}\n\nTimes are multiples of {method}"
+            f"{table(figure)}\n\n{rivals(figure)}\n\nTimes are multiples of {method}"
             f"{', ' + setting if setting else ''}. {figure.made}."
             f"{' Beside it: ' + beside + '.' if beside else ''}{left_out}\n")
 

@@ -142,9 +142,43 @@ bool PlaceLamp(Random& random, bool in_corner, LitRoom* lit) {
   return lit->reach >= (down ? 1.5 : 2.0);
 }
 
+constexpr std::uint64_t kThreeLampsSeed = 51290017;
+constexpr int kLamps = 3;
+
+// Paints rooms until all three lamps of one have their 3 m.
+LitRoom OneOfThree(int number) {
+  const std::uint64_t seed = kThreeLampsSeed + 1000003ULL * (number / kLamps);
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    Random random(seed + 7919ULL * attempt);
+    Room room;
+    PaintRoom(random, &room);
+    AddFurniture(random, &room);
+    LitRoom wanted;
+    int placed = 0;
+    for (int k = 0; k < kLamps; ++k) {
+      LitRoom lit;
+      lit.room = room;
+      lit.lamp.kind = static_cast<LampKind>(k);
+      bool fits = false;
+      for (int again = 0; again < 60 && !fits; ++again) {
+        fits = PlaceLamp(random, false, &lit) && lit.reach >= 3.0;
+      }
+      placed += fits ? 1 : 0;
+      if (k == number % kLamps) wanted = lit;
+    }
+    if (placed == kLamps) return wanted;
+  }
+}
+
 }  // namespace
 
+std::string_view NameOf(Family family) {
+  constexpr std::string_view kNames[] = {"ordinary", "unseen", "three_lamps"};
+  return kNames[static_cast<int>(family)];
+}
+
 LitRoom RandomRoom(Family family, int number) {
+  if (family == Family::kThreeLamps) return OneOfThree(number);
   const bool unseen = family == Family::kUnseen;
   Random random((unseen ? kUnseenSeed : kOrdinarySeed) + 1000003ULL * number);
   for (;;) {

@@ -2,6 +2,7 @@
 // Two families of random rooms with a lamp in each; the same on every machine, by number.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "lamp.h"
@@ -15,7 +16,11 @@ enum class Family {
   // Each has at least one of: L-shaped, a window (black glass or a white blind), a glossy wall, the
   // lamp in a corner. Priors are chosen on the other family.
   kUnseen,
+  // Rooms of the ordinary kind with three lamps in each, number 3 n + k being the k-th of room n.
+  // Every meter has its 3 m.
+  kThreeLamps,
 };
+std::string_view NameOf(Family family);
 
 struct LitRoom {
   Room room;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Illuminance in random rooms, traced: truth for the intervals of `lightcal fit` that comes from
 // outside. Nothing here includes a header of lightcal. See README.md here.
-//   traced_rooms ORDINARY UNSEEN       a table of so many rooms of each family, to standard output
+//   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
 #include <cstdio>
@@ -39,7 +39,7 @@ void PrintRoom(Family family, int number) {
   double error = 0.0;
   for (const WallLight& light : answer.meters) error = std::fmax(error, light.error);
   const bool panel = lamp.kind == LampKind::kPanel;
-  std::printf("%s,%d,%s,", family == Family::kOrdinary ? "ordinary" : "unseen", number,
+  std::printf("%s,%d,%s,", std::string(NameOf(family)).c_str(), number,
               std::string(NameOf(lamp.kind)).c_str());
   if (panel) {
     std::printf("%.4g,%.4g,,", lamp.width, lamp.height);
@@ -62,12 +62,13 @@ void PrintRoom(Family family, int number) {
   std::fflush(stdout);
 }
 
-int PrintTable(int ordinary, int unseen) {
+int PrintTable(int ordinary, int unseen, int three_lamps) {
   std::printf("%s", kHead);
   for (const double d : kDistances) std::printf(",direct_%g,wall_%g,card_%g", d, d, d);
   std::printf("\n");
   for (int i = 0; i < ordinary; ++i) PrintRoom(Family::kOrdinary, i);
   for (int i = 0; i < unseen; ++i) PrintRoom(Family::kUnseen, i);
+  for (int i = 0; i < 3 * three_lamps; ++i) PrintRoom(Family::kThreeLamps, i);
   return 0;
 }
 
@@ -81,7 +82,9 @@ int Compare(const char* path, int every) {
     std::vector<std::string> cells;
     std::stringstream cut(line);
     for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-    const Family family = cells[0] == "ordinary" ? Family::kOrdinary : Family::kUnseen;
+    const Family family = cells[0] == "ordinary" ? Family::kOrdinary
+                          : cells[0] == "unseen" ? Family::kUnseen
+                                                 : Family::kThreeLamps;
     const int number = std::atoi(cells[1].c_str());
     const TraceAnswer answer =
         TraceRoom(RandomRoom(family, number), 9000000ULL + number, {0.02, 1 << 14, 1 << 17});
@@ -111,9 +114,9 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
-  if (argc == 3 && argv[1][0] != '-') {
-    return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]));
+  if (argc == 4 && argv[1][0] != '-') {
+    return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
   }
-  std::fprintf(stderr, "traced_rooms ORDINARY UNSEEN | --check | --compare TABLE EVERY\n");
+  std::fprintf(stderr, "traced_rooms ORDINARY UNSEEN THREE | --check | --compare TABLE EVERY\n");
   return 2;
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -16,6 +18,8 @@ namespace {
 constexpr double kNominalCandela = 1000.0;
 // Readings that help equally but for this: the one that comes first is easier.
 constexpr double kAsGood = 0.01;
+// A step of a ladder shortens the interval at least so much.
+constexpr double kLeastGain = 0.02;
 
 Reading LikeTheLast(const Session& session) {
   Reading like;
@@ -48,21 +52,15 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
 
 class Planner {
  public:
-  Planner(Session session, const FitSettings& settings)
-      : session_(std::move(session)), settings_(settings), like_(LikeTheLast(session_)) {}
+  Planner(Session session, const FitSettings& settings, double reach_m)
+      : session_(std::move(session)),
+        settings_(settings),
+        reach_m_(reach_m),
+        like_(LikeTheLast(session_)) {}
 
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
-    const bool read =
-        std::any_of(session_.readings.begin(), session_.readings.end(),
-                    [](const SessionReading& row) { return fit::IsLit(row.reading); });
-    auto fitted = FitSession(session_, settings_);
-    if (fitted && !fitted->lights.lights.empty()) {
-      now_ = std::move(fitted->lights.lights.front());
-      if (read) plan.u95_relative = RelativeUncertainty(*now_);
-    } else if (read) {
-      return Propagate(std::move(fitted));
-    }
+    if (auto begun = Begin(plan.u95_relative); !begun) return Propagate(std::move(begun));
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
       std::vector<PlannedReading> ranked = Rank();
@@ -74,15 +72,104 @@ class Planner {
     return plan;
   }
 
+  Result<MinutesLadder> Ladder(const LadderWishes& wishes) {
+    MinutesLadder ladder;
+    ladder.light = Light().name;
+    if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
+    ladder.meter_u95_relative = std::expm1(kZ95 * SharedCalibration());
+    std::optional<double> left = ladder.u95_relative;
+    double total = 0.0;
+    for (int i = 0; i < wishes.steps; ++i) {
+      std::optional<LadderStep> step = BestStep(left, wishes.minutes);
+      if (!step) break;
+      Take(step->reading);
+      if (step->reading.action != PlannedAction::kLampOff) stands_ = step->reading;
+      left = step->reading.u95_relative;
+      step->total_minutes = total += step->minutes;
+      const double meter = ladder.meter_u95_relative;
+      step->meter_limits = 2.0 * meter * meter > *left * *left;
+      step->say = SayPlannedReading(step->reading);
+      ladder.steps.push_back(*std::move(step));
+    }
+    return ladder;
+  }
+
  private:
   [[nodiscard]] const LightDescription& Light() const { return session_.lights.front(); }
 
-  // Best first; those as good as the best keep their order.
-  std::vector<PlannedReading> Rank() const {
+  // What is known before any step.
+  Result<void> Begin(std::optional<double>& u95_relative) {
+    const bool read =
+        std::any_of(session_.readings.begin(), session_.readings.end(),
+                    [](const SessionReading& row) { return fit::IsLit(row.reading); });
+    auto fitted = FitSession(session_, settings_);
+    if (fitted && !fitted->lights.lights.empty()) {
+      now_ = std::move(fitted->lights.lights.front());
+      if (read) u95_relative = RelativeUncertainty(*now_);
+    } else if (read) {
+      return Propagate(std::move(fitted));
+    }
+    return {};
+  }
+
+  // 1 sigma of what the calibrations of all instruments that read leave together, relative; 0 where
+  // the readings of one share nothing.
+  [[nodiscard]] double SharedCalibration() const {
+    std::map<std::string, double> of_instrument;
+    of_instrument[InstrumentOf(like_)] = CalibrationRelative(session_, like_);
+    for (const SessionReading& row : session_.readings) {
+      if (!fit::IsLit(row.reading)) continue;
+      of_instrument[InstrumentOf(row.reading)] = CalibrationRelative(session_, row.reading);
+    }
+    double information = 0.0;
+    for (const auto& [instrument, calibration] : of_instrument) {
+      if (!(calibration > 0.0)) return 0.0;
+      information += 1.0 / (calibration * calibration);
+    }
+    return 1.0 / std::sqrt(information);
+  }
+
+  // Those that would give an answer, in the order they are listed.
+  [[nodiscard]] std::vector<PlannedReading> Judged() const {
     std::vector<PlannedReading> out;
-    for (PlannedReading& candidate : fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr)) {
+    for (PlannedReading& candidate :
+         fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
       if (Judge(candidate)) out.push_back(std::move(candidate));
     }
+    return out;
+  }
+
+  [[nodiscard]] double MinutesOf(const PlannedReading& planned,
+                                 const MeasuringMinutes& minutes) const {
+    const bool stays = planned.action == PlannedAction::kLampOff ||
+                       (stands_ && stands_->distance == planned.distance &&
+                        stands_->position_m == planned.position_m);
+    const bool card = planned.action == PlannedAction::kShadowCard;
+    return (stays ? 0.0 : minutes.move) + (card ? minutes.card : minutes.reading);
+  }
+
+  // What takes most off ln u95 a minute; before any reading what leaves least. None: nothing is
+  // worth taking.
+  [[nodiscard]] std::optional<LadderStep> BestStep(std::optional<double> left,
+                                                   const MeasuringMinutes& minutes) const {
+    std::optional<LadderStep> best;
+    double most = 0.0;
+    std::vector<PlannedReading> candidates = left ? Judged() : Rank();
+    for (PlannedReading& candidate : candidates) {
+      const double took = MinutesOf(candidate, minutes);
+      const double gain =
+          left ? std::log(*left / candidate.u95_relative) : std::numeric_limits<double>::infinity();
+      if (gain < kLeastGain || gain <= most * took) continue;
+      best = LadderStep{std::move(candidate), {}, took};
+      if (!left) break;
+      most = gain / took;
+    }
+    return best;
+  }
+
+  // Best first; those as good as the best keep their order.
+  [[nodiscard]] std::vector<PlannedReading> Rank() const {
+    std::vector<PlannedReading> out = Judged();
     if (out.empty()) return out;
     const double least = std::min_element(out.begin(), out.end(), [](const auto& a, const auto& b) {
                            return a.u95_relative < b.u95_relative;
@@ -107,22 +194,42 @@ class Planner {
     return row;
   }
 
-  // The reading at the illuminance that a fit with it predicts for it.
+  // What the fit of a session predicts for its last reading.
+  static std::optional<double> PredictedOfLast(const Outcome& outcome) {
+    const int index = outcome.light.fit.readings - 1;
+    for (const ResidualRow& row : outcome.light.residuals) {
+      if (row.index == index && row.predicted_lx > 0.0) return row.predicted_lx;
+    }
+    return std::nullopt;
+  }
+
+  // The reading at the illuminance at which it would change nothing: what a fit with it predicts
+  // for it, and again. Where it tells much, the second answer is still drawn to the first guess,
+  // and the limit of the series is taken (Aitken, in logarithms).
   bool Judge(PlannedReading& candidate) const {
     Session with = session_;
-    candidate.expected = FirstGuess(candidate);
-    if (!(candidate.expected.value() >= 0.0)) return false;
+    double guess = FirstGuess(candidate).value();
+    if (!(guess >= 0.0)) return false;
     with.readings.push_back(RowOf(candidate));
-    std::optional<Outcome> outcome = FitOf(with, settings_);
-    if (!outcome) return false;
-    if (candidate.action == PlannedAction::kRead && now_) {
-      const int index = outcome->light.fit.readings - 1;
-      for (const ResidualRow& row : outcome->light.residuals) {
-        if (row.index != index || !(row.predicted_lx > 0.0)) continue;
-        candidate.expected = Lux(row.predicted_lx);
-        with.readings.back().reading.illuminance = candidate.expected;
-        outcome = FitOf(with, settings_);
-        break;
+    const auto fit_at = [&](double lux) {
+      candidate.expected = Lux(lux);
+      with.readings.back().reading.illuminance = candidate.expected;
+      return FitOf(with, settings_);
+    };
+    std::optional<Outcome> outcome = fit_at(guess);
+    if (candidate.action == PlannedAction::kRead && now_ && guess > 0.0 && outcome) {
+      constexpr double kSame = 0.01, kSlowest = 0.97;
+      double former_step = 0.0;
+      for (int i = 0; i < 2 && outcome; ++i) {
+        const auto predicted = PredictedOfLast(*outcome);
+        if (!predicted) break;
+        double step = std::log(*predicted / guess);
+        const double slow = former_step != 0.0 ? step / former_step : 0.0;
+        if (i > 0 && std::abs(step) < kSame) break;
+        former_step = step;
+        if (slow > 0.0 && slow < kSlowest) step /= 1.0 - slow;
+        guess *= std::exp(step);
+        outcome = fit_at(guess);
       }
     }
     if (!outcome) return false;
@@ -159,12 +266,29 @@ class Planner {
 
   // A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
   [[nodiscard]] double OtherLight(const PlannedReading& planned) const {
-    if (planned.action != PlannedAction::kShadowCard || Ambient() > 0.0) return 0.0;
+    if (planned.action != PlannedAction::kShadowCard) return 0.0;
     constexpr double kShare = 0.01;
+    int index = -1;
     for (const SessionReading& row : session_.readings) {
-      if (fit::IsLit(row.reading) && row.reading.distance == planned.distance &&
-          row.reading.position_m == planned.position_m) {
-        return kShare * row.reading.illuminance->value();
+      ++index;
+      if (!fit::IsLit(row.reading) || row.reading.distance != planned.distance ||
+          row.reading.position_m != planned.position_m) {
+        continue;
+      }
+      const double seen = row.reading.illuminance->value();
+      const double other = WallsAt(index, planned);
+      return other > 0.0 || Ambient() > 0.0 ? other : kShare * seen;
+    }
+    return 0.0;
+  }
+
+  // Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient.
+  [[nodiscard]] double WallsAt(int index, const PlannedReading& planned) const {
+    if (!now_ || !now_->intensity_cd || !planned.distance) return 0.0;
+    const auto own = PredictIlluminance(*now_, *planned.distance, 0.05);
+    for (const ResidualRow& row : now_->residuals) {
+      if (own && row.index == index) {
+        return std::max(0.0, row.predicted_lx - own->model_lx.value);
       }
     }
     return 0.0;
@@ -192,8 +316,10 @@ class Planner {
 
   Session session_;
   const FitSettings& settings_;
+  double reach_m_;
   Reading like_;
   std::optional<FittedLight> now_;
+  std::optional<PlannedReading> stands_;  // where the meter does
 };
 
 std::string PlaceText(const Vec3& at) {
@@ -217,8 +343,10 @@ std::optional<double> RelativeUncertainty(const FittedLight& light) {
   return (u->high ? std::max(*u->high - u->value, u->u95) : u->u95) / u->value;
 }
 
-Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
-                                 const FitSettings& settings, int steps) {
+namespace {
+
+// The session as if it had that light alone.
+Result<Session> AloneIn(const Session& session, const std::string& light) {
   const LightDescription* const found = FindLight(session, light);
   if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
   Session alone;
@@ -228,7 +356,23 @@ Result<ReadingPlan> PlanReadings(const Session& session, const std::string& ligh
   for (const SessionReading& row : session.readings) {
     if (row.reading.light == light) alone.readings.push_back(row);
   }
-  return Planner(std::move(alone), settings).Plan(steps);
+  return alone;
+}
+
+}  // namespace
+
+Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
+                                 const FitSettings& settings, int steps) {
+  auto alone = AloneIn(session, light);
+  if (!alone) return Propagate(std::move(alone));
+  return Planner(*std::move(alone), settings, fit::kFarthestReach).Plan(steps);
+}
+
+Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,
+                                  const FitSettings& settings, const LadderWishes& wishes) {
+  auto alone = AloneIn(session, light);
+  if (!alone) return Propagate(std::move(alone));
+  return Planner(*std::move(alone), settings, wishes.reach_m).Ladder(wishes);
 }
 
 std::string SayPlannedReading(const PlannedReading& reading) {

@@ -12,8 +12,7 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr double kNearest = 0.25;  // metres a person holds a meter from a lamp
-constexpr double kFarthest = 10.0;
+constexpr double kNearest = 0.25;             // metres a person holds a meter from a lamp
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
@@ -35,9 +34,11 @@ double RoundedLength(double metres) {
 // What readings of one light could come next.
 class Candidates {
  public:
-  Candidates(const Session& session, const LightDescription& light, const FittedLight* fitted)
-      : light_(light), fitted_(fitted) {
+  Candidates(const Session& session, const LightDescription& light, const FittedLight* fitted,
+             double reach_m)
+      : light_(light), fitted_(fitted), reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
+    for (const double d : distances_) reach_ = std::max(reach_, d);
   }
 
   [[nodiscard]] std::vector<PlannedReading> List() const {
@@ -95,7 +96,8 @@ class Candidates {
     const double clear = std::max(kNearest, 0.5 * SizeOf(light_));
     std::vector<double> distances;
     if (distances_.empty()) {
-      distances = {std::max(0.5, 2.0 * SizeOf(light_))};
+      const double near = std::max(0.5, 2.0 * SizeOf(light_));
+      distances = {near, 2.0 * near, 4.0 * near, 0.5 * near};
     } else {
       const auto [low, high] = std::minmax_element(distances_.begin(), distances_.end());
       for (const double d : {*low, *high, *low * kStep, *high * kStep, *low / kStep, *high / kStep,
@@ -105,7 +107,7 @@ class Candidates {
     }
     for (double d : distances) {
       const bool taken = std::find(distances_.begin(), distances_.end(), d) != distances_.end();
-      if (!taken) d = RoundedLength(std::clamp(d, clear, kFarthest));
+      if (!taken) d = RoundedLength(std::clamp(d, clear, std::max(clear, reach_)));
       const bool listed = std::any_of(out.begin(), out.end(), [d](const PlannedReading& other) {
         return other.action == PlannedAction::kRead && other.distance &&
                SameDistance(other.distance->value(), d);
@@ -194,7 +196,7 @@ class Candidates {
     distance = places_.empty() ? std::max(1.0, 2.0 * SizeOf(light_))
                                : distance / static_cast<double>(places_.size());
     for (const double factor : {0.5, 1.0, 2.0}) {
-      AddPlace(*lamp + *aim * std::min(kFarthest, factor * distance), out);
+      AddPlace(*lamp + *aim * std::min(std::max(reach_, distance), factor * distance), out);
     }
     if (light_.kind != LightKind::kSpot || fitted_ == nullptr || !fitted_->outer_deg) return;
     const double inner = fitted_->inner_deg.value_or(0.0);
@@ -213,6 +215,7 @@ class Candidates {
 
   const LightDescription& light_;
   const FittedLight* fitted_;
+  double reach_;
   std::vector<double> distances_;
   std::vector<Place> places_;
   std::vector<Reading> lit_, carded_;
@@ -225,8 +228,9 @@ bool IsLit(const Reading& reading) {
   return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
 }
 
-std::vector<PlannedReading> ReadingCandidates(const Session& session, const FittedLight* fitted) {
-  return Candidates(session, session.lights.front(), fitted).List();
+std::vector<PlannedReading> ReadingCandidates(const Session& session, const FittedLight* fitted,
+                                              double reach_m) {
+  return Candidates(session, session.lights.front(), fitted, reach_m).List();
 }
 
 std::optional<double> DistanceSpan(const Session& session) {

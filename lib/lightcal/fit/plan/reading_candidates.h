@@ -9,9 +9,13 @@
 
 namespace lightcal::fit {
 
+inline constexpr double kFarthestReach = 10.0;  // metres
+
 // Of the session's first (only) light, as plan_readings.h says; `fitted` is what is known of it.
+// None stands farther than `reach_m`, unless one already does.
 [[nodiscard]] std::vector<PlannedReading> ReadingCandidates(const Session& session,
-                                                            const FittedLight* fitted);
+                                                            const FittedLight* fitted,
+                                                            double reach_m);
 // Farthest over nearest distance of its readings with the lamp on.
 [[nodiscard]] std::optional<double> DistanceSpan(const Session& session);
 // Whether it is of the lamp's light.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a ladder promises for the minutes of its steps is what its readings bring.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "lamp_twin.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/fit/plan/plan_readings.h"
+
+namespace lightcal {
+namespace {
+
+using test::LampTruth;
+using test::TwinSession;
+
+constexpr double kSigma = 0.02;
+
+Session EmptySession(double calibration) {
+  Session session = TwinSession(LampTruth{}, kSigma, 1).session();
+  MeterDescription meter;
+  meter.name = "m";
+  meter.sigma_relative = kSigma;
+  meter.calibration_relative = calibration;
+  session.meters = {meter};
+  return session;
+}
+
+MinutesLadder LadderOf(const Session& session, const LadderWishes& wishes = {}) {
+  auto ladder = PlanMinutes(session, "lamp", {}, wishes);
+  EXPECT_TRUE(ladder.has_value()) << ladder.error().message;
+  return ladder ? *std::move(ladder) : MinutesLadder{};
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+TEST(PlanMinutes, EveryRungBringsWhatItPromises) {
+  const MinutesLadder ladder = LadderOf(EmptySession(0.0));
+  EXPECT_FALSE(ladder.u95_relative);
+  ASSERT_GE(ladder.steps.size(), 4U);
+  std::mt19937_64 random(71);
+  std::normal_distribution<double> normal;
+  std::vector<std::vector<double>> ratios(ladder.steps.size());
+  for (int i = 0; i < 100; ++i) {
+    LampTruth truth;
+    truth.intensity_cd = std::exp(5.0 + normal(random));
+    truth.offset_m = 0.02 * normal(random);
+    TwinSession twin(truth, kSigma, random());
+    for (std::size_t k = 0; k < ladder.steps.size(); ++k) {
+      const PlannedReading& step = ladder.steps[k].reading;
+      if (step.action == PlannedAction::kRead) twin.On(step.distance->value());
+      if (step.action == PlannedAction::kShadowCard) twin.ShadowCard(step.distance->value());
+      if (step.action == PlannedAction::kLampOff) twin.Off();
+      const auto fitted = FitSession(twin.session(), {});
+      ASSERT_TRUE(fitted.has_value()) << fitted.error().message;
+      const auto got = RelativeUncertainty(fitted->lights.lights.front());
+      ASSERT_TRUE(got.has_value());
+      ratios[k].push_back(*got / step.u95_relative);
+    }
+  }
+  for (std::size_t k = 0; k < ratios.size(); ++k) {
+    EXPECT_NEAR(Median(ratios[k]), 1.0, 0.15) << "rung " << k + 1;
+  }
+}
+
+TEST(PlanMinutes, AStepCostsItsReadingAndTheWayThere) {
+  LadderWishes wishes;
+  wishes.minutes = {.reading = 7.0, .card = 0.5, .move = 11.0};
+  const MinutesLadder ladder = LadderOf(EmptySession(0.0), wishes);
+  double total = 0.0;
+  const PlannedReading* stands = nullptr;
+  for (const LadderStep& step : ladder.steps) {
+    const PlannedReading& reading = step.reading;
+    const bool moves = reading.action != PlannedAction::kLampOff &&
+                       (stands == nullptr || stands->distance != reading.distance);
+    const bool card = reading.action == PlannedAction::kShadowCard;
+    EXPECT_EQ(step.minutes, (moves ? 11.0 : 0.0) + (card ? 0.5 : 7.0)) << step.say;
+    EXPECT_EQ(step.total_minutes, total += step.minutes);
+    if (reading.action != PlannedAction::kLampOff) stands = &reading;
+  }
+}
+
+TEST(PlanMinutes, EachRungLeavesLessAndNoneStandsOutOfReach) {
+  TwinSession twin(LampTruth{}, kSigma, 3);
+  twin.On(0.5);
+  LadderWishes wishes;
+  wishes.reach_m = 1.5;
+  const MinutesLadder ladder = LadderOf(twin.session(), wishes);
+  ASSERT_TRUE(ladder.u95_relative);
+  ASSERT_FALSE(ladder.steps.empty());
+  double left = *ladder.u95_relative;
+  for (const LadderStep& step : ladder.steps) {
+    EXPECT_LT(step.reading.u95_relative, 0.98 * left) << step.say;
+    left = step.reading.u95_relative;
+    if (step.reading.distance) {
+      EXPECT_LE(step.reading.distance->value(), 1.5);
+    }
+  }
+}
+
+TEST(PlanMinutes, TheMetersOwnCalibrationIsTheFloor) {
+  const MinutesLadder ladder = LadderOf(EmptySession(0.019));
+  EXPECT_NEAR(ladder.meter_u95_relative, std::expm1(kZ95 * 0.019), 1e-12);
+  ASSERT_FALSE(ladder.steps.empty());
+  EXPECT_FALSE(ladder.steps.front().meter_limits) << "the offset is open";
+  EXPECT_TRUE(ladder.steps.back().meter_limits);
+  for (const LadderStep& step : ladder.steps) {
+    EXPECT_GT(step.reading.u95_relative, ladder.meter_u95_relative);
+  }
+  Session two = EmptySession(0.019);  // and another meter, as sure, has read already
+  two.meters.push_back(two.meters.front());
+  two.meters.back().name = "n";
+  two.readings = TwinSession(LampTruth{}, kSigma, 4).On(1.0).session().readings;
+  two.readings.front().reading.meter = "n";
+  two.readings.push_back(two.readings.front());
+  two.readings.back().reading.meter = "m";
+  EXPECT_NEAR(LadderOf(two).meter_u95_relative, std::expm1(kZ95 * 0.019 / std::sqrt(2.0)), 1e-12);
+  const MinutesLadder own = LadderOf(EmptySession(0.0));
+  EXPECT_EQ(own.meter_u95_relative, 0.0);
+  for (const LadderStep& step : own.steps) EXPECT_FALSE(step.meter_limits);
+}
+
+TEST(PlanMinutes, AnUnknownLightIsRefused) {
+  const auto ladder = PlanMinutes(EmptySession(0.0), "no such", {}, {});
+  ASSERT_FALSE(ladder);
+  EXPECT_EQ(ladder.error().code, "unknown_light");
+}
+
+}  // namespace
+}  // namespace lightcal
