@@ -4,9 +4,9 @@
 #include "lightcal/imaging/scene/charuco.h"
 #include "lightcal_devices/captures/board_module.h"
 
-extern "C" __attribute__((visibility("default"))) const lightcal::BoardFunctions*
+extern "C" __attribute__((visibility("default"))) const lightcal::devices::BoardFunctions*
 lightcal_board_functions() noexcept {
-  static constexpr lightcal::BoardFunctions kFunctions = {
+  static constexpr lightcal::devices::BoardFunctions kFunctions = {
       &lightcal::LayOutBoard, &lightcal::FindBoard, &lightcal::FindColorChart};
   return &kFunctions;
 }

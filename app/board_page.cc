@@ -26,7 +26,7 @@ std::string Rectangle(const BoardRectangle& r) {
          Number(r.height) + "\" fill=\"" + (r.black ? "#000" : "#fff") + "\"/>\n";
 }
 
-std::string Line(double x1, double y1, double x2, double y2) {
+std::string LinePath(double x1, double y1, double x2, double y2) {
   return "<path d=\"M" + Number(x1) + " " + Number(y1) + "L" + Number(x2) + " " + Number(y2) +
          "\" stroke=\"#000\" stroke-width=\"0.2\" fill=\"none\"/>\n";
 }
@@ -64,7 +64,7 @@ Result<Metres> LargestSquare(const CharucoBoard& board, const Paper& paper) {
 }
 
 Result<std::string> BoardPage(const CharucoBoard& board, const Paper& paper) {
-  const auto module = BoardModule();
+  const auto module = devices::BoardModule();
   if (!module) return tl::unexpected(module.error());
   const auto layout = (*module)->lay_out(board);
   if (!layout) return tl::unexpected(layout.error());
@@ -88,16 +88,16 @@ Result<std::string> BoardPage(const CharucoBoard& board, const Paper& paper) {
   for (const BoardRectangle& rectangle : *layout) svg += Rectangle(rectangle);
   svg += "</g>\n";
   // Ticks that point at the origin of wall coordinates.
-  svg +=
-      Line(left - 6.0, bottom, left - 1.5, bottom) + Line(left, bottom + 1.5, left, bottom + 6.0);
+  svg += LinePath(left - 6.0, bottom, left - 1.5, bottom) +
+         LinePath(left, bottom + 1.5, left, bottom + 6.0);
   const double line = paper.height_mm - 7.0;
   svg += Text(left + 2.0, bottom + 5.0, "0: x to the right, z up, y into the wall [m]");
   svg += Text(left, line,
               Title(board) + ". Print at 100 %, matt; then measure: the bar is 100 mm long.");
   const double end = left + width;
-  svg += Line(end - kBar, line - 5.0, end, line - 5.0) +
-         Line(end - kBar, line - 6.5, end - kBar, line - 3.5) +
-         Line(end, line - 6.5, end, line - 3.5);
+  svg += LinePath(end - kBar, line - 5.0, end, line - 5.0) +
+         LinePath(end - kBar, line - 6.5, end - kBar, line - 3.5) +
+         LinePath(end, line - 6.5, end, line - 3.5);
   return svg + "</svg>\n";
 }
 

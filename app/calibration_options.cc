@@ -99,13 +99,13 @@ Result<T> Told(Calibrated<T>&& answer, Console& console) {
 
 Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationSettings& settings,
                                      Console& console) {
-  return Told(MeasureSession(path, DiskSources(), settings), console);
+  return Told(MeasureSession(path, devices::DiskSources(), settings), console);
 }
 
 Result<CalibratedSession> CalibrateAloud(const std::string& path, CalibrationSettings settings,
                                          Console& console) {
   settings.time = SourceDateIso8601().value_or("");
-  return Told(CalibrateSession(path, DiskSources(), settings), console);
+  return Told(CalibrateSession(path, devices::DiskSources(), settings), console);
 }
 
 std::string DefaultOutputDirectory(const Session& session) {

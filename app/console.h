@@ -56,6 +56,8 @@ void PrintError(const Error& error, bool json);
 // document and prints it, or says the error on stderr. The error that it returns says no more.
 [[nodiscard]] Result<void> EndWithError(Console& console, Node document, const Error& error);
 
+inline constexpr const char* kNone = "-";  // a cell without a value
+
 // A table with a header, columns aligned by display width (UTF-8), numbers to the right.
 [[nodiscard]] std::string TextTable(const std::vector<std::string>& header,
                                     const std::vector<std::vector<std::string>>& rows);

@@ -29,7 +29,7 @@ Result<PlannedDistribution> PlanDistribution(const Session& session, const std::
                    "a photometric file describes a light of kind = \"photometric\"; write that "
                    "into its [[light]] first");
   }
-  const Sources disk = DiskSources();
+  const Sources disk = devices::DiskSources();
   auto read = disk.read_photometric(path);
   if (!read) return Propagate(std::move(read));
   plan.flux_lm = read->file.table.Flux().value();

@@ -53,7 +53,8 @@ class Captures {
   // captures/<name>, or with a part of its hash where other contents have that name already.
   std::string Add(const std::string& name, const std::string& contents) {
     const fs::path wanted(name);
-    const std::string marked = wanted.stem().string() + "-" + Sha256Hex(contents).substr(0, 8) +
+    const std::string marked = wanted.stem().string() + "-" +
+                               devices::Sha256Hex(contents).substr(0, 8) +
                                wanted.extension().string();
     for (const std::string& candidate : {name, marked}) {
       const std::string relative = "captures/" + candidate;
@@ -102,7 +103,7 @@ class Planner {
       : session_(session), settings_(settings), captures_(session), held_(session) {}
 
   Result<void> Add(const std::string& path) {
-    auto imported = ImportFile(path);
+    auto imported = devices::ImportFile(path);
     if (!imported) return Propagate(std::move(imported));
     auto readings = ReadingsOf(path, *imported);
     if (!readings) return Propagate(std::move(readings));

@@ -6,8 +6,8 @@
 namespace lightcal::app {
 namespace {
 
-Cancellation& InterruptRequest() {
-  static Cancellation request;
+devices::Cancellation& InterruptRequest() {
+  static devices::Cancellation request;
   return request;
 }
 
@@ -31,6 +31,6 @@ InterruptGuard::~InterruptGuard() {
   }
 }
 
-const Cancellation& InterruptGuard::StopRequest() { return InterruptRequest(); }
+const devices::Cancellation& InterruptGuard::StopRequest() { return InterruptRequest(); }
 
 }  // namespace lightcal::app

@@ -18,7 +18,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  [[nodiscard]] static const Cancellation& StopRequest();
+  [[nodiscard]] static const devices::Cancellation& StopRequest();
 
  private:
   static constexpr std::array kSignals = {SIGINT, SIGTERM};

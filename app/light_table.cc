@@ -12,11 +12,10 @@
 namespace lightcal::app {
 namespace {
 
-constexpr const char* kNone = "-";
 // Parts of less than a thousandth of the variance change nothing.
 constexpr double kLeastShareShown = 1e-3;
 
-std::string Percent(const std::optional<double>& relative) {
+std::string PercentOrNone(const std::optional<double>& relative) {
   return relative ? RoundedText(*relative * 100.0, 2) + " %" : kNone;
 }
 
@@ -95,8 +94,8 @@ std::string FitTable(const LightFile& file) {
   for (const FittedLight& light : file.lights) {
     const FitDiagnostics& fit = light.fit;
     rows.push_back({light.name, std::to_string(fit.used) + " of " + std::to_string(fit.readings),
-                    std::to_string(fit.degrees_of_freedom), Percent(fit.rms_relative),
-                    Percent(fit.leave_one_out), Join(fit.learned), Join(fit.prior)});
+                    std::to_string(fit.degrees_of_freedom), PercentOrNone(fit.rms_relative),
+                    PercentOrNone(fit.leave_one_out), Join(fit.learned), Join(fit.prior)});
   }
   return TextTable({"light", "readings", "dof", "rms", "leave-one-out", "learned", "prior"}, rows);
 }
@@ -107,7 +106,7 @@ std::string EffectTable(const FittedLight& light) {
   rows.reserve(light.effects.size());
   for (const EffectReport& effect : light.effects) {
     rows.push_back({effect.name, kStateNames[static_cast<int>(effect.state)],
-                    RoundedText(effect.bound * 100.0, 2) + " %", Percent(effect.contribution),
+                    RoundedText(effect.bound * 100.0, 2) + " %", PercentOrNone(effect.contribution),
                     RoundedText(effect.cost_ns, 3) + " ns", effect.reason});
   }
   return TextTable({"effect", "state", "bound", "found", "cost", "why"}, rows);

@@ -21,7 +21,7 @@ Result<void> WaitUntilSettled(double tolerance_relative, MeterSession& meter, Co
     if (!one) return tl::unexpected(one.error());
     console.Note("  settling: " + LuxText(one->reading));
     values.push_back(one->reading.illuminance->value());
-    if (HasSettled(values, tolerance_relative)) return {};
+    if (devices::HasSettled(values, tolerance_relative)) return {};
   }
   console.Warn({"not_settled", "",
                 "the light still changes after " + std::to_string(values.size()) +
@@ -36,7 +36,8 @@ std::string LuxText(const Reading& reading) {
   return beyond + RoundedText(reading.illuminance->value(), 5) + " lx";
 }
 
-Result<Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter, Console& console) {
+Result<devices::Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter,
+                                     Console& console) {
   if (plan.settle_relative) {
     if (auto settled = WaitUntilSettled(*plan.settle_relative, meter, console); !settled) {
       return tl::unexpected(settled.error());
@@ -45,7 +46,7 @@ Result<Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter, Cons
   const int asked = plan.from_memory ? 1 : plan.measurements;
   const bool until_tape_ends = meter.IsReplay() && asked == 0;
   const int wanted = asked > 0 ? asked : kDefaultMeasurements;
-  std::vector<MeterReading> measured;
+  std::vector<devices::MeterReading> measured;
   const auto more = [&] {
     if (until_tape_ends) return measured.empty() || meter.HasMore();
     return static_cast<int>(measured.size()) < wanted;
@@ -60,7 +61,7 @@ Result<Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter, Cons
     if (wanted == 1) continue;
     console.Note("  " + std::to_string(measured.size()) + ": " + LuxText(measured.back().reading));
   }
-  auto summary = Summarise(measured);
+  auto summary = devices::Summarise(measured);
   if (!summary) return Failed("internal", "read", "a measurement came without illuminance");
   return *std::move(summary);
 }

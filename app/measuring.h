@@ -30,7 +30,7 @@ struct MeasuringPlan {
 
 // Notes each measurement on stderr unless it is the only one. Fails as MeterSession::Measure;
 // warns not_settled where the light still moved after kSettleMeasurements.
-[[nodiscard]] Result<Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter,
-                                          Console& console);
+[[nodiscard]] Result<devices::Summary> TakeSummary(const MeasuringPlan& plan, MeterSession& meter,
+                                                   Console& console);
 
 }  // namespace lightcal::app

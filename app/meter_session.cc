@@ -14,6 +14,11 @@
 namespace lightcal::app {
 namespace {
 
+using devices::MeterOption;
+using devices::MeterReading;
+using devices::MeterSetup;
+using devices::Transport;
+
 // A driver's options, as a tape keeps them.
 std::string SettingsText(const std::map<std::string, std::string>& settings) {
   std::string text;
@@ -38,18 +43,18 @@ MeterSetup MeterSession::Setup() const {
   MeterSetup setup;
   setup.serial = serial_;
   setup.options = request_.settings;
-  MeterTiming& timing = setup.timing;
+  devices::MeterTiming& timing = setup.timing;
   timing.reply = request_.reply_timeout;
   timing.live = !IsReplay();
   return setup;
 }
 
 Result<void> MeterSession::OpenDevice() {
-  const auto found = FindMeters();
+  const auto found = devices::FindMeters();
   if (!found) return tl::unexpected(found.error());
-  const auto chosen = ChooseMeter(*found, request_.device);
+  const auto chosen = devices::ChooseMeter(*found, request_.device);
   if (!chosen) return tl::unexpected(chosen.error());
-  auto line = OpenMeter(*chosen);
+  auto line = devices::OpenMeter(*chosen);
   if (!line) return tl::unexpected(line.error());
   row_ = chosen->row;
   serial_ = chosen->serial;
@@ -60,9 +65,9 @@ Result<void> MeterSession::OpenDevice() {
 Result<void> MeterSession::OpenTape() {
   const auto text = ReadWholeFile(request_.replay_file);
   if (!text) return tl::unexpected(text.error());
-  auto tape = TapeFromText(*text, request_.replay_file);
+  auto tape = devices::TapeFromText(*text, request_.replay_file);
   if (!tape) return tl::unexpected(tape.error());
-  row_ = FindDriver(tape->driver);
+  row_ = devices::FindDriver(tape->driver);
   if (row_ == nullptr) {
     return Refused("bad_tape", request_.replay_file,
                    "was recorded by the driver " + tape->driver +
@@ -72,7 +77,7 @@ Result<void> MeterSession::OpenTape() {
   if (colon != std::string::npos) serial_ = tape->device.substr(colon + 1);
   time_ = tape->recorded;
   AddSettings(tape->settings, request_.settings);
-  auto replay = std::make_unique<ReplayTransport>(*std::move(tape));
+  auto replay = std::make_unique<devices::ReplayTransport>(*std::move(tape));
   replay_ = replay.get();
   line_ = std::move(replay);
   return {};
@@ -83,7 +88,7 @@ void MeterSession::Record() {
   recorded_.driver = row_->driver;
   recorded_.recorded = time_;
   recorded_.settings = SettingsText(request_.settings);
-  recorder_ = std::make_unique<RecordingTransport>(*line_, recorded_);
+  recorder_ = std::make_unique<devices::RecordingTransport>(*line_, recorded_);
 }
 
 Result<void> MeterSession::CheckSettings() const {
@@ -146,7 +151,7 @@ Result<void> MeterSession::Finish(Console& console) {
                       " exchanges of the tape were not played; it holds more than was asked for"});
   }
   if (request_.record_file.empty() || recorded_.exchanges.empty()) return {};
-  return WriteOutputs({{request_.record_file, TapeToText(recorded_)}}, false);
+  return WriteOutputs({{request_.record_file, devices::TapeToText(recorded_)}}, false);
 }
 
 }  // namespace lightcal::app

@@ -31,9 +31,9 @@ class MeterSession {
                                                                   Console& console);
   // One measurement with its time. Ctrl-C gives the meter back and fails as interrupted; a second
   // Ctrl-C ends the program at once.
-  [[nodiscard]] Result<MeterReading> Measure();
+  [[nodiscard]] Result<devices::MeterReading> Measure();
   // A reading the meter keeps in its memory, from 0; its time is the meter's own, or unknown.
-  [[nodiscard]] Result<MeterReading> ReadMemory(int index);
+  [[nodiscard]] Result<devices::MeterReading> ReadMemory(int index);
 
   [[nodiscard]] bool IsReplay() const { return replay_ != nullptr; }
   // Whether the tape holds more; always so of a device.
@@ -52,17 +52,17 @@ class MeterSession {
   void Record();
   // Wrong usage: a setting the driver does not have (lists those it has).
   [[nodiscard]] Result<void> CheckSettings() const;
-  [[nodiscard]] MeterSetup Setup() const;
+  [[nodiscard]] devices::MeterSetup Setup() const;
 
   MeterRequest request_;
   std::string time_;  // as the tape being played says ("" = it does not); else when this began
-  const MeterRow* row_ = nullptr;
+  const devices::MeterRow* row_ = nullptr;
   std::string serial_;
-  std::unique_ptr<Transport> line_;
-  ReplayTransport* replay_ = nullptr;  // line_, when it is a tape
-  Tape recorded_;
-  std::unique_ptr<Transport> recorder_;
-  std::unique_ptr<Meter> meter_;
+  std::unique_ptr<devices::Transport> line_;
+  devices::ReplayTransport* replay_ = nullptr;  // line_, when it is a tape
+  devices::Tape recorded_;
+  std::unique_ptr<devices::Transport> recorder_;
+  std::unique_ptr<devices::Meter> meter_;
 };
 
 }  // namespace lightcal::app

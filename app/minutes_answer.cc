@@ -13,7 +13,7 @@
 namespace lightcal::app {
 namespace {
 
-std::string PlusMinus(double relative) { return "± " + PercentText(relative); }
+std::string U95Text(double relative) { return "± " + PercentText(relative); }
 
 const char* WordOf(PlannedAction action) {
   if (action == PlannedAction::kShadowCard) return "shadow_card";
@@ -51,20 +51,20 @@ const LadderStep* MeterStep(const MinutesLadder& ladder) {
 
 std::string Sentence(const MinutesLadder& ladder) {
   const double meter = ladder.meter_u95_relative;
-  const std::string own = "the meter's own " + PlusMinus(meter);
+  const std::string own = "the meter's own " + U95Text(meter);
   if (ladder.steps.empty()) {
-    const std::string now = ladder.u95_relative ? " (" + PlusMinus(*ladder.u95_relative) + ")" : "";
+    const std::string now = ladder.u95_relative ? " (" + U95Text(*ladder.u95_relative) + ")" : "";
     return ladder.light + ": no reading within reach would take 2 % off what is left" + now +
            (meter > 0.0 ? "; " + own + " stays however often it reads" : "") + ".";
   }
   const LadderStep& first = ladder.steps.front();
   const LadderStep& last = ladder.steps.back();
   std::string text = ladder.light + ": ";
-  text += ladder.u95_relative ? "now " + PlusMinus(*ladder.u95_relative) + "; " : "";
+  text += ladder.u95_relative ? "now " + U95Text(*ladder.u95_relative) + "; " : "";
   text += Minutes(first.total_minutes) + " (" + first.say + ") leave " +
-          PlusMinus(first.reading.u95_relative);
+          U95Text(first.reading.u95_relative);
   if (&first != &last) {
-    text += ", " + Minutes(last.total_minutes) + " " + PlusMinus(last.reading.u95_relative);
+    text += ", " + Minutes(last.total_minutes) + " " + U95Text(last.reading.u95_relative);
   }
   if (const LadderStep* at = MeterStep(ladder)) {
     text += "; from minute " + ShortestText(at->total_minutes) + " on " + own +
@@ -119,10 +119,10 @@ std::vector<MinutesLadder> LaddersOf(const Session& session, const FitSettings& 
 std::vector<std::vector<std::string>> MinutesCells(const MinutesLadder& ladder) {
   std::vector<std::vector<std::string>> rows = {
       {"minutes", "what they buy: " + ladder.light, "leaves", "limit"}};
-  if (ladder.u95_relative) rows.push_back({"0", "as it is", PlusMinus(*ladder.u95_relative), ""});
+  if (ladder.u95_relative) rows.push_back({"0", "as it is", U95Text(*ladder.u95_relative), ""});
   for (const LadderStep& step : ladder.steps) {
     rows.push_back({ShortestText(step.total_minutes), step.say,
-                    PlusMinus(step.reading.u95_relative), StepMark(step)});
+                    U95Text(step.reading.u95_relative), StepMark(step)});
   }
   return rows;
 }

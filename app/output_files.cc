@@ -217,7 +217,9 @@ void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {
   for (OutputFile& file : files) file.path = (fs::path(directory) / file.path).string();
 }
 
-Result<std::string> ReadWholeFile(const std::string& path) { return DiskSources().read_text(path); }
+Result<std::string> ReadWholeFile(const std::string& path) {
+  return devices::DiskSources().read_text(path);
+}
 
 std::string GeneratorName() { return "lightcal " LIGHTCAL_VERSION; }
 

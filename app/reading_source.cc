@@ -36,13 +36,13 @@ std::vector<std::string> DirectoriesOfMeters(const std::string& session_path) {
 }
 
 // What the driver `typed` understands; what is no number is a wrong command line.
-Result<Summary> TypedSummary(const std::string& text) {
-  const auto typed = text::DecodeLine(text);
+Result<devices::Summary> TypedSummary(const std::string& text) {
+  const auto typed = devices::text::DecodeLine(text);
   if (!typed || !*typed) {
     if (auto number = ParseIlluminance(text); !number) return tl::unexpected(number.error());
     return Refused("bad_reading", "--lux " + text, typed ? "is no reading" : typed.error().message);
   }
-  Summary summary;
+  devices::Summary summary;
   summary.count = 1;
   summary.kept.reading.illuminance = (*typed)->illuminance;
   summary.kept.reading.cct = (*typed)->cct;
@@ -50,7 +50,7 @@ Result<Summary> TypedSummary(const std::string& text) {
   return summary;
 }
 
-Result<Summary> AskedSummary() {
+Result<devices::Summary> AskedSummary() {
   while (true) {
     const auto typed = Ask("What does the meter show? (for example 192, 17.8fc, or 192,2900K) ");
     if (!typed || typed->empty()) {
@@ -123,7 +123,8 @@ std::string SayReading(const TakenReading& taken) {
 Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_type,
                                           Console& console) {
   ReadingSource source;
-  auto calibrations = MeterCalibrations::Load(DirectoriesOfMeters(settings.session), DiskSources());
+  auto calibrations =
+      MeterCalibrations::Load(DirectoriesOfMeters(settings.session), devices::DiskSources());
   if (!calibrations) return Propagate(std::move(calibrations));
   source.calibrations_ = *std::move(calibrations);
   if (settings.typed) return source;
@@ -133,7 +134,7 @@ Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_typ
     return source;
   }
   const bool nothing_there =
-      opened.error().code == fault::kNoDevice && settings.request.device.empty();
+      opened.error().code == devices::fault::kNoDevice && settings.request.device.empty();
   if (!may_type || !nothing_there) return Propagate(std::move(opened));
   console.Note("No meter is plugged in: type what yours shows.");
   return source;
@@ -149,7 +150,7 @@ Result<TakenReading> ReadingSource::TakeTyped(const Reading& frame, const std::s
   return Finished(frame, TypedSummary(text), console);
 }
 
-Result<TakenReading> ReadingSource::Finished(const Reading& frame, Result<Summary> summary,
+Result<TakenReading> ReadingSource::Finished(const Reading& frame, Result<devices::Summary> summary,
                                              Console& console) {
   if (!summary) return Propagate(std::move(summary));
   Warnings& warnings = summary->kept.warnings;

@@ -19,7 +19,7 @@ namespace lightcal::app {
 
 struct TakenReading {
   Reading reading;
-  Summary summary;
+  devices::Summary summary;
 };
 
 // "406.96 lx ± 9.8 %, 4995 K  key at 0.5 m  (median of 5, spread 0.1 %)" and a newline.
@@ -57,8 +57,8 @@ class ReadingSource {
   [[nodiscard]] Result<void> Finish(Console& console);
 
  private:
-  [[nodiscard]] Result<TakenReading> Finished(const Reading& frame, Result<Summary> summary,
-                                              Console& console);
+  [[nodiscard]] Result<TakenReading> Finished(const Reading& frame,
+                                              Result<devices::Summary> summary, Console& console);
 
   std::unique_ptr<MeterSession> meter_;
   MeterCalibrations calibrations_;

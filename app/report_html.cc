@@ -14,7 +14,7 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kScaleRows = 256;
+constexpr int kReportScaleRows = 256;
 
 std::optional<LightSpectrum::Rendering> RenderingOf(const Spectrum& spectrum) {
   const auto input = PrepareRendering(spectrum);
@@ -36,8 +36,8 @@ LuminancePicture InFalseColors(const RecordedPicture& picture) {
   out.scale = report::ScaleFor(nits);
   const std::vector<std::uint8_t> colors = report::FalseColors(nits, out.scale);
   out.image_uri = PngUri({colors.data(), picture.width, picture.height, 3});
-  const std::vector<std::uint8_t> scale = report::ScaleColors(kScaleRows);
-  out.scale_uri = PngUri({scale.data(), 1, kScaleRows, 3});
+  const std::vector<std::uint8_t> scale = report::ScaleColors(kReportScaleRows);
+  out.scale_uri = PngUri({scale.data(), 1, kReportScaleRows, 3});
   out.region = picture.region;
   return out;
 }

@@ -47,7 +47,7 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
   return advice;
 }
 
-std::string Percent(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
+std::string PlusMinus(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
 
 Node NodeOf(const PlannedLight& planned, const Session& session) {
   Node node = {{"name", planned.light->name}};
@@ -69,19 +69,19 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
   std::string text = planned.light->name + ": ";
   if (!planned.plan) return text + planned.plan.error().message + "\n";
   const ReadingPlan& plan = *planned.plan;
-  text += plan.u95_relative ? "now " + Percent(*plan.u95_relative) + " (95 %)\n"
+  text += plan.u95_relative ? "now " + PlusMinus(*plan.u95_relative) + " (95 %)\n"
                             : std::string("no reading yet\n");
   std::vector<std::vector<std::string>> rows;
   for (const PlannedReading& step : plan.steps) {
     rows.push_back({std::to_string(rows.size() + 1), SayPlannedReading(step),
-                    RoundedText(step.expected.value(), 3) + " lx", Percent(step.u95_relative)});
+                    RoundedText(step.expected.value(), 3) + " lx", PlusMinus(step.u95_relative)});
   }
   text += TextTable({"step", "take this reading", "expect about", "then"}, rows);
   if (verbose) {
     rows.clear();
     for (const PlannedReading& one : plan.candidates) {
       if (rows.size() == kCandidatesShown) break;
-      rows.push_back({SayPlannedReading(one), Percent(one.u95_relative)});
+      rows.push_back({SayPlannedReading(one), PlusMinus(one.u95_relative)});
     }
     text += "\n" + TextTable({"or first", "then"}, rows);
   }

@@ -50,7 +50,7 @@ std::vector<std::string> SessionsOf(const std::string& path) {
 }
 
 Result<std::vector<std::string>> MatchesOf(const std::string& pattern) {
-  const auto matches = ExpandFiles(std::span(&pattern, 1));
+  const auto matches = devices::ExpandFiles(std::span(&pattern, 1));
   std::vector<std::string> sessions;
   for (const std::string& match : matches.value_or(std::vector<std::string>{})) {
     std::ranges::move(SessionsOf(match), std::back_inserter(sessions));

@@ -82,9 +82,9 @@ Outcome OutcomeOf(const JobResult& result) {
 }
 
 // One line that is written over; nothing where nobody looks.
-class Progress {
+class BatchProgress {
  public:
-  Progress(bool wanted, std::size_t count)
+  BatchProgress(bool wanted, std::size_t count)
       : shown_(wanted && ::isatty(STDERR_FILENO) == 1), count_(count) {}
 
   void Show(const std::vector<Outcome>& outcomes) const {
@@ -243,7 +243,7 @@ std::optional<Error> WorstOf(const std::vector<Outcome>& outcomes) {
 
 std::vector<Outcome> RunAll(const BatchRequest& request) {
   std::vector<Outcome> outcomes(request.items.size());
-  const Progress progress(request.progress, outcomes.size());
+  const BatchProgress progress(request.progress, outcomes.size());
   bool misused = false;
   const InterruptGuard guard;
   JobPlan plan;

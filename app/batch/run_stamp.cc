@@ -32,7 +32,7 @@ std::vector<InputFile> FilesAt(const Node& document, std::string_view key) {
 bool StillTheSame(const fs::path& directory, const std::vector<InputFile>& files) {
   return std::ranges::all_of(files, [&](const InputFile& file) {
     const auto bytes = ReadWholeFile((directory / file.path).string());
-    return bytes && Sha256Hex(*bytes) == file.sha256;
+    return bytes && devices::Sha256Hex(*bytes) == file.sha256;
   });
 }
 
@@ -42,7 +42,7 @@ std::vector<std::string> MatchedFrames(const Session& session) {
   const auto add = [&](const std::string& name) {
     if (name.empty()) return;
     const std::string pattern = PathInSession(session, name);
-    auto files = ExpandFiles(std::span(&pattern, 1));
+    auto files = devices::ExpandFiles(std::span(&pattern, 1));
     if (files) std::ranges::move(*files, std::back_inserter(frames));
   };
   for (const CaptureDescription& capture : session.captures) {
@@ -99,9 +99,9 @@ Result<std::string> NamedFilesHash(const std::string& session_path) {
     auto bytes = ReadWholeFile(file);
     if (!bytes) return Propagate(std::move(bytes));
     const fs::path relative = fs::path(file).lexically_proximate(session.directory);
-    list += relative.generic_string() + '\n' + Sha256Hex(*bytes) + '\n';
+    list += relative.generic_string() + '\n' + devices::Sha256Hex(*bytes) + '\n';
   }
-  return Sha256Hex(list);
+  return devices::Sha256Hex(list);
 }
 
 bool IsUpToDate(const std::string& directory, const std::string& session_directory,

@@ -18,23 +18,23 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct CameraOptions {
   std::string session, output;
   bool force = false;
 };
 
-std::string Percent(double sigma) { return "± " + PercentText(kZ95 * sigma); }
+std::string U95OfSigma(double sigma) { return "± " + PercentText(kZ95 * sigma); }
 
 void AddScale(const CameraScale& scale, std::vector<std::vector<std::string>>& rows) {
   for (const ScaleReading& reading : scale.readings) {
     const auto kind = kScaleReadingWords[static_cast<std::size_t>(reading.kind)];
     rows.push_back({std::string(kind) + " reading, " + reading.frames,
                     "k = " + RoundedText(reading.full_scale_constant, 4),
-                    Percent(reading.sigma_relative)});
+                    U95OfSigma(reading.sigma_relative)});
   }
   rows.push_back({scale.readings.empty() ? "scale by ISO speed (prior)" : "scale",
                   "k = " + RoundedText(scale.full_scale_constant, 4),
-                  Percent(scale.sigma_relative)});
+                  U95OfSigma(scale.sigma_relative)});
 }
 
 std::string Table(const CameraProfile& profile) {
@@ -60,7 +60,7 @@ std::string Table(const CameraProfile& profile) {
   for (const CameraFlat& flat : profile.flats) {
     const double corner = 1.0 + flat.channels[1][0] + flat.channels[1][1] + flat.channels[1][2];
     rows.push_back({"flat field, f/" + RoundedText(flat.f_number, 2),
-                    "corners keep " + PercentText(corner, 3), Percent(flat.sigma_relative)});
+                    "corners keep " + PercentText(corner, 3), U95OfSigma(flat.sigma_relative)});
   }
   for (const CameraDark& dark : profile.darks) {
     rows.push_back({"dark, ISO " + RoundedText(dark.iso, 4) + ", " +
@@ -74,21 +74,21 @@ std::string Table(const CameraProfile& profile) {
     rows.push_back({"filter " + filter.name,
                     "x " + RoundedText(a[0], 4) + " " + RoundedText(a[1], 4) + " " +
                         RoundedText(a[2], 4) + " (R G B)",
-                    Percent(filter.sigma_relative)});
+                    U95OfSigma(filter.sigma_relative)});
   }
   return TextTable({profile.camera, "found", "95 %"}, rows);
 }
 
-Result<void> RunCamera(const Options& options, Console& console) {
+Result<void> RunCamera(const CameraOptions& options, Console& console) {
   auto loaded = LoadSession(options.session);
   if (!loaded) return Propagate(std::move(loaded));
   console.Warn(loaded->warnings);
   Session& session = loaded->session;
   Warnings warnings;
-  auto profile = CalibrateCamera(session, DiskSources(), warnings);
+  auto profile = CalibrateCamera(session, devices::DiskSources(), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
-  auto provenance = ProvenanceOf(session, DiskSources(), SourceDateIso8601().value_or(""));
+  auto provenance = ProvenanceOf(session, devices::DiskSources(), SourceDateIso8601().value_or(""));
   if (!provenance) return Propagate(std::move(provenance));
   profile->provenance = std::move(*provenance);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
@@ -113,7 +113,7 @@ Result<void> RunCamera(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildCamera(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CameraOptions>();
   parser.add_option("session", options->session, "Directory or .toml with [[camera_frames]]")
       ->required();
   parser.add_option("-o,--output", options->output,

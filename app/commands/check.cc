@@ -24,7 +24,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::string preset, session, render, rig, engine;
 };
 
@@ -60,7 +60,7 @@ void PrintVerdict(const CheckedRig& rig, const RenderVerdict& verdict, Console& 
   }
 }
 
-Result<void> CheckRender(const Options& options, Console& console) {
+Result<void> CheckRender(const CheckOptions& options, Console& console) {
   if (options.rig.empty()) {
     return WrongUsage("--rig", "is missing: the STEM.preset.json that was exported with the rig");
   }
@@ -68,7 +68,7 @@ Result<void> CheckRender(const Options& options, Console& console) {
   if (!text) return tl::unexpected(text.error());
   const auto rig = RigFromPreset(*text, options.rig);
   if (!rig) return tl::unexpected(rig.error());
-  const auto picture = ReadPicture(options.render);
+  const auto picture = devices::ReadPicture(options.render);
   if (!picture) return tl::unexpected(picture.error());
   const bool linear = picture->info.meaning == SampleMeaning::kLinear;
   const PixelUnit unit = linear ? LinearPixelsOf(options.engine) : PixelUnit::kExposed;
@@ -107,7 +107,7 @@ Result<void> CheckRender(const Options& options, Console& console) {
 
 // ---- a preset ----
 
-Result<void> CheckPreset(const Options& options, Console& console) {
+Result<void> CheckPreset(const CheckOptions& options, Console& console) {
   const auto text = ReadWholeFile(options.preset);
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.preset, *text, FilesBeside(options.preset));
@@ -149,7 +149,7 @@ Result<void> CheckPreset(const Options& options, Console& console) {
   return {};
 }
 
-Result<void> RunCheck(const Options& options, Console& console) {
+Result<void> RunCheck(const CheckOptions& options, Console& console) {
   if (!options.render.empty()) return CheckRender(options, console);
   if (options.preset.empty() || options.session.empty()) {
     return WrongUsage("check",
@@ -161,7 +161,7 @@ Result<void> RunCheck(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildCheck(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   parser.add_option("preset", options->preset, "An exported file: " + ReadableEndings(" "));
   parser.add_option("--session", options->session, "The readings it is checked against");
   parser.add_option("--render", options->render, "A picture an engine rendered of the rig");

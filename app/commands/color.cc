@@ -32,7 +32,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct ColorOptions {
   std::vector<std::string> xy, xyz;
   std::string cct, duv, locus = "planck";
   std::string spectrum, column, vector_graphic;
@@ -61,7 +61,7 @@ Result<double> TypedNumber(const std::string& text, const std::string& option) {
   return WrongUsage(option, "\"" + text + "\" is not a number");
 }
 
-Result<Xyz> TypedXyz(const Options& options) {
+Result<Xyz> TypedXyz(const ColorOptions& options) {
   std::array<double, 3> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto number = TypedNumber(options.xyz[i], "--xyz");
@@ -76,7 +76,7 @@ Result<Xyz> TypedXyz(const Options& options) {
   return Xyz{x, y, z};
 }
 
-Result<Xy> TypedXy(const Options& options) {
+Result<Xy> TypedXy(const ColorOptions& options) {
   const auto x = TypedNumber(options.xy[0], "--xy");
   if (!x) return tl::unexpected(x.error());
   const auto y = TypedNumber(options.xy[1], "--xy");
@@ -98,7 +98,7 @@ Result<Kelvin> TypedTemperature(const std::string& text) {
   return temperature;
 }
 
-Result<Xy> XyOfTemperature(const Options& options) {
+Result<Xy> XyOfTemperature(const ColorOptions& options) {
   auto temperature = TypedTemperature(options.cct);
   if (!temperature) return Propagate(std::move(temperature));
   if (options.locus == "daylight") {
@@ -122,7 +122,7 @@ struct TypedColor {
   Xyz xyz;  // at Y = 1 where only a chromaticity was typed
 };
 
-Result<TypedColor> ColorTyped(const Options& options) {
+Result<TypedColor> ColorTyped(const ColorOptions& options) {
   if (!options.xyz.empty()) {
     auto xyz = TypedXyz(options);
     if (!xyz) return Propagate(std::move(xyz));
@@ -144,7 +144,7 @@ std::string PlotOf(const ColorAnswer& answer) {
   return report::ChromaticityPlot(color);
 }
 
-Result<void> RunTyped(const Options& options, const ColorExtras& extras, Console& console) {
+Result<void> RunTyped(const ColorOptions& options, const ColorExtras& extras, Console& console) {
   auto color = ColorTyped(options);
   if (!color) return Propagate(std::move(color));
   const std::string subject = !options.xyz.empty() ? "--xyz"
@@ -197,7 +197,7 @@ void WarnIfTruncated(const Spectrum& spectrum, const std::string& subject, Conso
 }
 
 // The pictures asked for, of the one spectrum they are drawn of.
-Result<std::vector<OutputFile>> PicturesOf(const Options& options,
+Result<std::vector<OutputFile>> PicturesOf(const ColorOptions& options,
                                            const std::vector<ColorAnswer>& answers) {
   std::vector<OutputFile> pictures;
   const auto check_one = [&](const std::string& option) -> Result<void> {
@@ -230,7 +230,7 @@ Result<std::vector<OutputFile>> PicturesOf(const Options& options,
   return pictures;
 }
 
-Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Console& console) {
+Result<void> RunSpectrum(const ColorOptions& options, const ColorExtras& extras, Console& console) {
   auto file = ReadSpectrumSource(options.spectrum);
   if (!file) return Propagate(std::move(file));
   const auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
@@ -279,7 +279,7 @@ Result<void> RunSpectrum(const Options& options, const ColorExtras& extras, Cons
   return {};
 }
 
-Result<void> CheckOptions(const Options& o) {
+Result<void> CheckColor(const ColorOptions& o) {
   const int questions = static_cast<int>(!o.xy.empty()) + static_cast<int>(!o.xyz.empty()) +
                         static_cast<int>(!o.cct.empty()) + static_cast<int>(!o.spectrum.empty()) +
                         static_cast<int>(!o.batch.empty());
@@ -315,7 +315,7 @@ Result<void> CheckOptions(const Options& o) {
 }  // namespace
 
 Run BuildColor(CLI::App& parser) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ColorOptions>();
   parser.add_option("--xy", o->xy, "CIE 1931 chromaticity")->expected(2)->type_name("X Y");
   parser.add_option("--xyz", o->xyz, "Tristimulus values")->expected(3)->type_name("X Y Z");
   parser.add_option("--cct", o->cct, "Colour temperature, e.g. 3200K")->type_name("K");
@@ -341,7 +341,7 @@ Run BuildColor(CLI::App& parser) {
       ->type_name("FILE.csv");
   AddColorExtraOptions(parser, o->extra);
   return [o](Console& console) -> Result<void> {
-    if (auto checked = CheckOptions(*o); !checked) return checked;
+    if (auto checked = CheckColor(*o); !checked) return checked;
     if (!o->batch.empty()) return RunColorBatch(o->batch, console);
     const auto extras = ParseColorExtras(o->extra);
     if (!extras) return tl::unexpected(extras.error());

@@ -50,7 +50,7 @@ std::optional<Columns> NamedColumns(std::string_view line) {
                  static_cast<std::size_t>(y - cells.begin()), true};
 }
 
-struct Row {
+struct BatchRow {
   std::string_view typed;  // "x,y" as it stands in the input
   Xy xy;
   CctResult cct;
@@ -58,7 +58,7 @@ struct Row {
 
 struct Sink {
   std::function<void()> names;
-  std::function<void(const Row&)> row;
+  std::function<void(const BatchRow&)> row;
 };
 
 // Some thousand rows at a time, so that their temperatures are found side by side.
@@ -155,7 +155,7 @@ class Writer {
     buffer_ += "x,y,cct_K,duv";
     EndLine();
   }
-  void Add(const Row& row) {
+  void Add(const BatchRow& row) {
     if (console_.json()) {
       rows_.push_back({{"xy", {row.xy.x, row.xy.y}},
                        {"cct_K", row.cct.valid() ? Node(row.cct.temperature) : Node()},
@@ -196,8 +196,8 @@ class Writer {
 
 Result<void> WriteRows(std::istream& stream, const std::string& name, Console& console) {
   Writer writer(console);
-  auto done =
-      ForEachRow(stream, name, {[&] { writer.Names(); }, [&](const Row& row) { writer.Add(row); }});
+  auto done = ForEachRow(stream, name,
+                         {[&] { writer.Names(); }, [&](const BatchRow& row) { writer.Add(row); }});
   if (!done) {
     writer.Flush();
     return done;
@@ -231,7 +231,7 @@ Result<void> RunColorBatch(const std::string& path, Console& console) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return Failed("unreadable", path, "cannot be read; check its permissions");
   if (std::filesystem::is_regular_file(path)) {
-    const Sink nothing = {[] {}, [](const Row&) {}};
+    const Sink nothing = {[] {}, [](const BatchRow&) {}};
     if (auto checked = ForEachRow(stream, path, nothing); !checked) return checked;
     stream.clear();
     stream.seekg(0);

@@ -55,7 +55,7 @@ bool NamesIlluminant(const std::string& source) {
 }
 
 Result<ImportedFile> ReadSpectrumSource(const std::string& source) {
-  if (!NamesIlluminant(source)) return ImportFile(source);
+  if (!NamesIlluminant(source)) return devices::ImportFile(source);
   auto spectrum = NamedSpectrum(source);
   if (!spectrum) return Propagate(std::move(spectrum));
   ImportedFile file;

@@ -39,8 +39,9 @@ tl::unexpected<Error> ProgramFailed(std::string message) {
 Result<std::string> OutputOf(const std::string& program,
                              const std::vector<std::string>& arguments) {
   const auto line =
-      OpenProcess({.program = program, .environment = {}, .longest_run = kLongestRun});
-  if (auto started = line->Control("start", StartArguments(arguments), 0, kLongestRun); !started) {
+      devices::OpenProcess({.program = program, .environment = {}, .longest_run = kLongestRun});
+  if (auto started = line->Control("start", devices::StartArguments(arguments), 0, kLongestRun);
+      !started) {
     return Propagate(std::move(started));
   }
   std::string text;
@@ -153,7 +154,7 @@ std::string NameOfArgyll(const std::string& specplot) {
 }  // namespace
 
 Result<Tlci> TlciByArgyll(const Spectrum& spectrum) {
-  const auto specplot = ProgramOnPath(kSubject);
+  const auto specplot = devices::ProgramOnPath(kSubject);
   if (!specplot) {
     return Failed("no_program", "--tlci",
                   "is computed by ArgyllCMS's specplot, which is not on PATH; install ArgyllCMS "

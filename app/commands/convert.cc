@@ -20,9 +20,9 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kTableDigits = 6;
+constexpr int kConvertDigits = 6;
 
-struct Options {
+struct ConvertOptions {
   std::string value, kind, distance, radius, diameter, size, width, height, length;
   std::string inner, outer, angular_diameter, efficacy, reflectance;
   std::string spot_falloff = "squared";
@@ -30,7 +30,7 @@ struct Options {
 };
 
 // All that convert prints. luminance and exitance are the lit surface's where there is one.
-struct Answer {
+struct ConvertAnswer {
   SourcePhotometry source;
   std::optional<LumensPerSquareMetre> lit_exitance;
   std::optional<Nits> lit_luminance;
@@ -69,7 +69,7 @@ Result<void> FillSize(SourceGeometry& g, const std::string& text) {
   return FillLength(g.height, height);
 }
 
-Result<void> FillRadius(SourceGeometry& g, const Options& o) {
+Result<void> FillRadius(SourceGeometry& g, const ConvertOptions& o) {
   if (!o.radius.empty() && !o.diameter.empty()) {
     return WrongUsage("--radius", "give --radius or --diameter, not both");
   }
@@ -79,7 +79,7 @@ Result<void> FillRadius(SourceGeometry& g, const Options& o) {
   return {};
 }
 
-Result<void> FillSizes(SourceGeometry& g, const Options& o) {
+Result<void> FillSizes(SourceGeometry& g, const ConvertOptions& o) {
   if (!o.size.empty() && (!o.width.empty() || !o.height.empty())) {
     return WrongUsage("--size", "give --size or --width and --height, not both");
   }
@@ -119,7 +119,7 @@ Result<Radians> HalfAngle(const std::string& text, bool full) {
   return full ? HalfAngleFromFull(*angle) : *angle;
 }
 
-Result<void> FillAngles(SourceGeometry& g, const Options& o, Console& console) {
+Result<void> FillAngles(SourceGeometry& g, const ConvertOptions& o, Console& console) {
   if (auto done = FillFalloff(g, o.spot_falloff); !done) return done;
   if (!o.angular_diameter.empty()) {
     const auto radius = HalfAngle(o.angular_diameter, true);
@@ -175,7 +175,7 @@ Result<Given> GivenQuantity(const LightValue& typed, const std::optional<LumensP
                LumensFromElectrical(ElectricalWatts(typed.value), *efficacy).value()};
 }
 
-Result<void> LightSurface(Answer& answer, const std::string& text) {
+Result<void> LightSurface(ConvertAnswer& answer, const std::string& text) {
   if (text.empty()) return {};
   const auto reflectance = ParsePlainNumber("--reflectance", text);
   if (!reflectance) return tl::unexpected(reflectance.error());
@@ -191,7 +191,7 @@ Result<void> LightSurface(Answer& answer, const std::string& text) {
   return {};
 }
 
-Result<Answer> Convert(const Options& o, Console& console) {
+Result<ConvertAnswer> Convert(const ConvertOptions& o, Console& console) {
   const auto typed = ParseLightValue(o.value);
   if (!typed) return tl::unexpected(typed.error());
   const auto kind = ParseKind(o.kind);
@@ -210,7 +210,7 @@ Result<Answer> Convert(const Options& o, Console& console) {
   if (auto done = FillAngles(geometry, o, console); !done) return tl::unexpected(done.error());
   auto source = ConvertSource(geometry, given->quantity, given->value);
   if (!source) return tl::unexpected(source.error());
-  Answer answer{*source, {}, {}, {}};
+  ConvertAnswer answer{*source, {}, {}, {}};
   const std::optional<Lumens> flux = answer.source.flux;
   if (efficacy && flux) answer.electrical = ElectricalFromLumens(*flux, *efficacy);
   if (auto done = LightSurface(answer, o.reflectance); !done) return tl::unexpected(done.error());
@@ -220,7 +220,7 @@ Result<Answer> Convert(const Options& o, Console& console) {
 // Calls add(json key, name, unit, what it belongs to, value) for every quantity there is, in the
 // order both outputs use.
 template <class Add>
-void ForEachQuantity(const Answer& a, Add add) {
+void ForEachQuantity(const ConvertAnswer& a, Add add) {
   const auto give = [&add](const char* key, const char* name, const char* unit, const char* of,
                            const auto& quantity) {
     if (quantity.has_value()) add(key, name, unit, of, quantity->value());
@@ -240,7 +240,7 @@ void ForEachQuantity(const Answer& a, Add add) {
   give("electrical_W", "electrical power", "W", "lamp", a.electrical);
 }
 
-Result<void> RunConvert(const Options& o, Console& console) {
+Result<void> RunConvert(const ConvertOptions& o, Console& console) {
   const auto answer = Convert(o, console);
   if (!answer) return tl::unexpected(answer.error());
   if (auto refused = console.RefuseIfStrict(); !refused) return refused;
@@ -249,7 +249,7 @@ Result<void> RunConvert(const Options& o, Console& console) {
   ForEachQuantity(*answer, [&](const char* key, const char* name, const char* unit, const char* of,
                                double value) {
     document.Put(key, value);
-    rows.push_back({name, RoundedText(value, kTableDigits), unit, of});
+    rows.push_back({name, RoundedText(value, kConvertDigits), unit, of});
   });
   console.Print(TextTable({"quantity", "value", "unit", "of"}, rows));
   console.PrintDocument(document);
@@ -259,7 +259,7 @@ Result<void> RunConvert(const Options& o, Console& console) {
 }  // namespace
 
 Run BuildConvert(CLI::App& parser) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ConvertOptions>();
   parser
       .add_option("value", o->value,
                   "806lm flux, 64cd intensity, 190lx or 17.8fc illuminance, 1500nits or 14fL "

@@ -10,6 +10,12 @@
 namespace lightcal::app {
 namespace {
 
+using devices::CameraAccess;
+using devices::FoundCamera;
+using devices::FoundMeter;
+using devices::MeterAccess;
+using devices::VerifiedName;
+
 std::string StatusName(MeterAccess access) {
   switch (access) {
     case MeterAccess::kReady:
@@ -33,8 +39,8 @@ Node ToJson(const FoundMeter& meter) {
           {"status", StatusName(meter.access)},
           {"verified", VerifiedName(meter.row->verified)},
           {"about", meter.row->describe != nullptr ? Node(meter.row->describe(meter)) : Node()},
-          {"remedy", Node::UnlessEmpty(Remedy(meter))},
-          {"udev_rules", locked ? Node(UdevRules(*meter.row)) : Node()}};
+          {"remedy", Node::UnlessEmpty(devices::Remedy(meter))},
+          {"udev_rules", locked ? Node(devices::UdevRules(*meter.row)) : Node()}};
 }
 
 std::vector<std::string> ToRow(const FoundMeter& meter) {
@@ -45,7 +51,7 @@ std::vector<std::string> ToRow(const FoundMeter& meter) {
 }
 
 // Shoots through the real libgphoto2, against a camera of ours in Python.
-constexpr Verified kCameraVerified = Verified::kDocumentation;
+constexpr devices::Verified kCameraVerified = devices::Verified::kDocumentation;
 
 std::string StatusName(CameraAccess access) {
   switch (access) {
@@ -61,9 +67,9 @@ std::string StatusName(CameraAccess access) {
 
 Node ToJson(const FoundCamera& camera) {
   return {{"id", camera.id},
-          {"driver", kCameraDriver},
+          {"driver", devices::kCameraDriver},
           {"models", camera.model},
-          {"transport", kCameraTransport},
+          {"transport", devices::kCameraTransport},
           {"usb", camera.usb},
           {"serial", Node::UnlessEmpty(camera.serial)},
           {"status", StatusName(camera.access)},
@@ -72,7 +78,7 @@ Node ToJson(const FoundCamera& camera) {
 }
 
 std::vector<std::string> ToRow(const FoundCamera& camera) {
-  return {camera.id, camera.model, std::string(kCameraTransport) + " " + camera.usb,
+  return {camera.id, camera.model, std::string(devices::kCameraTransport) + " " + camera.usb,
           StatusName(camera.access), std::string(VerifiedName(kCameraVerified))};
 }
 
@@ -87,7 +93,7 @@ std::string Remedies(const std::vector<FoundMeter>& found,
     if (meter.row->describe != nullptr) {
       text += "\n" + meter.id + ": " + meter.row->describe(meter) + "\n";
     }
-    const std::string remedy = Remedy(meter);
+    const std::string remedy = devices::Remedy(meter);
     if (!remedy.empty()) text += "\n" + meter.id + ": " + remedy + "\n";
   }
   return text;
@@ -96,7 +102,7 @@ std::string Remedies(const std::vector<FoundMeter>& found,
 // Every driver, so that a person learns what could be plugged in.
 std::string KnownMeters() {
   std::vector<std::vector<std::string>> rows;
-  for (const MeterRow& row : MeterTable()) {
+  for (const devices::MeterRow& row : devices::MeterTable()) {
     rows.push_back({std::string(row.driver), std::string(row.models), std::string(row.line->name),
                     std::string(VerifiedName(row.verified))});
   }
@@ -111,7 +117,7 @@ std::string NothingFound() {
 }
 
 Result<void> RunDevices(Console& console) {
-  const auto found = FindMeters();
+  const auto found = devices::FindMeters();
   if (!found) return tl::unexpected(found.error());
   std::vector<Node> devices;
   std::vector<std::vector<std::string>> rows;
@@ -119,7 +125,7 @@ Result<void> RunDevices(Console& console) {
     devices.push_back(ToJson(meter));
     rows.push_back(ToRow(meter));
   }
-  const std::vector<FoundCamera> cameras = FindCameras();
+  const std::vector<FoundCamera> cameras = devices::FindCameras();
   for (const FoundCamera& camera : cameras) {
     devices.push_back(ToJson(camera));
     rows.push_back(ToRow(camera));

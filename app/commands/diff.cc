@@ -13,7 +13,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct DiffOptions {
   std::string a, b;
   double correlation = 0.0;
   bool fail_on_change = false;
@@ -46,7 +46,7 @@ Node QuantityNode(const QuantityChange& change) {
           {"verdict", Word(kChangeWords, change.change)}};
 }
 
-Node LightNode(const LightChange& light) {
+Node ChangeNode(const LightChange& light) {
   return {{"name", light.name},
           {"in", light.before && light.after ? "both" : (light.before ? "old" : "new")},
           {"changed", light.Changed()},
@@ -54,14 +54,14 @@ Node LightNode(const LightChange& light) {
           {"quantities", Node::List(light.quantities, QuantityNode)}};
 }
 
-Node ToJson(const Options& options, const LightComparison& comparison) {
+Node ToJson(const DiffOptions& options, const LightComparison& comparison) {
   return {{"old", options.a},
           {"new", options.b},
           {"coverage", 0.95},
           {"correlation", options.correlation},
           {"shared_inputs", comparison.shared_inputs},
           {"changed", comparison.Changed()},
-          {"lights", Node::List(comparison.lights, LightNode)}};
+          {"lights", Node::List(comparison.lights, ChangeNode)}};
 }
 
 std::string ValueText(const Uncertain& u, const std::string& unit) {
@@ -104,7 +104,7 @@ std::string Table(const LightComparison& comparison) {
       rows);
 }
 
-std::string Assumption(const Options& options, const LightComparison& comparison) {
+std::string Assumption(const DiffOptions& options, const LightComparison& comparison) {
   std::string text =
       "u is the 95 % half width of a difference whose two errors are " +
       (options.correlation == 0.0 ? std::string("independent")
@@ -128,7 +128,7 @@ std::string Assumption(const Options& options, const LightComparison& comparison
   return text;
 }
 
-Result<void> RunDiff(const Options& options, Console& console) {
+Result<void> RunDiff(const DiffOptions& options, Console& console) {
   const auto a = LightsIn(options.a);
   if (!a) return tl::unexpected(a.error());
   const auto b = LightsIn(options.b);
@@ -148,7 +148,7 @@ Result<void> RunDiff(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildDiff(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffOptions>();
   const std::string what = "light.json, STEM.preset.json, or a session that was run";
   parser.add_option("old", options->a, what)->required();
   parser.add_option("new", options->b, what)->required();

@@ -25,7 +25,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct DomeCommandOptions {
   DomeOptions dome;
   std::string extract = "0", plate, output, space, white;
   bool force = false;
@@ -45,7 +45,7 @@ Result<std::size_t> ParseExtract(const std::string& text) {
   return static_cast<std::size_t>(*number);
 }
 
-Result<Plan> PlanOf(const Options& options) {
+Result<Plan> PlanOf(const DomeCommandOptions& options) {
   Plan plan;
   auto request = DomeRequestOf(options.dome);
   if (!request) return Propagate(std::move(request));
@@ -175,10 +175,10 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
           {"files", written}};
 }
 
-Result<void> RunDome(const Options& options, Console& console) {
+Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
   const auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
-  const Sources sources = DiskSources();
+  const Sources sources = devices::DiskSources();
   auto measured = MeasureDome(plan->request, sources);
   if (!measured) return Propagate(std::move(measured));
   console.Warn(measured->warnings);
@@ -212,8 +212,8 @@ Result<void> RunDome(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildDome(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<DomeCommandOptions>();
+  DomeCommandOptions& o = *options;
   AddDomeOptions(parser, o.dome);
   parser
       .add_option("--extract", o.extract,

@@ -15,13 +15,13 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct ExplainOptions {
   CalibrationOptions calibration;
   std::string plot;
   bool force = false;
 };
 
-Result<void> WritePlot(const Options& options, const LightFile& lights) {
+Result<void> WritePlot(const ExplainOptions& options, const LightFile& lights) {
   const auto tolerance = ParseTolerance(options.calibration.tolerance);
   if (!tolerance) return tl::unexpected(tolerance.error());
   auto picture = PictureFile(options.plot, report::GatePlot(lights.lights, *tolerance));
@@ -29,7 +29,7 @@ Result<void> WritePlot(const Options& options, const LightFile& lights) {
   return WriteOutputs({*std::move(picture)}, options.force);
 }
 
-Result<void> RunExplain(const Options& options, Console& console) {
+Result<void> RunExplain(const ExplainOptions& options, Console& console) {
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
@@ -51,7 +51,7 @@ Result<void> RunExplain(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildExplain(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainOptions>();
   AddCalibrationOptions(parser, options->calibration);
   parser
       .add_option("--plot", options->plot,

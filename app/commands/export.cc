@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
@@ -41,7 +41,7 @@ Result<void> CheckStems(const std::vector<std::string>& inputs) {
   return {};
 }
 
-Result<PresetOptions> OptionsOf(const Options& options) {
+Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   PresetOptions preset;
   preset.bare = options.bare;
   if (!options.space.empty()) {
@@ -64,7 +64,7 @@ Result<PresetOptions> OptionsOf(const Options& options) {
   return preset;
 }
 
-Result<ExportedPresets> PresetsOfInput(const std::string& input, const Options& options,
+Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOptions& options,
                                        const PresetOptions& preset) {
   const auto text = ReadWholeFile(input);
   if (!text) return tl::unexpected(text.error());
@@ -81,7 +81,7 @@ std::string WithDirectory(std::string line, const std::string& directory) {
   return line;
 }
 
-Result<void> RunExport(const Options& options, Console& console) {
+Result<void> RunExport(const ExportOptions& options, Console& console) {
   if (auto checked = CheckStems(options.inputs); !checked) return checked;
   const auto preset = OptionsOf(options);
   if (!preset) return tl::unexpected(preset.error());
@@ -111,7 +111,7 @@ Result<void> RunExport(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildExport(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   parser.add_option("lights", options->inputs, "light.json files, as fit and run write them")
       ->required();
   parser.add_option("--to", options->targets, "Presets to write [all]")

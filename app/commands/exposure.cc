@@ -19,10 +19,10 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kTableDigits = 6;
+constexpr int kExposureDigits = 6;
 constexpr double kFullTurnDegrees = 360.0;
 
-struct Options {
+struct ExposureOptions {
   std::string aperture, t_stop, shutter, angle, fps, iso;
   std::string transmittance, vignetting, field_angle;
   std::vector<std::string> lights;
@@ -54,7 +54,7 @@ std::string WithoutStopLetter(std::string text) {
   return text;
 }
 
-Result<double> RelativeAperture(const Options& o) {
+Result<double> RelativeAperture(const ExposureOptions& o) {
   if (o.aperture.empty() == o.t_stop.empty()) {
     return WrongUsage("--aperture",
                       "give the lens opening once: --aperture f/2.8, or --t-stop "
@@ -77,7 +77,7 @@ Result<Seconds> TypedShutter(const std::string& text, Console& console) {
   return time;
 }
 
-Result<Seconds> RotaryShutter(const Options& o) {
+Result<Seconds> RotaryShutter(const ExposureOptions& o) {
   const auto angle = ParseAngle(o.angle);
   if (!angle) return tl::unexpected(angle.error());
   const double degrees = DegreesFromRadians(*angle);
@@ -89,7 +89,7 @@ Result<Seconds> RotaryShutter(const Options& o) {
   return ShutterFromAngle(*angle, *fps);
 }
 
-Result<Seconds> ExposureTime(const Options& o, Console& console) {
+Result<Seconds> ExposureTime(const ExposureOptions& o, Console& console) {
   const bool rotary = !o.angle.empty() || !o.fps.empty();
   if (rotary == !o.shutter.empty()) {
     return WrongUsage("--shutter",
@@ -129,7 +129,7 @@ Result<Radians> FieldAngle(const std::string& text) {
 }
 
 // A T-stop has the transmittance in it already, so it is taken out of q.
-Result<double> ChosenLensConstant(const Options& o) {
+Result<double> ChosenLensConstant(const ExposureOptions& o) {
   const bool t_stop = !o.t_stop.empty();
   if (t_stop && !o.transmittance.empty()) {
     return WrongUsage("--transmittance",
@@ -150,7 +150,7 @@ Result<double> ChosenLensConstant(const Options& o) {
   return LensConstant({*transmittance, *vignetting, *field_angle});
 }
 
-Result<CameraSettings> ParseCamera(const Options& o, Console& console) {
+Result<CameraSettings> ParseCamera(const ExposureOptions& o, Console& console) {
   const auto opening = RelativeAperture(o);
   if (!opening) return tl::unexpected(opening.error());
   const auto time = ExposureTime(o, console);
@@ -165,12 +165,12 @@ void WarnOfHalf(const PreExposedLight& light, Console& console) {
   if (light.range == HalfRange::kOverflow) {
     const double stops = std::log2(light.pre_exposed / kLargestHalf);
     console.Warn({"fp16_overflow", light.typed,
-                  "pre-exposed to " + RoundedText(light.pre_exposed, kTableDigits) +
+                  "pre-exposed to " + RoundedText(light.pre_exposed, kExposureDigits) +
                       ", above the 65504 a half float holds; close down " + RoundedText(stops, 3) +
                       " EV more, or keep it in 32-bit float"});
   } else if (light.range != HalfRange::kFits) {
     console.Warn({"fp16_subnormal", light.typed,
-                  "pre-exposed to " + RoundedText(light.pre_exposed, kTableDigits) +
+                  "pre-exposed to " + RoundedText(light.pre_exposed, kExposureDigits) +
                       ", below the 6.1e-5 from which a half float keeps all its digits"});
   }
 }
@@ -194,7 +194,7 @@ Result<std::vector<PreExposedLight>> PreExpose(const std::vector<std::string>& t
   return lights;
 }
 
-Node LightNode(const PreExposedLight& light) {
+Node PreExposedNode(const PreExposedLight& light) {
   return {{"value", light.light.value},
           {"unit", LightUnitText(light.light.unit)},
           {"pre_exposed", light.pre_exposed},
@@ -206,13 +206,13 @@ std::string LightsTable(const std::vector<PreExposedLight>& lights) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(lights.size());
   for (const PreExposedLight& light : lights) {
-    rows.push_back({light.typed, RoundedText(light.pre_exposed, kTableDigits),
+    rows.push_back({light.typed, RoundedText(light.pre_exposed, kExposureDigits),
                     std::string(HalfRangeName(light.range))});
   }
   return TextTable({"light", "pre-exposed", "fp16"}, rows);
 }
 
-Result<void> RunExposure(const Options& o, Console& console) {
+Result<void> RunExposure(const ExposureOptions& o, Console& console) {
   const auto camera = ParseCamera(o, console);
   if (!camera) return tl::unexpected(camera.error());
   const auto q = ChosenLensConstant(o);
@@ -229,12 +229,12 @@ Result<void> RunExposure(const Options& o, Console& console) {
 
   console.Print(
       TextTable({"quantity", "value", "unit"},
-                {{"EV", RoundedText(Ev(*camera), kTableDigits), ""},
-                 {"EV100", RoundedText(Ev100(*camera), kTableDigits), ""},
-                 {"exposure time", RoundedText(camera->shutter.value(), kTableDigits), "s"},
-                 {"lens constant q", RoundedText(*q, kTableDigits), ""},
-                 {"saturating luminance", RoundedText(maximum.value(), kTableDigits), "cd/m²"},
-                 {"exposure", RoundedText(exposure, kTableDigits), "m²/cd"}}));
+                {{"EV", RoundedText(Ev(*camera), kExposureDigits), ""},
+                 {"EV100", RoundedText(Ev100(*camera), kExposureDigits), ""},
+                 {"exposure time", RoundedText(camera->shutter.value(), kExposureDigits), "s"},
+                 {"lens constant q", RoundedText(*q, kExposureDigits), ""},
+                 {"saturating luminance", RoundedText(maximum.value(), kExposureDigits), "cd/m²"},
+                 {"exposure", RoundedText(exposure, kExposureDigits), "m²/cd"}}));
   if (!lights->empty()) console.Print("\n" + LightsTable(*lights));
   console.PrintDocument({{"ev", Ev(*camera)},
                          {"ev100", Ev100(*camera)},
@@ -242,14 +242,14 @@ Result<void> RunExposure(const Options& o, Console& console) {
                          {"exposure", exposure},
                          {"q", *q},
                          {"shutter_s", camera->shutter},
-                         {"lights", Node::UnlessEmpty(Node::List(*lights, LightNode))}});
+                         {"lights", Node::UnlessEmpty(Node::List(*lights, PreExposedNode))}});
   return {};
 }
 
 }  // namespace
 
 Run BuildExposure(CLI::App& parser) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ExposureOptions>();
   parser.add_option("--aperture", o->aperture, "Relative aperture N, f/2.8 or 2.8");
   parser.add_option("--t-stop", o->t_stop,
                     "T-stop of a cine lens instead, T2.9 or 2.9; EV then counts in T");

@@ -12,13 +12,13 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct FitOptions {
   CalibrationOptions calibration;
   std::string output;
   bool force = false;
 };
 
-Result<void> RunFit(const Options& options, Console& console) {
+Result<void> RunFit(const FitOptions& options, Console& console) {
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
@@ -37,7 +37,7 @@ Result<void> RunFit(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildFit(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitOptions>();
   AddCalibrationOptions(parser, options->calibration);
   parser.add_option("-o,--output", options->output,
                     "Where light.json goes [SESSION/out/light.json]");

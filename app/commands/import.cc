@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kShownReadings = 20;  // rows of the table; --json lists them all
 
-struct Options {
+struct ImportOptions {
   std::vector<std::string> files;
   std::string session;
   std::string distance;
@@ -93,7 +93,7 @@ Result<void> AppendAll(const ImportPlan& plan, const std::string& journal) {
   return AppendToJournal(journal, all);
 }
 
-Result<ImportSettings> SettingsOf(const Options& options) {
+Result<ImportSettings> SettingsOf(const ImportOptions& options) {
   ImportSettings settings = options.settings;
   if (options.distance.empty()) return settings;
   auto distance = ParseLength(options.distance);
@@ -107,7 +107,7 @@ Result<ImportSettings> SettingsOf(const Options& options) {
 
 // Photometric files describe a light and hold no reading; they go beside the journal.
 Result<std::vector<PlannedDistribution>> PlanDistributions(const Session& session,
-                                                           const Options& options,
+                                                           const ImportOptions& options,
                                                            Console& console) {
   std::vector<PlannedDistribution> plans;
   for (const std::string& path : options.files) {
@@ -120,7 +120,7 @@ Result<std::vector<PlannedDistribution>> PlanDistributions(const Session& sessio
   return plans;
 }
 
-Result<void> RunImport(const Options& options, Console& console) {
+Result<void> RunImport(const ImportOptions& options, Console& console) {
   const auto settings = SettingsOf(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto loaded = LoadSession(options.session);
@@ -156,7 +156,7 @@ Result<void> RunImport(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildImport(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportOptions>();
   ImportSettings& settings = options->settings;
   parser
       .add_option("files", options->files,

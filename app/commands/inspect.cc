@@ -27,14 +27,14 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kTableDigits = 5;
-struct Options {
+constexpr int kInspectDigits = 5;
+struct InspectOptions {
   std::string image, projection, fov, convention = "photometric";
   std::vector<int> rect;
   std::string exposure, f_number, iso;
 };
 
-struct Answer {
+struct InspectAnswer {
   LuminanceStatistics statistics;
   std::optional<RegionIlluminance> illuminance;
   std::optional<Vec3> peak_direction;
@@ -45,7 +45,7 @@ Result<double> Above0(const char* option, Result<double> number) {
   return number;
 }
 
-Result<BracketOverrides> OverridesOf(const Options& options) {
+Result<BracketOverrides> OverridesOf(const InspectOptions& options) {
   BracketOverrides overrides;
   if (!options.exposure.empty()) {
     const auto time = ParseDuration(options.exposure);
@@ -68,17 +68,17 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
   return overrides;
 }
 
-Result<InspectedPicture> Inspect(const Options& options, Console& console) {
+Result<InspectedPicture> Inspect(const InspectOptions& options, Console& console) {
   const auto convention = ParseConvention("--luminance-convention", options.convention);
   if (!convention) return tl::unexpected(convention.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
-  auto inspected = InspectPicture(options.image, DiskSources(), *overrides, *convention);
+  auto inspected = InspectPicture(options.image, devices::DiskSources(), *overrides, *convention);
   if (inspected) console.Warn(inspected->warnings);
   return inspected;
 }
 
-Result<Region> RegionOf(const Options& options, const PictureLuminance& picture) {
+Result<Region> RegionOf(const InspectOptions& options, const PictureLuminance& picture) {
   if (options.rect.empty()) return Region{0, 0, picture.width, picture.height};
   if (options.rect.size() != 4) return WrongUsage("--rect", "takes x,y,width,height in pixels");
   const Region region{options.rect[0], options.rect[1], options.rect[2], options.rect[3]};
@@ -111,7 +111,7 @@ std::size_t WarnOfMasked(const InspectedPicture& inspected, const Region& region
 }
 
 // Absent: nobody says how the picture was projected.
-Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
+Result<std::optional<PixelSolidAngles>> AnglesOf(const InspectOptions& options,
                                                  const InspectedPicture& inspected) {
   PictureView view;
   view.width = inspected.luminance.width;
@@ -139,11 +139,11 @@ Result<std::optional<PixelSolidAngles>> AnglesOf(const Options& options,
   return std::optional(std::move(*angles));
 }
 
-Result<Answer> Measure(const PictureLuminance& picture, const Region& region,
-                       const std::optional<PixelSolidAngles>& angles) {
+Result<InspectAnswer> MeasureInspected(const PictureLuminance& picture, const Region& region,
+                                       const std::optional<PixelSolidAngles>& angles) {
   auto statistics = MeasureRegion(picture.view(), region);
   if (!statistics) return Propagate(std::move(statistics));
-  Answer answer{*statistics, std::nullopt, std::nullopt};
+  InspectAnswer answer{*statistics, std::nullopt, std::nullopt};
   if (!angles) return answer;
   const auto illuminance = MeasureIlluminance(picture.view(), *angles, region);
   if (!illuminance) return tl::unexpected(illuminance.error());
@@ -166,7 +166,7 @@ std::optional<Xy> AsShotWhite(const FrameInfo& info) {
   return white ? std::optional(*white) : std::nullopt;
 }
 
-Node ToJson(const InspectedPicture& inspected, const Region& region, const Answer& answer,
+Node ToJson(const InspectedPicture& inspected, const Region& region, const InspectAnswer& answer,
             std::size_t masked) {
   const LuminanceStatistics& s = answer.statistics;
   Node peak = {{"x", s.peak_x}, {"y", s.peak_y}, {"nits", s.max}};
@@ -199,10 +199,10 @@ Node ToJson(const InspectedPicture& inspected, const Region& region, const Answe
        {{"source", inspected.luminance.scale}, {"u95_relative", inspected.scale_u95_relative}}}};
 }
 
-std::string Table(const InspectedPicture& inspected, const Region& region, const Answer& answer,
-                  bool is_latlong) {
+std::string Table(const InspectedPicture& inspected, const Region& region,
+                  const InspectAnswer& answer, bool is_latlong) {
   const LuminanceStatistics& s = answer.statistics;
-  const auto text = [](double v) { return RoundedText(v, kTableDigits); };
+  const auto text = [](double v) { return RoundedText(v, kInspectDigits); };
   std::vector<std::vector<std::string>> rows = {
       {"luminance, mean", text(s.mean.value()), "cd/m²"},
       {"luminance, median", text(s.median.value()), "cd/m²"},
@@ -231,14 +231,14 @@ std::string Table(const InspectedPicture& inspected, const Region& region, const
          TextTable({"quantity", "value", "unit"}, rows);
 }
 
-Result<void> RunInspect(const Options& options, Console& console) {
+Result<void> RunInspect(const InspectOptions& options, Console& console) {
   const auto inspected = Inspect(options, console);
   if (!inspected) return tl::unexpected(inspected.error());
   const auto region = RegionOf(options, inspected->luminance);
   if (!region) return tl::unexpected(region.error());
   const auto angles = AnglesOf(options, *inspected);
   if (!angles) return tl::unexpected(angles.error());
-  const auto answer = Measure(inspected->luminance, *region, *angles);
+  const auto answer = MeasureInspected(inspected->luminance, *region, *angles);
   if (!answer) return tl::unexpected(answer.error());
   const std::size_t masked = WarnOfMasked(*inspected, *region, console);
   if (auto ok = console.RefuseIfStrict(); !ok) return ok;
@@ -252,7 +252,7 @@ Result<void> RunInspect(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildInspect(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InspectOptions>();
   parser.add_option("image", options->image, "EXR, Radiance HDR, float TIFF, camera RAW or DNG")
       ->required();
   parser.add_option("--rect", options->rect, "only this region: x,y,width,height in pixels")

@@ -24,7 +24,7 @@ namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-struct Options {
+struct LightsOptions {
   std::string library;
   SearchWords search;
   std::vector<std::string> inputs;  // of add
@@ -34,13 +34,12 @@ struct Options {
   bool force = false;
 };
 
-constexpr const char* kNone = "-";
 
-Result<std::string> LibraryOf(const Options& options) {
+Result<std::string> LibraryOf(const LightsOptions& options) {
   return options.library.empty() ? DefaultLibrary() : options.library;
 }
 
-Result<std::vector<LibraryLight>> Found(const Options& options, Console& console) {
+Result<std::vector<LibraryLight>> Found(const LightsOptions& options, Console& console) {
   const auto folder = LibraryOf(options);
   if (!folder) return tl::unexpected(folder.error());
   Warnings warnings;
@@ -50,7 +49,7 @@ Result<std::vector<LibraryLight>> Found(const Options& options, Console& console
   return Search(*std::move(lights), options.search);
 }
 
-Node ToJson(const LibraryLight& entry) {
+Node LibraryNode(const LibraryLight& entry) {
   Node node = LightSummary(entry.light);
   node.Put("file", entry.path);
   node.Put("time", Node::UnlessEmpty(entry.provenance.time));
@@ -75,16 +74,16 @@ std::string Table(const std::vector<LibraryLight>& lights) {
   return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "measured", "file"}, rows);
 }
 
-Result<void> List(const Options& options, Console& console) {
+Result<void> List(const LightsOptions& options, Console& console) {
   const auto lights = Found(options, console);
   if (!lights) return tl::unexpected(lights.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   console.Print(lights->empty() ? "no light fits\n" : Table(*lights));
-  console.PrintDocument({{"lights", Node::List(*lights, ToJson)}});
+  console.PrintDocument({{"lights", Node::List(*lights, LibraryNode)}});
   return {};
 }
 
-Result<void> Add(const Options& options, Console& console) {
+Result<void> Add(const LightsOptions& options, Console& console) {
   const auto folder = LibraryOf(options);
   if (!folder) return tl::unexpected(folder.error());
   std::vector<LightFile> files;
@@ -138,7 +137,7 @@ Result<LibraryLight> OneCalled(const std::string& name, std::vector<LibraryLight
   return Refused("several_lights", name, "is the name of several; say which: " + files);
 }
 
-Result<void> Show(const Options& options, Console& console) {
+Result<void> Show(const LightsOptions& options, Console& console) {
   auto lights = Found(options, console);
   if (!lights) return Propagate(std::move(lights));
   const auto entry = OneCalled(options.name, *std::move(lights));
@@ -162,7 +161,7 @@ std::string NoteOf(const LibraryLight& entry) {
   return day.empty() ? file : day + " · " + file;
 }
 
-Result<OutputFile> SheetFile(const Options& options,
+Result<OutputFile> SheetFile(const LightsOptions& options,
                              const std::vector<report::SheetLight>& lights) {
   const std::string ending = LowerAscii(fs::path(options.output).extension().string());
   if (ending == ".html") {
@@ -180,7 +179,7 @@ Result<std::optional<IntensityTable>> KnownDistribution(const FittedLight& light
   return DistributionOf(light);
 }
 
-Result<void> Sheet(const Options& options, Console& console) {
+Result<void> Sheet(const LightsOptions& options, Console& console) {
   const auto lights = Found(options, console);
   if (!lights) return tl::unexpected(lights.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
@@ -217,12 +216,12 @@ void AddSearch(CLI::App& verb, SearchWords& search) {
 }  // namespace
 
 Run BuildLights(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
-  auto run = std::make_shared<Result<void> (*)(const Options&, Console&)>(&List);
+  auto options = std::make_shared<LightsOptions>();
+  auto run = std::make_shared<Result<void> (*)(const LightsOptions&, Console&)>(&List);
   parser.add_option("--library", options->library,
                     "Folder of light.json files [~/.local/share/lightcal/lights]");
   const auto verb = [&](const char* name, const char* summary,
-                        Result<void> (*what)(const Options&, Console&)) {
+                        Result<void> (*what)(const LightsOptions&, Console&)) {
     CLI::App* const sub = parser.add_subcommand(name, summary);
     sub->fallthrough();
     sub->final_callback([run, what] { *run = what; });

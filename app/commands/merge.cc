@@ -21,7 +21,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> frames;
   std::string output, sigma;
   std::vector<std::string> exposures;
@@ -65,7 +65,7 @@ Result<SpotReading> ParseAnchor(const std::string& text, const std::string& sigm
   return SpotReading{numbers[0], numbers[1], numbers[2], numbers[3], Nits(reading->number), *share};
 }
 
-Result<BracketOverrides> OverridesOf(const Options& options) {
+Result<BracketOverrides> OverridesOf(const MergeOptions& options) {
   BracketOverrides overrides;
   for (const std::string& text : options.exposures) {
     const auto time = ParseDuration(text);
@@ -100,7 +100,7 @@ Result<BracketOverrides> OverridesOf(const Options& options) {
 }
 
 // --camera with what belongs to it.
-Result<void> AddCamera(const Options& options, const Sources& sources,
+Result<void> AddCamera(const MergeOptions& options, const Sources& sources,
                        BracketMergeRequest& request) {
   if (!options.cos4.empty()) {
     const auto width = ParseLength(options.cos4);
@@ -129,7 +129,7 @@ Result<void> AddCamera(const Options& options, const Sources& sources,
   return {};
 }
 
-Result<BracketMergeRequest> RequestOf(const Options& options, const Sources& sources) {
+Result<BracketMergeRequest> RequestOf(const MergeOptions& options, const Sources& sources) {
   BracketMergeRequest request;
   request.want_sigma = !options.sigma.empty();
   request.align = options.align == "auto";
@@ -189,10 +189,10 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
           {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
 }
 
-OutputWriter PictureWriter(const Options& options, const BracketMergeRequest& request,
+OutputWriter PictureWriter(const MergeOptions& options, const BracketMergeRequest& request,
                            const MergedBracket& merged) {
   return {options.output, [&options, &request, &merged](const std::string& temporary) {
-            ExrPicture exr;
+            devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.picture.data(), merged.width, merged.height,
                                               merged.channels);
             exr.channel_names = {"Y"};
@@ -203,19 +203,19 @@ OutputWriter PictureWriter(const Options& options, const BracketMergeRequest& re
             exr.white_luminance = Nits(1.0);
             exr.attributes = Attributes(merged, "luminance, cd/m2");
             exr.compressed = !options.uncompressed;
-            return WriteExr(temporary, exr);
+            return devices::WriteExr(temporary, exr);
           }};
 }
 
-OutputWriter SigmaWriter(const Options& options, const MergedBracket& merged) {
+OutputWriter SigmaWriter(const MergeOptions& options, const MergedBracket& merged) {
   return {options.sigma, [&options, &merged](const std::string& temporary) {
-            ExrPicture exr;
+            devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.sigma.data(), merged.width, merged.height);
             exr.channel_names = {"Y"};
             exr.white_luminance = Nits(1.0);
             exr.attributes = Attributes(merged, "standard deviation of luminance, cd/m2");
             exr.compressed = !options.uncompressed;
-            return WriteExr(temporary, exr);
+            return devices::WriteExr(temporary, exr);
           }};
 }
 
@@ -303,8 +303,8 @@ std::string Table(const MergedBracket& merged) {
   return text;
 }
 
-Result<void> RunMerge(const Options& options, Console& console) {
-  const Sources sources = DiskSources();
+Result<void> RunMerge(const MergeOptions& options, Console& console) {
+  const Sources sources = devices::DiskSources();
   const auto request = RequestOf(options, sources);
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);
@@ -337,8 +337,8 @@ Result<void> RunMerge(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildMerge(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<MergeOptions>();
+  MergeOptions& o = *options;
   parser.add_option("frames", o.frames, "RAW, DNG, EXR, HDR, TIFF, PNG or JPEG files of one scene")
       ->required();
   parser.add_option("-o,--output", o.output, "The merged picture, OpenEXR, cd/m2")->required();

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct NewOptions {
   LampFlags flags;
   bool yes = false;
   bool force = false;
@@ -48,7 +48,7 @@ Node DocumentOf(const NewSession& session) {
           {"to", Node::UnlessEmpty(session.targets)}};
 }
 
-Result<void> RunNew(const Options& options, Console& console) {
+Result<void> RunNew(const NewOptions& options, Console& console) {
   const InterruptGuard guard;  // Ctrl-C ends a question like the end of input does
   const Questions questions = Questions::Choose(options.yes);
   if (options.flags.directory) {
@@ -82,7 +82,7 @@ Result<void> RunNew(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildNew(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<NewOptions>();
   LampFlags& flags = options->flags;
   parser.add_option("directory", flags.directory, "Folder of the session [asked]");
   parser.add_option("--lamp", flags.lamp, "What the lamp is called [asked; key]");

@@ -18,21 +18,21 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kTableDigits = 5;
+constexpr int kPhotometricDigits = 5;
 
-struct Options {
+struct PhotometricOptions {
   std::string file, to, output, plot;
   bool force = false;
 };
 
-Result<PhotometricFormat> FormatWanted(const Options& options) {
+Result<PhotometricFormat> FormatWanted(const PhotometricOptions& options) {
   for (std::size_t i = 0; i < kPhotometricFormatWords.size(); ++i) {
     if (options.to == kPhotometricFormatWords[i]) return static_cast<PhotometricFormat>(i);
   }
   return WrongUsage("--to " + options.to, "is no photometric format; use ies or ldt");
 }
 
-Result<void> CheckOptions(const Options& options) {
+Result<void> CheckPhotometric(const PhotometricOptions& options) {
   if (options.to.empty() != options.output.empty()) {
     return WrongUsage("--to", "goes with -o: --to ldt -o lamp.ldt");
   }
@@ -43,7 +43,8 @@ Result<void> CheckOptions(const Options& options) {
   return {};
 }
 
-Result<OutputFile> Converted(const Options& options, PhotometricFile file, Console& console) {
+Result<OutputFile> Converted(const PhotometricOptions& options, PhotometricFile file,
+                             Console& console) {
   const auto format = FormatWanted(options);
   if (!format) return tl::unexpected(format.error());
   if (file.header.tilt) {
@@ -119,15 +120,15 @@ Node ToJson(const PhotometricFile& file) {
   return node;
 }
 
-std::string TitleOf(const Options& options, const PhotometricHeader& header) {
+std::string TitleOf(const PhotometricOptions& options, const PhotometricHeader& header) {
   const std::string file = std::filesystem::path(options.file).filename().string();
   return header.luminaire.empty() ? file : header.luminaire + " (" + file + ")";
 }
 
-std::string Table(const Options& options, const PhotometricFile& file) {
+std::string Table(const PhotometricOptions& options, const PhotometricFile& file) {
   const PhotometricHeader& header = file.header;
   const IntensityTable& table = file.table;
-  const auto text = [](double value) { return RoundedText(value, kTableDigits); };
+  const auto text = [](double value) { return RoundedText(value, kPhotometricDigits); };
   const auto widths = [&](double level) {
     const LobeWidths lobe = LobeWidthsAt(table, level);
     std::string out = text(DegreesFromRadians(lobe.mean));
@@ -156,9 +157,9 @@ std::string Table(const Options& options, const PhotometricFile& file) {
          TextTable({"quantity", "value", "unit"}, rows);
 }
 
-Result<void> RunPhotometric(const Options& options, Console& console) {
-  if (auto ok = CheckOptions(options); !ok) return ok;
-  const auto read = ReadPhotometricFile(options.file);
+Result<void> RunPhotometric(const PhotometricOptions& options, Console& console) {
+  if (auto ok = CheckPhotometric(options); !ok) return ok;
+  const auto read = devices::ReadPhotometricFile(options.file);
   if (!read) return tl::unexpected(read.error());
   console.Warn(read->warnings);
   std::vector<OutputFile> files;
@@ -184,7 +185,7 @@ Result<void> RunPhotometric(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildPhotometric(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PhotometricOptions>();
   parser.add_option("file", options->file, "IES LM-63 (.ies) or EULUMDAT (.ldt); told by content")
       ->required();
   parser.add_option("--to", options->to, "Convert: LM-63-2002 or EULUMDAT")

@@ -18,7 +18,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct PlanOptions {
   SessionPlanOptions session;
   std::string board, paper = "a4", square, squares, dictionary;
 };
@@ -35,7 +35,7 @@ Result<void> ParseSquares(const std::string& text, CharucoBoard& board) {
   return WrongUsage("--squares", "takes COLUMNSxROWS, e.g. 9x6");
 }
 
-Result<CharucoBoard> BoardOf(const Options& options, const Paper& paper) {
+Result<CharucoBoard> BoardOf(const PlanOptions& options, const Paper& paper) {
   CharucoBoard board;
   if (!options.squares.empty()) {
     if (auto parsed = ParseSquares(options.squares, board); !parsed) {
@@ -72,7 +72,7 @@ std::string SessionLines(const CharucoBoard& board) {
   return lines;
 }
 
-Result<void> PrintBoard(const Options& options, Console& console) {
+Result<void> PrintBoard(const PlanOptions& options, Console& console) {
   const auto paper = PaperByName(options.paper);
   if (!paper) return tl::unexpected(paper.error());
   const auto board = BoardOf(options, *paper);
@@ -96,7 +96,7 @@ Result<void> PrintBoard(const Options& options, Console& console) {
   return {};
 }
 
-Result<void> RunPlan(const Options& options, Console& console) {
+Result<void> RunPlan(const PlanOptions& options, Console& console) {
   const bool session = !options.session.calibration.session.empty();
   if (session && !options.board.empty()) {
     return WrongUsage("plan", "takes a session or --board, not both");
@@ -109,7 +109,7 @@ Result<void> RunPlan(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildPlan(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanOptions>();
   AddCalibrationOptions(parser, options->session.calibration);
   parser.get_option("session")->required(false);
   parser.remove_option(parser.get_option("--monte-carlo"));

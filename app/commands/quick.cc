@@ -21,7 +21,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct QuickOptions {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
@@ -86,7 +86,7 @@ Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
 constexpr std::array<std::string_view, 5> kQuickKinds = {"point", "spot", "sphere", "disk",
                                                          "directional"};
 
-Result<LightDescription> DescribeLight(const Options& options) {
+Result<LightDescription> DescribeLight(const QuickOptions& options) {
   LightDescription light;
   light.name = options.name;
   const std::string kind = !options.kind.empty()                             ? options.kind
@@ -116,7 +116,7 @@ Result<LightDescription> DescribeLight(const Options& options) {
 constexpr const char* kQuickMeter = "meter";
 
 // 1 sigma of a reading as it was typed, or by what the meter's maker says; absent where neither is.
-Result<std::optional<double>> SigmaAsked(const Options& options) {
+Result<std::optional<double>> SigmaAsked(const QuickOptions& options) {
   if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
   const auto sigma =
       options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMakersFigure(options.meter);
@@ -124,7 +124,7 @@ Result<std::optional<double>> SigmaAsked(const Options& options) {
   return *sigma;
 }
 
-Result<void> AddReadings(Session& session, const Options& options) {
+Result<void> AddReadings(Session& session, const QuickOptions& options) {
   std::optional<Kelvin> cct;
   if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
       !filled) {
@@ -153,7 +153,7 @@ Result<void> AddReadings(Session& session, const Options& options) {
 }
 
 // What all readings are taken with, and the first will be, where none is there to tell.
-Result<void> AddMeter(Session& session, const Options& options) {
+Result<void> AddMeter(Session& session, const QuickOptions& options) {
   const auto sigma = SigmaAsked(options);
   if (!sigma) return tl::unexpected(sigma.error());
   if (!*sigma || (options.meter.empty() && !options.readings.empty())) return {};
@@ -164,7 +164,7 @@ Result<void> AddMeter(Session& session, const Options& options) {
   return {};
 }
 
-Result<Session> SessionFromOptions(const Options& options) {
+Result<Session> SessionFromOptions(const QuickOptions& options) {
   if (options.readings.empty() && options.lumens.empty() && !options.plan) {
     return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
   }
@@ -185,7 +185,7 @@ struct Prediction {
   PredictedIlluminance predicted;
 };
 
-Result<std::vector<Prediction>> Predict(const Options& options, const FittedLight& light) {
+Result<std::vector<Prediction>> Predict(const QuickOptions& options, const FittedLight& light) {
   std::vector<Prediction> predictions;
   const auto asked = SigmaAsked(options);
   if (!asked) return tl::unexpected(asked.error());
@@ -215,7 +215,7 @@ std::string PredictionTable(const std::vector<Prediction>& predictions) {
 }
 
 // What the minutes buy, at the end of whatever else is said.
-Result<void> PrintMinutes(const Options& options, const std::vector<MinutesLadder>& ladders,
+Result<void> PrintMinutes(const QuickOptions& options, const std::vector<MinutesLadder>& ladders,
                           Console& console) {
   auto pictures = MinutesPictures(options.minutes, ladders);
   if (!pictures) return Propagate(std::move(pictures));
@@ -227,7 +227,7 @@ Result<void> PrintMinutes(const Options& options, const std::vector<MinutesLadde
 }
 
 // Before any reading: the ladder alone.
-Result<void> PlanFromNone(const Options& options, const Session& session,
+Result<void> PlanFromNone(const QuickOptions& options, const Session& session,
                           const LadderWishes& wishes, Console& console) {
   auto ladder = PlanMinutes(session, options.name, FitSettings{}, wishes);
   if (!ladder) return Propagate(std::move(ladder));
@@ -237,7 +237,7 @@ Result<void> PlanFromNone(const Options& options, const Session& session,
   return {};
 }
 
-void PrintAnswer(const Options& options, const FittedSession& fitted, const std::string& next,
+void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const std::string& next,
                  const std::vector<Prediction>& predictions,
                  const std::vector<MinutesLadder>& ladders, Console& console) {
   const FittedLight& light = fitted.lights.lights.front();
@@ -263,7 +263,7 @@ void PrintAnswer(const Options& options, const FittedSession& fitted, const std:
   }
 }
 
-Result<void> RunQuick(const Options& options, Console& console) {
+Result<void> RunQuick(const QuickOptions& options, Console& console) {
   auto session = SessionFromOptions(options);
   if (!session) return Propagate(std::move(session));
   const auto wishes = LadderWishesOf(options.minutes);
@@ -305,7 +305,7 @@ Result<void> RunQuick(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildQuick(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QuickOptions>();
   parser.add_option("readings", options->readings,
                     "What the meter showed and where: 192lx@0.5m, 17.8fc@20in ...");
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();

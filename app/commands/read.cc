@@ -27,8 +27,8 @@ bool HasBackground(const Session& session, const std::string& light) {
 }
 
 Node ToJson(const TakenReading& taken, bool with_spectrum) {
-  const Summary& summary = taken.summary;
-  const MeterReading& kept = summary.kept;
+  const devices::Summary& summary = taken.summary;
+  const devices::MeterReading& kept = summary.kept;
   Node node = DocumentOf(taken.reading);
   node.Put({{"measurements", summary.count},
             {"spread_relative", summary.count > 1 ? Node(summary.spread_relative) : Node()},

@@ -51,8 +51,9 @@ Result<void> CheckComplete(const ReadArguments& arguments) {
   return {};
 }
 
-Result<std::chrono::milliseconds> Milliseconds(const std::string& option, const std::string& text,
-                                               double least_s, double most_s) {
+Result<std::chrono::milliseconds> ParseMilliseconds(const std::string& option,
+                                                    const std::string& text, double least_s,
+                                                    double most_s) {
   const auto duration = ParseDuration(text);
   if (!duration) return tl::unexpected(duration.error());
   if (duration->value() < least_s || duration->value() > most_s) {
@@ -163,11 +164,11 @@ Result<ReadOptions> ReadOptionsFrom(const ReadArguments& arguments, bool can_ask
   if (!frame) return Propagate(std::move(frame));
   auto plan = PlanOf(arguments);
   if (!plan) return Propagate(std::move(plan));
-  const auto timeout = Milliseconds("--timeout", arguments.timeout, 1e-3, 3600.0);
+  const auto timeout = ParseMilliseconds("--timeout", arguments.timeout, 1e-3, 3600.0);
   if (!timeout) return tl::unexpected(timeout.error());
   const auto until = ParseTolerance(arguments.until);
   if (!until) return tl::unexpected(until.error());
-  const auto every = Milliseconds("--every", arguments.every, 0.0, 86400.0);
+  const auto every = ParseMilliseconds("--every", arguments.every, 0.0, 86400.0);
   if (!every) return tl::unexpected(every.error());
   ReadOptions options{arguments.session,
                       arguments.lux,

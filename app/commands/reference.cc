@@ -13,7 +13,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct ReferenceOptions {
   std::vector<std::string> words;
 };
 
@@ -87,7 +87,7 @@ void PrintRows(const std::vector<const ReferenceValue*>& found, Console& console
   if (!notes.empty()) console.Print("\nDoubtful in the seed document:\n" + notes);
 }
 
-Result<void> RunReference(const Options& o, Console& console) {
+Result<void> RunReference(const ReferenceOptions& o, Console& console) {
   std::vector<const ReferenceValue*> found;
   for (const ReferenceValue& row : ReferenceValues()) {
     if (Matches(row, o.words)) found.push_back(&row);
@@ -106,7 +106,7 @@ Result<void> RunReference(const Options& o, Console& console) {
 }  // namespace
 
 Run BuildReference(CLI::App& parser) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ReferenceOptions>();
   parser.add_option("word", o->words, "Show the values that mention every one of these words");
   return [o](Console& console) { return RunReference(*o, console); };
 }

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportOptions {
   std::string input;
   std::string output;
   std::vector<std::string> plots;  // "distance=FILE.svg"
@@ -145,7 +145,7 @@ Result<void> CheckLight(const std::string& light, const LightFile& file) {
                                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
-Result<void> RunReport(const Options& options, Console& console) {
+Result<void> RunReport(const ReportOptions& options, Console& console) {
   const auto plots = ParsePlots(options.plots);
   if (!plots) return tl::unexpected(plots.error());
   const bool is_light_file = fs::path(options.input).extension() == ".json";
@@ -172,7 +172,7 @@ Result<void> RunReport(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildReport(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReportOptions>();
   parser.add_option("input", options->input, "light.json, session directory or .toml file")
       ->required();
   parser.add_option("-o,--output", options->output,

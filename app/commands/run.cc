@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct RunOptions {
   CalibrationOptions calibration;
   std::vector<std::string> sessions;
   std::string output;
@@ -50,12 +50,12 @@ OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFi
   stamp.inputs = lights.provenance.inputs;
   for (const OutputFile& file : files) {
     const std::string name = fs::path(file.path).lexically_proximate(directory).generic_string();
-    stamp.outputs.push_back({name, Sha256Hex(file.contents)});
+    stamp.outputs.push_back({name, devices::Sha256Hex(file.contents)});
   }
   return {(fs::path(directory) / kRunStampFile).string(), RunStampToJson(stamp)};
 }
 
-Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::string& directory,
+Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::string& directory,
                                           const CalibratedSession& calibrated, Console& console) {
   const LightFile& lights = calibrated.lights;
   auto json = LightFileToJson(lights);
@@ -73,7 +73,7 @@ Result<std::vector<OutputFile>> OutputsOf(const Options& options, const std::str
   return files;
 }
 
-Result<void> RunSession(const Options& options, const StampSeed& stamp, Console& console) {
+Result<void> RunSession(const RunOptions& options, const StampSeed& stamp, Console& console) {
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string directory =
@@ -100,7 +100,7 @@ Result<void> RunSession(const Options& options, const StampSeed& stamp, Console&
 }
 
 // All that decides what a session's outputs are, beside its own files.
-Result<std::string> SettingsHash(const Options& options) {
+Result<std::string> SettingsHash(const RunOptions& options) {
   const CalibrationOptions& asked = options.calibration;
   std::string text = asked.tolerance + '\n' + asked.effects + '\n';
   for (const bool flag : {asked.tolerance_given, asked.effects_given, asked.monte_carlo,
@@ -110,14 +110,14 @@ Result<std::string> SettingsHash(const Options& options) {
   if (!asked.profile.empty()) {
     auto profile = ReadWholeFile(asked.profile);
     if (!profile) return profile;
-    text += '\n' + Sha256Hex(*profile);
+    text += '\n' + devices::Sha256Hex(*profile);
   }
   for (const std::string& target : options.targets) text += '\n' + target;
-  return Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
+  return devices::Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
 }
 
-Result<void> RunOfBatch(const Options& options, const std::string& settings, const BatchItem& item,
-                        Console& console) {
+Result<void> RunOfBatch(const RunOptions& options, const std::string& settings,
+                        const BatchItem& item, Console& console) {
   const auto session_hash = NamedFilesHash(item.session);
   if (!session_hash) return tl::unexpected(session_hash.error());
   const std::string base = fs::path(JournalPath(item.session)).parent_path().string();
@@ -126,19 +126,19 @@ Result<void> RunOfBatch(const Options& options, const std::string& settings, con
     return {};
   }
   RemoveLeftovers(item.directory);
-  Options one = options;
+  RunOptions one = options;
   one.calibration.session = item.session;
   one.output = item.directory;
   return RunSession(one, RunStamp{GeneratorName(), settings, *session_hash, {}, {}}, console);
 }
 
-Result<void> RunRun(const Options& options, Console& console) {
+Result<void> RunRun(const RunOptions& options, Console& console) {
   const auto sessions = FindSessions(options.sessions);
   if (!sessions) return tl::unexpected(sessions.error());
   const bool one_named = *sessions == options.sessions && sessions->size() == 1;
   const bool accounted = options.resume || options.jobs > 0 || !options.summary.empty();
   if (one_named && !accounted) {
-    Options one = options;
+    RunOptions one = options;
     one.calibration.session = sessions->front();
     return RunSession(one, std::nullopt, console);
   }
@@ -161,7 +161,7 @@ Result<void> RunRun(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildRun(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   parser
       .add_option("sessions", options->sessions,
                   "Session directories or .toml files, folders of sessions, wildcards")

@@ -17,7 +17,7 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct ShootOptions {
   ShootRequest request;
   std::string bracket;
   std::string mains, pwm;  // both empty: nothing flickers
@@ -32,7 +32,7 @@ std::size_t IndexOf(const std::string& word, const Words& words) {
 }
 
 // What the options make of the frames; absent where they say nothing of it.
-Result<std::optional<CaptureDescription>> CaptureOf(const Options& options) {
+Result<std::optional<CaptureDescription>> CaptureOf(const ShootOptions& options) {
   const bool described = !options.use.empty() || !options.distance.empty() ||
                          options.reflectance > 0.0 || !options.rect.empty() ||
                          !options.tilt.empty() || !options.fov.empty() ||
@@ -85,14 +85,14 @@ Result<std::optional<CaptureDescription>> CaptureOf(const Options& options) {
   return capture;
 }
 
-Result<ShootRequest> RequestOf(const Options& options) {
+Result<ShootRequest> RequestOf(const ShootOptions& options) {
   ShootRequest request = options.request;
   if (request.resume) return request;
   if (request.light.empty()) return WrongUsage("--light", "name the lamp that is photographed");
   if (options.bracket.empty()) {
     return WrongUsage("--bracket", "give half the range and the step, for example ±4EV/1EV");
   }
-  auto bracket = ParseBracket(options.bracket);
+  auto bracket = devices::ParseBracket(options.bracket);
   if (!bracket) return Propagate(std::move(bracket));
   request.bracket = *std::move(bracket);
   if (!options.mains.empty() || !options.pwm.empty()) {
@@ -153,7 +153,7 @@ Node ToJson(const ShootOutcome& outcome, bool dry_run) {
           {"frames", Node::List(shoot.frames, frame_node)}};
 }
 
-Result<void> RunShoot(const Options& options, Console& console) {
+Result<void> RunShoot(const ShootOptions& options, Console& console) {
   const auto request = RequestOf(options);
   if (!request) return tl::unexpected(request.error());
   const auto outcome = ShootBracket(*request, console);
@@ -171,7 +171,7 @@ Result<void> RunShoot(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildShoot(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShootOptions>();
   ShootRequest& request = options->request;
   parser.add_option("-s,--session", request.session, "Session the bracket is shot into")
       ->required();

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SimulateOptions {
   std::string input;
   std::vector<std::string> at, lights, outputs;
   std::string normal = "up";
@@ -39,7 +39,7 @@ struct Input {
   std::string title;
 };
 
-Result<Input> ReadInput(const Options& options, double tolerance, Console& console) {
+Result<Input> ReadInput(const SimulateOptions& options, double tolerance, Console& console) {
   if (fs::path(options.input).extension() == ".json") {
     const auto text = ReadWholeFile(options.input);
     if (!text) return tl::unexpected(text.error());
@@ -98,7 +98,7 @@ Result<Effects> ParseEffects(const std::string& text) {
   return out;
 }
 
-Result<std::optional<RoomBox>> RoomOf(const Options& options, const Input& input) {
+Result<std::optional<RoomBox>> RoomOf(const SimulateOptions& options, const Input& input) {
   if (!options.room.empty()) {
     const auto size = ParseLengths("--room", options.room, ',');
     if (!size) return tl::unexpected(size.error());
@@ -117,7 +117,7 @@ Result<std::optional<RoomBox>> RoomOf(const Options& options, const Input& input
       RoomBox{input.session->room->size_m, input.session->room->reflectance});
 }
 
-Result<void> CheckOptions(const Options& options) {
+Result<void> CheckSimulate(const SimulateOptions& options) {
   if (options.at.empty() && options.plane.plane.empty()) {
     return WrongUsage("simulate", "say where: --at x,y,z (metres), or --plane floor");
   }
@@ -148,7 +148,7 @@ Vec3 TowardBrightest(const std::vector<PlacedLamp>& lamps, const Vec3& position)
   return best;
 }
 
-Result<std::vector<PredictedPoint>> Points(const Options& options,
+Result<std::vector<PredictedPoint>> Points(const SimulateOptions& options,
                                            const std::vector<PlacedLamp>& lamps) {
   std::vector<PredictedPoint> out;
   std::optional<Vec3> normal;
@@ -189,7 +189,7 @@ void Predict(Simulated& simulated) {
   simulated.elapsed_ms = took.count();
 }
 
-Result<std::vector<PlacedLamp>> LampsAsked(const Options& options, const Input& input,
+Result<std::vector<PlacedLamp>> LampsAsked(const SimulateOptions& options, const Input& input,
                                            Console& console) {
   const auto chosen = ChooseLights(input.lights, options.lights);
   if (!chosen) return tl::unexpected(chosen.error());
@@ -201,7 +201,7 @@ Result<std::vector<PlacedLamp>> LampsAsked(const Options& options, const Input& 
   return lamps;
 }
 
-Result<Simulated> Prepare(const Options& options, const Input& input, double tolerance,
+Result<Simulated> Prepare(const SimulateOptions& options, const Input& input, double tolerance,
                           Console& console) {
   const auto effects = ParseEffects(options.effects);
   if (!effects) return tl::unexpected(effects.error());
@@ -230,8 +230,8 @@ Result<Simulated> Prepare(const Options& options, const Input& input, double tol
   return out;
 }
 
-Result<void> RunSimulate(const Options& options, Console& console) {
-  if (auto ok = CheckOptions(options); !ok) return ok;
+Result<void> RunSimulate(const SimulateOptions& options, Console& console) {
+  if (auto ok = CheckSimulate(options); !ok) return ok;
   const auto tolerance = ParseTolerance(options.tolerance);
   if (!tolerance) return tl::unexpected(tolerance.error());
   const auto input = ReadInput(options, *tolerance, console);
@@ -255,7 +255,7 @@ Result<void> RunSimulate(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildSimulate(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   parser.add_option("input", options->input, "light.json, session directory or .toml file")
       ->required();
   parser.add_option("--at", options->at, "Points x,y,z in metres, Z up: --at 0,0,0 1,0,0");

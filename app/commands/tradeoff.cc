@@ -24,14 +24,14 @@
 namespace lightcal::app {
 namespace {
 
-struct Options {
+struct TradeoffOptions {
   std::string session, tolerance = "1%", budget, output;
   std::vector<std::string> knobs;
   MinutesOptions minutes;
   bool synthetic = false, force = false;
 };
 
-Result<tradeoff::Question> QuestionOf(const Options& options) {
+Result<tradeoff::Question> QuestionOf(const TradeoffOptions& options) {
   tradeoff::Question question;
   const auto tolerance = ParseTolerance(options.tolerance);
   if (!tolerance) return tl::unexpected(tolerance.error());
@@ -73,7 +73,7 @@ class Progress {
   std::size_t phase_ = 0;
 };
 
-Result<TradeoffAnswer> Measure(const Options& options, const tradeoff::Question& question,
+Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
                                bool quiet) {
   const InterruptGuard guard;
   Progress progress(!quiet);
@@ -83,19 +83,20 @@ Result<TradeoffAnswer> Measure(const Options& options, const tradeoff::Question&
   out.tolerance_relative = question.tolerance_relative;
   SessionTwin twin;
   if (options.synthetic) {
-    auto made = TwinOf(options.session, DiskSources(), question.tolerance_relative);
+    auto made = TwinOf(options.session, devices::DiskSources(), question.tolerance_relative);
     if (!made) return Propagate(std::move(made));
     twin = *std::move(made);
   }
-  const tradeoff::Runner run = options.synthetic ? TwinRunner(twin, DiskSources)
-                                                 : SessionRunner(options.session, DiskSources);
+  const tradeoff::Runner run = options.synthetic
+                                   ? TwinRunner(twin, devices::DiskSources)
+                                   : SessionRunner(options.session, devices::DiskSources);
   auto study = tradeoff::StudyTradeoff(run, question, watch);
   if (!study) return Propagate(std::move(study));
   out.study = *std::move(study);
   if (!options.synthetic) return out;
   const std::vector<tradeoff::Named> settings = SettingsForTruth(out.study);
-  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, DiskSources()), twin.truth, settings,
-                                          {}, watch);
+  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, devices::DiskSources()), twin.truth,
+                                          settings, {}, watch);
   if (!truth) return Propagate(std::move(truth));
   out.truth = *std::move(truth);
   if (question.budget_s) return out;
@@ -111,8 +112,8 @@ FitSettings FitSettingsAt(double tolerance_relative) {
   return settings;
 }
 
-Result<std::vector<OutputFile>> Outputs(const Options& options, const TradeoffAnswer& answer,
-                                        const Session& session) {
+Result<std::vector<OutputFile>> Outputs(const TradeoffOptions& options,
+                                        const TradeoffAnswer& answer, const Session& session) {
   auto files = MinutesPictures(options.minutes, answer.ladders);
   if (!files || options.output.empty()) return files;
   const std::string title = session.name.empty() ? session.stem : session.name;
@@ -123,7 +124,7 @@ Result<std::vector<OutputFile>> Outputs(const Options& options, const TradeoffAn
   return files;
 }
 
-Result<void> RunTradeoff(const Options& options, Console& console) {
+Result<void> RunTradeoff(const TradeoffOptions& options, Console& console) {
   const auto question = QuestionOf(options);
   if (!question) return tl::unexpected(question.error());
   const auto wishes = LadderWishesOf(options.minutes);
@@ -155,7 +156,7 @@ Result<void> RunTradeoff(const Options& options, Console& console) {
 }  // namespace
 
 Run BuildTradeoff(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TradeoffOptions>();
   parser.add_option("session", options->session, "Session directory or .toml file")->required();
   parser.add_option("--tol", options->tolerance, "How far from the strictest setting is allowed")
       ->capture_default_str();

@@ -14,9 +14,8 @@
 namespace lightcal::app {
 namespace {
 
-constexpr const char* kNone = "-";
 
-Node ToJson(const FileVerdict& verdict) {
+Node VerdictNode(const FileVerdict& verdict) {
   return {{"file", verdict.path},
           {"ok", !verdict.error},
           {"format", Node::UnlessEmpty(verdict.format)},
@@ -71,7 +70,7 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
       console.Warn(warning);
     }
   }
-  const Node document = {{"files", Node::List(verdicts, ToJson)}};
+  const Node document = {{"files", Node::List(verdicts, VerdictNode)}};
   console.Print(Table(verdicts) + Faults(verdicts));
 
   const auto count = [&](const std::string& word) {

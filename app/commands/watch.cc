@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kShortestPeriod{20};
 constexpr std::chrono::milliseconds kRedraw{200};
 
-struct Options {
+struct WatchOptions {
   MeterRequest request;
   std::vector<std::string> settings;
   std::string session, light, distance, lasting;
@@ -43,7 +43,7 @@ struct Watched {
   Reading frame;
 };
 
-Result<Watched> WatchedLamp(const Options& options, Console& console) {
+Result<Watched> WatchedLamp(const WatchOptions& options, Console& console) {
   Watched watched;
   if (options.session.empty()) {
     if (options.light.empty() && options.distance.empty()) return watched;
@@ -68,7 +68,7 @@ Result<Watched> WatchedLamp(const Options& options, Console& console) {
 
 class Watching {
  public:
-  Watching(const Options& options, Console& console) : options_(options), console_(console) {}
+  Watching(const WatchOptions& options, Console& console) : options_(options), console_(console) {}
 
   Result<void> Run() {
     if (auto begun = Begin(); !begun) return begun;
@@ -183,7 +183,7 @@ class Watching {
                             {"intensity_cd", known ? ValueAndU95(*light->intensity_cd) : Node()}});
   }
 
-  const Options& options_;
+  const WatchOptions& options_;
   Console& console_;
   std::optional<double> lasting_s_;
   Watched lamp_;
@@ -198,7 +198,7 @@ class Watching {
 }  // namespace
 
 Run BuildWatch(CLI::App& parser) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<WatchOptions>();
   auto* device =
       parser.add_option("--device", options->request.device, "A meter's id or driver's name");
   parser.add_option("--replay", options->request.replay_file, "Play a tape instead of a meter")

@@ -20,7 +20,7 @@ OutputWriter DomeExr(const std::string& path, const MadeDome& made, const DomeSe
   return {path, [&made, settings](const std::string& temporary) {
             const MeasuredDome& measured = made.measured;
             const Dome& dome = measured.input.dome;
-            ExrPicture exr;
+            devices::ExrPicture exr;
             exr.samples =
                 View2d<const float>(dome.samples.data(), dome.width, dome.height, dome.channels);
             exr.channel_names = {"Y"};
@@ -46,7 +46,7 @@ OutputWriter DomeExr(const std::string& path, const MadeDome& made, const DomeSe
             if (settings.plate) {
               exr.attributes.emplace_back("plate_exposure", PlateText(*settings.plate));
             }
-            return WriteExr(temporary, exr);
+            return devices::WriteExr(temporary, exr);
           }};
 }
 

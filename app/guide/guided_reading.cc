@@ -25,7 +25,7 @@
 namespace lightcal::app {
 namespace {
 
-std::string Percent(double part) { return "± " + PercentText(part); }
+std::string Within(double part) { return "± " + PercentText(part); }
 
 // How far from one hundred per cent to what is wanted, in equal ratios.
 std::string ProgressBar(double u95_relative, double wanted_relative) {
@@ -93,7 +93,8 @@ class Walk {
   void Introduce(const Session& session) const {
     const LightDescription& light = *FindLight(session, frame_.light);
     console_.Note("Lamp " + light.name + " (" + std::string(LightKindName(light.kind)) +
-                  "), until it is known within " + Percent(options_.until_relative) + " (95 %).");
+                  "), until it is known within " + Within(options_.until_relative) +
+                  " (95 %).");
     if (light.kind != LightKind::kDirectional && light.kind != LightKind::kDome) {
       console_.Note("Measure distances from one point of the lamp that you can find again.");
     }
@@ -271,7 +272,7 @@ class Walk {
     std::string text = "   So far " + frame_.light + ": " + Headline(*guide_->light());
     if (const auto u95 = guide_->u95_relative()) {
       text += "  " + ProgressBar(*u95, options_.until_relative) + " wanted " +
-              Percent(options_.until_relative);
+              Within(options_.until_relative);
     }
     return text;
   }
@@ -279,13 +280,13 @@ class Walk {
   [[nodiscard]] std::string EndingText() const {
     switch (ending_) {
       case Ending::kReached:
-        return "That is within the " + Percent(options_.until_relative) +
+        return "That is within the " + Within(options_.until_relative) +
                " you wanted: enough is enough.\n";
       case Ending::kNoGain: {
         const auto now = guide_->u95_relative();
         const bool gains = best_left_ > 0.0 && now && best_left_ < *now;
         std::string text = "Enough with this meter: ";
-        text += gains ? "the best further reading would leave " + Percent(best_left_)
+        text += gains ? "the best further reading would leave " + Within(best_left_)
                       : std::string("no further reading helps");
         const auto& light = guide_->light();
         if (light && !light->budget.empty()) {

@@ -42,7 +42,7 @@ std::vector<Choice> KindChoices() {
   return choices;
 }
 
-Result<LightKind> ParseKind(const std::string& text) {
+Result<LightKind> ParseKindChoice(const std::string& text) {
   const auto at = ParseChoice(text, KindChoices());
   if (!at) return tl::unexpected(at.error());
   return kKinds[*at].kind;
@@ -182,7 +182,7 @@ class Interview {
     return Take(
         light.kind,
         {"--kind", "What is it? A number or a word:", "point", MenuText(KindChoices()), true},
-        flags_.kind, ParseKind);
+        flags_.kind, ParseKindChoice);
   }
 
   // The sizes that this kind has; a flag of another kind is a mistake.
@@ -263,15 +263,15 @@ class Interview {
   }
 
   Result<void> AskMeter() {
-    std::vector<FoundMeter> found;
-    if (auto meters = FindMeters()) found = *std::move(meters);
+    std::vector<devices::FoundMeter> found;
+    if (auto meters = devices::FindMeters()) found = *std::move(meters);
     std::vector<Choice> choices = {{"none", "no cable: you type what the display shows"}};
-    for (const FoundMeter& meter : found) choices.push_back({meter.id, meter.row->models});
-    const auto only = ChooseMeter(found, "");
+    for (const devices::FoundMeter& meter : found) choices.push_back({meter.id, meter.row->models});
+    const auto only = devices::ChooseMeter(found, "");
     const auto parse = [&](const std::string& text) -> Result<std::string> {
       const auto at = ParseChoice(text, choices);
       if (at) return *at == 0 ? std::string() : found[*at - 1].id;
-      const auto named = ChooseMeter(found, text);
+      const auto named = devices::ChooseMeter(found, text);
       if (named) return text;
       return WrongUsage("\"" + text + "\"",
                         "is no meter here: type none, a number, or driver:PORT as lightcal devices "

@@ -20,7 +20,7 @@ constexpr const char* kRoomSize = "width, depth, height in metres";
 constexpr const char* kReflectance = "0.3 dark walls, 0.5 ordinary, 0.8 white";
 
 // key = value, and what it is.
-std::string Line(const std::string& key, const std::string& value, const std::string& comment) {
+std::string TomlLine(const std::string& key, const std::string& value, const std::string& comment) {
   std::string line = key + " = " + value;
   if (comment.empty()) return line + "\n";
   if (line.size() < kCommentColumn) line.resize(kCommentColumn, ' ');
@@ -30,62 +30,62 @@ std::string Line(const std::string& key, const std::string& value, const std::st
 template <class Quantity>
 std::string LineIf(const std::string& key, const std::optional<Quantity>& quantity,
                    const std::string& comment) {
-  return quantity ? Line(key, ShortestText(quantity->value()), comment) : "";
+  return quantity ? TomlLine(key, ShortestText(quantity->value()), comment) : "";
 }
 
 std::string RoomText(const std::optional<Room>& room) {
   const std::string why = "# Walls send light back to the meter; the room bounds how much.\n";
   if (!room) {
-    return why + "# [room]\n" + Line("# size_m", "[5, 4, 2.6]", kRoomSize) +
-           Line("# reflectance", "0.5", kReflectance) + "\n";
+    return why + "# [room]\n" + TomlLine("# size_m", "[5, 4, 2.6]", kRoomSize) +
+           TomlLine("# reflectance", "0.5", kReflectance) + "\n";
   }
   const Vec3& size = room->size_m;
   return why + "[room]\n" +
-         Line("size_m",
-              "[" + ShortestText(size[0]) + ", " + ShortestText(size[1]) + ", " +
-                  ShortestText(size[2]) + "]",
-              kRoomSize) +
-         Line("reflectance", ShortestText(room->reflectance), kReflectance) + "\n";
+         TomlLine("size_m",
+                  "[" + ShortestText(size[0]) + ", " + ShortestText(size[1]) + ", " +
+                      ShortestText(size[2]) + "]",
+                  kRoomSize) +
+         TomlLine("reflectance", ShortestText(room->reflectance), kReflectance) + "\n";
 }
 
 std::string LightText(const LightDescription& light) {
-  std::string text = "[[light]]\n" + Line("name", TomlText(light.name), "readings name it so") +
-                     Line("kind", TomlText(std::string(LightKindName(light.kind))),
-                          "directional point spot sphere disk rect tube photometric dome");
+  std::string text = "[[light]]\n" + TomlLine("name", TomlText(light.name), "readings name it so") +
+                     TomlLine("kind", TomlText(std::string(LightKindName(light.kind))),
+                              "directional point spot sphere disk rect tube photometric dome");
   text += LineIf("diameter_m", light.diameter, "");
   if (light.width && light.height) {
-    text += Line(
+    text += TomlLine(
         "size_m",
         "[" + ShortestText(light.width->value()) + ", " + ShortestText(light.height->value()) + "]",
         "width, height");
   }
   text += LineIf("length_m", light.length, "") + LineIf("radius_m", light.radius, "");
   if (!light.distribution_file.empty()) {
-    text += Line("distribution", TomlText(light.distribution_file), "its IES or EULUMDAT file");
+    text += TomlLine("distribution", TomlText(light.distribution_file), "its IES or EULUMDAT file");
   }
   text += LineIf("electrical_W", light.electrical, "what the box says: a start, not a measurement");
   text += LineIf("flux_lm", light.flux, "what the box says");
   if (light.beam) {
-    text += Line("beam_deg", RoundedText(DegreesFromRadians(*light.beam), 6),
-                 "what the box says: the full angle");
+    text += TomlLine("beam_deg", RoundedText(DegreesFromRadians(*light.beam), 6),
+                     "what the box says: the full angle");
   }
   return text + "\n";
 }
 
 std::string MeterText(const NewSession& session) {
   if (!session.device.empty()) return "";
-  return "[[meter]]\n" + Line("name", TomlText(kTypedMeterName), "") +
-         Line("sigma_relative", ShortestText(session.meter_sigma_relative),
-              "1 sigma: half of the accuracy on its data sheet") +
+  return "[[meter]]\n" + TomlLine("name", TomlText(kTypedMeterName), "") +
+         TomlLine("sigma_relative", ShortestText(session.meter_sigma_relative),
+                  "1 sigma: half of the accuracy on its data sheet") +
          "\n";
 }
 
 std::string BoxColorText(const NewSession& session) {
   if (!session.cct) return "";
   return "# The colour temperature on the box; a measured one counts beside it.\n[[reading]]\n" +
-         Line("light", TomlText(session.light.name), "") +
-         Line("meter", TomlText(kDataSheetMeter), "") +
-         Line("cct_K", ShortestText(session.cct->value()), "") + "\n";
+         TomlLine("light", TomlText(session.light.name), "") +
+         TomlLine("meter", TomlText(kDataSheetMeter), "") +
+         TomlLine("cct_K", ShortestText(session.cct->value()), "") + "\n";
 }
 
 }  // namespace

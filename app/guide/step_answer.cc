@@ -13,7 +13,7 @@ Result<Metres> ParseDistance(const std::string& text) {
   return WrongUsage(text, "a distance must be above zero");
 }
 
-Result<StepAnswer> Moved(const std::string& text) {
+Result<StepAnswer> MovedTo(const std::string& text) {
   const auto distance = ParseDistance(text);
   if (!distance) return tl::unexpected(distance.error());
   return StepAnswer{StepAnswer::Kind::kMoved, "", *distance};
@@ -32,12 +32,12 @@ Result<StepAnswer> ParseStepAnswer(const std::string& text, bool typed) {
   const std::string word = LowerAscii(answer);
   if (word == "s" || word == "skip") return StepAnswer{StepAnswer::Kind::kSkip, "", {}};
   if (word == "q" || word == "quit") return StepAnswer{StepAnswer::Kind::kQuit, "", {}};
-  if (word.starts_with("at ")) return Moved(answer.substr(3));
-  if (word.starts_with('@')) return Moved(answer.substr(1));
-  if (IsLengthWithUnit(answer)) return Moved(answer);
+  if (word.starts_with("at ")) return MovedTo(answer.substr(3));
+  if (word.starts_with('@')) return MovedTo(answer.substr(1));
+  if (IsLengthWithUnit(answer)) return MovedTo(answer);
   if (!typed) {
     if (answer.empty()) return StepAnswer{};
-    if (ParseNumber(answer)) return Moved(answer);
+    if (ParseNumber(answer)) return MovedTo(answer);
     return WrongUsage("\"" + text + "\"",
                       "is not understood: press Enter to measure, or type a distance such as 0.8m, "
                       "s to skip, q to stop");

@@ -17,13 +17,13 @@ constexpr std::size_t kFewestForScatter = 3;  // one degree of freedom beside th
 constexpr double kTrendStandardErrors = 3.0;
 
 // value = mean + slope (x - middle), least squares; slope 0 where the values show none.
-struct Line {
+struct TrendLine {
   double middle = 0.0, mean = 0.0, slope = 0.0;
   [[nodiscard]] double At(double x) const { return mean + slope * (x - middle); }
 };
 
-Line LineThrough(const std::vector<double>& x, const std::vector<double>& y) {
-  Line line;
+TrendLine LineThrough(const std::vector<double>& x, const std::vector<double>& y) {
+  TrendLine line;
   const auto n = static_cast<double>(x.size());
   for (std::size_t i = 0; i < x.size(); ++i) {
     line.middle += x[i] / n;
@@ -67,7 +67,7 @@ Steadiness WatchSeries::Steady() const {
     x.push_back(timed ? *seconds_[i] : static_cast<double>(i));
   }
   Steadiness steady;
-  const Line line = LineThrough(x, lux);
+  const TrendLine line = LineThrough(x, lux);
   steady.mean_lx = line.mean;
   steady.least_lx = *std::ranges::min_element(lux);
   steady.most_lx = *std::ranges::max_element(lux);

@@ -45,7 +45,7 @@ std::string FileNameOf(std::string_view name) {
 std::string HashOf(const std::vector<InputFile>& inputs, const std::string& text) {
   std::string list;
   for (const InputFile& input : inputs) list += input.sha256 + '\n';
-  return Sha256Hex(list.empty() ? text : list).substr(0, kHashDigits);
+  return devices::Sha256Hex(list.empty() ? text : list).substr(0, kHashDigits);
 }
 
 bool LooksLikeLights(const std::string& text) {

@@ -24,23 +24,23 @@ Value Intensity(const LibraryLight& l) { return ValueOf(l.light.intensity_cd); }
 Value Illuminance(const LibraryLight& l) { return ValueOf(l.light.illuminance_lx); }
 
 // A number a light may have: the word of its option and order, its unit, where it is.
-struct Measure {
+struct LibraryMeasure {
   std::string_view word;
   std::string_view unit;
   Value (*of)(const LibraryLight&);
-  std::string SearchWords::* range;
+  std::string SearchWords::*range;
 };
-constexpr std::array kMeasures = {Measure{"cct", "K", Cct, &SearchWords::cct},
-                                  Measure{"lm", "lm", Flux, &SearchWords::lm},
-                                  Measure{"cd", "cd", Intensity, &SearchWords::cd},
-                                  Measure{"lx", "lx", Illuminance, &SearchWords::lx}};
+constexpr std::array kMeasures = {LibraryMeasure{"cct", "K", Cct, &SearchWords::cct},
+                                  LibraryMeasure{"lm", "lm", Flux, &SearchWords::lm},
+                                  LibraryMeasure{"cd", "cd", Intensity, &SearchWords::cd},
+                                  LibraryMeasure{"lx", "lx", Illuminance, &SearchWords::lx}};
 
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
 
-Result<double> ParseEnd(const Measure& measure, std::string_view text) {
+Result<double> ParseEnd(const LibraryMeasure& measure, std::string_view text) {
   const auto number = SplitNumberAndUnit(TrimBlanks(text));
   if (number && (number->unit.empty() || number->unit == measure.unit)) return number->number;
   return WrongUsage("--" + std::string(measure.word),
@@ -48,7 +48,7 @@ Result<double> ParseEnd(const Measure& measure, std::string_view text) {
                         "; a range is 3000..3500, 500.. or ..2000");
 }
 
-Result<Range> ParseRange(const Measure& measure, std::string_view text) {
+Result<Range> ParseRange(const LibraryMeasure& measure, std::string_view text) {
   const std::size_t dots = text.find("..");
   Range range;
   const std::string_view low = text.substr(0, dots);
@@ -73,7 +73,7 @@ bool NameHolds(const LibraryLight& entry, const std::string& part) {
 }
 
 Result<void> KeepMeasured(const SearchWords& words, std::vector<LibraryLight>& lights) {
-  for (const Measure& measure : kMeasures) {
+  for (const LibraryMeasure& measure : kMeasures) {
     const std::string& text = words.*measure.range;
     if (text.empty()) continue;
     const auto range = ParseRange(measure, text);
@@ -98,7 +98,7 @@ Result<void> KeepKind(const std::string& word, std::vector<LibraryLight>& lights
   return {};
 }
 
-void SortByMeasure(const Measure& measure, bool down, std::vector<LibraryLight>& lights) {
+void SortByMeasure(const LibraryMeasure& measure, bool down, std::vector<LibraryLight>& lights) {
   std::ranges::stable_sort(lights, [&](const LibraryLight& a, const LibraryLight& b) {
     const Value x = measure.of(a);
     const Value y = measure.of(b);
@@ -115,7 +115,7 @@ Result<void> Sort(const std::string& word, std::vector<LibraryLight>& lights) {
       return down ? text_of(b) < text_of(a) : text_of(a) < text_of(b);
     });
   };
-  for (const Measure& measure : kMeasures) {
+  for (const LibraryMeasure& measure : kMeasures) {
     if (measure.word == order) return SortByMeasure(measure, down, lights), Result<void>{};
   }
   if (order.empty() || order == "name") {

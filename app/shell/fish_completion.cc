@@ -8,7 +8,7 @@
 namespace lightcal::app {
 namespace {
 
-std::string Quoted(const std::string& text) {
+std::string FishQuoted(const std::string& text) {
   return "'" + Replaced(Replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
 }
 
@@ -27,22 +27,23 @@ std::string OptionLine(const std::string& start, const TypedOption& option) {
     line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   }
   if (option.names.empty()) {
-    return words.empty() ? "" : line + " -f -a " + Quoted(words.substr(1)) + "\n";
+    return words.empty() ? "" : line + " -f -a " + FishQuoted(words.substr(1)) + "\n";
   }
   if (!words.empty()) {
-    line += " -x -a " + Quoted(option.commas ? "(__fish_append ," + words + ")" : words.substr(1));
+    line +=
+        " -x -a " + FishQuoted(option.commas ? "(__fish_append ," + words + ")" : words.substr(1));
   } else if (option.values > 0) {
     line += option.number ? " -x" : " -r -F";
   }
-  return line + " -d " + Quoted(option.summary) + "\n";
+  return line + " -d " + FishQuoted(option.summary) + "\n";
 }
 
 std::string Lines(const TypedCommand& command) {
-  const std::string start = "complete -c lightcal -n " + Quoted(Condition(command));
+  const std::string start = "complete -c lightcal -n " + FishQuoted(Condition(command));
   std::string text;
   for (const TypedOption& option : command.options) text += OptionLine(start, option);
   for (const TypedCommand& below : command.commands) {
-    text += start + " -f -a " + below.path.back() + " -d " + Quoted(below.summary) + "\n";
+    text += start + " -f -a " + below.path.back() + " -d " + FishQuoted(below.summary) + "\n";
   }
   for (const TypedCommand& below : command.commands) text += Lines(below);
   return text;

@@ -8,7 +8,7 @@
 namespace lightcal::app {
 namespace {
 
-std::string Quoted(const std::string& text) { return "'" + Replaced(text, "'", "'\\''") + "'"; }
+std::string ZshQuoted(const std::string& text) { return "'" + Replaced(text, "'", "'\\''") + "'"; }
 
 // Within the brackets of an _arguments specification.
 std::string Explained(const std::string& text) {
@@ -31,7 +31,7 @@ std::string Values(const TypedOption& option) {
 // One argument of _arguments.
 std::string Specification(const TypedOption& option) {
   if (option.names.empty()) {
-    return Quoted((option.many ? "*" : "") + Values(option));
+    return ZshQuoted((option.many ? "*" : "") + Values(option));
   }
   const bool equals = option.values == 1;
   const std::string all = Joined(option.names, " ");
@@ -40,8 +40,8 @@ std::string Specification(const TypedOption& option) {
   });
   const std::string once = option.many ? "*" : "(" + all + ")";
   const std::string rest = "[" + Explained(option.summary) + "]" + Values(option);
-  if (option.names.size() == 1) return Quoted(once + forms + rest);
-  return Quoted(once) + "{" + forms + "}" + Quoted(rest);
+  if (option.names.size() == 1) return ZshQuoted(once + forms + rest);
+  return ZshQuoted(once) + "{" + forms + "}" + ZshQuoted(rest);
 }
 
 std::string FunctionName(const TypedCommand& command) {
@@ -57,7 +57,7 @@ std::string Function(const TypedCommand& command) {
   if (command.commands.empty()) return text + "  _arguments -s" + specifications + "\n}\n";
   std::string rows, branches;
   for (const TypedCommand& below : command.commands) {
-    rows += "        " + Quoted(below.path.back() + ":" + below.summary) + "\n";
+    rows += "        " + ZshQuoted(below.path.back() + ":" + below.summary) + "\n";
     branches += "        " + below.path.back() + ") " + FunctionName(below) + " ;;\n";
   }
   text += "  local curcontext=$curcontext state line\n  typeset -A opt_args\n  _arguments -C" +

@@ -27,6 +27,11 @@
 namespace lightcal::app {
 namespace {
 
+using devices::CameraState;
+using devices::OpenCamera;
+using devices::ReadCameraState;
+using devices::StoredPicture;
+
 namespace fs = std::filesystem;
 
 constexpr int kBusyRetries = 20;
@@ -66,7 +71,8 @@ class BracketShoot {
   Result<void> OpenTheCamera() {
     const bool as_before = request_.resume && request_.device.empty() &&
                            shoot_.device.find(":ptpip:") != std::string::npos;
-    auto found = ChooseCamera(FindCameras(), as_before ? shoot_.device : request_.device);
+    auto found =
+        devices::ChooseCamera(devices::FindCameras(), as_before ? shoot_.device : request_.device);
     if (!found) return Propagate(std::move(found));
     found_ = *std::move(found);
     auto opened = OpenCamera(found_);
@@ -131,8 +137,8 @@ class BracketShoot {
 
   Result<void> SetManual(CameraState& state) {
     if (!state.mode) return {};
-    const CameraSetting mode = *state.mode;
-    const auto manual = ManualChoice(mode);
+    const devices::CameraSetting mode = *state.mode;
+    const auto manual = devices::ManualChoice(mode);
     if (manual && mode.current == *manual) return {};
     if (!manual || mode.read_only) {
       console_.Warn({"not_manual", mode.current,
@@ -161,7 +167,7 @@ class BracketShoot {
     shoot_.f_number = setup->f_number;
     shoot_.iso = setup->iso;
     shoot_.settings = std::move(setup->settings);
-    for (const PlannedFrame& frame : setup->plan.frames) {
+    for (const devices::PlannedFrame& frame : setup->plan.frames) {
       ShotFrame shot;
       shot.shutter = frame.shutter;
       shot.planned_s = frame.time.time.value();
@@ -206,7 +212,7 @@ class BracketShoot {
     auto files = Capture(frame);
     if (!files) return Propagate(std::move(files));
     const auto raw = std::ranges::find_if(
-        *files, [](const StoredPicture& file) { return LooksLikeRaw(file.name); });
+        *files, [](const StoredPicture& file) { return devices::LooksLikeRaw(file.name); });
     const StoredPicture& picture = raw == files->end() ? files->front() : *raw;
     auto name = folder_->Fetch(*camera_, picture, number);
     if (!name) return Propagate(std::move(name));
@@ -231,7 +237,7 @@ class BracketShoot {
   Result<std::vector<StoredPicture>> Capture(const ShotFrame& frame) {
     const Seconds patience = Seconds(2.0 * frame.planned_s) + kCardPatience;
     auto files = camera_->Capture(shoot_.pictures, patience);
-    for (int i = 0; i < kBusyRetries && !files && files.error().code == fault::kBusy &&
+    for (int i = 0; i < kBusyRetries && !files && files.error().code == devices::fault::kBusy &&
                     !InterruptGuard::StopRequest().Requested();
          ++i) {
       std::this_thread::sleep_for(kBusyPause);
@@ -298,9 +304,9 @@ class BracketShoot {
   const ShootRequest& request_;
   Console& console_;
   std::string session_directory_;
-  FoundCamera found_;
-  std::unique_ptr<TetheredCamera> camera_;
-  std::optional<BorrowedSettings> borrowed_;
+  devices::FoundCamera found_;
+  std::unique_ptr<devices::TetheredCamera> camera_;
+  std::optional<devices::BorrowedSettings> borrowed_;
   std::optional<ShootFolder> folder_;
   TetheredShoot shoot_;
   bool recorded_ = false;

@@ -16,7 +16,7 @@ namespace lightcal::app {
 
 struct ShootRequest {
   std::string session, light, device;
-  BracketRange bracket;
+  devices::BracketRange bracket;
   ExposureWish exposure;
   // What the session makes of the frames, all but `frames`; absent: the person says it later.
   std::optional<CaptureDescription> capture;

@@ -10,11 +10,16 @@
 namespace lightcal::app {
 namespace {
 
+using devices::BracketRange;
+using devices::CameraSetting;
+using devices::CameraState;
+using devices::FNumberOfChoice;
+using devices::IsoOfChoice;
+
 using NumberOfChoice = std::optional<double> (*)(std::string_view);
 
 // A choice is what was asked for when they differ by less than this, relative: half of a third of
 // a stop, of the f-number and of the ISO.
-constexpr double kNearFNumber = 0.06, kNearIso = 0.12;
 
 Result<std::string> ChoiceOf(const CameraSetting& setting, const std::string& option,
                              const std::string& wish, double near, NumberOfChoice number_of) {
@@ -59,20 +64,20 @@ class SetupMaker {
 
   Result<CameraSetup> Make(const BracketRange& bracket) {
     if (!state_.shutter || state_.shutter->read_only) {
-      return Failed(std::string(fault::kSettingRefused), "shutter",
+      return Failed(std::string(devices::fault::kSettingRefused), "shutter",
                     "the camera does not let its shutter time be set over the cable; turn its dial "
                     "to M and try again");
     }
     auto centre = Centre();
     if (!centre) return Propagate(std::move(centre));
-    auto plan = PlanBracket(state_.shutter->choices, *centre, bracket);
+    auto plan = devices::PlanBracket(state_.shutter->choices, *centre, bracket);
     if (!plan) return Propagate(std::move(plan));
     setup_.plan = *std::move(plan);
     setup_.shutter_setting = state_.shutter->name;
     TakeFormat();
     TakeCard();
     for (const CameraSetting& helper : state_.helpers) {
-      if (const auto off = OffChoice(helper)) Use(helper, *off);
+      if (const auto off = devices::OffChoice(helper)) Use(helper, *off);
     }
     if (auto iso = TakeIso(); !iso) return Propagate(std::move(iso));
     if (auto aperture = TakeAperture(); !aperture) return Propagate(std::move(aperture));
@@ -82,7 +87,7 @@ class SetupMaker {
  private:
   Result<Seconds> Centre() const {
     const bool named = !wish_.center.empty();
-    const auto time = TimeOfChoice(named ? wish_.center : state_.shutter->current);
+    const auto time = devices::TimeOfChoice(named ? wish_.center : state_.shutter->current);
     if (time) return time->time;
     if (named) return WrongUsage("--center " + wish_.center, "is no shutter time such as 1/60");
     return WrongUsage("--center", "the camera's shutter stands at \"" + state_.shutter->current +
@@ -95,7 +100,7 @@ class SetupMaker {
   }
 
   void TakeFormat() {
-    const auto raw = state_.format ? RawFormat(state_.format->choices) : std::nullopt;
+    const auto raw = state_.format ? devices::RawFormat(state_.format->choices) : std::nullopt;
     if (!raw) return;
     if (state_.format->read_only && state_.format->current != *raw) {
       setup_.plan.warnings.push_back({"not_raw", state_.format->current,
@@ -109,7 +114,7 @@ class SetupMaker {
 
   void TakeCard() {
     if (!state_.target || state_.target->read_only) return;
-    if (const auto card = CardChoice(*state_.target)) Use(*state_.target, *card);
+    if (const auto card = devices::CardChoice(*state_.target)) Use(*state_.target, *card);
   }
 
   Result<void> TakeIso() {
@@ -147,7 +152,7 @@ class SetupMaker {
   Result<void> Fix(const CameraSetting& setting, const std::string& choice) {
     if (setting.current == choice && setting.read_only) return {};
     if (setting.read_only) {
-      return Failed(std::string(fault::kSettingRefused), setting.name,
+      return Failed(std::string(devices::fault::kSettingRefused), setting.name,
                     "stands at " + setting.current + " and cannot be set over the cable; set " +
                         choice + " on the camera or lens");
     }

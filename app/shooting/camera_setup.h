@@ -12,6 +12,9 @@
 
 namespace lightcal::app {
 
+// Values nearer than this part of each other are one choice of a camera.
+inline constexpr double kNearFNumber = 0.06, kNearIso = 0.12;
+
 // As typed; empty = as the camera is set.
 struct ExposureWish {
   std::string center;  // the middle shutter time
@@ -25,13 +28,14 @@ struct CameraSetup {
   std::vector<NamedSetting> changes;    // those of them the camera is not at
   int pictures = 1;                     // files that one exposure makes
   std::optional<double> f_number, iso;  // what the frames should say
-  BracketPlan plan;
+  devices::BracketPlan plan;
 };
 
 // RAW, on the card, ISO fixed, no dark frame subtracted, the bracket about its centre.
 // Warns (in plan.warnings): not_raw, auto_iso, and as PlanBracket.   Fails: setting_refused (the
 // shutter cannot be set over the cable).   Wrong usage: a wish the camera does not offer.
-[[nodiscard]] Result<CameraSetup> SetupFor(const CameraState& state, const BracketRange& bracket,
+[[nodiscard]] Result<CameraSetup> SetupFor(const devices::CameraState& state,
+                                           const devices::BracketRange& bracket,
                                            const ExposureWish& wish);
 
 }  // namespace lightcal::app

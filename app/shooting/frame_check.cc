@@ -8,11 +8,12 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/captures/bracket.h"
+#include "shooting/camera_setup.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr double kTimeStops = 1.0 / 6.0, kNearFNumber = 0.06, kNearIso = 0.12;
+constexpr double kTimeStops = 1.0 / 6.0;
 
 std::string TimeText(double seconds) {
   if (seconds >= 0.3) return RoundedText(seconds, 3) + " s";
@@ -30,7 +31,7 @@ void Compare(const std::string& file, const std::string& what, std::optional<dou
 }  // namespace
 
 Result<Warnings> CheckFrame(const std::string& path, const TetheredShoot& shoot, ShotFrame& frame) {
-  auto info = ReadFrameInfo(path);
+  auto info = devices::ReadFrameInfo(path);
   if (!info) return Propagate(std::move(info));
   Warnings warnings = info->warnings;
   frame.exposure = info->exposure.time;

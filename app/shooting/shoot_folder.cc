@@ -73,8 +73,8 @@ Result<void> ShootFolder::Save(const TetheredShoot& shoot) const {
                       true);
 }
 
-Result<std::string> ShootFolder::Fetch(TetheredCamera& camera, const StoredPicture& file,
-                                       int number) const {
+Result<std::string> ShootFolder::Fetch(devices::TetheredCamera& camera,
+                                       const devices::StoredPicture& file, int number) const {
   const std::string extension = fs::path(file.name).extension().string();
   const std::string name = "frame_" + TwoDigits(number) +
                            (extension.empty() ? "" : "." + PlainName(extension.substr(1)));

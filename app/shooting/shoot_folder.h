@@ -29,8 +29,8 @@ class ShootFolder {
   [[nodiscard]] Result<void> Save(const TetheredShoot& shoot) const;
   // Fetches a frame, whole or not at all, as frame_NN with the extension the camera gave it.
   // Returns the file's name.  Fails as TetheredCamera::Download.
-  [[nodiscard]] Result<std::string> Fetch(TetheredCamera& camera, const StoredPicture& file,
-                                          int number) const;
+  [[nodiscard]] Result<std::string> Fetch(devices::TetheredCamera& camera,
+                                          const devices::StoredPicture& file, int number) const;
 
  private:
   explicit ShootFolder(std::string path) : path_(std::move(path)) {}

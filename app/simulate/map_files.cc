@@ -13,7 +13,7 @@
 namespace lightcal::app {
 namespace {
 
-constexpr int kScaleRows = 512;
+constexpr int kMapScaleRows = 512;
 constexpr int kLuxDigits = 6;
 
 bool EndsWith(const std::string& path, std::string_view ending) {
@@ -68,7 +68,7 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
                                          : "direct light alone: no walls, nothing in between");
   return report::IlluminancePicture(
       figure, scale, UriOf(report::FalseColors(lux, scale), s.map.width, s.map.height),
-      UriOf(report::ScaleColors(kScaleRows), 1, kScaleRows));
+      UriOf(report::ScaleColors(kMapScaleRows), 1, kMapScaleRows));
 }
 
 std::string CsvOf(const Simulated& s) {
@@ -98,7 +98,7 @@ Result<void> WriteMapExr(const Simulated& s, const std::string& path) {
   }
   const MapPlane& plane = *s.plane;
   const auto number = [](double v) { return ShortestText(v); };
-  ExrPicture exr;
+  devices::ExrPicture exr;
   exr.samples = View2d<const float>(samples.data(), s.map.width, s.map.height, 2);
   exr.channel_names = {"Y", "u95"};
   exr.attributes = {
@@ -108,7 +108,7 @@ Result<void> WriteMapExr(const Simulated& s, const std::string& path) {
       {"axes", plane.across_axis + " to the right, " + plane.up_axis + " up"},
       {"edges_m", "left " + number(plane.left) + " right " + number(plane.right) + " bottom " +
                       number(plane.bottom) + " top " + number(plane.top)}};
-  return WriteExr(path, exr);
+  return devices::WriteExr(path, exr);
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ std::string CostText(double ns) {
 }
 
 // One effect of one lamp: what the gate did and why.
-struct Row {
+struct EffectRow {
   std::string light, effect, state, where, reason;
   double cost_ns = 0.0;
   std::optional<double> bound;
@@ -55,9 +55,9 @@ struct Row {
   std::int64_t evaluations = 0;
 };
 
-Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
-  Row row{lamp.name, "finite_source", "off", "", "", DirectCost_ns(lamp, account),
-          {},        Node::Table(),   0};
+EffectRow SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
+  EffectRow row{lamp.name, "finite_source", "off", "", "", DirectCost_ns(lamp, account),
+                {},        Node::Table(),   0};
   const std::int64_t all = DirectPoints(account);
   std::int64_t sized = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(MapForm::kBounce); ++k) {
@@ -93,8 +93,9 @@ Row SourceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
   return row;
 }
 
-Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
-  Row row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account), {}, Node::Table(), 0};
+EffectRow BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& account) {
+  EffectRow row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account),
+                {},        Node::Table(), 0};
   const std::int64_t all = DirectPoints(account);
   const std::int64_t between = Count(account, MapForm::kBounceBetween);
   const std::int64_t each = Count(account, MapForm::kBounce);
@@ -123,8 +124,8 @@ Row BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccount& acc
   return row;
 }
 
-std::vector<Row> Rows(const Simulated& s) {
-  std::vector<Row> rows;
+std::vector<EffectRow> Rows(const Simulated& s) {
+  std::vector<EffectRow> rows;
   for (std::size_t k = 0; k < s.lamps.size(); ++k) {
     rows.push_back(SourceRow(s, s.lamps[k], s.accounts[k]));
     rows.push_back(BounceRow(s, s.lamps[k], s.accounts[k]));
@@ -245,7 +246,7 @@ Node LampNode(const PlacedLamp& lamp) {
           {"aim", aimed ? Node(lamp.pose.frame.z) : Node()}};
 }
 
-Node EffectNode(const Row& row) {
+Node EffectNode(const EffectRow& row) {
   return {{"light", row.light},          {"name", row.effect},
           {"state", row.state},          {"evaluations", row.evaluations},
           {"cost_ns", row.cost_ns},      {"reason", row.reason},
@@ -298,7 +299,7 @@ std::string AnswerText(const Simulated& s) {
   if (s.plane) out += PlaneText(s) + "\n";
   std::vector<std::vector<std::string>> rows;
   double cost = 0.0;
-  for (const Row& row : Rows(s)) {
+  for (const EffectRow& row : Rows(s)) {
     rows.push_back({row.light, row.effect, row.state, CostText(row.cost_ns),
                     row.where.empty() ? "-" : row.where, row.reason});
     cost += row.cost_ns;

@@ -324,13 +324,13 @@ std::vector<std::string> TradeoffSentences(const TradeoffAnswer& answer) {
 
 Node TradeoffNode(const TradeoffAnswer& answer) {
   const auto& [study, truth, ladders, tolerance] = answer;
-  const auto knob = [&study = study](const SweepRow& row) {
+  const auto knob = [&study](const SweepRow& row) {
     Node node = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
     node.Put(SettingNode(study, row.setting));
     node.Put("in_play", row.in_play);
     return node;
   };
-  const auto setting = [&study = study](const Setting& one) { return SettingNode(study, one); };
+  const auto setting = [&study](const Setting& one) { return SettingNode(study, one); };
   return {
       {"tolerance_relative", tolerance},
       {"allowed_relative", study.allowed_relative},

@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 using records::Node;
 
 constexpr std::uintmax_t kMostBytes = 256U << 20U;
-constexpr int kTableDigits = 4;
+constexpr int kValidateDigits = 4;
 
 // What a reader found in the file, in a few words.
 using Contents = Result<std::string>;
@@ -84,7 +84,7 @@ Contents CaptureContents(const std::string& text, const std::string& path) {
 }
 
 Contents TapeContents(const std::string& text, const std::string& path) {
-  const auto tape = TapeFromText(text, path);
+  const auto tape = devices::TapeFromText(text, path);
   if (!tape) return tl::unexpected(tape.error());
   return tape->driver + ", " + Counted(tape->exchanges.size(), "exchange");
 }
@@ -183,7 +183,7 @@ void ValidateJson(const std::string& text, FileVerdict& verdict) {
 }
 
 void ValidatePhotometric(FileVerdict& verdict) {
-  auto read = ReadPhotometricFile(verdict.path);
+  auto read = devices::ReadPhotometricFile(verdict.path);
   if (!read) {
     if (verdict.format.empty()) verdict.format = "photometric";
     verdict.error = std::move(read).error();
@@ -194,17 +194,17 @@ void ValidatePhotometric(FileVerdict& verdict) {
   verdict.version = header.version;
   verdict.warnings = std::move(read->warnings);
   const IntensityTable& table = read->file.table;
-  verdict.holds = RoundedText(table.Flux().value(), kTableDigits) + " lm, peak " +
-                  RoundedText(table.peak().intensity.value(), kTableDigits) + " cd";
+  verdict.holds = RoundedText(table.Flux().value(), kValidateDigits) + " lm, peak " +
+                  RoundedText(table.peak().intensity.value(), kValidateDigits) + " cd";
 }
 
 void ValidateImport(FileVerdict& verdict) {
-  auto imported = ImportFile(verdict.path);
+  auto imported = devices::ImportFile(verdict.path);
   if (!imported) {
     verdict.error = std::move(imported).error();
     if (verdict.error->code != "unknown_format" && verdict.error->code != "not_text") return;
     // EULUMDAT has no mark of its own: what reads as one is one.
-    if (ReadPhotometricFile(verdict.path)) {
+    if (devices::ReadPhotometricFile(verdict.path)) {
       verdict.error.reset();
       ValidatePhotometric(verdict);
     } else {

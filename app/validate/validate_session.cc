@@ -43,7 +43,7 @@ std::vector<NamedFile> FilesNamedBy(const Session& session) {
 std::optional<Error> FirstMissing(const Session& session) {
   for (const NamedFile& file : FilesNamedBy(session)) {
     const std::string pattern = PathInSession(session, file.name);
-    if (ExpandFiles(std::span(&pattern, 1))) continue;
+    if (devices::ExpandFiles(std::span(&pattern, 1))) continue;
     return Error{ErrorKind::kRefused, "not_found", file.where,
                  "names \"" + file.name + "\", which is not in " + session.directory +
                      "; put it there or correct the name"};

@@ -23,7 +23,7 @@
 #include "lightcal_devices/files/import_file.h"
 #include "lightcal_devices/files/read_photometric.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
@@ -144,4 +144,4 @@ Sources DiskSources() {
   return sources;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

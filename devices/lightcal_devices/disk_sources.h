@@ -7,7 +7,7 @@
 
 #include "lightcal/records/sources.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Each file is opened once in the life of these sources and their copies, whatever is asked about
 // it: texts and tables are held, EXR and camera RAW stay mapped (OpenImageIO opens TIFF, PNG, JPEG
@@ -17,4 +17,4 @@ namespace lightcal {
 // SHA-256 of bytes, lower-case hex.
 [[nodiscard]] std::string Sha256Hex(std::string_view bytes);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

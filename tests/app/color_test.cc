@@ -237,7 +237,7 @@ std::vector<std::string> SpectrumFiles() {
 class SpectrumFile : public testing::TestWithParam<std::string> {};
 
 TEST_P(SpectrumFile, AgreesWithItsInstrument) {
-  const auto file = ImportFile(GetParam());
+  const auto file = devices::ImportFile(GetParam());
   ASSERT_TRUE(file.has_value()) << file.error().message;
   ASSERT_FALSE(file->spectra.empty());
   const json all = Color({"--spectrum", GetParam()});
@@ -284,7 +284,7 @@ TEST(ColorCommand, MostJetiColumnsBelowADuvOfFiveHundredthsAreCompared) {
 TEST(ColorCommand, ColourRenderingIsComparedWithTwelveFilesOfTwoMakers) {
   int rendering = 0, fidelity = 0;
   for (const std::string& path : SpectrumFiles()) {
-    const auto file = ImportFile(path);
+    const auto file = devices::ImportFile(path);
     ASSERT_TRUE(file.has_value());
     for (const ImportedSpectrum& imported : file->spectra) {
       rendering += file->format != "jeti_csv" && imported.reported.cri_R[14] ? 1 : 0;
@@ -313,7 +313,7 @@ TEST(ColorCommand, SpectralSimilarityToIlluminantAIsTheUprteks) {
     if (!std::regex_search(text, printed, std::regex("SSI-A\t([0-9.]+)"))) continue;
     const double ssi = std::stod(printed[1]);
     if (ssi == 0.0) continue;
-    const auto file = ImportFile(path);
+    const auto file = devices::ImportFile(path);
     ASSERT_TRUE(file.has_value());
     EXPECT_NEAR(SpectralSimilarity(file->spectra[0].spectrum, *IlluminantSpectrum("A")).value(),
                 ssi, 0.05)

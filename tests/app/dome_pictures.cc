@@ -20,18 +20,18 @@ std::string WritePicture(const TempDir& folder, const std::string& name, const S
                          double nits_per_unit, bool absolute) {
   std::vector<float> samples = picture.rgb;
   for (float& v : samples) v /= static_cast<float>(nits_per_unit);
-  ExrPicture exr;
+  devices::ExrPicture exr;
   exr.samples = View2d<const float>(samples.data(), picture.width, picture.height, 3);
   exr.channel_names = {"R", "G", "B"};
   if (absolute) exr.white_luminance = Nits(nits_per_unit);
   exr.compressed = false;
   std::string path = folder.path() + "/" + name;
-  EXPECT_TRUE(WriteExr(path, exr));
+  EXPECT_TRUE(devices::WriteExr(path, exr));
   return path;
 }
 
 SkyPicture ReadPictureFile(const std::string& path) {
-  const auto frame = ReadPicture(path);
+  const auto frame = devices::ReadPicture(path);
   EXPECT_TRUE(frame.has_value()) << path;
   SkyPicture picture;
   if (!frame) return picture;

@@ -88,12 +88,12 @@ TEST(InspectCommand, ALampInAFisheyeGivesItsIlluminance) {
   }
   const TempDir dir;
   const std::string path = dir.path() + "/fisheye.exr";
-  ExrPicture picture;
+  devices::ExrPicture picture;
   picture.samples = View2d<const float>(nits.data(), kSize, kSize);
   picture.channel_names = {"Y"};
   picture.white_luminance = Nits(1.0);
   picture.attributes = {{"scale_source", "anchor"}, {"scale_u95_relative", "0.02"}};
-  ASSERT_TRUE(WriteExr(path, picture));
+  ASSERT_TRUE(devices::WriteExr(path, picture));
 
   const json got = LightcalJson("inspect", {path, "--projection", "equisolid", "--fov", "180"});
   const double truth = std::numbers::pi * 1000.0 * std::pow(std::sin(kHalf), 2);

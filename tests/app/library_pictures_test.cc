@@ -17,6 +17,8 @@
 namespace lightcal::test {
 namespace {
 
+using devices::DiskSources;
+
 using nlohmann::json;
 
 TEST(MergeBracket, GivesTheSamplesThatTheCommandWrites) {
@@ -54,11 +56,11 @@ TEST(InspectPicture, GivesTheLuminanceThatTheCommandPrints) {
   const TempDir folder;
   const std::string file = folder.path() + "/flat.exr";
   const std::vector<float> nits(64, 12.5F);
-  ExrPicture exr;
+  devices::ExrPicture exr;
   exr.samples = View2d<const float>(nits.data(), 8, 8);
   exr.channel_names = {"Y"};
   exr.white_luminance = Nits(2.0);
-  ASSERT_TRUE(WriteExr(file, exr));
+  ASSERT_TRUE(devices::WriteExr(file, exr));
   const auto seen = InspectPicture(file, DiskSources(), {}, LuminanceConvention::kPhotometric);
   ASSERT_TRUE(seen) << seen.error().message;
   const CliResult printed = RunLightcal({"inspect", file, "--json"});

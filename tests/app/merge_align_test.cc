@@ -128,10 +128,10 @@ TEST_F(Aligned, LinearPicturesMoveByWholePixels) {
       }
     }
     files.push_back(folder_.path() + "/" + std::to_string(f) + ".exr");
-    ExrPicture exr;
+    devices::ExrPicture exr;
     exr.samples = View2d<const float>(samples.data(), 300, 200);
     exr.channel_names = {"Y"};
-    ASSERT_TRUE(WriteExr(files.back(), exr).has_value());
+    ASSERT_TRUE(devices::WriteExr(files.back(), exr).has_value());
   }
   const json answer =
       MergeJson(files, output_,

@@ -52,7 +52,7 @@ double Picture::Mean(int x, int y, int w, int h, int channel) const {
 }
 
 Picture ReadExr(const std::string& path) {
-  const auto frame = ReadPicture(path);
+  const auto frame = devices::ReadPicture(path);
   EXPECT_TRUE(frame.has_value()) << path;
   Picture picture;
   if (!frame) return picture;

@@ -37,11 +37,11 @@ Words RampFrames(const test::TempDir& folder, float clip) {
       }
     }
     files.push_back(folder.path() + "/" + std::to_string(files.size()) + ".exr");
-    ExrPicture exr;
+    devices::ExrPicture exr;
     exr.samples = View2d<const float>(samples.data(), kWidth, kHeight, 3);
     exr.channel_names = {"R", "G", "B"};
     exr.chromaticities = PrimariesOf(RgbSpace::kSrgb);
-    EXPECT_TRUE(WriteExr(files.back(), exr).has_value());
+    EXPECT_TRUE(devices::WriteExr(files.back(), exr).has_value());
   }
   return files;
 }

@@ -61,7 +61,7 @@ class OpenColorIo : public testing::Test {
     const std::string output = folder_.path() + "/" + space + ".exr";
     static_cast<void>(MergeJson(ShootAll(folder_, camera, series, scene), output,
                                 {"--space", space, "--anchor", "4,4,32,56=100"}));
-    const auto info = ReadPictureInfo(output);
+    const auto info = devices::ReadPictureInfo(output);
     EXPECT_TRUE(info && info->chromaticities);
     if (info && info->chromaticities) chromaticities_ = *info->chromaticities;
     const Picture picture = ReadExr(output);

@@ -130,7 +130,7 @@ TEST(TradeoffTwins, TheRecommendationMeetsTheToleranceAndItsIntervalHoldsTheLamp
     const TempDir dir;
     const LuxTwin twin = RandomLuxTwin(rooms, random);
     SCOPED_TRACE(twin.toml);
-    const auto run = SessionRunner(dir.Write("twin.toml", twin.toml), DiskSources);
+    const auto run = SessionRunner(dir.Write("twin.toml", twin.toml), devices::DiskSources);
     tradeoff::Question question;
     question.tolerance_relative = kTolerance;
     question.knobs = {"effects", "source_model", "bounce_patches", "solver", "rejection"};

@@ -18,6 +18,7 @@
 namespace {
 
 using namespace lightcal;
+using namespace lightcal::devices;
 constexpr std::chrono::milliseconds kNoWait{0};
 constexpr std::size_t kAnyLength = 1U << 20U;
 

@@ -156,7 +156,7 @@ std::vector<Combination> Finalists(const tradeoff::Runner& run, const Twin& twin
 }
 
 void Judge(const Twin& twin, int number, Tally& tally) {
-  const tradeoff::Runner run = SessionRunner(twin.session, DiskSources);
+  const tradeoff::Runner run = SessionRunner(twin.session, devices::DiskSources);
   ++tally.twins;
   tradeoff::Question question;
   question.tolerance_relative = kTolerance;

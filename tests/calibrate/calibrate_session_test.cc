@@ -41,7 +41,7 @@ struct Asked {
 
 // Sources that have one spectrum, of any name, and no disk but for session.toml.
 Sources OneSpectrumSources(const std::shared_ptr<Asked>& asked) {
-  Sources sources = DiskSources();
+  Sources sources = devices::DiskSources();
   sources.read_spectra = [asked](const std::string& path) -> Result<ImportedFile> {
     ++asked->spectra[path];
     ImportedFile file;
@@ -92,7 +92,8 @@ TEST(CalibrateSession, GivesTheSpectrumAsItsFileHasItAndTheWarningsOfItsFiles) {
 }
 
 TEST(CalibrateSession, GivesThePicturesThatItMeasured) {
-  const auto done = CalibrateSession(SampleData("sessions/grey_card_exr"), DiskSources(), {});
+  const auto done =
+      CalibrateSession(SampleData("sessions/grey_card_exr"), devices::DiskSources(), {});
   ASSERT_TRUE(done) << done.error().message;
   ASSERT_EQ(done->pictures.size(), 1U);
   const RecordedPicture& picture = done->pictures[0];
@@ -105,7 +106,7 @@ TEST(CalibrateSession, ARefusalComesWithTheWarningsBeforeIt) {
   const TempDir folder;
   folder.Write("session.toml", std::string(kTwoReadings));
   folder.Write("readings.jsonl", "{\"light\": \"nobody\"}\n");
-  const auto done = CalibrateSession(folder.path(), DiskSources(), {});
+  const auto done = CalibrateSession(folder.path(), devices::DiskSources(), {});
   ASSERT_FALSE(done);
   EXPECT_EQ(done.error().code, "not_found");
   ASSERT_EQ(done.error().remarks.warnings.size(), 1U);
@@ -130,9 +131,9 @@ illuminance_lx = 48.0
 time = "2026-01-02T03:05:05Z"
 )");
   CalibrationSettings settings;
-  const auto newest = CalibrateSession(folder.path(), DiskSources(), settings);
+  const auto newest = CalibrateSession(folder.path(), devices::DiskSources(), settings);
   settings.time = "2027-01-01T00:00:00Z";
-  const auto given = CalibrateSession(folder.path(), DiskSources(), settings);
+  const auto given = CalibrateSession(folder.path(), devices::DiskSources(), settings);
   ASSERT_TRUE(newest && given);
   EXPECT_EQ(newest->lights.provenance.time, "2026-01-02T03:05:05Z");
   EXPECT_EQ(given->lights.provenance.time, settings.time);
@@ -140,7 +141,7 @@ time = "2026-01-02T03:05:05Z"
 
 TEST(CalibrateSession, IsTheSameMeasuredFirstAndFittedThen) {
   const std::string session = SampleData("sessions/lit_wall");
-  const Sources sources = DiskSources();
+  const Sources sources = devices::DiskSources();
   const auto whole = CalibrateSession(session, sources, {});
   auto measured = MeasureSession(session, sources, {});
   ASSERT_TRUE(whole && measured);

@@ -198,7 +198,7 @@ TEST_F(CaptureSession, AMeasuredCameraReadsAMeasuredLampWithinHalfAPercentOnceBo
   const std::string camera_file = SampleData("camera_sensitivities/Canon_EOS_5D_380_780_5.json");
   const std::string lamp_file = SampleData("spectra/uprtek_cv600/Nichia 80 CRI.xls");
   const auto sensitivities = CameraSensitivitiesFromJson(ReadFile(camera_file), "camera");
-  const auto imported = ImportFile(lamp_file);
+  const auto imported = devices::ImportFile(lamp_file);
   ASSERT_TRUE(sensitivities && imported);
   const Spectrum& lamp = imported->spectra.front().spectrum;
   const auto measured = SpectralCamera::Make(*sensitivities);

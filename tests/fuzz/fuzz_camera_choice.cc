@@ -13,15 +13,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream lines(bytes);
   for (std::string line; std::getline(lines, line);) choices.push_back(line);
   for (const std::string& choice : choices) {
-    const auto time = lightcal::TimeOfChoice(choice);
+    const auto time = lightcal::devices::TimeOfChoice(choice);
     if (time) Require(time->time.value() > 0.0 && std::isfinite(time->time.value()));
-    (void)lightcal::FNumberOfChoice(choice);
-    (void)lightcal::IsoOfChoice(choice);
-    (void)lightcal::ParseBracket(choice);
+    (void)lightcal::devices::FNumberOfChoice(choice);
+    (void)lightcal::devices::IsoOfChoice(choice);
+    (void)lightcal::devices::ParseBracket(choice);
   }
-  (void)lightcal::RawFormat(choices);
-  const auto plan =
-      lightcal::PlanBracket(choices, lightcal::Seconds(1.0 / 64), {4.0, 1.0, {{100.0, 0.5}}});
+  (void)lightcal::devices::RawFormat(choices);
+  const auto plan = lightcal::devices::PlanBracket(choices, lightcal::Seconds(1.0 / 64),
+                                                   {4.0, 1.0, {{100.0, 0.5}}});
   if (!plan) {
     lightcal::fuzz::RequireGoodError(plan.error());
     return 0;

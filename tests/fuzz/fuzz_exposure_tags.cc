@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::array<double, 5> numbers{};
   if (size < 1 + sizeof(numbers)) {
     static_cast<void>(
-        lightcal::IsoTimeFromExif(std::string(reinterpret_cast<const char*>(data), size)));
+        lightcal::devices::IsoTimeFromExif(std::string(reinterpret_cast<const char*>(data), size)));
     return 0;
   }
   std::memcpy(numbers.data(), data + 1, sizeof(numbers));
@@ -21,8 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                    : std::nullopt;
   };
   lightcal::Warnings warnings;
-  const lightcal::FrameExposure exposure =
-      lightcal::ExposureFromTags({tag(0), tag(1), tag(2), tag(3), tag(4)}, "frame.dng", warnings);
+  const lightcal::FrameExposure exposure = lightcal::devices::ExposureFromTags(
+      {tag(0), tag(1), tag(2), tag(3), tag(4)}, "frame.dng", warnings);
   if (exposure.time) Require(exposure.time->value() > 5e-8 && exposure.time->value() < 2e6);
   if (exposure.f_number) Require(*exposure.f_number > 0.2 && *exposure.f_number < 2000.0);
   if (exposure.iso) Require(*exposure.iso > 0.0 && *exposure.iso < 2e8);

@@ -24,11 +24,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // A few hundred bytes may promise, and by PIZ or DWA truly hold, half a billion samples: reading
   // those takes its time and is no fault. The door looks for faults.
   constexpr double kMostSamples = 4e6;
-  if (const auto info = lightcal::ReadPictureInfo(path);
+  if (const auto info = lightcal::devices::ReadPictureInfo(path);
       info && 1.0 * info->width * info->height * info->channels > kMostSamples) {
     return 0;
   }
-  const auto frame = lightcal::ReadPicture(path);
+  const auto frame = lightcal::devices::ReadPicture(path);
   if (!frame) {
     lightcal::fuzz::RequireGoodError(frame.error());
     return 0;

@@ -8,13 +8,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  namespace gm1020 = lightcal::gm1020;
+  namespace gm1020 = lightcal::devices::gm1020;
   const auto bytes = std::as_bytes(std::span(data, size));
-  const auto live = gm1020::DecodeLive(bytes);
+  const auto live = lightcal::devices::gm1020::DecodeLive(bytes);
   if (live) {
-    Require(gm1020::MayBeginFrame(bytes));
+    Require(lightcal::devices::gm1020::MayBeginFrame(bytes));
     Require(std::abs(live->temperature_C) <= 3276.8);
-    const double lux = lightcal::LuxFromDisplay(live->shown);
+    const double lux = lightcal::devices::LuxFromDisplay(live->shown);
     Require(std::isfinite(lux) && lux >= 0.0 && lux <= 409500.0);
   } else {
     Require(!live.error().message.empty());

@@ -12,14 +12,14 @@
 namespace {
 
 using lightcal::fuzz::Require;
-namespace hid_als = lightcal::hid_als;
+namespace hid_als = lightcal::devices::hid_als;
 
 void CheckField(const hid_als::ReportDescriptor& descriptor, const hid_als::Field& field) {
   const std::size_t length = descriptor.ReportBytes(field.kind, field.report);
   Require(field.bit_count >= 1 && field.bit_count <= 32);
   Require(field.bit_offset + field.bit_count <= 8 * length);
   Require(length <= hid_als::kLongestReportBits / 8);
-  lightcal::Bytes report(length);
+  lightcal::devices::Bytes report(length);
   Require(field.Put(field.logical_min, report));
   const auto raw = field.RawIn(report);
   Require(!raw || (*raw >= field.logical_min && *raw <= field.logical_max));

@@ -8,7 +8,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  const auto imported = lightcal::ImportBytes(lightcal::fuzz::TextOf(data, size), "file");
+  const auto imported = lightcal::devices::ImportBytes(lightcal::fuzz::TextOf(data, size), "file");
   if (!imported) {
     Require(!imported.error().code.empty() && !imported.error().message.empty());
     return 0;

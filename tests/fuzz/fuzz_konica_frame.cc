@@ -10,10 +10,10 @@
 
 namespace {
 
-namespace konica = lightcal::konica;
+namespace konica = lightcal::devices::konica;
 using lightcal::fuzz::Require;
 
-void CheckReading(const lightcal::Result<lightcal::MeterReading>& reading) {
+void CheckReading(const lightcal::Result<lightcal::devices::MeterReading>& reading) {
   if (!reading) return;
   const lightcal::Reading& r = reading->reading;
   Require(r.illuminance && std::isfinite(r.illuminance->value()) && r.illuminance->value() >= 0.0);

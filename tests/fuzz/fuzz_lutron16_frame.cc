@@ -8,12 +8,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  namespace lutron16 = lightcal::lutron16;
+  namespace lutron16 = lightcal::devices::lutron16;
   const auto bytes = std::as_bytes(std::span(data, size));
-  const auto measurement = lutron16::DecodeMeasurement(bytes);
+  const auto measurement = lightcal::devices::lutron16::DecodeMeasurement(bytes);
   if (measurement) {
-    Require(lutron16::MayBeginFrame(bytes));
-    const double lux = lightcal::LuxFromDisplay(measurement->shown);
+    Require(lightcal::devices::lutron16::MayBeginFrame(bytes));
+    const double lux = lightcal::devices::LuxFromDisplay(measurement->shown);
     Require(std::isfinite(lux) && lux >= 0.0 && lux <= 99999999.0 * 11.0);
   } else {
     Require(!measurement.error().message.empty());

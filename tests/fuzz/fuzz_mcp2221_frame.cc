@@ -13,8 +13,8 @@
 namespace {
 
 using lightcal::fuzz::Require;
-namespace mcp2221 = lightcal::mcp2221;
-namespace i2c = lightcal::i2c;
+namespace mcp2221 = lightcal::devices::mcp2221;
+namespace i2c = lightcal::devices::i2c;
 
 void CheckLight(const i2c::SensorLight& light) {
   Require(std::isfinite(light.illuminance_lx) && light.illuminance_lx > 0.0);

@@ -8,13 +8,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  namespace pce174 = lightcal::pce174;
+  namespace pce174 = lightcal::devices::pce174;
   const auto bytes = std::as_bytes(std::span(data, size));
-  const auto measurement = pce174::DecodeMeasurement(bytes);
+  const auto measurement = lightcal::devices::pce174::DecodeMeasurement(bytes);
   if (measurement) {
-    Require(pce174::MayBeginFrame(bytes));
+    Require(lightcal::devices::pce174::MayBeginFrame(bytes));
     Require(measurement->mode != "?");
-    const double lux = lightcal::LuxFromDisplay(measurement->raw);
+    const double lux = lightcal::devices::LuxFromDisplay(measurement->raw);
     Require(std::isfinite(lux) && lux >= 0.0 && lux <= 999900.0 * 11.0);
   } else {
     Require(!measurement.error().message.empty());

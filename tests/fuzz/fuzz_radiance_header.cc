@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
   const auto header =
-      lightcal::ParseRadianceHeader(lightcal::fuzz::TextOf(data, size), "picture.hdr");
+      lightcal::devices::ParseRadianceHeader(lightcal::fuzz::TextOf(data, size), "picture.hdr");
   if (!header) {
     lightcal::fuzz::RequireGoodError(header.error());
     return 0;

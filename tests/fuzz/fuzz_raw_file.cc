@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int file = File();
   lightcal::fuzz::Require(ftruncate(file, 0) == 0);
   lightcal::fuzz::Require(pwrite(file, data, size, 0) == static_cast<ssize_t>(size));
-  const auto frame = lightcal::ReadRaw("/proc/self/fd/" + std::to_string(file));
+  const auto frame = lightcal::devices::ReadRaw("/proc/self/fd/" + std::to_string(file));
   if (!frame) return 0;
   // Every row can be looked at, to its end.
   std::visit(

@@ -7,16 +7,17 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  namespace sekonic = lightcal::sekonic;
+  namespace sekonic = lightcal::devices::sekonic;
   const auto bytes = std::as_bytes(std::span(data, size));
-  static_cast<void>(sekonic::DecodeAcknowledge(bytes));
-  static_cast<void>(sekonic::DecodeModel(bytes));
-  static_cast<void>(sekonic::DecodeFirmware(bytes));
-  static_cast<void>(sekonic::DecodeState(bytes));
-  const auto stored = sekonic::DecodeMemoryInfo(bytes);
-  if (stored) Require(*stored >= 0 && *stored <= sekonic::kMostStored + 1);
-  static_cast<void>(sekonic::DecodeStoredMeasurement(bytes));
-  const auto measurement = sekonic::DecodeMeasurement(bytes);
-  if (measurement) Require(measurement->spectrum.size() == sekonic::kSpectrumSamples);
+  static_cast<void>(lightcal::devices::sekonic::DecodeAcknowledge(bytes));
+  static_cast<void>(lightcal::devices::sekonic::DecodeModel(bytes));
+  static_cast<void>(lightcal::devices::sekonic::DecodeFirmware(bytes));
+  static_cast<void>(lightcal::devices::sekonic::DecodeState(bytes));
+  const auto stored = lightcal::devices::sekonic::DecodeMemoryInfo(bytes);
+  if (stored) Require(*stored >= 0 && *stored <= lightcal::devices::sekonic::kMostStored + 1);
+  static_cast<void>(lightcal::devices::sekonic::DecodeStoredMeasurement(bytes));
+  const auto measurement = lightcal::devices::sekonic::DecodeMeasurement(bytes);
+  if (measurement)
+    Require(measurement->spectrum.size() == lightcal::devices::sekonic::kSpectrumSamples);
   return 0;
 }

@@ -5,14 +5,14 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  const auto tape = lightcal::TapeFromText(lightcal::fuzz::TextOf(data, size), "tape");
+  const auto tape = lightcal::devices::TapeFromText(lightcal::fuzz::TextOf(data, size), "tape");
   if (!tape) {
     lightcal::fuzz::RequireGoodError(tape.error());
     return 0;
   }
-  const std::string text = lightcal::TapeToText(*tape);
-  const auto again = lightcal::TapeFromText(text, "tape");
+  const std::string text = lightcal::devices::TapeToText(*tape);
+  const auto again = lightcal::devices::TapeFromText(text, "tape");
   Require(again.has_value());
-  Require(lightcal::TapeToText(*again) == text);
+  Require(lightcal::devices::TapeToText(*again) == text);
   return 0;
 }

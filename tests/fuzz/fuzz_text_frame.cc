@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
   const auto line = lightcal::fuzz::TextOf(data, size);
-  const auto reading = lightcal::text::DecodeLine(line);
+  const auto reading = lightcal::devices::text::DecodeLine(line);
   if (!reading) {
     Require(reading.error().code == "bad_reply" && !reading.error().message.empty());
     return 0;

@@ -8,12 +8,12 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using lightcal::fuzz::Require;
-  namespace ut382 = lightcal::ut382;
+  namespace ut382 = lightcal::devices::ut382;
   const auto bytes = std::as_bytes(std::span(data, size));
-  const auto display = ut382::DecodeDisplay(bytes);
+  const auto display = lightcal::devices::ut382::DecodeDisplay(bytes);
   if (display) {
-    Require(ut382::MayBeginFrame(bytes));
-    const double lux = lightcal::LuxFromDisplay(display->shown);
+    Require(lightcal::devices::ut382::MayBeginFrame(bytes));
+    const double lux = lightcal::devices::LuxFromDisplay(display->shown);
     Require(std::isfinite(lux) && lux >= 0.0 && lux <= 99990.0 * 11.0);
   } else {
     Require(!display.error().message.empty());

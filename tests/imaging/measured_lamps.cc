@@ -58,7 +58,7 @@ std::vector<MeasuredLamp> MeasuredLamps() {
     if (spectrum) lamps.push_back({table.name, table.lamp, std::move(*spectrum)});
   }
   for (const Source& file : kFiles) {
-    auto imported = ImportFile((Samples() / "spectra" / file.name).string());
+    auto imported = devices::ImportFile((Samples() / "spectra" / file.name).string());
     EXPECT_TRUE(imported && imported->spectra.size() == 1) << file.name;
     if (!imported || imported->spectra.empty()) continue;
     lamps.push_back({fs::path(file.name).stem().string(), file.lamp,

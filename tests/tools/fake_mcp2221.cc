@@ -8,6 +8,8 @@
 namespace lightcal::test {
 namespace {
 
+using devices::Bytes;
+
 constexpr std::uint8_t kStatus = 0x10;
 constexpr std::uint8_t kFetch = 0x40;
 constexpr std::uint8_t kWrite = 0x90;
@@ -96,15 +98,15 @@ void FakeMcp2221::AnswerFetch(Bytes& reply) {
 
 Result<void> FakeMcp2221Line::Write(std::span<const std::byte> bytes, std::chrono::milliseconds) {
   if (bytes.size() != 65 || bytes[0] != std::byte{0}) {
-    return Failed(std::string(fault::kIo), Name(), "a report is a 0 and 64 bytes");
+    return Failed(std::string(devices::fault::kIo), Name(), "a report is a 0 and 64 bytes");
   }
   reply_ = bridge_.Answer(Bytes(bytes.begin() + 1, bytes.end()));
-  if (bridge_.gone()) return Failed(std::string(fault::kUnplugged), Name(), "gone");
+  if (bridge_.gone()) return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   return {};
 }
 
 Result<Bytes> FakeMcp2221Line::Read(std::size_t, std::chrono::milliseconds) {
-  if (!reply_) return Failed(std::string(fault::kTimeout), Name(), "silent");
+  if (!reply_) return Failed(std::string(devices::fault::kTimeout), Name(), "silent");
   Bytes reply = *std::move(reply_);
   reply_.reset();
   return reply;

@@ -80,7 +80,7 @@ struct BridgeStandIn::Impl final : UsbfsInstrument {
       transfer.Fail(EPIPE);
     } else if (!transfer.in()) {
       const auto report = transfer.sent();
-      if (auto reply = bridge.Answer(Bytes(report.begin(), report.end()))) {
+      if (auto reply = bridge.Answer(devices::Bytes(report.begin(), report.end()))) {
         replies.push_back(*std::move(reply));
       }
       if (bridge.gone()) {
@@ -102,7 +102,7 @@ struct BridgeStandIn::Impl final : UsbfsInstrument {
   FakeMcp2221 bridge;
   BridgeSetting usb;
   bool attached;
-  std::deque<Bytes> replies;
+  std::deque<devices::Bytes> replies;
   UsbfsNode node;
 };
 

@@ -98,29 +98,30 @@ std::vector<I2cTransfer> DecodeI2c(const std::vector<std::uint8_t>& samples) {
   return decoder.Take();
 }
 
-Result<void> CapturedBus::Write(i2c::Address address, std::span<const std::byte> bytes) {
+Result<void> CapturedBus::Write(devices::i2c::Address address, std::span<const std::byte> bytes) {
   const auto is_it = [&](const I2cTransfer& transfer) {
     return !transfer.is_read && transfer.address == address && transfer.acknowledged &&
            std::ranges::equal(transfer.bytes, bytes);
   };
   if (next_ == transfers_.size() || !is_it(transfers_[next_])) {
-    return Failed(std::string(i2c::kNack), "capture", "another transfer was captured");
+    return Failed(std::string(devices::i2c::kNack), "capture", "another transfer was captured");
   }
   ++next_;
   while (next_ < transfers_.size() && is_it(transfers_[next_])) ++next_;
   return {};
 }
 
-Result<Bytes> CapturedBus::Read(i2c::Address address, std::size_t count) {
+Result<devices::Bytes> CapturedBus::Read(devices::i2c::Address address, std::size_t count) {
   if (next_ == transfers_.size() || !transfers_[next_].is_read ||
       transfers_[next_].address != address || transfers_[next_].bytes.size() != count) {
-    return Failed(std::string(i2c::kNack), "capture", "another transfer was captured");
+    return Failed(std::string(devices::i2c::kNack), "capture", "another transfer was captured");
   }
   return transfers_[next_++].bytes;
 }
 
-Result<Bytes> CapturedBus::WriteThenRead(i2c::Address address, std::span<const std::byte> bytes,
-                                         std::size_t count) {
+Result<devices::Bytes> CapturedBus::WriteThenRead(devices::i2c::Address address,
+                                                  std::span<const std::byte> bytes,
+                                                  std::size_t count) {
   if (auto written = Write(address, bytes); !written) return tl::unexpected(written.error());
   return Read(address, count);
 }

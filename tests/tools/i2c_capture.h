@@ -15,7 +15,7 @@ struct I2cTransfer {
   std::uint8_t address = 0;
   bool is_read = false;
   bool acknowledged = true;  // the address
-  Bytes bytes;
+  devices::Bytes bytes;
 };
 
 // Both wires, one byte a sample (bit 0 SCL, bit 1 SDA), of a sigrok session: the zip's logic-1-*
@@ -25,13 +25,14 @@ struct I2cTransfer {
 
 // Plays captured transfers: each write must be the next captured one (an order the recorder gave
 // twice counts once), each read gets the captured bytes. Anything else is not acknowledged.
-class CapturedBus final : public i2c::I2cBus {
+class CapturedBus final : public devices::i2c::I2cBus {
  public:
   explicit CapturedBus(std::vector<I2cTransfer> transfers) : transfers_(std::move(transfers)) {}
-  Result<void> Write(i2c::Address address, std::span<const std::byte> bytes) override;
-  Result<Bytes> Read(i2c::Address address, std::size_t count) override;
-  Result<Bytes> WriteThenRead(i2c::Address address, std::span<const std::byte> bytes,
-                              std::size_t count) override;
+  Result<void> Write(devices::i2c::Address address, std::span<const std::byte> bytes) override;
+  Result<devices::Bytes> Read(devices::i2c::Address address, std::size_t count) override;
+  Result<devices::Bytes> WriteThenRead(devices::i2c::Address address,
+                                       std::span<const std::byte> bytes,
+                                       std::size_t count) override;
   [[nodiscard]] bool Finished() const { return next_ == transfers_.size(); }
 
  private:

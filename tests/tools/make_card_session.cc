@@ -117,13 +117,13 @@ std::vector<float> Develop(const SyntheticCamera& camera,
 
 bool WriteFrame(const std::string& path, const SyntheticCamera& camera,
                 const std::vector<float>& samples) {
-  lightcal::ExrPicture picture;
+  lightcal::devices::ExrPicture picture;
   picture.samples =
       lightcal::View2d<const float>(samples.data(), camera.width / kBin, camera.height / kBin, 3);
   picture.channel_names = {"R", "G", "B"};
   picture.chromaticities = lightcal::PrimariesOf(lightcal::RgbSpace::kSrgb);
   picture.attributes = {{"note", "SYNTHETIC: no camera took this picture"}};
-  const auto written = lightcal::WriteExr(path, picture);
+  const auto written = lightcal::devices::WriteExr(path, picture);
   if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
   return written.has_value();
 }

@@ -27,13 +27,13 @@ float Rounded(float value, std::uint32_t kept) {
 bool Write(const std::string& path, const SyntheticWall& wall, std::uint32_t kept) {
   auto samples = PhotographWall(wall);
   for (float& sample : samples) sample = Rounded(sample, kept);
-  lightcal::ExrPicture picture;
+  lightcal::devices::ExrPicture picture;
   picture.samples = lightcal::View2d<const float>(samples.data(), wall.width, wall.height);
   picture.channel_names = {"Y"};
   picture.white_luminance = lightcal::Nits(1.0);
   picture.attributes = {{"note", "SYNTHETIC: no camera took this picture"},
                         {"scale_u95_relative", "0.04"}};
-  const auto written = lightcal::WriteExr(path, picture);
+  const auto written = lightcal::devices::WriteExr(path, picture);
   if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
   return written.has_value();
 }

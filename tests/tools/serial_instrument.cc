@@ -32,22 +32,22 @@ std::vector<std::string> SerialInstrument::commands() const {
 }
 
 Result<void> SerialFake::Write(std::span<const std::byte> bytes, std::chrono::milliseconds) {
-  if (instrument_.gone()) return Failed(std::string(fault::kUnplugged), Name(), "gone");
+  if (instrument_.gone()) return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   std::string text;
   for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
   pending_ += instrument_.Take(text);
   return {};
 }
 
-Result<Bytes> SerialFake::Read(std::size_t max, std::chrono::milliseconds) {
+Result<devices::Bytes> SerialFake::Read(std::size_t max, std::chrono::milliseconds) {
   if (pending_.empty() && instrument_.gone()) {
-    return Failed(std::string(fault::kUnplugged), Name(), "gone");
+    return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   }
-  if (pending_.empty()) return Failed(std::string(fault::kTimeout), Name(), "silent");
+  if (pending_.empty()) return Failed(std::string(devices::fault::kTimeout), Name(), "silent");
   const std::string given = pending_.substr(0, max);
   pending_.erase(0, given.size());
-  const auto bytes = AsBytes(given);
-  return Bytes(bytes.begin(), bytes.end());
+  const auto bytes = devices::AsBytes(given);
+  return devices::Bytes(bytes.begin(), bytes.end());
 }
 
 SerialStandIn::SerialStandIn(std::string terminator, SerialAnswers answers)

@@ -41,12 +41,12 @@ class SerialInstrument {
 };
 
 // In memory, without waiting.
-class SerialFake final : public Transport {
+class SerialFake final : public devices::Transport {
  public:
   SerialFake(std::string terminator, SerialAnswers answers)
       : instrument_(std::move(terminator), std::move(answers)) {}
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds timeout) override;
-  Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
+  Result<devices::Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
   [[nodiscard]] std::string Name() const override { return "fake serial port"; }
   [[nodiscard]] std::vector<std::string> commands() const { return instrument_.commands(); }
 

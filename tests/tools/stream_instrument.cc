@@ -33,7 +33,7 @@ Speak Saying(std::vector<std::string> frames) {
 }
 
 Result<void> StreamFake::Write(std::span<const std::byte> bytes, milliseconds) {
-  if (gone_) return Failed(std::string(fault::kUnplugged), Name(), "gone");
+  if (gone_) return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   std::string text;
   for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
   unread_ += text;
@@ -41,21 +41,23 @@ Result<void> StreamFake::Write(std::span<const std::byte> bytes, milliseconds) {
   return {};
 }
 
-Result<Bytes> StreamFake::Read(std::size_t max, milliseconds timeout) {
+Result<devices::Bytes> StreamFake::Read(std::size_t max, milliseconds timeout) {
   ++reads_;
-  if (pending_.empty() && gone_) return Failed(std::string(fault::kUnplugged), Name(), "gone");
+  if (pending_.empty() && gone_)
+    return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   if (pending_.empty() && timeout.count() > 0) {
     const Spoken spoken = speak_(unread_);
     pending_ = spoken.bytes;
     gone_ = spoken.pulls_the_plug;
   }
   if (pending_.empty()) {
-    return Failed(std::string(gone_ ? fault::kUnplugged : fault::kTimeout), Name(), "silent");
+    return Failed(std::string(gone_ ? devices::fault::kUnplugged : devices::fault::kTimeout),
+                  Name(), "silent");
   }
   const std::string given = pending_.substr(0, max);
   pending_.erase(0, given.size());
-  const auto bytes = AsBytes(given);
-  return Bytes(bytes.begin(), bytes.end());
+  const auto bytes = devices::AsBytes(given);
+  return devices::Bytes(bytes.begin(), bytes.end());
 }
 
 std::string StreamFake::received() const {

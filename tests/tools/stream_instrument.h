@@ -27,12 +27,12 @@ using Speak = std::function<Spoken(std::string& unread)>;
 [[nodiscard]] Speak Saying(std::vector<std::string> frames);
 
 // In memory. A read that may wait is a moment; one that may not finds only what was said before.
-class StreamFake final : public Transport {
+class StreamFake final : public devices::Transport {
  public:
   explicit StreamFake(Speak speak, std::string queued = "")
       : speak_(std::move(speak)), pending_(std::move(queued)) {}
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds timeout) override;
-  Result<Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
+  Result<devices::Bytes> Read(std::size_t max, std::chrono::milliseconds timeout) override;
   [[nodiscard]] std::string Name() const override { return "fake serial port"; }
 
   [[nodiscard]] const std::vector<std::string>& writes() const { return writes_; }

@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/captures/module_door.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 Result<const BoardFunctions*> Open() {
@@ -22,4 +22,4 @@ Result<const BoardFunctions*> BoardModule() {
   return module;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/charuco_board.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The functions of imaging/scene/charuco.h and imaging/camera/find_chart.h.
 struct BoardFunctions {
@@ -25,4 +25,4 @@ inline constexpr const char* kBoardEntrySymbol = "lightcal_board_functions";
 // Opens the module at the first call and keeps it.  Fails: no_board_module.
 [[nodiscard]] Result<const BoardFunctions*> BoardModule();
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

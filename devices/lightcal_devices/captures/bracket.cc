@@ -19,7 +19,7 @@
 #include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/picture.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // Exposures this near are one setting: third stops are 26 % apart.
@@ -303,4 +303,4 @@ Result<Frame> ReadFrame(const std::string& path, SampleStore store, OpenFiles* f
   return raw ? raw : frame;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

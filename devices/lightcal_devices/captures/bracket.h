@@ -11,7 +11,7 @@
 #include "lightcal/records/frame.h"
 #include "lightcal_devices/captures/raw.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Paths and wildcards (*, ?, [..]) -> files: each wildcard's matches by name, digits as numbers.
 // Fails: not_found (nothing matches).
@@ -38,4 +38,4 @@ namespace lightcal {
                                       SampleStore store = SampleStore::kMemory,
                                       OpenFiles* files = nullptr);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/photometry/exposure_grid.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr double kShortest = 1e-5, kLongest = 3600.0;
@@ -225,4 +225,4 @@ Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices, Seconds
   return plan;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/photometry/lamp_flicker.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // An exposure time as a camera's menu words it.
 struct ShutterTime {
@@ -63,4 +63,4 @@ inline constexpr double kFlickerSafe = 0.03;
 [[nodiscard]] Result<BracketPlan> PlanBracket(const std::vector<std::string>& choices,
                                               Seconds centre, const BracketRange& range);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

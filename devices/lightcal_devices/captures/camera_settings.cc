@@ -13,7 +13,7 @@
 #include "lightcal_devices/captures/bracket_plan.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr int kBusyRetries = 10;
@@ -116,4 +116,4 @@ void BorrowedSettings::GiveBack() {
   owed_ = std::move(kept);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/records/tethered_shoot.h"
 #include "lightcal_devices/captures/tether.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The settings that matter, as this camera offers them; makers name them differently. Absent: it
 // has none of that sort.
@@ -53,4 +53,4 @@ class BorrowedSettings {
   std::vector<NamedSetting> owed_;  // in the order they were noted
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/exposure_grid.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // Labels stray from the grid by 6.7 % in time and 5.5 % in the square of the f-number.
@@ -175,4 +175,4 @@ std::string IsoTimeFromExif(const std::string& exif) {
   return time;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -7,7 +7,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Exposure time and f-number from Tv and Av where they are on the grid of third or half stops, else
 // from the label's place on it, else as written; absent where a tag is missing, zero, nonsense or
@@ -19,4 +19,4 @@ namespace lightcal {
 // "2026:11:21 12:00:00" -> "2026-11-21T12:00:00"; "" for anything else, all zeros included.
 [[nodiscard]] std::string IsoTimeFromExif(const std::string& exif);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

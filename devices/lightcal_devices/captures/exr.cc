@@ -33,7 +33,7 @@
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/mapped_file.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr double kMostSamples = 1 << 29;
@@ -337,4 +337,4 @@ Result<Frame> ReadExr(const std::string& path, const MappedFile& mapped, SampleS
       });
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,11 +10,11 @@
 #include "lightcal/records/frame.h"
 #include "lightcal_devices/captures/mapped_file.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // `file` is what `path` names.
 [[nodiscard]] Result<FrameInfo> ReadExrInfo(const std::string& path, const MappedFile& file);
 [[nodiscard]] Result<Frame> ReadExr(const std::string& path, const MappedFile& file,
                                     SampleStore store);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -13,7 +13,7 @@
 #include "lightcal_devices/captures/picture.h"
 #include "lightcal_devices/captures/sample_check.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 Imath::V2f V2fOf(Xy c) { return {static_cast<float>(c.x), static_cast<float>(c.y)}; }
@@ -71,4 +71,4 @@ Result<void> WriteExr(const std::string& path, const ExrPicture& picture) {
   return {};
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -24,13 +24,14 @@
 
 namespace {
 
-using lightcal::CameraSetting;
 using lightcal::Error;
 using lightcal::Failed;
-using lightcal::FoundCamera;
 using lightcal::Result;
-using lightcal::StoredPicture;
-namespace fault = lightcal::fault;
+using lightcal::devices::CameraSetting;
+using lightcal::devices::FoundCamera;
+using lightcal::devices::StoredPicture;
+using lightcal::devices::TetheredCamera;
+namespace fault = lightcal::devices::fault;
 
 constexpr int kEventSliceMs = 250;
 constexpr const char* kNetworkModel = "PTP/IP Camera";
@@ -111,7 +112,7 @@ Error FaultOf(int status, const std::string& subject, std::string_view otherwise
   }
 }
 
-class GphotoCamera final : public lightcal::TetheredCamera {
+class GphotoCamera final : public TetheredCamera {
  public:
   GphotoCamera(OwnedContext context, OwnedCamera camera, std::string model)
       : context_(std::move(context)), camera_(std::move(camera)), model_(std::move(model)) {}
@@ -151,8 +152,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
   }
 
   // Triggered and waited for in slices: gp_camera_capture waits for ever where no picture comes.
-  Result<std::vector<lightcal::StoredPicture>> Capture(int pictures,
-                                                       lightcal::Seconds patience) override {
+  Result<std::vector<StoredPicture>> Capture(int pictures, lightcal::Seconds patience) override {
     int status = Trigger();
     // libgphoto2 2.5.30 has no word of its own for PTP's Store_Full.
     if (status == GP_ERROR && CardIsFull()) status = GP_ERROR_NO_SPACE;
@@ -160,7 +160,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
       return Fault(status, "capture", fault::kCaptureFailed,
                    "no picture was taken (is the lens on manual focus, the card in?)");
     }
-    std::vector<lightcal::StoredPicture> files;
+    std::vector<StoredPicture> files;
     const auto begin = std::chrono::steady_clock::now();
     const auto waited = [&] {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -177,7 +177,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     return files;
   }
 
-  Result<void> Download(const lightcal::StoredPicture& file, const std::string& path) override {
+  Result<void> Download(const StoredPicture& file, const std::string& path) override {
     const HoldSignals hold;
     CameraFileInfo info{};
     const int known = gp_camera_file_get_info(camera_.get(), file.folder.c_str(), file.name.c_str(),
@@ -207,7 +207,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     return {};
   }
 
-  Result<void> Delete(const lightcal::StoredPicture& file) override {
+  Result<void> Delete(const StoredPicture& file) override {
     const HoldSignals hold;
     const int status = gp_camera_file_delete(camera_.get(), file.folder.c_str(), file.name.c_str(),
                                              context_.get());
@@ -292,7 +292,7 @@ class GphotoCamera final : public lightcal::TetheredCamera {
     });
   }
 
-  int AwaitFile(std::vector<lightcal::StoredPicture>& files) {
+  int AwaitFile(std::vector<StoredPicture>& files) {
     const HoldSignals hold;
     CameraEventType type = GP_EVENT_UNKNOWN;
     void* data = nullptr;
@@ -352,7 +352,7 @@ int Point(Camera* camera, const std::string& port, GPContext* context, std::stri
   return gp_camera_set_port_info(camera, info);
 }
 
-std::unique_ptr<lightcal::TetheredCamera> Open(const FoundCamera& found, Error& error) {
+std::unique_ptr<TetheredCamera> Open(const FoundCamera& found, Error& error) {
   const HoldSignals hold;
   OwnedContext context(gp_context_new());
   Camera* raw = nullptr;
@@ -373,7 +373,7 @@ std::unique_ptr<lightcal::TetheredCamera> Open(const FoundCamera& found, Error& 
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) lightcal::TetheredCamera* lightcal_gphoto_open(
+extern "C" __attribute__((visibility("default"))) TetheredCamera* lightcal_gphoto_open(
     const FoundCamera& camera, Error& error) noexcept {
   try {
     return Open(camera, error).release();

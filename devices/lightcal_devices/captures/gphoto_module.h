@@ -7,11 +7,11 @@
 
 #include "lightcal_devices/captures/tether.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The camera at this port, to be deleted by the caller, or null with `error` filled in.
 using GphotoOpen = TetheredCamera* (*)(const FoundCamera& camera, Error& error) noexcept;
 inline constexpr const char* kGphotoOpenSymbol = "lightcal_gphoto_open";
 inline constexpr const char* kGphotoModuleName = "lightcal_tether.so";
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

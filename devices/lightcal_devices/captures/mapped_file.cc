@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 std::shared_ptr<void> Map(int fd, std::size_t size, int protection, int flags) {
@@ -107,4 +107,4 @@ void ReleasePages(const MappedFile& file) {
   static_cast<void>(madvise(const_cast<void*>(file.bytes.get()), file.size, MADV_DONTNEED));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // An open file that has no name: in memory, or in $TMPDIR or /var/tmp, from where the system drops
 // its pages when memory is short. Closed with the last copy of the owner. Fails: no_scratch_space.
@@ -60,4 +60,4 @@ void ReleasePages(const MappedFile& file);
 // Fails: unreadable, about `subject`.
 [[nodiscard]] Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

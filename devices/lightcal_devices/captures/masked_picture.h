@@ -7,7 +7,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/records/masked_picture.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 
@@ -21,4 +21,4 @@ class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 [[nodiscard]] Result<MaskedPicture> LoadMaskedFrame(const FrameInfo& info, SampleStore store,
                                                     OpenFiles* files = nullptr);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

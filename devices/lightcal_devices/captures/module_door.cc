@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 namespace fs = std::filesystem;
 
@@ -29,4 +29,4 @@ Result<void*> OpenModule(const std::string& name, const char* symbol, const std:
   return Failed(code, name, what + " does not load (" + said + "); install lightcal whole");
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -6,7 +6,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The function `symbol` of the module `name` ("lightcal_pictures.so"), looked for beside the
 // executable, then in ../<libdir>/lightcal from there, then where the system looks for libraries
@@ -15,4 +15,4 @@ namespace lightcal {
 [[nodiscard]] Result<void*> OpenModule(const std::string& name, const char* symbol,
                                        const std::string& code, const std::string& what);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,9 +11,9 @@
 
 namespace {
 
-using lightcal::OiioBytes;
-using lightcal::OiioOutcome;
-using lightcal::OiioPicture;
+using lightcal::devices::OiioBytes;
+using lightcal::devices::OiioOutcome;
+using lightcal::devices::OiioPicture;
 
 constexpr double kMostSamples = 1 << 29;
 

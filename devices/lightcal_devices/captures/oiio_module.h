@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct OiioPicture {
   int width = 0, height = 0;
@@ -39,4 +39,4 @@ using OiioRead = OiioOutcome (*)(const OiioBytes& file, bool with_samples, OiioP
 inline constexpr const char* kOiioReadSymbol = "lightcal_oiio_read";
 inline constexpr const char* kOiioModuleName = "lightcal_pictures.so";
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -19,7 +19,7 @@
 #include "lightcal_devices/captures/radiance_header.h"
 #include "lightcal_devices/captures/sample_check.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using namespace std::string_view_literals;
@@ -270,4 +270,4 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore sto
   return MaskedPicture{std::move(*whole), std::move(masked)};
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

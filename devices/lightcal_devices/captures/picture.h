@@ -13,7 +13,7 @@
 #include "lightcal/core/view2d.h"
 #include "lightcal/records/frame.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 
@@ -45,4 +45,4 @@ struct ExrPicture {
 // Fails: unwritable, no_picture_module. Refused: bad_samples.
 [[nodiscard]] Result<void> WriteExr(const std::string& path, const ExrPicture& picture);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/captures/module_door.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 Result<OiioRead> OpenPictureReader() {
@@ -22,4 +22,4 @@ Result<OiioRead> PictureModule() {
   return module;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -5,9 +5,9 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/captures/oiio_module.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Fails as OpenModule: no_picture_module.
 [[nodiscard]] Result<OiioRead> PictureModule();
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

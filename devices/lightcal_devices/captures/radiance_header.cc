@@ -9,7 +9,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // The numbers of a line, absent when something else is there.
@@ -81,4 +81,4 @@ Result<RadianceHeader> ParseRadianceHeader(std::string_view bytes, std::string_v
   return header;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

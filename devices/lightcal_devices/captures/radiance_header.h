@@ -8,7 +8,7 @@
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/result.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct RadianceHeader {
   double exposure = 1.0;  // product of all EXPOSURE lines: samples are radiance times this
@@ -23,4 +23,4 @@ struct RadianceHeader {
 [[nodiscard]] Result<RadianceHeader> ParseRadianceHeader(std::string_view bytes,
                                                          std::string_view name);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

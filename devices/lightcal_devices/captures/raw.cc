@@ -15,7 +15,7 @@
 #include "lightcal_devices/captures/raw_info.h"
 #include "lightcal_devices/captures/safe_process.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 tl::unexpected<Error> Damaged(const std::string& path) {
@@ -101,4 +101,4 @@ Result<Frame> ReadRaw(const std::string& path, SampleStore store, OpenFiles* fil
              : FrameOf<std::uint16_t>(*answered, std::move(*info), store);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 
@@ -28,4 +28,4 @@ class OpenFiles;  // mapped_file.h: here and below, opens the file where given
                                     SampleStore store = SampleStore::kMemory,
                                     OpenFiles* files = nullptr);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/captures/raw_tags.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Plain data, that one process may write and another read.
 struct RawAnswer {
@@ -39,4 +39,4 @@ static_assert(std::is_trivially_copyable_v<RawAnswer>);
 
 inline constexpr std::size_t kSamplesAt = (sizeof(RawAnswer) + 4095) / 4096 * 4096;
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -17,7 +17,7 @@
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/raw_answer.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr unsigned kMostDecodedMegabytes = 2048;
@@ -203,4 +203,4 @@ void DecodeRaw(const std::string& path, const MappedFile& file, bool with_sample
   static_cast<void>(Write(descriptor, 0, answer.get(), sizeof(RawAnswer)));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

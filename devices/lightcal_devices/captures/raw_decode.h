@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/captures/mapped_file.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Reads the RAW of that path, which is mapped, with LibRaw and writes a RawAnswer, and where asked
 // its samples, to the file descriptor. Never throws; what goes wrong is in the answer, as raw.h
@@ -15,4 +15,4 @@ namespace lightcal {
 void DecodeRaw(const std::string& path, const MappedFile& file, bool with_samples,
                int descriptor) noexcept;
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

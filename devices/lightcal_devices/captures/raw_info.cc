@@ -10,7 +10,7 @@
 
 #include "lightcal_devices/captures/exposure_tags.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr unsigned kNoFilters = 0, kCatchlight = 1, kXTrans = 9;
@@ -273,4 +273,4 @@ Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) 
   return info;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,10 +8,10 @@
 #include "lightcal/records/frame.h"
 #include "lightcal_devices/captures/raw_answer.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Refused: unsupported_picture (a colour filter array lightcal does not know), bad_picture (numbers
 // no RAW has).
 [[nodiscard]] Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -12,7 +12,7 @@
 #include <span>
 #include <tuple>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::size_t kMostNumbers = std::tuple_size_v<decltype(RawTags::noise_profile)>;
@@ -223,4 +223,4 @@ double RawTagWalk::EndOfData() const {
 
 void CollectTags(LibRaw& raw, RawTagWalk& walk) { raw.set_exifparser_handler(OnTag, &walk); }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

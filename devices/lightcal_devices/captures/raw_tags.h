@@ -10,7 +10,7 @@
 
 class LibRaw;
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Plain data: it crosses from one process to another.
 struct RawTags {
@@ -36,4 +36,4 @@ struct RawTagWalk {
 // Fills `walk` while `raw` opens a file; `walk` must outlive that.
 void CollectTags(LibRaw& raw, RawTagWalk& walk);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

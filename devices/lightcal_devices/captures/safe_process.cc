@@ -9,7 +9,7 @@
 #include <csignal>
 #include <cstring>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr rlim_t kMostSeconds = 120;
@@ -43,4 +43,4 @@ Result<ProcessEnd> RunInSafeProcess(const std::function<void()>& work) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ProcessEnd::kDone : ProcessEnd::kBroken;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

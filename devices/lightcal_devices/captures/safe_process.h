@@ -6,7 +6,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class ProcessEnd { kDone, kBroken };
 
@@ -15,4 +15,4 @@ enum class ProcessEnd { kDone, kBroken };
 // kBroken: a signal ended it, or it ran out of time.   Fails: no_process.
 [[nodiscard]] Result<ProcessEnd> RunInSafeProcess(const std::function<void()>& work);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr float kMost = 1e30F;
@@ -52,4 +52,4 @@ Result<void> CheckSamples(View2d<const float> samples, const std::string& subjec
                      "; write the picture anew without them");
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

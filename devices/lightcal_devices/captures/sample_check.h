@@ -7,7 +7,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Refused: bad_samples when a sample is NaN, infinite or beyond +-1e30, with how many of each and
 // the place of the first.
@@ -16,4 +16,4 @@ namespace lightcal {
 // Whether a sample is such a one.
 [[nodiscard]] bool IsBadSample(float sample);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -14,7 +14,7 @@
 #include "lightcal_devices/transport/transport.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // USB Still Image Capture Device Definition 1.0, 4.2: class 6, subclass 1.
@@ -129,4 +129,4 @@ Result<std::unique_ptr<TetheredCamera>> OpenCamera(const FoundCamera& camera) {
   return opened;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -12,7 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 inline constexpr std::string_view kCameraDriver = "gphoto2";
 inline constexpr std::string_view kCameraTransport = "ptp";
@@ -88,4 +88,4 @@ class TetheredCamera {
 // Fails: no_tether_module, no_device, no_permission, busy, io.
 [[nodiscard]] Result<std::unique_ptr<TetheredCamera>> OpenCamera(const FoundCamera& camera);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/delimited_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr std::string_view kTimeColumn = "DATE/TIME";
@@ -92,4 +92,4 @@ Result<ImportedFile> ReadActlumusLog(std::string_view text, std::string_view nam
   return reader.Finish();
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

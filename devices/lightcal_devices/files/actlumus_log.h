@@ -8,11 +8,11 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsActlumusLog(std::string_view text);
 // A row without a time or a finite illuminance >= 0 is left out with one warning bad_row that
 // counts them. Refused: no_rows.
 [[nodiscard]] Result<ImportedFile> ReadActlumusLog(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

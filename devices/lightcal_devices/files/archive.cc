@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 using ArchivePtr = std::unique_ptr<archive, decltype(&archive_read_free)>;
@@ -69,4 +69,4 @@ Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name)
   return std::move(*only);
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -7,7 +7,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 // No export of a meter is larger; keeps a crafted archive from filling the memory.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
@@ -17,4 +17,4 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
 // Refused: bad_archive (damaged, encrypted, no file or several), too_large.
 [[nodiscard]] Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

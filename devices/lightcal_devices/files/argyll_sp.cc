@@ -10,7 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr double kMilliwatt = 1e-3;
@@ -171,4 +171,4 @@ Result<ImportedFile> ReadArgyllSp(std::string_view text, std::string_view name) 
   return ImportedFromSpectra("argyll_sp", std::move(all), std::move(warnings));
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsArgyllSp(std::string_view text);
 // EMISSION (a radiance), flashes and files without MEAS_TYPE (illuminant tables) give colour only;
@@ -17,4 +17,4 @@ namespace lightcal::files {
 // bands, a value that is no number).
 [[nodiscard]] Result<ImportedFile> ReadArgyllSp(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -11,7 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 struct KnownName {
@@ -191,4 +191,4 @@ std::string NearestColumnName(std::string_view name) {
   return NearestWord(name, names);
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 enum class CsvQuantity {
   kUnknown,
@@ -42,4 +42,4 @@ struct CsvColumn {
 [[nodiscard]] std::string KnownColumnNames();
 [[nodiscard]] std::string NearestColumnName(std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

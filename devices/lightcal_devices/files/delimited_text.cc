@@ -12,7 +12,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 // Absent where the bytes are not in that encoding.
@@ -191,4 +191,4 @@ std::string AtLine(std::string_view name, int line) {
   return std::string(name) + ":" + std::to_string(line);
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

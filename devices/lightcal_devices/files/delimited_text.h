@@ -11,7 +11,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 // The file as UTF-8 with \n line ends. UTF-16 is recognised by its byte order mark; bytes that are
 // not UTF-8 are read as ISO 8859-1, as meter software of Western Europe writes it.
@@ -47,4 +47,4 @@ enum class DateOrder { kYearFirst, kDayFirst };
 // "file.csv:12"
 [[nodiscard]] std::string AtLine(std::string_view name, int line);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 FileBytes ReadFileBytes(const std::string& path, std::size_t most) {
   std::error_code ignored;
@@ -23,4 +23,4 @@ FileBytes ReadFileBytes(const std::string& path, std::size_t most) {
   return file;
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 enum class FileFault : std::uint8_t { kNone, kMissing, kDirectory, kTooLarge, kUnreadable };
 
@@ -17,4 +17,4 @@ struct FileBytes {
 // kTooLarge: more than `most` bytes, of which no more are held.
 [[nodiscard]] FileBytes ReadFileBytes(const std::string& path, std::size_t most);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

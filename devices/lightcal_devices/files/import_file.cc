@@ -18,7 +18,7 @@
 #include "lightcal_devices/files/tm27_spdx.h"
 #include "lightcal_devices/files/uprtek_xls.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // Every format, the first that recognises the text reads it. A new one is one file and one line.
@@ -80,4 +80,4 @@ Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name) 
                      Joined(kFormats, ", ", &Format::name) + " (" + files::PlainCsvColumns() + ")");
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -9,7 +9,7 @@
 #include "lightcal/records/imported_file.h"
 #include "lightcal_devices/files/file_bytes.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Recognises the format by content (never by extension alone) and reads it whole; a .zip that holds
 // one file stands for that file. UTF-8, UTF-16 with byte order mark, ISO 8859-1; any line ends.
@@ -22,4 +22,4 @@ namespace lightcal {
 // The same from bytes; `name` stands in messages.
 [[nodiscard]] Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

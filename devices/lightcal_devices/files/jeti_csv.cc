@@ -7,7 +7,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/labelled_columns.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr std::string_view kSpectrumHead = "Wavelength [nm]";
@@ -96,4 +96,4 @@ Result<ImportedFile> ReadJetiCsv(std::string_view text, std::string_view name) {
   return ImportedFromSpectra("jeti_csv", std::move(all), std::move(warnings));
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

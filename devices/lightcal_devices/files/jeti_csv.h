@@ -9,11 +9,11 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsJetiCsv(std::string_view text);
 // A column that is no irradiance (radiance mode, "Le [...]") is relative, with a warning.
 // Refused: bad_spectrum.
 [[nodiscard]] Result<ImportedFile> ReadJetiCsv(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -6,7 +6,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 bool Matches(std::string_view label, std::string_view pattern) {
@@ -93,4 +93,4 @@ Result<Spectrum> LabelledColumns::SpectrumOf(const SpectralRows& spectral, std::
   return spectrum;
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

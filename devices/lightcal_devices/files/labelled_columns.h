@@ -12,7 +12,7 @@
 #include "lightcal_devices/files/delimited_text.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 // The labels of the header rows; the first row that carries one wins. "" = the format has none;
 // a final '*' matches any ending, a leading '*' any beginning.
@@ -55,4 +55,4 @@ class LabelledColumns {
   std::string file_name_;
 };
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

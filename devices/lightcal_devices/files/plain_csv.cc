@@ -12,7 +12,7 @@
 #include "lightcal_devices/files/delimited_text.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 bool IsCommentOrEmpty(const Row& row) {
@@ -331,4 +331,4 @@ Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name) 
 
 std::string PlainCsvColumns() { return KnownColumnNames(); }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -10,7 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 // Whether the first line names at least one quantity.
 [[nodiscard]] bool IsPlainCsv(std::string_view text);
@@ -23,4 +23,4 @@ namespace lightcal::files {
 // The column names understood, for messages.
 [[nodiscard]] std::string PlainCsvColumns();
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

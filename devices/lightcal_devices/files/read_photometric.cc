@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,4 +43,4 @@ Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file, const std:
                              [&](const std::string& name) { return TiltBeside(folder / name); });
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 #include "lightcal/records/photometric_codec.h"
 #include "lightcal_devices/files/file_bytes.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Reads at most kMaxPhotometricBytes, whatever the path names, and the TILT file beside it.
 // Fails: not_found, unreadable. Refused: too_large, and as PhotometricFromText.
@@ -18,4 +18,4 @@ namespace lightcal {
 [[nodiscard]] Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file,
                                                       const std::string& path);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/labelled_columns.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr std::string_view kSample = "Spectral Data ";
@@ -108,4 +108,4 @@ Result<ImportedFile> ReadSekonicCsv(std::string_view text, std::string_view name
   return ImportedFromSpectra("sekonic_csv", std::move(all), std::move(warnings));
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

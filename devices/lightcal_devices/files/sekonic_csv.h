@@ -8,11 +8,11 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsSekonicCsv(std::string_view text);
 // Reads the finest block of samples. A flash reading (any mode but Ambient) is an exposure, not an
 // irradiance: its spectrum is relative, with a warning. Refused: bad_spectrum.
 [[nodiscard]] Result<ImportedFile> ReadSekonicCsv(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

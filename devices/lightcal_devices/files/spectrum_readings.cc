@@ -9,7 +9,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr double kTolerance = 0.01;
@@ -188,4 +188,4 @@ Result<ImportedFile> ImportedFromSpectra(std::string_view format, std::vector<Fo
   return file;
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 // A spectrum as a format's reader found it.
 struct FoundSpectrum {
@@ -44,4 +44,4 @@ struct FoundSpectrum {
 // The warning that the spectrum's chromaticity is more than 0.003 from the header's x, y.
 [[nodiscard]] std::optional<Warning> ColorDisagreement(const FoundSpectrum& found, Xy spectrum_xy);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -10,7 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr std::string_view kRoot = "IESTM27";  // IESTM2714, and the 2020 edition's IESTM2720
@@ -106,4 +106,4 @@ Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name) 
   return ImportedFromSpectra("tm27_spdx", std::move(all), std::move(warnings));
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -7,7 +7,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsTm27Spdx(std::string_view text);
 // irradiance is W m^-2 nm^-1; flux, intensity, radiance, exitance and relative give colour only.
@@ -15,4 +15,4 @@ namespace lightcal::files {
 // number, wavelengths that do not increase).
 [[nodiscard]] Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

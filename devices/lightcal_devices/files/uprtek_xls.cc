@@ -7,7 +7,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/files/labelled_columns.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 constexpr HeaderLabels kUprtekLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
@@ -63,4 +63,4 @@ Result<ImportedFile> ReadUprtekXls(std::string_view text, std::string_view name)
   return ImportedFromSpectra("uprtek_xls", std::move(all));
 }
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -8,10 +8,10 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 
 [[nodiscard]] bool IsUprtekXls(std::string_view text);
 // Refused: bad_spectrum.
 [[nodiscard]] Result<ImportedFile> ReadUprtekXls(std::string_view text, std::string_view name);
 
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

@@ -7,7 +7,7 @@
 
 #include "lightcal/core/units_text.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr double kLargestSigma = 0.99;
@@ -76,4 +76,4 @@ tl::unexpected<Error> FrozenDisplay(std::string_view what, const std::string& de
                     ", not what it measures now; press that button until it is gone");
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

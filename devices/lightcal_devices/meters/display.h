@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/meters/meter.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // counts 10^-decimals, in lx or fc: 1234 counts of one decimal are 123.4, of -2 decimals 123400.
 struct DisplayedIlluminance {
@@ -46,4 +46,4 @@ struct DisplayLimits {
 // "hold": the display shows HOLD, MAX or the like (`what`), which is not of now.
 [[nodiscard]] tl::unexpected<Error> FrozenDisplay(std::string_view what, const std::string& device);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

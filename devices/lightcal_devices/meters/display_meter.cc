@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 class DisplayMeter final : public Meter {
@@ -73,4 +73,4 @@ std::unique_ptr<Meter> MakeDisplayMeter(const DisplayProtocol& protocol, Transpo
   return std::make_unique<DisplayMeter>(protocol, transport, setup);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -13,7 +13,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct DisplayProtocol {
   std::string_view driver;  // "gm1020"
@@ -60,4 +60,4 @@ namespace ut382 {
 extern const DisplayProtocol kProtocol;
 }  // namespace ut382
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -9,7 +9,7 @@
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 std::string DriverOf(std::string_view wanted) {
@@ -129,4 +129,4 @@ Result<std::unique_ptr<Transport>> OpenMeter(const FoundMeter& meter,
   return tl::unexpected(std::move(error));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/lines.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Ids are filled in. Fails: io.
 [[nodiscard]] Result<std::vector<FoundMeter>> FindMeters();
@@ -31,4 +31,4 @@ inline constexpr int kBusyRetries = 3;
 [[nodiscard]] Result<std::unique_ptr<Transport>> OpenMeter(
     const FoundMeter& meter, std::chrono::milliseconds pause = std::chrono::milliseconds(200));
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

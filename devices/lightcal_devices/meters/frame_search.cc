@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/meters/frame_search.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 tl::unexpected<Error> NoFrame(const Transport& transport, const FrameSearch& search,
@@ -61,4 +61,4 @@ bool IsGone(const Error& error) {
   return error.code == fault::kUnplugged || error.code == fault::kNoDevice;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

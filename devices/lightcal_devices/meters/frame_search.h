@@ -12,7 +12,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct FrameSearch {
   std::size_t frame_bytes = 0;
@@ -58,4 +58,4 @@ void ForgetQueued(Transport& transport);
 // After these nothing more can be said to the device.
 [[nodiscard]] bool IsGone(const Error& error);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

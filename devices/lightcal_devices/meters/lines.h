@@ -12,7 +12,7 @@
 #include "lightcal_devices/meters/meter_table.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class MeterAccess { kReady, kNoPermission, kBusy };
 
@@ -62,4 +62,4 @@ extern const MeterLine kHidLine;
 // HID devices known by their USB id, taken from the kernel's driver while they are read.
 extern const MeterLine kHidUsbLine;
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

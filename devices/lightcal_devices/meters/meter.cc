@@ -3,7 +3,7 @@
 
 #include <thread>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 void MeterTiming::Pause(std::chrono::milliseconds duration) const {
   if (live) std::this_thread::sleep_for(duration);
@@ -15,4 +15,4 @@ Result<MeterReading> Meter::ReadMemory(int /*index*/, const Cancellation& /*canc
                  "import that");
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

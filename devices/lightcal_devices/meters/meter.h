@@ -14,7 +14,7 @@
 #include "lightcal/records/reading.h"
 #include "lightcal_devices/transport/cancellation.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct MeterIdentity {
   std::string model;     // "C-800"
@@ -71,4 +71,4 @@ class Meter {
   virtual Result<MeterReading> ReadMemory(int index, const Cancellation& cancellation);
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

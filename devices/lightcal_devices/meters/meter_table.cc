@@ -15,7 +15,7 @@
 #include "lightcal_devices/meters/text/meter.h"
 #include "lightcal_devices/meters/torchbearer/meter.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::array<UsbId, 1> kSekonicIds = {{{0x0a41, 0x7003}}};
@@ -198,4 +198,4 @@ std::vector<std::string> UdevRules(const MeterRow& row) {
   return rules;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -13,7 +13,7 @@
 #include "lightcal_devices/transport/transport.h"
 #include "lightcal_devices/transport/tty.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct FoundMeter;
 struct MeterLine;
@@ -58,4 +58,4 @@ struct MeterRow {
 // devices/udev/ holds them all.
 [[nodiscard]] std::vector<std::string> UdevRules(const MeterRow& row);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -9,7 +9,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/statistics.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr double kSigmaPerMad = 1.4826;  // 1/Phi^-1(3/4)
@@ -134,4 +134,4 @@ bool HasSettled(std::span<const double> illuminances_lx, double tolerance_relati
   return std::abs(TrendOf(window).change) <= tolerance_relative * std::abs(mean);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/meters/meter.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct Summary {
   MeterReading kept;
@@ -32,4 +32,4 @@ struct Summary {
 inline constexpr std::size_t kSettleWindow = 6;
 [[nodiscard]] bool HasSettled(std::span<const double> illuminances_lx, double tolerance_relative);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

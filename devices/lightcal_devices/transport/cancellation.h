@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // A wish to stop, set from a signal handler or another thread and looked at between two exchanges.
 // Who cancels waits at most one reply timeout: a dialogue under way first restores its device.
@@ -20,4 +20,4 @@ class Cancellation {
   static_assert(std::atomic<bool>::is_always_lock_free);
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

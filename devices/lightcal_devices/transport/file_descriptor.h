@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 class FileDescriptor {
  public:
@@ -30,4 +30,4 @@ class FileDescriptor {
   int fd_ = -1;
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

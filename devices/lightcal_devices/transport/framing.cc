@@ -6,7 +6,7 @@
 
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::size_t kDrainBytes = 256;
@@ -70,4 +70,4 @@ void StreamReader::Drain(std::chrono::milliseconds silence) {
   }
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The code of a reply that began and is not what its protocol promises: too short, too long,
 // damaged. Asking again may help, which is why it is not a timeout.
@@ -49,4 +49,4 @@ class StreamReader {
   Bytes held_;
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -17,7 +17,7 @@
 #include "lightcal_devices/transport/sysfs.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 namespace fs = std::filesystem;
@@ -412,4 +412,4 @@ Result<std::unique_ptr<Transport>> OpenHid(const HidDeviceInfo& device) {
   return std::make_unique<HidTransport>(*std::move(library), opened, device);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -12,7 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class HidBackend {
   kHidraw,  // the kernel's /dev/hidraw*: for devices whose kernel driver leaves one
@@ -63,4 +63,4 @@ inline constexpr std::size_t kLongestHidReport = 4096;
 // Fails: no_device, no_permission, busy, unplugged, timeout (Read), io.
 [[nodiscard]] Result<std::unique_ptr<Transport>> OpenHid(const HidDeviceInfo& device);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -18,7 +18,7 @@
 
 #include "lightcal_devices/transport/file_descriptor.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -402,4 +402,4 @@ std::optional<std::string> ProgramOnPath(std::string_view program) {
   return std::nullopt;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

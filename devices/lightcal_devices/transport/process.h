@@ -12,7 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 struct ProcessSettings {
   std::string program;                   // a path, or a name that is looked up on PATH
@@ -43,4 +43,4 @@ struct ProcessSettings {
 // it may not be executed.
 [[nodiscard]] std::optional<std::string> ProgramOnPath(std::string_view program);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace lightcal {
+namespace lightcal::devices {
 Result<void> RecordingTransport::Write(std::span<const std::byte> bytes,
                                        std::chrono::milliseconds timeout) {
   auto done = inner_.Write(bytes, timeout);
@@ -38,4 +38,4 @@ void RecordingTransport::Keep(TapeExchange exchange) {
   tape_.exchanges.push_back(std::move(exchange));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -4,7 +4,7 @@
 #include "lightcal_devices/transport/tape.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Passes everything on to `inner` and writes it down in `tape`, faults included. Both outlive it.
 class RecordingTransport final : public Transport {
@@ -27,4 +27,4 @@ class RecordingTransport final : public Transport {
   std::chrono::steady_clock::time_point start_;
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal_devices/transport/replay.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 // What the driver asks, in words; what came of it does not matter here.
@@ -61,4 +61,4 @@ Result<Bytes> ReplayTransport::Control(std::string_view verb, std::span<const st
   return Play({TapeOperation::kControl, 0.0, std::string(verb), CopyOf(bytes), {}, ""}, max);
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -4,7 +4,7 @@
 #include "lightcal_devices/transport/tape.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Plays a tape: the driver must ask what was asked then, and hears what was answered then, faults
 // included, without waiting. Another question fails as tape_mismatch, shows both and plays nothing;
@@ -29,4 +29,4 @@ class ReplayTransport final : public Transport {
   std::size_t next_ = 0;
 };
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -13,7 +13,7 @@
 #include <optional>
 #include <system_error>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -191,4 +191,4 @@ std::vector<std::string> FoldersIn(const std::string& path) {
   return folders;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 namespace fault {
 inline constexpr std::string_view kNoAttribute = "no_attribute";  // the device has no such file
@@ -55,4 +55,4 @@ struct SysfsUsbDevice {
 };
 [[nodiscard]] std::vector<SysfsUsbDevice> UsbDevicesInSysfs();
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

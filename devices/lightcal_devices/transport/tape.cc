@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace lightcal {
+namespace lightcal::devices {
 
 std::string EscapedBytes(std::span<const std::byte> bytes) {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -21,4 +21,4 @@ std::string EscapedBytes(std::span<const std::byte> bytes) {
   return text;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class TapeOperation { kWrite, kRead, kControl };
 
@@ -35,4 +35,4 @@ struct Tape {
 // as \xHH.
 [[nodiscard]] std::string EscapedBytes(std::span<const std::byte> bytes);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 
 #include "lightcal/records/json_codec.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using records::Node;
@@ -205,4 +205,4 @@ Result<Tape> TapeFromText(std::string_view text, std::string_view where) {
   return tape;
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -8,7 +8,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // The file:
 //   {"schema":"lightcal.tape/1","driver":"sekonic","device":"sekonic:C-800","recorded":"...Z"}
@@ -25,4 +25,4 @@ namespace lightcal {
 // `where` stands in messages. Refused: bad_tape, with the line.
 [[nodiscard]] Result<Tape> TapeFromText(std::string_view text, std::string_view where);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -14,7 +14,7 @@
 #include "lightcal_devices/transport/process.h"
 #include "lightcal_devices/transport/tty.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -237,4 +237,4 @@ std::unique_ptr<Transport> OpenTyped(AskForText ask) {
   return std::make_unique<TypedTransport>(std::move(ask));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 // Cuts `inner`, a stream of bytes, into lines: each Read returns the next one without its end (LF,
 // CR or both), at most `max` bytes of it; blank lines are passed over. Where nobody read for longer
@@ -32,4 +32,4 @@ inline constexpr std::chrono::milliseconds kJoinSilence{50};
 using AskForText = std::function<std::optional<std::string>()>;
 [[nodiscard]] std::unique_ptr<Transport> OpenTyped(AskForText ask);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 using Bytes = std::vector<std::byte>;
 [[nodiscard]] inline Bytes CopyOf(std::span<const std::byte> bytes) {
@@ -59,4 +59,4 @@ class Transport {
   return std::as_bytes(std::span(text));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

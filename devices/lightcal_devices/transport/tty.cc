@@ -22,7 +22,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/transport/file_descriptor.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -265,4 +265,4 @@ Result<std::unique_ptr<Transport>> OpenTty(const std::string& path,
                                         PortName(path));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

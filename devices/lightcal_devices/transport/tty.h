@@ -10,7 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class Parity { kNone, kEven, kOdd };
 
@@ -53,4 +53,4 @@ struct SerialPortInfo {
 [[nodiscard]] Result<std::unique_ptr<Transport>> OpenTty(const std::string& path,
                                                          const SerialSettings& settings);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

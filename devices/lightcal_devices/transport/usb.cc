@@ -12,7 +12,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -295,4 +295,4 @@ Result<std::unique_ptr<Transport>> OpenUsb(const UsbDeviceInfo& device) {
   return UsbError(LIBUSB_ERROR_NOT_FOUND, name, milliseconds(0));
 }
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

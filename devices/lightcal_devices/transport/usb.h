@@ -10,7 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 
 enum class UsbAccess { kReady, kNoPermission, kBusy };
 
@@ -43,4 +43,4 @@ inline constexpr std::size_t kUsbInBufferBytes = 4160;
 // endpoint is cleared before the error is returned. Fails: no_device, no_permission, busy, io.
 [[nodiscard]] Result<std::unique_ptr<Transport>> OpenUsb(const UsbDeviceInfo& device);
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

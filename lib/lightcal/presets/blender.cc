@@ -93,7 +93,7 @@ Node Shape(const PresetLight& light) {
   return shape;
 }
 
-Node LightNode(const FittedLight& lamp, const PresetLight& light) {
+Node BlenderNode(const FittedLight& lamp, const PresetLight& light) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name},
                    {"type", BlenderType(light.form)},
@@ -152,7 +152,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
-    Node document = LightNode(lamp, (*forms)[i]);
+    Node document = BlenderNode(lamp, (*forms)[i]);
     preset.derived.push_back(DerivedFrom(document));
     if ((*forms)[i].form == LightForm::kTable) {
       auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);

@@ -28,7 +28,7 @@ constexpr double kAperture = 16.0;
 constexpr double kShutterPerScale = 1.2 * kAperture * kAperture;
 constexpr double kIso = 100.0;
 
-Node Figures(const PresetLight& light) {
+Node FilamentFigures(const PresetLight& light) {
   const PunctualLight& p = light.punctual;
   if (light.form == LightForm::kDome) {
     return {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
@@ -51,10 +51,10 @@ Node Figures(const PresetLight& light) {
   return figures;
 }
 
-Node LightNode(const FittedLight& lamp, const PresetLight& light) {
+Node FilamentNode(const FittedLight& lamp, const PresetLight& light) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name}};
-  document.Put(Figures(light));
+  document.Put(FilamentFigures(light));
   document.Put({{"color", NodeOf(p.color.max_normalised)},
                 {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                 {"direction", NodeOf(GltfFromZUp(p.aim))},
@@ -148,7 +148,7 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
   const Rig rig = BuildRig(lights, *forms);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    list.items.push_back(LightNode(lights.lights[i], (*forms)[i]));
+    list.items.push_back(FilamentNode(lights.lights[i], (*forms)[i]));
     preset.derived.push_back(DerivedFrom(list.items.back()));
   }
   Node exposure = NodeOf(rig.exposure);

@@ -33,7 +33,7 @@ constexpr int kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126;
 constexpr int kUnsignedShort = 5123;
 
-struct Scene {
+struct GltfScene {
   std::string name;
   std::vector<std::size_t> nodes;
   Node extensions = Node::Table();
@@ -47,11 +47,11 @@ struct Gltf {
   std::vector<Node> nodes;
   Node meshes = Node::Table();  // accessors, bufferViews, buffers, materials, meshes
   Node cameras, images;
-  std::vector<Scene> scenes;
+  std::vector<GltfScene> scenes;
   Node extras;  // of every scene
 
   [[nodiscard]] Node Document() const {
-    const auto scene_node = [&](const Scene& scene) -> Node {
+    const auto scene_node = [&](const GltfScene& scene) -> Node {
       return {{"name", scene.name},
               {"nodes", scene.nodes},
               {"extras", Node{{"lightcal", extras}}},
@@ -106,8 +106,8 @@ Node LightExtras(const FittedLight& lamp, const PunctualLight& light) {
           {"substituted", Node::UnlessEmpty(light.substitution)}};
 }
 
-Node LightNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLight& light,
-               std::size_t index) {
+Node GltfNode(const GltfLight& gltf, const FittedLight& lamp, const PunctualLight& light,
+              std::size_t index) {
   return {{"name", light.name},
           {"translation", NodeOf(gltf.translation)},
           {"rotation", NodeOf(gltf.rotation)},
@@ -244,7 +244,7 @@ void AddPhotometricScene(Gltf& gltf, const LightFile& file,
                          const std::vector<PunctualLight>& lights,
                          const std::vector<std::optional<PresetFile>>& ies) {
   std::vector<Node> profiles;
-  Scene scene = gltf.scenes.front();
+  GltfScene scene = gltf.scenes.front();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!file.lights[i].distribution || !ies[i]) continue;
     const PunctualLight& light = lights[i];
@@ -290,7 +290,6 @@ std::array<std::uint8_t, 4> RgbdOf(const std::array<double, 3>& radiance) {
 // 255. The intensity stays 1: Babylon.js multiplies the coefficients by it twice.
 void AddImageBasedScene(Gltf& gltf, const LightFile& file,
                         const std::vector<PunctualLight>& lights) {
-  constexpr double kPi = std::numbers::pi;
   constexpr int kFaces = 6;
   constexpr int kSide = 4;
   constexpr int kCoefficients = 9;
@@ -302,8 +301,8 @@ void AddImageBasedScene(Gltf& gltf, const LightFile& file,
   std::array<double, 3> radiance = {c.r, c.g, c.b};
   std::vector<std::array<double, 3>> coefficients(kCoefficients);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
-    radiance[i] *= light.intensity / kPi;
-    coefficients[0][i] = kPi * radiance[i] * std::sqrt(4.0 * kPi);
+    radiance[i] *= light.intensity / std::numbers::pi;
+    coefficients[0][i] = std::numbers::pi * radiance[i] * std::sqrt(4.0 * std::numbers::pi);
   }
   const std::string uri = "data:image/png;base64," + Base64(PngOfOneColor(kSide, RgbdOf(radiance)));
   gltf.images = ListOf({Node{{"name", light.name}, {"uri", uri}}});
@@ -315,7 +314,7 @@ void AddImageBasedScene(Gltf& gltf, const LightFile& file,
                                {"irradianceCoefficients", coefficients},
                                {"specularImages", ListOf({Node(std::vector<int>(kFaces, 0))})},
                                {"specularImageSize", kSide}}})}});
-  Scene scene = gltf.scenes.back();
+  GltfScene scene = gltf.scenes.back();
   scene.name += " (image based)";
   std::erase(scene.nodes, index);
   scene.extensions.Put("EXT_lights_image_based", {{"light", 0}});
@@ -334,14 +333,14 @@ Gltf WithLights(const LightFile& file, const std::string& stem,
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const GltfLight light = GltfLightFrom(lights[i], refits[i]);
     definitions.push_back(LightDefinition(light, lights[i].name));
-    gltf.nodes.push_back(LightNode(light, file.lights[i], lights[i], i));
+    gltf.nodes.push_back(GltfNode(light, file.lights[i], lights[i], i));
   }
   gltf.extensions.Put("KHR_lights_punctual", {{"lights", definitions}});
   if (!options.bare) {
     AddCards(gltf, rig);
     AddCamera(gltf, rig.camera);
   }
-  Scene all{stem, std::vector<std::size_t>(gltf.nodes.size()), Node::Table()};
+  GltfScene all{stem, std::vector<std::size_t>(gltf.nodes.size()), Node::Table()};
   std::iota(all.nodes.begin(), all.nodes.end(), std::size_t{0});
   gltf.scenes.push_back(std::move(all));
   gltf.extras = SceneExtras(file, rig);

@@ -23,11 +23,10 @@ using preset_text::Identifier;
 using preset_text::Numbers;
 using preset_text::Quoted;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kTemperature = 6500.0;  // the engine's default, written out
-constexpr Metres kFarRange{4096.0};      // rendered without loss in 4.6.3
-constexpr EngineForms kForms = {.sphere = true, .dome = true};
-constexpr EngineFalloff kFalloff{[](Metres d, Metres r) { return GodotFalloff(d, r); }};
+constexpr double kTemperature = 6500.0;   // the engine's default, written out
+constexpr Metres kGodotFarRange{4096.0};  // rendered without loss in 4.6.3
+constexpr EngineForms kGodotForms = {.sphere = true, .dome = true};
+constexpr EngineFalloff kGodotFalloff{[](Metres d, Metres r) { return GodotFalloff(d, r); }};
 
 // ---- colour ----
 
@@ -78,8 +77,8 @@ SpotFit FitSpot(const SpotCone& cone) {
 
 double RangeOf(const FalloffRefit& refit) { return refit.range.value(); }
 
-DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double exposure,
-                    Warnings& warnings) {
+DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, double exposure,
+                         Warnings& warnings) {
   DerivedLight out;
   out.substitution = light.substitution;
   const GodotColor color = ColorFor(light.color());
@@ -111,7 +110,7 @@ DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double 
   if (light.form == LightForm::kSpot) {
     const SpotFit fit = FitSpot(light.punctual.cone);
     out.type = "SpotLight3D";
-    out.Put("light_intensity_lumens", kPi * light.candela * per_luminance);
+    out.Put("light_intensity_lumens", std::numbers::pi * light.candela * per_luminance);
     out.Put("spot_range", RangeOf(refit));
     out.Put("spot_attenuation", 2.0);
     out.Put("spot_angle", DegreesFromRadians(light.punctual.cone.outer));
@@ -123,7 +122,7 @@ DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double 
     return out;
   }
   out.type = "OmniLight3D";
-  out.Put("light_intensity_lumens", 4.0 * kPi * light.candela * per_luminance);
+  out.Put("light_intensity_lumens", 4.0 * std::numbers::pi * light.candela * per_luminance);
   out.Put("light_size", light.radius_m);
   out.Put("omni_range", RangeOf(refit));
   out.Put("omni_attenuation", 2.0);
@@ -142,7 +141,7 @@ std::string Transform(const ObjectFrame& f) {
   return "transform = Transform3D(" + Numbers(n) + ")\n";
 }
 
-std::string FieldText(const DerivedField& field) {
+std::string GodotField(const DerivedField& field) {
   if (field.values.size() == 1) return field.name + " = " + ShortestText(field.values[0]) + "\n";
   return field.name + " = Color(" + Numbers(field.values) + ")\n";
 }
@@ -157,11 +156,11 @@ std::string OffsetEntry(const FittedLight& lamp) {
   return ",\n\"distance_offset_m\": " + ShortestText(lamp.distance_offset_m->value);
 }
 
-std::string LightNode(const std::string& name, const FittedLight& lamp, const PresetLight& light,
+std::string GodotNode(const std::string& name, const FittedLight& lamp, const PresetLight& light,
                       const DerivedLight& derived) {
   std::string text =
       NodeHead(name, derived.type) + Transform(FrameOfLight(EngineAxes::kYUp, light));
-  for (const DerivedField& field : derived.fields) text += FieldText(field);
+  for (const DerivedField& field : derived.fields) text += GodotField(field);
   text += "shadow_enabled = true\n";
   text += "metadata/lightcal = {\n\"name\": " + Quoted(light.name()) + ",\n\"kind\": \"" +
           std::string(LightKindName(light.punctual.kind)) +
@@ -223,7 +222,7 @@ std::string EnvironmentText(const DerivedLight* dome) {
            "background_color = Color(0, 0, 0, 1)\nambient_light_source = 1\n"
            "reflected_light_source = 1\ntonemap_mode = 0\n";
   }
-  for (const DerivedField& field : dome->fields) text += FieldText(field);
+  for (const DerivedField& field : dome->fields) text += GodotField(field);
   return text + "ambient_light_source = 0\nreflected_light_source = 1\ntonemap_mode = 0\n";
 }
 
@@ -240,9 +239,9 @@ std::string RigNodes(const Rig& rig) {
          "attributes = SubResource(\"locked_exposure\")\ncurrent = true\n";
 }
 
-std::string Scene(const LightFile& file, const std::string& stem,
-                  const std::vector<PresetLight>& lights, const std::vector<DerivedLight>& derived,
-                  const PresetOptions& options) {
+std::string GodotScene(const LightFile& file, const std::string& stem,
+                       const std::vector<PresetLight>& lights,
+                       const std::vector<DerivedLight>& derived, const PresetOptions& options) {
   const Rig rig = BuildRig(file, lights);
   const DerivedLight* dome = nullptr;
   std::string nodes;
@@ -257,7 +256,7 @@ std::string Scene(const LightFile& file, const std::string& stem,
     for (char& c : name)
       c = std::string_view(".:@/\"%").find(c) == std::string_view::npos ? c : '_';
     while (!taken.insert(name).second) name += "_";
-    nodes += LightNode(name, file.lights[i], lights[i], derived[i]);
+    nodes += GodotNode(name, file.lights[i], lights[i], derived[i]);
   }
   std::string text = "[gd_scene format=3]\n\n; " + preset_text::GeneratorOf(file) +
                      ", not executed in Godot by this run: schema-checked.\n"
@@ -283,19 +282,21 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
                            const PresetOptions& asked) {
   Preset preset;
   const PresetOptions options = preset_text::InRec709(asked, "godot", preset.warnings);
-  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kGodotForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const auto refits = RefitLights(
-      lights, *forms, {.falloff = kFalloff, .far_range = kFarRange, .fixed = options.range},
-      preset.warnings);
+  const auto refits =
+      RefitLights(lights, *forms,
+                  {.falloff = kGodotFalloff, .far_range = kGodotFarRange, .fixed = options.range},
+                  preset.warnings);
   const double exposure = BuildRig(lights, *forms).exposure.scale;
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    preset.derived.push_back(Derive((*forms)[i], refits[i], exposure, preset.warnings));
+    preset.derived.push_back(DeriveGodot((*forms)[i], refits[i], exposure, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
     auto finite = preset_text::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));
   }
-  preset.files.push_back({stem + ".tscn", Scene(lights, stem, *forms, preset.derived, options)});
+  preset.files.push_back(
+      {stem + ".tscn", GodotScene(lights, stem, *forms, preset.derived, options)});
   preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
                  ".tscn into a project with physical light units and open it";
   return preset;
@@ -309,17 +310,17 @@ Emission EmittedInGodot(const DerivedLight& light, LightKind /*kind*/, double /*
   const double luminance = Rec709Luminance(
       Vec3{SrgbDecoded(c[0]) * tint.r, SrgbDecoded(c[1]) * tint.g, SrgbDecoded(c[2]) * tint.b});
   if (dome) {
-    return {.lux = kPi * NumberIn(light, "background_intensity") *
+    return {.lux = std::numbers::pi * NumberIn(light, "background_intensity") *
                    NumberIn(light, "background_energy_multiplier") * luminance};
   }
   if (light.type == "DirectionalLight3D") {
     return {.lux = NumberIn(light, "light_intensity_lux") * luminance};
   }
   const bool spot = light.type == "SpotLight3D";
-  return {
-      .candela = NumberIn(light, "light_intensity_lumens") * luminance / (spot ? kPi : 4.0 * kPi),
-      .falloff = kFalloff,
-      .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
+  return {.candela = NumberIn(light, "light_intensity_lumens") * luminance /
+                     (spot ? std::numbers::pi : 4.0 * std::numbers::pi),
+          .falloff = kGodotFalloff,
+          .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
 }
 
 }  // namespace lightcal

@@ -4,6 +4,7 @@
 // describes it.
 #include <utility>
 
+#include "lightcal/photometry/half_range.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
@@ -107,10 +108,8 @@ Node DerivedNode(const DerivedLight& light) {
   return document;
 }
 
-constexpr double kLargestHalf = 65504.0;
-
 // Values times the exposure, for pipelines that hold light in half floats.
-Node PreExposed(const PresetLight& light, double exposure) {
+Node PreExposedNode(const PresetLight& light, double exposure) {
   Node document = Node::Table();
   bool safe = true;
   const std::pair<const char*, double> values[] = {{"intensity_cd", light.candela},
@@ -141,8 +140,8 @@ Node Distribution(const PresetLight& form) {
           {"angles", grid.vertical_deg.size()}};
 }
 
-Node LightNode(const FittedLight& lamp, const PresetLight& form, std::size_t index,
-               const std::vector<Derivation>& derivations, double exposure) {
+Node PresetNode(const FittedLight& lamp, const PresetLight& form, std::size_t index,
+                const std::vector<Derivation>& derivations, double exposure) {
   Node derived = Node::Table();
   for (const Derivation& derivation : derivations) {
     derived.Put(derivation.target, DerivedNode(derivation.lights[index]));
@@ -153,7 +152,7 @@ Node LightNode(const FittedLight& lamp, const PresetLight& form, std::size_t ind
           {"color", Color(lamp, form.color())},
           {"geometry", Geometry(lamp)},
           {"fit", Fit(lamp.fit)},
-          {"pre_exposed", PreExposed(form, exposure)},
+          {"pre_exposed", PreExposedNode(form, exposure)},
           {"distribution", Distribution(form)},
           {"derived", Node::UnlessEmpty(std::move(derived))}};
 }
@@ -177,7 +176,7 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& form = (*forms)[i];
-    list.items.push_back(LightNode(lights.lights[i], form, i, derivations, rig.exposure.scale));
+    list.items.push_back(PresetNode(lights.lights[i], form, i, derivations, rig.exposure.scale));
     WarnOfHalfFloats(form, rig.exposure.scale, preset.warnings);
   }
   auto text = JsonText({{"schema", "lightcal.preset/1"},

@@ -14,7 +14,7 @@ namespace {
 using preset_text::Numbers;
 using preset_text::XmlEscaped;
 
-constexpr EngineForms kForms = {
+constexpr EngineForms kMitsubaForms = {
     .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
 
 // R, G, B of that luminance.
@@ -24,7 +24,7 @@ std::vector<double> Scaled(const PresetLight& light, double photometric) {
   return {m.r * k, m.g * k, m.b * k};
 }
 
-DerivedLight Derive(const PresetLight& light, double exposure, Warnings& warnings) {
+DerivedLight DeriveMitsuba(const PresetLight& light, double exposure, Warnings& warnings) {
   DerivedLight out;
   out.substitution = light.substitution;
   out.Put("pre_exposure", exposure);
@@ -61,7 +61,7 @@ DerivedLight Derive(const PresetLight& light, double exposure, Warnings& warning
 
 // ---- text ----
 
-std::string Rgb3(const char* name, const DerivedLight& derived) {
+std::string RgbElement(const char* name, const DerivedLight& derived) {
   return "<rgb name=\"" + std::string(name) + "\" value=\"" +
          Numbers(derived.Find(name)->values, " ") + "\"/>";
 }
@@ -90,8 +90,9 @@ std::string ToWorld(const PresetLight& light, double sx, double sy) {
   return ToWorld(light.axes.c0 * -sx, light.axes.c90 * sy, light.aim(), light.position_m());
 }
 
-std::string ShapeText(const PresetLight& light, const DerivedLight& derived) {
-  const std::string emitter = "<emitter type=\"area\">" + Rgb3("radiance", derived) + "</emitter>";
+std::string MitsubaShape(const PresetLight& light, const DerivedLight& derived) {
+  const std::string emitter =
+      "<emitter type=\"area\">" + RgbElement("radiance", derived) + "</emitter>";
   switch (light.form) {
     case LightForm::kSphere:
       return "<shape type=\"sphere\">" + Point("center", light.position_m()) +
@@ -111,24 +112,24 @@ std::string ShapeText(const PresetLight& light, const DerivedLight& derived) {
   }
 }
 
-std::string LightText(const PresetLight& light, const DerivedLight& derived) {
-  if (derived.type == "area") return ShapeText(light, derived);
+std::string MitsubaLight(const PresetLight& light, const DerivedLight& derived) {
+  if (derived.type == "area") return MitsubaShape(light, derived);
   std::string text = "<emitter type=\"" + derived.type + "\">";
   switch (light.form) {
     case LightForm::kDirectional: {
       const Vec3& aim = light.aim();
       return text + "<vector name=\"direction\" x=\"" + ShortestText(aim[0]) + "\" y=\"" +
              ShortestText(aim[1]) + "\" z=\"" + ShortestText(aim[2]) + "\"/>" +
-             Rgb3("irradiance", derived) + "</emitter>";
+             RgbElement("irradiance", derived) + "</emitter>";
     }
     case LightForm::kDome:
-      return text + Rgb3("radiance", derived) + "</emitter>";
+      return text + RgbElement("radiance", derived) + "</emitter>";
     case LightForm::kSpot:
-      return text + ToWorld(light, 1.0, 1.0) + Rgb3("intensity", derived) +
+      return text + ToWorld(light, 1.0, 1.0) + RgbElement("intensity", derived) +
              Float("cutoff_angle", derived.Find("cutoff_angle")->values[0]) +
              Float("beam_width", derived.Find("beam_width")->values[0]) + "</emitter>";
     default:
-      return text + Point("position", light.position_m()) + Rgb3("intensity", derived) +
+      return text + Point("position", light.position_m()) + RgbElement("intensity", derived) +
              "</emitter>";
   }
 }
@@ -165,7 +166,7 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
                              const PresetOptions& asked) {
   Preset preset;
   const PresetOptions options = preset_text::InRec709(asked, "mitsuba", preset.warnings);
-  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kMitsubaForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   const double exposure = options.bare ? 1.0 : rig.exposure.scale;
@@ -177,7 +178,7 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
       " -->\n<scene version=\"3.0.0\">\n  <integrator type=\"path\">"
       "<integer name=\"max_depth\" value=\"2\"/></integrator>\n";
   for (const PresetLight& light : *forms) {
-    preset.derived.push_back(Derive(light, exposure, preset.warnings));
+    preset.derived.push_back(DeriveMitsuba(light, exposure, preset.warnings));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     std::string comment = XmlEscaped(light.name());
@@ -185,7 +186,7 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
     if (!note.empty()) comment += "; " + note;
     // "--" ends no comment well.
     for (std::size_t at = 0; (at = comment.find("--", at)) != std::string::npos;) comment[at] = '_';
-    text += "  <!-- " + comment + " -->\n  " + LightText(light, preset.derived.back()) + "\n";
+    text += "  <!-- " + comment + " -->\n  " + MitsubaLight(light, preset.derived.back()) + "\n";
   }
   if (!options.bare) text += RigText(rig);
   preset.files.push_back({stem + ".mitsuba.xml", text + "</scene>\n"});

@@ -16,10 +16,10 @@ namespace {
 using preset_text::Numbers;
 using preset_text::Quoted;
 
-constexpr EngineForms kForms = {
+constexpr EngineForms kPbrtForms = {
     .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
 
-DerivedLight Derive(const PresetLight& light) {
+DerivedLight DerivePbrt(const PresetLight& light) {
   DerivedLight out;
   out.substitution = light.substitution;
   const Rgb& m = light.color().max_normalised;
@@ -78,7 +78,7 @@ std::string Quad(const Vec3& p00, const Vec3& p10, const Vec3& p01, const Vec3& 
   return "  Shape \"bilinearmesh\"" + Parameter("point3", "P", p) + "\n";
 }
 
-std::string ShapeText(const PresetLight& light) {
+std::string PbrtShape(const PresetLight& light) {
   const Vec3& at = light.position_m();
   const double radius[] = {light.radius_m};
   switch (light.form) {
@@ -103,11 +103,11 @@ std::string ShapeText(const PresetLight& light) {
   }
 }
 
-std::string LightText(const PresetLight& light, const DerivedLight& derived) {
+std::string PbrtLight(const PresetLight& light, const DerivedLight& derived) {
   const auto& rgb = derived.Find("rgb")->values;
   if (derived.type == "diffuse") {
     return "AttributeBegin\n  AreaLightSource \"diffuse\"" + Parameter("rgb", "L", rgb) +
-           Value(derived, "scale") + "\n" + ShapeText(light) + "AttributeEnd\n";
+           Value(derived, "scale") + "\n" + PbrtShape(light) + "AttributeEnd\n";
   }
   std::string text = "LightSource \"" + derived.type + "\"";
   const Vec3& at = light.position_m();
@@ -179,7 +179,7 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   const bool known = ColorSpaceWord(asked.color.space).has_value();
   const PresetOptions options =
       known ? asked : preset_text::InRec709(asked, "pbrt", preset.warnings);
-  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kPbrtForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   std::string text = "# " + preset_text::GeneratorOf(lights) +
@@ -190,12 +190,12 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   if (!options.bare) text += CameraText(rig, stem);
   text += "WorldBegin\n";
   for (const PresetLight& light : *forms) {
-    preset.derived.push_back(Derive(light));
+    preset.derived.push_back(DerivePbrt(light));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     const std::string note = preset_text::SubstitutionNote(preset.derived.back());
     text += "# " + Quoted(light.name()) + (note.empty() ? "" : " " + note) + "\n" +
-            LightText(light, preset.derived.back());
+            PbrtLight(light, preset.derived.back());
   }
   if (!options.bare) text += CardText(rig);
   preset.files.push_back({stem + ".pbrt", std::move(text)});

@@ -13,8 +13,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // ---- which form, and how large ----
 
 bool Known(const std::optional<double>& length) { return length && *length > 0.0; }
@@ -77,7 +75,7 @@ void TakePunctualForm(const PunctualLight& punctual, PresetLight& light) {
 bool TakeSquareForDisk(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
   if (lamp.kind != LightKind::kDisk || !forms.rect || !Known(lamp.diameter_m)) return false;
   light.form = LightForm::kRect;
-  light.width_m = light.height_m = *lamp.diameter_m / 2.0 * std::sqrt(kPi);
+  light.width_m = light.height_m = *lamp.diameter_m / 2.0 * std::sqrt(std::numbers::pi);
   light.substitution =
       "a disk exported as a square of its area: intensity, flux and luminance are kept; on its "
       "axis 0.7 % low at one diameter, 0.3 % at two, nothing far away";
@@ -95,7 +93,7 @@ double AreaSeenAlongAxis(const PresetLight& light) {
   switch (light.form) {
     case LightForm::kSphere:
     case LightForm::kDisk:
-      return kPi * light.radius_m * light.radius_m;
+      return std::numbers::pi * light.radius_m * light.radius_m;
     case LightForm::kRect:
       return light.width_m * light.height_m;
     case LightForm::kTube:
@@ -109,14 +107,14 @@ double LumensPerCandela(const PresetLight& light) {
   switch (light.form) {
     case LightForm::kPoint:
     case LightForm::kSphere:
-      return 4.0 * kPi;
+      return 4.0 * std::numbers::pi;
     case LightForm::kSpot:
       return SolidAngleOfSpot(light.punctual.cone, SpotFalloff::kSquaredLinear).value();
     case LightForm::kDisk:
     case LightForm::kRect:
-      return kPi;
+      return std::numbers::pi;
     case LightForm::kTube:
-      return kPi * kPi;
+      return std::numbers::pi * std::numbers::pi;
     default:
       return 0.0;
   }
@@ -125,13 +123,13 @@ double LumensPerCandela(const PresetLight& light) {
 void MeasureInfinite(const FittedLight& lamp, PresetLight& light) {
   light.lux = light.punctual.photometric;
   if (light.form == LightForm::kDome) {
-    light.nits = light.lux / kPi;
+    light.nits = light.lux / std::numbers::pi;
     return;
   }
   if (lamp.kind != LightKind::kDirectional || !Known(lamp.angular_diameter_deg)) return;
   light.angular_diameter_deg = lamp.angular_diameter_deg;
   const double sine = std::sin(RadiansFromDegrees(*lamp.angular_diameter_deg / 2.0).value());
-  light.nits = light.lux / (kPi * sine * sine);
+  light.nits = light.lux / (std::numbers::pi * sine * sine);
 }
 
 Result<void> Measure(const FittedLight& lamp, PresetLight& light) {
@@ -181,7 +179,7 @@ double TableLux(const PresetLight& light, const Vec3& to_point, const Vec3& norm
   const double gamma = std::acos(std::clamp(Dot(to_point, light.axes.aim) / d, -1.0, 1.0));
   const double c = std::atan2(Dot(to_point, light.axes.c90), Dot(to_point, light.axes.c0));
   const double candela =
-      light.table->At(Radians(c < 0.0 ? c + 2.0 * kPi : c), Radians(gamma)).value();
+      light.table->At(Radians(c < 0.0 ? c + 2.0 * std::numbers::pi : c), Radians(gamma)).value();
   return candela * std::max(0.0, -Dot(to_point, normal)) / (d2 * d);
 }
 

@@ -10,7 +10,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kGammas = 90;  // rings of 2 degrees
 constexpr int kTurns = 24;
 
@@ -25,12 +24,12 @@ using Rings = std::array<Ring, kGammas>;
 Rings RingsOf(const IntensityTable& table, double axial) {
   Rings rings;
   for (int i = 0; i < kGammas; ++i) {
-    const double gamma = kPi * (i + 0.5) / kGammas;
+    const double gamma = std::numbers::pi * (i + 0.5) / kGammas;
     const double sine = std::sin(gamma);
-    Ring ring{std::cos(gamma), sine * kPi / kGammas / 2.0, 0.0,
+    Ring ring{std::cos(gamma), sine * std::numbers::pi / kGammas / 2.0, 0.0,
               std::numeric_limits<double>::infinity(), 0.0};
     for (int j = 0; j < kTurns; ++j) {
-      const double c = 2.0 * kPi * j / kTurns;
+      const double c = 2.0 * std::numbers::pi * j / kTurns;
       const double part =
           table.Towards({sine * std::cos(c), sine * std::sin(c), -ring.cosine}).value() / axial;
       ring.mean += part / kTurns;
@@ -43,7 +42,7 @@ Rings RingsOf(const IntensityTable& table, double axial) {
 }
 
 // The squared-linear profile from the cosines of its cone.
-double Profile(double cosine, double inner, double outer) {
+double ConeProfile(double cosine, double inner, double outer) {
   const double t = std::clamp((cosine - outer) / std::max(1e-12, inner - outer), 0.0, 1.0);
   return t * t;
 }
@@ -88,7 +87,7 @@ std::optional<TableSubstitute> SubstituteForTable(const IntensityTable& table) {
     for (int inner = 0; inner < outer; ++inner) {
       const double inner_cosine = CosineOfDegrees(inner);
       const double error = SquaredError(
-          rings, [&](double cosine) { return Profile(cosine, inner_cosine, outer_cosine); });
+          rings, [&](double cosine) { return ConeProfile(cosine, inner_cosine, outer_cosine); });
       if (error >= least) continue;
       least = error;
       inner_deg = inner;
@@ -98,7 +97,7 @@ std::optional<TableSubstitute> SubstituteForTable(const IntensityTable& table) {
   if (outer_deg < 0) return Judged(rings, point);
   const SpotCone cone{RadiansFromDegrees(inner_deg), RadiansFromDegrees(outer_deg)};
   TableSubstitute out = Judged(rings, [&](double cosine) {
-    return Profile(cosine, std::cos(cone.inner.value()), std::cos(cone.outer.value()));
+    return ConeProfile(cosine, std::cos(cone.inner.value()), std::cos(cone.outer.value()));
   });
   out.cone = cone;
   return out;

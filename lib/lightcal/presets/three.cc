@@ -71,7 +71,7 @@ Node Measured(const PresetLight& light, const std::string& ies) {
           {"fallback", Punctual(light.punctual)}};
 }
 
-Node Figures(const PresetLight& light, const std::string& ies) {
+Node ThreeFigures(const PresetLight& light, const std::string& ies) {
   switch (light.form) {
     case LightForm::kRect:
       return Rectangle(light);
@@ -85,13 +85,13 @@ Node Figures(const PresetLight& light, const std::string& ies) {
   }
 }
 
-Node LightNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies) {
+Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name},
                    {"color", NodeOf(p.color.max_normalised)},
                    {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                    {"direction", NodeOf(GltfFromZUp(p.aim))}};
-  document.Put(Figures(light, ies));
+  document.Put(ThreeFigures(light, ies));
   document.Put("measured", MeasuredNode(lamp, light));
   return document;
 }
@@ -109,7 +109,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
-    list.items.push_back(LightNode(lights.lights[i], (*forms)[i], table));
+    list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table));
     preset.derived.push_back(DerivedFrom(list.items.back()));
   }
   auto text = JsonText({{"name", stem},

@@ -18,11 +18,11 @@ namespace lightcal {
 namespace {
 
 using records::Node;
-constexpr EngineFalloff kFalloff{[](Metres d, Metres r) { return UnityHdrpFalloff(d, r); }};
-constexpr Metres kFarRange{10000.0};
+constexpr EngineFalloff kUnityFalloff{[](Metres d, Metres r) { return UnityHdrpFalloff(d, r); }};
+constexpr Metres kUnityFarRange{10000.0};
 constexpr double kWidestSpot_deg = 179.0;  // full angle
 
-void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
+void PutUnityCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
   const double outer = 2.0 * DegreesFromRadians(light.punctual.cone.outer);
   out.Put("spot_angle_deg", std::min(outer, kWidestSpot_deg));
   out.Put("inner_spot_angle_deg",
@@ -34,8 +34,8 @@ void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
 }
 
 // `scale` is 1 for HDRP's physical units, exposure/pi for pipelines without.
-DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double scale,
-                    Warnings& warnings) {
+DerivedLight DeriveUnity(const PresetLight& light, const FalloffRefit& refit, double scale,
+                         Warnings& warnings) {
   DerivedLight out;
   out.substitution = light.substitution;
   const double per_luminance = scale / light.color().luminance;
@@ -54,13 +54,13 @@ DerivedLight Derive(const PresetLight& light, const FalloffRefit& refit, double 
     out.type = light.form == LightForm::kSpot ? "Spot" : "Point";
     out.Put("intensity", light.candela * refit.intensity_factor * per_luminance);
     out.Put("radius_m", light.radius_m);
-    if (light.form == LightForm::kSpot) PutCone(light, out, warnings);
+    if (light.form == LightForm::kSpot) PutUnityCone(light, out, warnings);
   }
   out.Put("range_m", refit.range.value());
   return out;
 }
 
-Node DerivedNode(const DerivedLight& derived) {
+Node PipelineNode(const DerivedLight& derived) {
   Node document = {{"type", derived.type}};
   for (const DerivedField& field : derived.fields) document.Put(field.name, field.values[0]);
   document.Put("substituted", Node::UnlessEmpty(derived.substitution));
@@ -74,12 +74,12 @@ Node PlaceNode(const std::string& name, const Vec3& at_m, const Vec3& forward, c
           {"up", NodeOf(DirectionIn(EngineAxes::kYUpLeftHanded, up))}};
 }
 
-Node LightNode(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
+Node UnityNode(const PresetLight& light, const DerivedLight& hdrp, const DerivedLight& urp) {
   Node document = PlaceNode(light.name(), light.position_m(), light.aim(), light.axes.c90);
   document.Put({{"color_linear", NodeOf(light.color().max_normalised)},
                 {"color_luminance", light.color().luminance},
-                {"hdrp", DerivedNode(hdrp)},
-                {"urp", DerivedNode(urp)}});
+                {"hdrp", PipelineNode(hdrp)},
+                {"urp", PipelineNode(urp)}});
   return document;
 }
 
@@ -112,16 +112,16 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
   const auto plain = PresetLightsFrom(lights, {.sphere = true}, options, of_urp);
   if (!plain) return tl::unexpected(plain.error());
   const RefitRequest request = {
-      .falloff = kFalloff, .far_range = kFarRange, .fixed = options.range};
+      .falloff = kUnityFalloff, .far_range = kUnityFarRange, .fixed = options.range};
   const auto refits = RefitLights(lights, *forms, request, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   const double unitless = rig.exposure.scale / std::numbers::pi;
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    preset.derived.push_back(Derive((*forms)[i], refits[i], 1.0, preset.warnings));
+    preset.derived.push_back(DeriveUnity((*forms)[i], refits[i], 1.0, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
-    const DerivedLight urp = Derive((*plain)[i], refits[i], unitless, of_urp);
-    list.items.push_back(LightNode((*forms)[i], preset.derived.back(), urp));
+    const DerivedLight urp = DeriveUnity((*plain)[i], refits[i], unitless, of_urp);
+    list.items.push_back(UnityNode((*forms)[i], preset.derived.back(), urp));
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
     const Rgb& c = (*forms)[i].color().max_normalised;
     preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
@@ -145,7 +145,7 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
 Emission EmittedInUnity(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
   const double emitted = NumberIn(light, "intensity") * LuminanceIn(light, "color");
   if (light.type == "Directional") return {.lux = emitted};
-  Emission out{.candela = emitted, .falloff = kFalloff, .range_m = NumberIn(light, "range_m")};
+  Emission out{.candela = emitted, .falloff = kUnityFalloff, .range_m = NumberIn(light, "range_m")};
   if (light.type == "Rectangle") {
     const double width = NumberIn(light, "area_width_m");
     const double height = NumberIn(light, "area_height_m");

@@ -20,12 +20,12 @@
 namespace lightcal {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 // -0 is written 0.
 template <std::size_t N>
-Json Array(const std::array<double, N>& values) {
-  Json list = Json::array();
+OrderedJson Array(const std::array<double, N>& values) {
+  OrderedJson list = OrderedJson::array();
   for (const double v : values) list.push_back(v == 0.0 ? 0.0 : v);
   return list;
 }
@@ -47,22 +47,22 @@ Pose PoseOf(const PresetLight& light) {
   return PoseOf(light.aim(), light.axes.c0 * turn, light.axes.c90 * turn, light.position_m());
 }
 
-Json PoseJson(const std::string& name, const Pose& pose) {
+OrderedJson PoseJson(const std::string& name, const Pose& pose) {
   return {{"name", name},
           {"location_cm", Array(pose.location_cm)},
           {"pitch_yaw_roll_deg",
            Array(std::array<double, 3>{pose.rotation.pitch_deg, pose.rotation.yaw_deg,
-                                             pose.rotation.roll_deg})}};
+                                       pose.rotation.roll_deg})}};
 }
 
 // ---- the script ----
 
-Json LightJson(const PresetLight& light, const UnrealLight& unreal,
-               const std::optional<PresetFile>& ies) {
-  Json json = PoseJson(light.name(), PoseOf(light));
+OrderedJson LightJson(const PresetLight& light, const UnrealLight& unreal,
+                      const std::optional<PresetFile>& ies) {
+  OrderedJson json = PoseJson(light.name(), PoseOf(light));
   json["class"] = unreal.derived.type;
   json["use_temperature"] = unreal.use_temperature;
-  Json properties = Json::object();
+  OrderedJson properties = OrderedJson::object();
   for (const DerivedField& field : unreal.derived.fields) {
     if (field.name != "light_color") properties[field.name] = field.values[0];
   }
@@ -73,20 +73,20 @@ Json LightJson(const PresetLight& light, const UnrealLight& unreal,
   return json;
 }
 
-Json RigJson(const Rig& rig) {
-  Json json = {{"exposure_bias", std::log2(rig.exposure.scale)},
-               {"ev100", std::log2(1.0 / rig.exposure.scale)},
-               {"cards", Json::array()}};
+OrderedJson RigJson(const Rig& rig) {
+  OrderedJson json = {{"exposure_bias", std::log2(rig.exposure.scale)},
+                      {"ev100", std::log2(1.0 / rig.exposure.scale)},
+                      {"cards", OrderedJson::array()}};
   for (const RigCard& card : rig.cards) {
     // The plane's normal is its up axis.
-    Json one =
+    OrderedJson one =
         PoseJson(card.name, PoseOf(Cross(rig.normal, rig.row), rig.row, rig.normal, card.centre_m));
     one["reflectance"] = card.reflectance;
     one["scale"] = rig.side.value();  // of a plane 100 cm wide
     json["cards"].push_back(std::move(one));
   }
   const ObjectFrame f = FrameOfCamera(EngineAxes::kZUp, rig.camera);
-  Json camera = PoseJson("rig camera", PoseOf(f.z * -1.0, f.x, f.y, rig.camera.position_m));
+  OrderedJson camera = PoseJson("rig camera", PoseOf(f.z * -1.0, f.x, f.y, rig.camera.position_m));
   const double half = std::tan(rig.camera.vertical_fov.value() / 2.0) * rig.camera.aspect_ratio;
   camera["field_of_view"] = DegreesFromRadians(Radians(2.0 * std::atan(half)));
   camera["aspect_ratio"] = rig.camera.aspect_ratio;
@@ -94,17 +94,17 @@ Json RigJson(const Rig& rig) {
   return json;
 }
 
-bool AllFinite(const Json& json) {
+bool AllFinite(const OrderedJson& json) {
   if (json.is_number_float()) return std::isfinite(json.get<double>());
   return !json.is_structured() || std::ranges::all_of(json, &AllFinite);
 }
 
 // JSON inside a raw triple-quoted Python string.
-Result<std::string> ScriptText(const Json& data, const std::string& name) {
+Result<std::string> ScriptText(const OrderedJson& data, const std::string& name) {
   if (!AllFinite(data)) {
     return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
   }
-  const std::string text = data.dump(1, ' ', true, Json::error_handler_t::replace);
+  const std::string text = data.dump(1, ' ', true, OrderedJson::error_handler_t::replace);
   return ScriptWith("unreal.py", WithoutApostrophes(text));
 }
 
@@ -180,8 +180,8 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                   {.falloff = kUnrealFalloff, .far_range = kUnrealFarRange, .fixed = options.range},
                   preset.warnings);
   std::vector<UnrealLight> unreal;
-  Json data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", stem}};
-  data["lights"] = Json::array();
+  OrderedJson data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", stem}};
+  data["lights"] = OrderedJson::array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
     preset.derived.push_back(unreal.back().derived);

@@ -44,7 +44,7 @@ double BakeColor(const EmittedColor& color, UnrealLight& out) {
   return LuminanceOfRgb({held[0], held[1], held[2]}, color.target.space);
 }
 
-void PutCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
+void PutUnrealCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
   const double outer = DegreesFromRadians(light.punctual.cone.outer);
   const double inner = DegreesFromRadians(light.punctual.cone.inner);
   out.Put("inner_cone_angle", std::min(inner, kWidestOuter_deg));
@@ -89,7 +89,7 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
   }
   derived.type = light.form == LightForm::kSpot ? "SpotLight" : "PointLight";
   derived.Put("source_radius", light.radius_m * kCentimetres);
-  if (light.form == LightForm::kSpot) PutCone(light, derived, warnings);
+  if (light.form == LightForm::kSpot) PutUnrealCone(light, derived, warnings);
   return out;
 }
 

@@ -21,9 +21,8 @@ using preset_text::Identifier;
 using preset_text::Numbers;
 using preset_text::Quoted;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kPointRadius_m = 0.005;  // no light may have no size
-constexpr EngineForms kForms = {
+constexpr EngineForms kUsdForms = {
     .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
 
 // ---- numbers ----
@@ -31,15 +30,16 @@ constexpr EngineForms kForms = {
 void PutSphere(const PresetLight& light, double radius_m, double candela, DerivedLight& out) {
   out.type = "SphereLight";
   out.Put("radius", radius_m);
-  out.Put("intensity", candela / (kPi * radius_m * radius_m) / light.color().luminance);
+  out.Put("intensity",
+          candela / (std::numbers::pi * radius_m * radius_m) / light.color().luminance);
 }
 
-void PutCone(const SpotCone& cone, DerivedLight& out) {
+void PutUsdCone(const SpotCone& cone, DerivedLight& out) {
   out.Put("shaping:cone:angle", DegreesFromRadians(cone.outer));
   out.Put("shaping:cone:softness", 1.0 - cone.inner.value() / cone.outer.value());
 }
 
-DerivedLight Derive(const PresetLight& light) {
+DerivedLight DeriveUsd(const PresetLight& light) {
   DerivedLight out;
   out.substitution = light.substitution;
   const Rgb& c = light.color().max_normalised;
@@ -49,7 +49,7 @@ DerivedLight Derive(const PresetLight& light) {
     case LightForm::kPoint:
     case LightForm::kSpot:
       PutSphere(light, kPointRadius_m, light.candela, out);
-      if (light.form == LightForm::kSpot) PutCone(light.punctual.cone, out);
+      if (light.form == LightForm::kSpot) PutUsdCone(light.punctual.cone, out);
       break;
     case LightForm::kTable:  // the file's candela multiply the luminance: 1 cd by itself
       PutSphere(light, kPointRadius_m, 1.0, out);
@@ -97,7 +97,7 @@ std::string Matrix(const ObjectFrame& f) {
          " )\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
 }
 
-std::string FieldText(const DerivedField& field) {
+std::string UsdField(const DerivedField& field) {
   const bool color = field.name == "color";
   return std::string("    ") + (color ? "color3f" : "float") + " inputs:" + field.name + " = " +
          (color ? "(" + Numbers(field.values) + ")" : ShortestText(field.values[0])) + "\n";
@@ -117,7 +117,7 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
                ? "\n      double distance_offset_m = " + ShortestText(lamp.distance_offset_m->value)
                : std::string()) +
           "\n    }\n  )\n  {\n";
-  for (const DerivedField& field : derived.fields) text += FieldText(field);
+  for (const DerivedField& field : derived.fields) text += UsdField(field);
   text += "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
   if (light.form != LightForm::kDome) {
     text += std::string("    bool inputs:normalize = ") +
@@ -190,7 +190,7 @@ std::string Head(const LightFile& file, const Rig& rig, const PresetOptions& opt
 Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
                          const PresetOptions& options) {
   Preset preset;
-  const auto forms = PresetLightsFrom(lights, kForms, options, preset.warnings);
+  const auto forms = PresetLightsFrom(lights, kUsdForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
@@ -200,7 +200,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
                                  "rig_camera"};
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& light = (*forms)[i];
-    preset.derived.push_back(Derive(light));
+    preset.derived.push_back(DeriveUsd(light));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     text += LightPrim(Identifier(light.name(), taken), lights.lights[i], light,

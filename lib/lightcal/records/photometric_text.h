@@ -37,6 +37,10 @@ class Lines {
 [[nodiscard]] std::string AsciiFromUtf8(std::string_view utf8);
 [[nodiscard]] std::string Latin1FromUtf8(std::string_view utf8);
 
+// Of EULUMDAT: what stands between date and user on line 12, and how many direct ratios follow.
+inline constexpr std::string_view kEulumdatLab = " / ";
+inline constexpr int kEulumdatDirectRatios = 10;
+
 [[nodiscard]] tl::unexpected<Error> BadPhotometric(std::string_view where, const std::string& why);
 
 }  // namespace lightcal::records

@@ -32,7 +32,7 @@ int main(int count, char** words) {
   request.work = Require(AccuracyProfileFromJson(profile.str(), words[1])).pictures;
   request.want_sigma = true;
   const std::vector<std::string> frames(words + 3, words + count);
-  const Sources sources = DiskSources();
+  const Sources sources = devices::DiskSources();
   const Bracket bracket = Require(sources.open_bracket(frames, {}));
   const MergedBracket merged = Require(MergeBracket(bracket, sources, request));
   std::ofstream out(words[2], std::ios::binary);

@@ -45,7 +45,7 @@ bool SameSamples(const MergedBracket& merged, const Frame& picture) {
 
 int main(int argc, char** argv) {
   if (argc < 6) return 2;
-  const auto done = CalibrateSession(argv[1], DiskSources(), {});
+  const auto done = CalibrateSession(argv[1], devices::DiskSources(), {});
   if (!done) return Fail(done.error());
   for (const Warning& warning : done->remarks.warnings) {
     std::printf("warning: %s: %s\n", warning.subject.c_str(), warning.message.c_str());
@@ -61,9 +61,9 @@ int main(int argc, char** argv) {
   }
 
   const std::vector<std::string> frames(argv + 5, argv + argc);
-  const auto luminance = MergeBracket(frames, DiskSources(), {});
+  const auto luminance = MergeBracket(frames, devices::DiskSources(), {});
   if (!luminance) return Fail(luminance.error());
-  const auto picture = DiskSources().read_frame(argv[4]);
+  const auto picture = devices::DiskSources().read_frame(argv[4]);
   if (!picture) return Fail(picture.error());
   std::puts(SameSamples(*luminance, *picture) ? "the same luminance" : "another luminance");
 }

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 double TimeOf(const char* label) {
@@ -127,4 +127,4 @@ TEST(BracketPlan, UsesNoChoiceTwice) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -12,7 +12,7 @@
 #include "run_cli.h"
 #include "synthetic_dng.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using test::SampleData;
@@ -172,4 +172,4 @@ TEST(RealBracket, ThePngsOfANikonComeInOrder) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

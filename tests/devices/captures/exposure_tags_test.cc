@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 FrameExposure Exposure(const WrittenExposure& written) {
@@ -100,4 +100,4 @@ TEST(ExposureTags, ExifTimesBecomeIsoTimes) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -18,7 +18,7 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reser
   return "leak:libOpenImageIO";
 }
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using test::SampleData;
@@ -220,12 +220,12 @@ TEST(OtherPictures, ExifOfJpegAndPngIsRead) {
 
 TEST(OtherPictures, ARealPngBracketTellsItsExposures) {
   // 1/50, 1/13, 0.4 s at f/8, ISO 800 (Nikon D40).
-  const double thirds[] = {-17, -11, -4};
-  for (int i = 0; i < 3; ++i) {
-    const auto info = ReadPictureInfo(
-        SampleData("pictures/png_bracket/parliament_" + std::to_string(i) + ".png"));
+  const std::pair<const char*, double> thirds[] = {
+      {"parliament_0.png", -17}, {"parliament_1.png", -11}, {"parliament_2.png", -4}};
+  for (const auto& [name, third] : thirds) {
+    const auto info = ReadPictureInfo(SampleData("pictures/png_bracket") + "/" + name);
     ASSERT_TRUE(info);
-    EXPECT_NEAR(info->exposure.time->value(), std::exp2(thirds[i] / 3.0), 1e-9);
+    EXPECT_NEAR(info->exposure.time->value(), std::exp2(third / 3.0), 1e-9);
     EXPECT_DOUBLE_EQ(*info->exposure.f_number, 8.0);
     EXPECT_DOUBLE_EQ(*info->exposure.iso, 800.0);
   }
@@ -367,4 +367,4 @@ TEST(HostilePictures, APictureOfAbsurdSizeIsRefusedBeforeMemoryIsAskedFor) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "run_cli.h"
 #include "synthetic_dng.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using test::EncodeDng;
@@ -218,4 +218,4 @@ TEST(RawSamples, TheKodakDc50Decodes) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -14,7 +14,7 @@
 #include "run_cli.h"
 #include "synthetic_dng.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 TEST(SafeProcess, WhatItWritesIsSeenAndWhatItChangesIsNot) {
@@ -67,4 +67,4 @@ TEST(SafeProcess, DamagedDirectoriesAreRefusedOrRead) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

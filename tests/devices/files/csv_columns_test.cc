@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/files/delimited_text.h"
 
-namespace lightcal::files {
+namespace lightcal::devices::files {
 namespace {
 
 struct NameCase {
@@ -80,4 +80,4 @@ TEST(IsoTime, ReadsBothOrdersAndRefusesWhatIsNoDate) {
 }
 
 }  // namespace
-}  // namespace lightcal::files
+}  // namespace lightcal::devices::files

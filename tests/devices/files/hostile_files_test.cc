@@ -10,7 +10,7 @@
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using ::testing::AnyOf;
@@ -257,4 +257,4 @@ TEST(Zip, DamagedArchiveIsRefused) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -7,7 +7,7 @@
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using ::testing::AllOf;
@@ -127,4 +127,4 @@ TEST(PlainCsv, LineNumbersCountCommentsEmptyLinesAndQuotedLineEnds) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -14,7 +14,7 @@
 #include "lightcal_devices/files/import_file.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using ::testing::DoubleNear;
@@ -227,4 +227,4 @@ TEST(ActlumusLog, SevenDaysAreReadFromTheZip) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

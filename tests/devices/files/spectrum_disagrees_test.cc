@@ -10,7 +10,7 @@
 #include "lightcal_devices/files/spectrum_readings.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using ::testing::AllOf;
@@ -88,4 +88,4 @@ TEST(SpectrumDisagrees, SaysNothingOfARelativeSpectrum) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

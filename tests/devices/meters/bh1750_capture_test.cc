@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/i2c_sensors/bh1750.h"
 #include "run_cli.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 namespace {
 
 using test::CapturedBus;
@@ -51,4 +51,4 @@ TEST(Bh1750Capture, ABusWithoutTheReadingIsNoReading) {
 }
 
 }  // namespace
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

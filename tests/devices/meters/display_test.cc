@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 TEST(Display, ADecimalNumberIsItself) {
@@ -47,4 +47,4 @@ TEST(Display, AValueBeyondTheHighestRangeIsCensoredAtItsEnd) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

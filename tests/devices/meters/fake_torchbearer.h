@@ -86,11 +86,13 @@ class FakeTorchbearer {
     if (type == kData) streaming_ = true;
     if (type == kStop) streaming_ = false;
     if (type == kData || Faulty(type, spoken)) return;
-    const auto say = [&](const Bytes& data) { spoken.bytes += AsText(TorchMessage(type, data)); };
+    const auto say = [&](const devices::Bytes& data) {
+      spoken.bytes += AsText(TorchMessage(type, data));
+    };
     switch (type) {
       case 0x08: {
-        const auto id = AsBytes(setting_.id);
-        return say(Bytes(id.begin(), id.end()));
+        const auto id = devices::AsBytes(setting_.id);
+        return say(devices::Bytes(id.begin(), id.end()));
       }
       case 0x0F:
         return say(TorchRange(340, 1050));

@@ -8,27 +8,27 @@
 namespace lightcal::test {
 
 // A FakeSekonic as a Transport, without waiting.
-class FakeTransport final : public Transport {
+class FakeTransport final : public devices::Transport {
  public:
   explicit FakeTransport(SekonicSetting setting) : meter_(std::move(setting)) {}
 
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds) override {
     if (meter_.Take(bytes)) return {};
-    return Failed(std::string(fault::kUnplugged), Name(), "gone");
+    return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
   }
-  Result<Bytes> Read(std::size_t, std::chrono::milliseconds) override {
-    Bytes bytes;
+  Result<devices::Bytes> Read(std::size_t, std::chrono::milliseconds) override {
+    devices::Bytes bytes;
     switch (meter_.Give(bytes)) {
       case FakeSekonic::Answer::kBytes:
         return bytes;
       case FakeSekonic::Answer::kNothing:
-        return Failed(std::string(fault::kTimeout), Name(), "silent");
+        return Failed(std::string(devices::fault::kTimeout), Name(), "silent");
       case FakeSekonic::Answer::kStall:
-        return Failed(std::string(fault::kStalled), Name(), "stalled");
+        return Failed(std::string(devices::fault::kStalled), Name(), "stalled");
       case FakeSekonic::Answer::kGone:
-        return Failed(std::string(fault::kUnplugged), Name(), "gone");
+        return Failed(std::string(devices::fault::kUnplugged), Name(), "gone");
     }
-    return Bytes();
+    return devices::Bytes();
   }
   [[nodiscard]] std::string Name() const override { return "fake"; }
   [[nodiscard]] const FakeSekonic& meter() const { return meter_; }
@@ -38,10 +38,10 @@ class FakeTransport final : public Transport {
 };
 
 // No test waits longer than this for what will not come.
-inline MeterSetup QuickSetup(const std::string& serial = "") {
-  MeterSetup setup;
+inline devices::MeterSetup QuickSetup(const std::string& serial = "") {
+  devices::MeterSetup setup;
   setup.serial = serial;
-  MeterTiming& timing = setup.timing;
+  devices::MeterTiming& timing = setup.timing;
   timing.live = false;
   timing.reply = std::chrono::milliseconds(100);
   timing.drain = std::chrono::milliseconds(10);

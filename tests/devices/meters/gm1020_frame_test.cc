@@ -6,7 +6,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/gm1020/frame.h"
 
-namespace lightcal::gm1020 {
+namespace lightcal::devices::gm1020 {
 namespace {
 
 using test::Altered;
@@ -68,4 +68,4 @@ TEST(Gm1020Frame, ATruncatedFrameIsABeginningButNoFrame) {
 }
 
 }  // namespace
-}  // namespace lightcal::gm1020
+}  // namespace lightcal::devices::gm1020

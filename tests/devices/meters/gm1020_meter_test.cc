@@ -3,7 +3,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
-namespace lightcal::gm1020 {
+namespace lightcal::devices::gm1020 {
 namespace {
 
 using test::Hex;
@@ -130,4 +130,4 @@ TEST(Gm1020Meter, WhatIsRecordedReplays) {
 }
 
 }  // namespace
-}  // namespace lightcal::gm1020
+}  // namespace lightcal::devices::gm1020

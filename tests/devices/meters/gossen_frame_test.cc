@@ -3,7 +3,7 @@
 
 #include "lightcal_devices/meters/gossen/frame.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 namespace {
 
 using testing::HasSubstr;
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(GossenFrame, GossenError,
 TEST(GossenFrame, AMeasurementIsNoError) { EXPECT_FALSE(DecodeError("1234E-01 LX")); }
 
 }  // namespace
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

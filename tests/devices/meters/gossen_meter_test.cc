@@ -8,7 +8,7 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 namespace {
 
 using test::GossenAnswers;
@@ -139,4 +139,4 @@ TEST(GossenMeter, ARecordedDialogueReplaysToTheSameOutcome) {
 }
 
 }  // namespace
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

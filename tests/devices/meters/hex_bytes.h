@@ -11,8 +11,8 @@
 namespace lightcal::test {
 
 // "87 83 11" -> those three bytes.
-inline Bytes FromHex(const std::string& text) {
-  Bytes bytes;
+inline devices::Bytes FromHex(const std::string& text) {
+  devices::Bytes bytes;
   std::istringstream words(text);
   for (std::string word; words >> word;) {
     bytes.push_back(static_cast<std::byte>(std::stoi(word, nullptr, 16)));
@@ -21,19 +21,19 @@ inline Bytes FromHex(const std::string& text) {
 }
 
 // With one byte replaced.
-inline Bytes Altered(Bytes bytes, std::size_t at, unsigned value) {
+inline devices::Bytes Altered(devices::Bytes bytes, std::size_t at, unsigned value) {
   bytes.at(at) = static_cast<std::byte>(value);
   return bytes;
 }
 
 // The bytes as the characters a pseudo-terminal sends.
-inline std::string AsText(const Bytes& bytes) {
+inline std::string AsText(const devices::Bytes& bytes) {
   std::string text;
   for (const std::byte byte : bytes) text += static_cast<char>(byte);
   return text;
 }
 
-inline Bytes operator+(Bytes left, const Bytes& right) {
+inline devices::Bytes operator+(devices::Bytes left, const devices::Bytes& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
 }

@@ -5,7 +5,7 @@
 #include "hid_descriptors.h"
 #include "lightcal_devices/meters/hid_als/frame.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 namespace {
 
 using test::AmdDescriptor;
@@ -181,4 +181,4 @@ TEST(HidAlsFrame, ADeviceWithoutIlluminanceIsNoLightSensor) {
 }
 
 }  // namespace
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

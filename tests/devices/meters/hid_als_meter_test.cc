@@ -7,7 +7,7 @@
 #include "hid_descriptors.h"
 #include "lightcal_devices/meters/hid_als/meter.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 namespace {
 
 using test::FakeHidAls;
@@ -128,4 +128,4 @@ TEST(HidAlsMeter, ADamagedDescriptorIsSaidBeforeAnythingIsSent) {
 }
 
 }  // namespace
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

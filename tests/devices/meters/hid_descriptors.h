@@ -7,14 +7,14 @@
 namespace lightcal::test {
 
 // The shortest: report 1, an illuminance of 32 bits times 10^-2, no more.
-inline Bytes TinyDescriptor() {
+inline devices::Bytes TinyDescriptor() {
   return FromHex(
       "05 20 09 01 A1 01 09 41 A1 00 85 01 0A D1 04 15 00 26 FF FF 75 20 95 01 55 0E 81 02 C0 C0");
 }
 
 // ColorHugALS (hughski/colorhug-als-firmware, usb_descriptors.c), the facts of its bytes; one edit:
 // the unit exponent of the illuminance is 0E (10^-2), where the published file has 08.
-inline Bytes ColorHugDescriptor() {
+inline devices::Bytes ColorHugDescriptor() {
   return FromHex(
       "05 20 09 01 A1 01 09 41 A1 00 85 01 "
       // Feature report 1: connection, reporting state, power state, state, interval.
@@ -37,7 +37,7 @@ inline Bytes ColorHugDescriptor() {
 
 // A laptop's sensor hub after AMD's: illuminance times 10^-1, then colour temperature and x, y with
 // the exponent 0, 32 bits each, in report 4.
-inline Bytes AmdDescriptor() {
+inline devices::Bytes AmdDescriptor() {
   return FromHex(
       "05 20 09 41 A1 00 85 04 15 00 27 FF FF FF FF 75 20 95 01 "
       "55 0F 0A D1 04 81 02 55 00 0A D2 04 81 02 0A D4 04 81 02 0A D5 04 81 02 C0");

@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/i2c_sensors/opt4048.h"
 #include "lightcal_devices/meters/i2c_sensors/veml7700.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 namespace {
 
 using test::FromHex;
@@ -147,4 +147,4 @@ TEST(Veml7700, BrightLightIsStraightenedAndDimLightIsNot) {
 }
 
 }  // namespace
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

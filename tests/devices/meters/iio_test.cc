@@ -13,7 +13,7 @@
 #include "lightcal_devices/transport/sysfs.h"
 #include "run_cli.h"
 
-namespace lightcal::iio {
+namespace lightcal::devices::iio {
 namespace {
 
 using test::QuickSetup;
@@ -202,4 +202,4 @@ TEST(IioMeter, WhatWasRecordedPlaysAgain) {
 }
 
 }  // namespace
-}  // namespace lightcal::iio
+}  // namespace lightcal::devices::iio

@@ -5,7 +5,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/konica/frame.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 namespace {
 
 using test::FromHex;
@@ -186,4 +186,4 @@ TEST(KonicaFrame, AReplyToAnotherCommandOrHeadIsABadReply) {
 }
 
 }  // namespace
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -8,7 +8,7 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 namespace {
 
 using test::kCl200aBodies;
@@ -240,4 +240,4 @@ TEST(KonicaMeter, ARecordedDialogueReplaysToTheSameOutcome) {
 }
 
 }  // namespace
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -5,7 +5,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/lutron16/frame.h"
 
-namespace lightcal::lutron16 {
+namespace lightcal::devices::lutron16 {
 namespace {
 
 using test::Altered;
@@ -78,4 +78,4 @@ TEST(Lutron16Frame, DamageIsRefused) {
 }
 
 }  // namespace
-}  // namespace lightcal::lutron16
+}  // namespace lightcal::devices::lutron16

@@ -3,7 +3,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
-namespace lightcal::lutron16 {
+namespace lightcal::devices::lutron16 {
 namespace {
 
 using test::Hex;
@@ -130,4 +130,4 @@ TEST(Lutron16Meter, WhatIsRecordedReplays) {
 }
 
 }  // namespace
-}  // namespace lightcal::lutron16
+}  // namespace lightcal::devices::lutron16

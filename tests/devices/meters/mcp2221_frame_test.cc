@@ -5,7 +5,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/mcp2221/frame.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 namespace {
 
 using test::Altered;
@@ -81,4 +81,4 @@ TEST(Mcp2221Engine, EveryFaultIsSaidInWords) {
 }
 
 }  // namespace
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

@@ -8,7 +8,7 @@
 #include "lightcal_devices/meters/i2c_sensors/veml7700.h"
 #include "lightcal_devices/meters/mcp2221/meter.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 namespace {
 
 using test::FakeMcp2221Line;
@@ -167,4 +167,4 @@ TEST(Mcp2221Meter, ACancelledMeasurementPutsTheConfigurationBack) {
 }
 
 }  // namespace
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

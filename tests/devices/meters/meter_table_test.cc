@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/find_meters.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 FoundMeter Found(const std::string& id) {
@@ -59,4 +59,4 @@ TEST(ChooseMeter, AnAbsentMeterIsADeviceErrorAndAMisspeltDriverAWrongCommandLine
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -6,7 +6,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/pce174/frame.h"
 
-namespace lightcal::pce174 {
+namespace lightcal::devices::pce174 {
 namespace {
 
 using test::Altered;
@@ -102,4 +102,4 @@ TEST(Pce174Frame, DamageIsRefused) {
 }
 
 }  // namespace
-}  // namespace lightcal::pce174
+}  // namespace lightcal::devices::pce174

@@ -3,7 +3,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
-namespace lightcal::pce174 {
+namespace lightcal::devices::pce174 {
 namespace {
 
 using test::Hex;
@@ -137,4 +137,4 @@ TEST(Pce174Meter, WhatIsRecordedReplays) {
 }
 
 }  // namespace
-}  // namespace lightcal::pce174
+}  // namespace lightcal::devices::pce174

@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/sekonic/frame.h"
 #include "lightcal_devices/meters/sekonic/reading.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 namespace {
 
 using test::RecordedReply;
@@ -243,4 +243,4 @@ TEST(SekonicReading, Above200000LuxIsOverRange) {
 }
 
 }  // namespace
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

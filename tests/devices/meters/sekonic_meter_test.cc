@@ -8,7 +8,7 @@
 #include "lightcal_devices/transport/replay.h"
 #include "lightcal_devices/transport/tape_codec.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 namespace {
 
 using test::Answering407lx;
@@ -286,4 +286,4 @@ INSTANTIATE_TEST_SUITE_P(SekonicMeter, RecordedDialogue,
                                          Fault::kStall, Fault::kUnplug));
 
 }  // namespace
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

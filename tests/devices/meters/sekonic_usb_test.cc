@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/find_meters.h"
 #include "usb_stand_in.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using test::Answering407lx;
@@ -146,4 +146,4 @@ TEST(SekonicOverUsb, AnEmptyMachineHasNoMeter) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 #include "fake_transport.h"
 #include "lightcal_devices/meters/find_meters.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using test::GossenAnswers;
@@ -116,4 +116,4 @@ TEST(SerialMeters, WhoMayNotOpenAPortIsToldOfTheGroupAndTheRule) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

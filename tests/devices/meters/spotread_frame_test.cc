@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/spotread/meter.h"
 #include "spotread_texts.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 using testing::ElementsAre;
@@ -184,4 +184,4 @@ TEST(SpotreadReading, AColourTemperatureFarFromWhiteIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

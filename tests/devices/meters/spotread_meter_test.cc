@@ -14,7 +14,7 @@
 #include "lightcal_devices/transport/replay.h"
 #include "spotread_texts.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 using std::chrono::milliseconds;
@@ -283,4 +283,4 @@ TEST(SpotreadMeter, IsDescribedByItsVersionAndTheInstrumentsPluggedIn) {
 }
 
 }  // namespace
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

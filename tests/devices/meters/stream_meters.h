@@ -15,19 +15,19 @@ namespace lightcal::test {
 
 inline std::string Hex(const std::string& text) { return AsText(FromHex(text)); }
 
-inline std::vector<std::string> CodesOf(const MeterReading& reading) {
+inline std::vector<std::string> CodesOf(const devices::MeterReading& reading) {
   std::vector<std::string> codes;
   for (const Warning& warning : reading.warnings) codes.push_back(warning.code);
   return codes;
 }
 
-using Make = std::unique_ptr<Meter> (*)(Transport&, const MeterSetup&);
+using Make = std::unique_ptr<devices::Meter> (*)(devices::Transport&, const devices::MeterSetup&);
 
 // One measurement of a meter in memory.
-inline Result<MeterReading> MeasuredOn(StreamFake& line, Make make) {
-  return make(line, QuickSetup())->Measure(Cancellation());
+inline Result<devices::MeterReading> MeasuredOn(StreamFake& line, Make make) {
+  return make(line, QuickSetup())->Measure(devices::Cancellation());
 }
-inline Result<MeterReading> Measured(Speak speak, Make make) {
+inline Result<devices::MeterReading> Measured(Speak speak, Make make) {
   StreamFake line(std::move(speak));
   return MeasuredOn(line, make);
 }
@@ -35,14 +35,14 @@ inline Result<MeterReading> Measured(Speak speak, Make make) {
 // Whether what is recorded, through the tape's file, plays to the same reading or error.
 inline void ExpectReplaysToTheSame(Speak speak, Make make) {
   StreamFake line(std::move(speak));
-  Tape tape;
+  devices::Tape tape;
   tape.driver = "any";
-  RecordingTransport recording(line, tape);
-  const auto first = make(recording, QuickSetup())->Measure(Cancellation());
-  const auto read_back = TapeFromText(TapeToText(tape), "tape");
+  devices::RecordingTransport recording(line, tape);
+  const auto first = make(recording, QuickSetup())->Measure(devices::Cancellation());
+  const auto read_back = devices::TapeFromText(devices::TapeToText(tape), "tape");
   ASSERT_TRUE(read_back) << read_back.error().message;
-  ReplayTransport replay(*read_back);
-  const auto again = make(replay, QuickSetup())->Measure(Cancellation());
+  devices::ReplayTransport replay(*read_back);
+  const auto again = make(replay, QuickSetup())->Measure(devices::Cancellation());
   EXPECT_EQ(replay.Unconsumed(), 0U);
   ASSERT_EQ(first.has_value(), again.has_value());
   if (!first) {
@@ -55,22 +55,22 @@ inline void ExpectReplaysToTheSame(Speak speak, Make make) {
 }
 
 // Cancels at the n-th read, as Ctrl-C would in the middle.
-class CancelAtRead final : public Transport {
+class CancelAtRead final : public devices::Transport {
  public:
-  CancelAtRead(Transport& inner, Cancellation& cancellation, int reads)
+  CancelAtRead(devices::Transport& inner, devices::Cancellation& cancellation, int reads)
       : inner_(inner), cancellation_(cancellation), left_(reads) {}
   Result<void> Write(std::span<const std::byte> bytes, std::chrono::milliseconds t) override {
     return inner_.Write(bytes, t);
   }
-  Result<Bytes> Read(std::size_t max, std::chrono::milliseconds t) override {
+  Result<devices::Bytes> Read(std::size_t max, std::chrono::milliseconds t) override {
     if (--left_ == 0) cancellation_.Request();
     return inner_.Read(max, t);
   }
   [[nodiscard]] std::string Name() const override { return inner_.Name(); }
 
  private:
-  Transport& inner_;
-  Cancellation& cancellation_;
+  devices::Transport& inner_;
+  devices::Cancellation& cancellation_;
   int left_;
 };
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 std::vector<MeterReading> Series(const std::vector<double>& lux) {
@@ -121,4 +121,4 @@ TEST(Summary, AWarmingLampDriftsAndANoisyOneDoesNot) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

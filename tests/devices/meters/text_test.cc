@@ -11,7 +11,7 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
 
-namespace lightcal::text {
+namespace lightcal::devices::text {
 namespace {
 
 using test::QuickSetup;
@@ -160,4 +160,4 @@ TEST(LineMeter, ARecordedSourceReplaysToTheSameReading) {
 }
 
 }  // namespace
-}  // namespace lightcal::text
+}  // namespace lightcal::devices::text

@@ -13,7 +13,7 @@
 
 namespace lightcal::test {
 
-inline void AppendLittleEndian(Bytes& bytes, std::uint64_t value, int count) {
+inline void AppendLittleEndian(devices::Bytes& bytes, std::uint64_t value, int count) {
   for (int i = 0; i < count; ++i) {
     bytes.push_back(static_cast<std::byte>(value & 0xFFU));
     value >>= 8U;
@@ -21,8 +21,8 @@ inline void AppendLittleEndian(Bytes& bytes, std::uint64_t value, int count) {
 }
 
 // CC 81 length type data sum 0D 0A.
-inline Bytes TorchMessage(unsigned type, const Bytes& data) {
-  Bytes message = {std::byte{0xCC}, std::byte{0x81}};
+inline devices::Bytes TorchMessage(unsigned type, const devices::Bytes& data) {
+  devices::Bytes message = {std::byte{0xCC}, std::byte{0x81}};
   AppendLittleEndian(message, 9 + data.size(), 3);
   message.push_back(static_cast<std::byte>(type));
   message.insert(message.end(), data.begin(), data.end());
@@ -64,8 +64,8 @@ inline std::array<TorchMask, 2> TorchMasks(const TorchMeasurement& m) {
            {f[1] ^ x[4] ^ f[0] ^ n[0], f[0] ^ x[5] ^ f[1] ^ n[1]}}};
 }
 
-inline Bytes TorchData(const TorchMeasurement& m) {
-  Bytes data;
+inline devices::Bytes TorchData(const TorchMeasurement& m) {
+  devices::Bytes data;
   AppendLittleEndian(data, m.status, 1);
   AppendLittleEndian(data, m.microseconds, 4);
   // 8848 is 0x2290; the exponent's bytes go out high one first.
@@ -82,8 +82,8 @@ inline Bytes TorchData(const TorchMeasurement& m) {
   return data;
 }
 
-inline Bytes TorchRange(unsigned start_nm, unsigned end_nm) {
-  Bytes data;
+inline devices::Bytes TorchRange(unsigned start_nm, unsigned end_nm) {
+  devices::Bytes data;
   AppendLittleEndian(data, start_nm, 2);
   AppendLittleEndian(data, end_nm, 2);
   return data;

@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/torchbearer/frame.h"
 #include "torchbearer_encoder.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 namespace {
 
 using test::Altered;
@@ -130,4 +130,4 @@ TEST(TorchbearerFrame, ShortAnswersSayOneThing) {
 }
 
 }  // namespace
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/torchbearer/reading.h"
 #include "stream_meters.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 namespace {
 
 using test::Exposed;
@@ -218,4 +218,4 @@ TEST(TorchbearerMeter, WhatIsRecordedReplays) {
 }
 
 }  // namespace
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

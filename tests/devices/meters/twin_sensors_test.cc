@@ -6,7 +6,7 @@
 
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr const char* kHidFolder =
@@ -60,4 +60,4 @@ TEST(KernelSensor, IsReadByTheCommandLineThroughSysfs) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

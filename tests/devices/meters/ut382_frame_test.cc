@@ -8,7 +8,7 @@
 #include "hex_bytes.h"
 #include "lightcal_devices/meters/ut382/frame.h"
 
-namespace lightcal::ut382 {
+namespace lightcal::devices::ut382 {
 namespace {
 
 using test::Altered;
@@ -127,4 +127,4 @@ TEST(Ut382Frame, WhatEndsAFrameCannotBeginOne) {
 }
 
 }  // namespace
-}  // namespace lightcal::ut382
+}  // namespace lightcal::devices::ut382

@@ -3,7 +3,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "stream_meters.h"
 
-namespace lightcal::ut382 {
+namespace lightcal::devices::ut382 {
 namespace {
 
 using test::Hex;
@@ -156,4 +156,4 @@ TEST(Ut382Meter, WhatIsRecordedReplays) {
 }
 
 }  // namespace
-}  // namespace lightcal::ut382
+}  // namespace lightcal::devices::ut382

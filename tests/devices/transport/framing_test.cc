@@ -5,7 +5,7 @@
 
 #include <deque>
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -99,4 +99,4 @@ TEST(Framing, ADrainForgetsWhatIsHeldAndEndsOnALineThatNeverStops) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

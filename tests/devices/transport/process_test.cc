@@ -17,7 +17,7 @@
 #include "lightcal_devices/transport/replay.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -252,4 +252,4 @@ TEST(Process, AStartAndItsEndAreOnTheTape) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

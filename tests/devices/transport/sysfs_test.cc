@@ -7,7 +7,7 @@
 
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::chrono::milliseconds kWait{100};
@@ -64,4 +64,4 @@ TEST(Sysfs, AnAttributeReadAloneHasNoNewline) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

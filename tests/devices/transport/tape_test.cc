@@ -5,7 +5,7 @@
 #include "lightcal_devices/transport/replay.h"
 #include "lightcal_devices/transport/tape_codec.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -201,4 +201,4 @@ TEST(Control, IsRecordedAndPlayedByItsVerbAndBytes) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "pseudo_terminal.h"
 #include "run_cli.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -139,4 +139,4 @@ TEST(TextSource, ALineWithoutEndIsCutAtTheBound) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -12,7 +12,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "pseudo_terminal.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
@@ -122,4 +122,4 @@ TEST(Tty, WhatIsNoSerialPortIsSaid) {
 }
 
 }  // namespace
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -6,7 +6,7 @@
 
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::gm1020 {
+namespace lightcal::devices::gm1020 {
 namespace {
 
 struct Mark {
@@ -55,4 +55,4 @@ Result<LiveMeasurement> DecodeLive(std::span<const std::byte> bytes) {
   return measurement;
 }
 
-}  // namespace lightcal::gm1020
+}  // namespace lightcal::devices::gm1020

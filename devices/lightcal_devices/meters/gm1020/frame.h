@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/display.h"
 
-namespace lightcal::gm1020 {
+namespace lightcal::devices::gm1020 {
 
 inline constexpr std::size_t kFrameBytes = 8;
 using Command = std::array<std::byte, kFrameBytes>;
@@ -37,4 +37,4 @@ struct LiveMeasurement {
 // Fails: bad_reply (another length or form, bits 1000 or 2000, which nobody has seen).
 [[nodiscard]] Result<LiveMeasurement> DecodeLive(std::span<const std::byte> bytes);
 
-}  // namespace lightcal::gm1020
+}  // namespace lightcal::devices::gm1020

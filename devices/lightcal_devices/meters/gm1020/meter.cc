@@ -2,7 +2,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/gm1020/frame.h"
 
-namespace lightcal::gm1020 {
+namespace lightcal::devices::gm1020 {
 namespace {
 
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 200000.0};
@@ -29,4 +29,4 @@ constexpr DisplayProtocol kProtocol{
     .bytes_a_write = 1,  // as the meter wants it
     .reading = ReadingFrom};
 
-}  // namespace lightcal::gm1020
+}  // namespace lightcal::devices::gm1020

@@ -9,7 +9,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 namespace {
 
 constexpr std::string_view kDigits = "0123456789";
@@ -127,4 +127,4 @@ Result<DisplayedIlluminance> DecodeMeasurement(std::string_view line) {
   return DisplayedIlluminance{IntegerFrom(mantissa), -*exponent, unit == "FC"};
 }
 
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

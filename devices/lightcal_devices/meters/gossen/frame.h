@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/display.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 
 inline constexpr std::size_t kLongestReplyBytes = 128;
 
@@ -37,4 +37,4 @@ struct Identity {
 // Fails: bad_reply; luminance_head where the unit is cd/m^2 or foot-lambert.
 [[nodiscard]] Result<DisplayedIlluminance> DecodeMeasurement(std::string_view line);
 
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

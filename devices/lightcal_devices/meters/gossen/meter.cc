@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/display.h"
 #include "lightcal_devices/meters/frame_search.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 namespace {
 
 constexpr std::chrono::milliseconds kAfterWrite{10};
@@ -104,4 +104,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<GossenMeter>(transport, setup);
 }
 
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

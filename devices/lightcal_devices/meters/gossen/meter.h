@@ -13,7 +13,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::gossen {
+namespace lightcal::devices::gossen {
 
 inline constexpr std::array<MeterOption, 1> kOptions = {
     {{"class", "accuracy class of the meter after DIN 5032-7: B or C (C)"}}};
@@ -58,4 +58,4 @@ class GossenMeter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::gossen
+}  // namespace lightcal::devices::gossen

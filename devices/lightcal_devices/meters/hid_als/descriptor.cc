@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 namespace {
 
 using ByteSpan = std::span<const std::byte>;
@@ -315,4 +315,4 @@ std::size_t ReportDescriptor::ReportBytes(ReportKind kind, std::uint8_t report) 
 
 Result<ReportDescriptor> ParseReportDescriptor(ByteSpan bytes) { return Parser(bytes).Parse(); }
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

@@ -12,7 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 
 inline constexpr std::string_view kBadDescriptor = "bad_descriptor";
 
@@ -71,4 +71,4 @@ inline constexpr std::size_t kDeepestNesting = 32;
 inline constexpr std::uint32_t kLongestReportBits = 8 * 4096;
 [[nodiscard]] Result<ReportDescriptor> ParseReportDescriptor(std::span<const std::byte> bytes);
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

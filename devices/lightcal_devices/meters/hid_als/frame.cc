@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 namespace {
 
 constexpr Usage kAmbientLight = SensorUsage(0x0041);
@@ -139,4 +139,4 @@ Result<AmbientLight> DecodeInput(const Layout& layout, std::span<const std::byte
   return light;
 }
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

@@ -10,7 +10,7 @@
 #include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal_devices/meters/hid_als/descriptor.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 
 inline constexpr std::string_view kBadReply = "bad_reply";
 
@@ -52,4 +52,4 @@ struct AmbientLight {
 [[nodiscard]] Result<AmbientLight> DecodeInput(const Layout& layout,
                                                std::span<const std::byte> report);
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

@@ -8,7 +8,7 @@
 #include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/transport/hid.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 namespace {
 
 constexpr int kMostReports = 20;  // until one tells the light
@@ -160,4 +160,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<HidAlsMeter>(transport, setup);
 }
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

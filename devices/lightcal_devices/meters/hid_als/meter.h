@@ -11,7 +11,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::hid_als {
+namespace lightcal::devices::hid_als {
 
 // 1 sigma of a light sensor whose maker promises nothing: no cosine corrector, often behind a
 // display's glass.
@@ -50,4 +50,4 @@ class HidAlsMeter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::hid_als
+}  // namespace lightcal::devices::hid_als

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-namespace lightcal::i2c::bh1750 {
+namespace lightcal::devices::i2c::bh1750 {
 namespace {
 
 constexpr double kCountsPerLux = 1.2;
@@ -49,4 +49,4 @@ Result<SensorLight> Measure(I2cBus& bus, Address address, const SensorContext& c
   return Decode(*bytes);
 }
 
-}  // namespace lightcal::i2c::bh1750
+}  // namespace lightcal::devices::i2c::bh1750

@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/sensor.h"
 
-namespace lightcal::i2c::bh1750 {
+namespace lightcal::devices::i2c::bh1750 {
 
 inline constexpr int kDefaultMeasurementTime = 69;  // of the register MTreg, 31 .. 254
 
@@ -19,4 +19,4 @@ inline constexpr int kDefaultMeasurementTime = 69;  // of the register MTreg, 31
 [[nodiscard]] Result<SensorLight> Measure(I2cBus& bus, Address address,
                                           const SensorContext& context);
 
-}  // namespace lightcal::i2c::bh1750
+}  // namespace lightcal::devices::i2c::bh1750

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 
 Result<std::uint16_t> ReadRegister(I2cBus& bus, Address address, std::uint8_t number,
                                    ByteOrder order) {
@@ -30,4 +30,4 @@ Result<void> WriteRegister(I2cBus& bus, Address address, std::uint8_t number, st
   return bus.Write(address, bytes);
 }
 
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 
 // The code of an address, or a byte, that no chip acknowledged.
 inline constexpr std::string_view kNack = "i2c_nack";
@@ -38,4 +38,4 @@ enum class ByteOrder { kHighFirst, kLowFirst };
 [[nodiscard]] Result<void> WriteRegister(I2cBus& bus, Address address, std::uint8_t number,
                                          std::uint16_t value, ByteOrder order);
 
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/restored_register.h"
 
-namespace lightcal::i2c::opt3001 {
+namespace lightcal::devices::i2c::opt3001 {
 namespace {
 
 constexpr auto kOrder = ByteOrder::kHighFirst;
@@ -62,4 +62,4 @@ Result<SensorLight> Measure(I2cBus& bus, Address address, const SensorContext& c
                       [&] { return PollForLight(context, "OPT3001", kPolls, ask); });
 }
 
-}  // namespace lightcal::i2c::opt3001
+}  // namespace lightcal::devices::i2c::opt3001

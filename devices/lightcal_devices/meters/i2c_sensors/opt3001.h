@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/sensor.h"
 
-namespace lightcal::i2c::opt3001 {
+namespace lightcal::devices::i2c::opt3001 {
 
 inline constexpr double kHighestLx = 83865.60;
 
@@ -21,4 +21,4 @@ inline constexpr double kHighestLx = 83865.60;
 [[nodiscard]] Result<SensorLight> Measure(I2cBus& bus, Address address,
                                           const SensorContext& context);
 
-}  // namespace lightcal::i2c::opt3001
+}  // namespace lightcal::devices::i2c::opt3001

@@ -7,7 +7,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/sensor.h"
 
-namespace lightcal::i2c::opt4048 {
+namespace lightcal::devices::i2c::opt4048 {
 
 inline constexpr std::size_t kChannelsBytes = 16;
 inline constexpr double kHighestLx = 144000.0;  // end of the widest range
@@ -35,4 +35,4 @@ struct Channel {
 [[nodiscard]] Result<SensorLight> Measure(I2cBus& bus, Address address,
                                           const SensorContext& context);
 
-}  // namespace lightcal::i2c::opt4048
+}  // namespace lightcal::devices::i2c::opt4048

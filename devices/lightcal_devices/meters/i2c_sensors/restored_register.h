@@ -4,7 +4,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/sensor.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 
 struct RegisterOf {
   I2cBus& bus;
@@ -30,4 +30,4 @@ Result<SensorLight> WithRegister(const RegisterOf& which, std::uint16_t value,
   return light;
 }
 
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/i2c_sensors/opt4048.h"
 #include "lightcal_devices/meters/i2c_sensors/veml7700.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 namespace {
 
 constexpr std::array<Address, 3> kOpt4048Addresses = {0x44, 0x45, 0x46};
@@ -77,4 +77,4 @@ Result<bool> SaysId(const Result<std::uint16_t>& answer, std::uint16_t id) {
   return tl::unexpected(answer.error());
 }
 
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

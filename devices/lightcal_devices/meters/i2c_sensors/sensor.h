@@ -13,7 +13,7 @@
 #include "lightcal_devices/meters/i2c_sensors/i2c_bus.h"
 #include "lightcal_devices/meters/meter.h"
 
-namespace lightcal::i2c {
+namespace lightcal::devices::i2c {
 
 // What a chip measured. Over or under range, illuminance_lx is the end of the range.
 struct SensorLight {
@@ -63,4 +63,4 @@ struct Polls {
 // What an answer of the bus about an id register means: no one there is a no.
 [[nodiscard]] Result<bool> SaysId(const Result<std::uint16_t>& answer, std::uint16_t id);
 
-}  // namespace lightcal::i2c
+}  // namespace lightcal::devices::i2c

@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/restored_register.h"
 
-namespace lightcal::i2c::veml7700 {
+namespace lightcal::devices::i2c::veml7700 {
 namespace {
 
 constexpr auto kOrder = ByteOrder::kLowFirst;
@@ -77,4 +77,4 @@ Result<SensorLight> Measure(I2cBus& bus, Address address, const SensorContext& c
                       [&] { return MeasureInRange(bus, address, context); });
 }
 
-}  // namespace lightcal::i2c::veml7700
+}  // namespace lightcal::devices::i2c::veml7700

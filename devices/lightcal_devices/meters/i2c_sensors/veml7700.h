@@ -8,7 +8,7 @@
 
 #include "lightcal_devices/meters/i2c_sensors/sensor.h"
 
-namespace lightcal::i2c::veml7700 {
+namespace lightcal::devices::i2c::veml7700 {
 
 // A gain and an integration time, with their bits of the configuration.
 struct Setting {
@@ -42,4 +42,4 @@ inline constexpr double kHighestLx = 120000.0;
 [[nodiscard]] Result<SensorLight> Measure(I2cBus& bus, Address address,
                                           const SensorContext& context);
 
-}  // namespace lightcal::i2c::veml7700
+}  // namespace lightcal::devices::i2c::veml7700

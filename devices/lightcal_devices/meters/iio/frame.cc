@@ -7,7 +7,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::iio {
+namespace lightcal::devices::iio {
 namespace {
 
 constexpr std::size_t kLongestNumber = 40;
@@ -39,4 +39,4 @@ std::optional<Number> ValueOf(const Channel& channel) {
   return Number{(channel.raw->value + offset) * scale, channel.raw->step * std::abs(scale)};
 }
 
-}  // namespace lightcal::iio
+}  // namespace lightcal::devices::iio

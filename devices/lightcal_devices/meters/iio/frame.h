@@ -7,7 +7,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal::iio {
+namespace lightcal::devices::iio {
 
 inline constexpr std::string_view kBadReply = "bad_reply";
 
@@ -30,4 +30,4 @@ struct Channel {
 // Absent when the channel has neither input nor raw. `step` is what one count changes.
 [[nodiscard]] std::optional<Number> ValueOf(const Channel& channel);
 
-}  // namespace lightcal::iio
+}  // namespace lightcal::devices::iio

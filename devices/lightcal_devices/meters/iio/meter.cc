@@ -7,7 +7,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/transport/sysfs.h"
 
-namespace lightcal::iio {
+namespace lightcal::devices::iio {
 namespace {
 
 constexpr double kLowestCctKelvin = 1000.0;
@@ -143,4 +143,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<IioMeter>(transport, setup);
 }
 
-}  // namespace lightcal::iio
+}  // namespace lightcal::devices::iio

@@ -11,7 +11,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::iio {
+namespace lightcal::devices::iio {
 
 // 1 sigma of E of a chip behind a window, without a cosine corrector: nobody states one, so it is
 // wide until a calibration factor is given.
@@ -45,4 +45,4 @@ class IioMeter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::iio
+}  // namespace lightcal::devices::iio

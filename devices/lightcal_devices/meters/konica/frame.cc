@@ -9,7 +9,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 namespace {
 
 constexpr char kStx = '\x02';
@@ -151,4 +151,4 @@ Result<LongReply> DecodeLongReply(std::span<const std::byte> bytes, int head, in
   return reply;
 }
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

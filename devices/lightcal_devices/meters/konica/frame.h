@@ -11,7 +11,7 @@
 
 #include "lightcal/core/result.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 
 inline constexpr int kAllHeads = 99;
 inline constexpr int kHighestHead = 29;
@@ -60,4 +60,4 @@ inline constexpr std::size_t kLongReplyBytes = 32;
 [[nodiscard]] Result<LongReply> DecodeLongReply(std::span<const std::byte> bytes, int head,
                                                 int command);
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -8,7 +8,7 @@
 #include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/meters/konica/reading.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 namespace {
 
 using std::chrono::milliseconds;
@@ -227,4 +227,4 @@ std::unique_ptr<Meter> MakeCl200a(Transport& transport, const MeterSetup& setup)
   return std::make_unique<Cl200aMeter>(transport, setup);
 }
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

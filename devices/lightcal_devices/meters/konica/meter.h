@@ -15,7 +15,7 @@
 #include "lightcal_devices/transport/transport.h"
 #include "lightcal_devices/transport/tty.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 
 inline constexpr SerialSettings kSerial = {9600, 7, Parity::kEven, 1, true};
 inline constexpr std::array<MeterOption, 1> kOptions = {
@@ -93,4 +93,4 @@ class Cl200aMeter final : public Meter {
 [[nodiscard]] std::unique_ptr<Meter> MakeT10a(Transport& transport, const MeterSetup& setup);
 [[nodiscard]] std::unique_ptr<Meter> MakeCl200a(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/display.h"
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 namespace {
 
 // Below zero, the remainder of a zero adjustment, counts as nothing.
@@ -73,4 +73,4 @@ Result<MeterReading> ReadingFromCl200a(const LongReply& chromaticity, const Long
   return result;
 }
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/konica/frame.h"
 #include "lightcal_devices/meters/meter.h"
 
-namespace lightcal::konica {
+namespace lightcal::devices::konica {
 
 // 1 sigma of both models, beside one digit of the display; the makers' +-2 % taken as it stands.
 inline constexpr double kSigmaRelative = 0.02;
@@ -26,4 +26,4 @@ inline constexpr double kCl200aHighestLx = 99990.0;
                                                      const LongReply& temperature,
                                                      const std::string& device);
 
-}  // namespace lightcal::konica
+}  // namespace lightcal::devices::konica

@@ -5,7 +5,7 @@
 #include "lightcal_devices/transport/hid.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::uint16_t kSensorPage = 0x20;
@@ -137,4 +137,4 @@ const MeterLine kHidUsbLine = {.name = "hid_usb",
                                .tells_meters_apart = true,
                                .permission_remedy = ""};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -11,7 +11,7 @@
 #include "lightcal_devices/transport/sysfs.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestRun{120000};
@@ -83,4 +83,4 @@ const MeterLine kProcessLine = {.name = "process",
                                 .tells_meters_apart = false,
                                 .permission_remedy = ""};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

@@ -9,7 +9,7 @@
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/transport/sysfs.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 bool MeasuresIlluminance(const std::string& folder) {
@@ -68,4 +68,4 @@ const MeterLine kSysfsLine = {
     .tells_meters_apart = true,
     .permission_remedy = "make its files under /sys/bus/iio/devices readable (chmod a+r)"};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

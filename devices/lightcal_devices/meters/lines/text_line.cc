@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/transport/text.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 Result<std::vector<FoundMeter>> FindNone(const MeterRow& /*row*/) {
@@ -47,4 +47,4 @@ const MeterLine kTypedLine = {.name = "typed",
                               .tells_meters_apart = false,
                               .permission_remedy = ""};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

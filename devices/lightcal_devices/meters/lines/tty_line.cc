@@ -6,7 +6,7 @@
 #include "lightcal_devices/transport/tty.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 Result<std::vector<FoundMeter>> FindTty(const MeterRow& row) {
@@ -56,4 +56,4 @@ const MeterLine kTtyLine = {
     .permission_remedy =
         "join the group dialout (sudo usermod -aG dialout $USER, then log in anew)"};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

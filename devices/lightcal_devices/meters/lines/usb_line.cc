@@ -3,7 +3,7 @@
 #include "lightcal_devices/meters/lines.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 namespace {
 
 MeterAccess AccessOf(UsbAccess access) {
@@ -64,4 +64,4 @@ const MeterLine kUsbLine = {.name = "usb",
                             .tells_meters_apart = true,
                             .permission_remedy = ""};
 
-}  // namespace lightcal
+}  // namespace lightcal::devices

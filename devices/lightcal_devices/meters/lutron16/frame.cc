@@ -8,7 +8,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal::lutron16 {
+namespace lightcal::devices::lutron16 {
 namespace {
 
 constexpr std::byte kStart{0x02};
@@ -89,4 +89,4 @@ Result<Measurement> DecodeMeasurement(std::span<const std::byte> bytes) {
   return measurement;
 }
 
-}  // namespace lightcal::lutron16
+}  // namespace lightcal::devices::lutron16

@@ -8,7 +8,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/display.h"
 
-namespace lightcal::lutron16 {
+namespace lightcal::devices::lutron16 {
 
 inline constexpr std::size_t kFrameBytes = 16;
 
@@ -25,4 +25,4 @@ struct Measurement {
 // code, for an instrument that does not show lux or foot-candles.
 [[nodiscard]] Result<Measurement> DecodeMeasurement(std::span<const std::byte> bytes);
 
-}  // namespace lightcal::lutron16
+}  // namespace lightcal::devices::lutron16

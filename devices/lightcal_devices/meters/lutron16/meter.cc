@@ -2,7 +2,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/lutron16/frame.h"
 
-namespace lightcal::lutron16 {
+namespace lightcal::devices::lutron16 {
 namespace {
 
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 100000.0};
@@ -34,4 +34,4 @@ constexpr DisplayProtocol kProtocol{
     .most_frames = 6,  // three of each display
     .reading = ReadingFrom};
 
-}  // namespace lightcal::lutron16
+}  // namespace lightcal::devices::lutron16

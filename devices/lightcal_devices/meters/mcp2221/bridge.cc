@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 namespace {
 
 constexpr std::chrono::milliseconds kPause(1);
@@ -150,4 +150,4 @@ Result<Bytes> Bridge::WriteThenRead(i2c::Address address, std::span<const std::b
                             : Result<Bytes>(tl::unexpected(started.error())));
 }
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 
 // Each exchange is one report out and one in. How often the bridge is asked is counted, 1 ms apart.
 class Bridge final : public i2c::I2cBus {
@@ -42,4 +42,4 @@ class Bridge final : public i2c::I2cBus {
   const MeterTiming& timing_;
 };
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 namespace {
 
 using ByteSpan = std::span<const std::byte>;
@@ -137,4 +137,4 @@ Result<std::optional<Bytes>> DecodeFetched(ByteSpan reply) {
   return std::optional(Bytes(data.begin(), data.end()));
 }
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

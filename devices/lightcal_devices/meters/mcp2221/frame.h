@@ -12,7 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 
 inline constexpr std::string_view kBadReply = "bad_reply";
 inline constexpr std::size_t kReportBytes = 64;
@@ -65,4 +65,4 @@ struct Acceptance {
 // The bytes a read brought; absent = not there yet.
 [[nodiscard]] Result<std::optional<Bytes>> DecodeFetched(std::span<const std::byte> reply);
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

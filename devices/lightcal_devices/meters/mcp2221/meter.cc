@@ -9,7 +9,7 @@
 
 #include "lightcal/colorimetry/cct.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 namespace {
 
 constexpr unsigned kLowestAddress = 0x08;
@@ -153,4 +153,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<Mcp2221Meter>(transport, setup);
 }
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

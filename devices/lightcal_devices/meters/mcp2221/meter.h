@@ -11,7 +11,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::mcp2221 {
+namespace lightcal::devices::mcp2221 {
 
 // 1 sigma of a bare sensor chip: its scale by the maker, no cosine corrector, unknown lamp.
 inline constexpr double kSigmaRelative = 0.20;
@@ -50,4 +50,4 @@ class Mcp2221Meter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::mcp2221
+}  // namespace lightcal::devices::mcp2221

@@ -5,7 +5,7 @@
 
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::pce174 {
+namespace lightcal::devices::pce174 {
 namespace {
 
 constexpr std::array<std::byte, 3> kMagic = {std::byte{0xAA}, std::byte{0xDD}, std::byte{0x00}};
@@ -68,4 +68,4 @@ Result<Measurement> DecodeMeasurement(std::span<const std::byte> bytes) {
   return measurement;
 }
 
-}  // namespace lightcal::pce174
+}  // namespace lightcal::devices::pce174

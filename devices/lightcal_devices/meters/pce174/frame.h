@@ -10,7 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/display.h"
 
-namespace lightcal::pce174 {
+namespace lightcal::devices::pce174 {
 
 inline constexpr std::size_t kFrameBytes = 18;
 
@@ -38,4 +38,4 @@ struct Measurement {
 // Fails: bad_reply (another length or form, digits above 99, a mode nobody has documented).
 [[nodiscard]] Result<Measurement> DecodeMeasurement(std::span<const std::byte> bytes);
 
-}  // namespace lightcal::pce174
+}  // namespace lightcal::devices::pce174

@@ -2,7 +2,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/pce174/frame.h"
 
-namespace lightcal::pce174 {
+namespace lightcal::devices::pce174 {
 namespace {
 
 constexpr double kSigmaRelative = 0.05;
@@ -35,4 +35,4 @@ constexpr DisplayProtocol kProtocol{
     .begin = kReadCommand,
     .reading = ReadingFrom};
 
-}  // namespace lightcal::pce174
+}  // namespace lightcal::devices::pce174

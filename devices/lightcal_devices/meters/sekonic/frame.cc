@@ -11,7 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 namespace {
 
 using ByteSpan = std::span<const std::byte>;
@@ -269,4 +269,4 @@ Warnings SelfCheck(const Measurement& m, std::string_view subject) {
   return warnings;
 }
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

@@ -13,7 +13,7 @@
 #include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal/core/result.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 
 // The code of a reply that is not what the protocol promises; asking again may help.
 inline constexpr std::string_view kBadReply = "bad_reply";
@@ -91,4 +91,4 @@ inline constexpr int kMostStored = 9999;  // four digits name one
 //   E = 683 sum ybar(l) S(l) dl (1 %).
 [[nodiscard]] Warnings SelfCheck(const Measurement& measurement, std::string_view subject);
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

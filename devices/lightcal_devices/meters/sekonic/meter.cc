@@ -8,7 +8,7 @@
 #include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/meters/sekonic/reading.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 namespace {
 
 constexpr std::array<std::string_view, 4> kKnownModels = {"C-700", "C-800", "C-800-U", "C-7000"};
@@ -208,4 +208,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<SekonicMeter>(transport, setup);
 }
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/sekonic/frame.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 
 // Errors besides the transport's own: nak, bad_reply (after one more try), wrong_ring, button_held,
 // busy (not idle in time), hardware_error, interrupted.
@@ -53,4 +53,4 @@ class SekonicMeter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

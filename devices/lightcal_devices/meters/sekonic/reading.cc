@@ -6,7 +6,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 namespace {
 
 constexpr double kLowestCctKelvin = 1563.0;
@@ -84,4 +84,4 @@ MeterReading ReadingFromMeasurement(const Measurement& m, const std::string& dev
   return result;
 }
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/meters/sekonic/frame.h"
 
-namespace lightcal::sekonic {
+namespace lightcal::devices::sekonic {
 
 inline constexpr double kSigmaRelative = 0.05;  // 1 sigma of E
 inline constexpr double kLowestIlluminanceLx = 1.0;
@@ -23,4 +23,4 @@ inline constexpr double kLowestColorLx = 5.0;
 [[nodiscard]] MeterReading ReadingFromMeasurement(const Measurement& measurement,
                                                   const std::string& device);
 
-}  // namespace lightcal::sekonic
+}  // namespace lightcal::devices::sekonic

@@ -5,7 +5,7 @@
 #include "lightcal_devices/transport/sysfs.h"
 #include "lightcal_devices/transport/usb.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 constexpr std::chrono::milliseconds kLongestUsage{2000};
@@ -46,4 +46,4 @@ std::string Describe(const FoundMeter& meter) {
                                  : "; plugged in: " + plugged);
 }
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

@@ -8,7 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 constexpr double kWattsPerMilliwatt = 1e-3;
@@ -288,4 +288,4 @@ std::optional<std::string> VersionIn(std::string_view usage) {
   return std::string(version);
 }
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

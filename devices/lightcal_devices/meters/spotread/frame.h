@@ -12,7 +12,7 @@
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/result.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 
 inline constexpr std::string_view kBadReply = "bad_reply";
 
@@ -75,4 +75,4 @@ enum class Ending {
 // "Lookup ICC or CAL colors, Version 2.3.1\n..." -> "2.3.1", absent when there is none.
 [[nodiscard]] std::optional<std::string> VersionIn(std::string_view usage);
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

@@ -9,7 +9,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/transport/process.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 using std::chrono::milliseconds;
@@ -246,4 +246,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<SpotreadMeter>(transport, setup);
 }
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

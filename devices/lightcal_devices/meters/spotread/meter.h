@@ -12,11 +12,11 @@
 #include "lightcal_devices/meters/spotread/frame.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal {
+namespace lightcal::devices {
 struct FoundMeter;
-}  // namespace lightcal
+}  // namespace lightcal::devices
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 
 // Errors besides the transport's own: bad_reply, no_ambient, calibrated (put the instrument back
 // and read again), wrong_position, too_dark, over_range, misread, communication, instrument_error,
@@ -70,4 +70,4 @@ class SpotreadMeter final : public Meter {
 // spotread, the instruments from sysfs: neither touches a port.
 [[nodiscard]] std::string Describe(const FoundMeter& meter);
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

@@ -5,7 +5,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/meters/spotread/meter.h"
 
-namespace lightcal::spotread {
+namespace lightcal::devices::spotread {
 namespace {
 
 constexpr double kSigmaSpectral = 0.05;     // 1 sigma of E, our estimate: no maker states one
@@ -85,4 +85,4 @@ MeterReading ReadingFromReport(const Report& report, const std::string& device) 
   return result;
 }
 
-}  // namespace lightcal::spotread
+}  // namespace lightcal::devices::spotread

@@ -9,7 +9,7 @@
 #include "lightcal_devices/transport/framing.h"
 #include "lightcal_devices/transport/tape.h"
 
-namespace lightcal::text {
+namespace lightcal::devices::text {
 namespace {
 
 constexpr double kHighestLx = 1e6;
@@ -59,4 +59,4 @@ Result<std::optional<TextReading>> DecodeLine(std::string_view given) {
   return reading;
 }
 
-}  // namespace lightcal::text
+}  // namespace lightcal::devices::text

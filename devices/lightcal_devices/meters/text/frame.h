@@ -8,7 +8,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 
-namespace lightcal::text {
+namespace lightcal::devices::text {
 
 inline constexpr std::size_t kLongestLineBytes = 256;
 
@@ -24,4 +24,4 @@ struct TextReading {
 // Fails: bad_reply, with what is wrong; a number that is negative or above a million lux too.
 [[nodiscard]] Result<std::optional<TextReading>> DecodeLine(std::string_view line);
 
-}  // namespace lightcal::text
+}  // namespace lightcal::devices::text

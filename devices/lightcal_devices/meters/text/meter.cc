@@ -8,7 +8,7 @@
 #include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::text {
+namespace lightcal::devices::text {
 namespace {
 
 struct NamedQuality {
@@ -110,4 +110,4 @@ std::unique_ptr<Meter> MakeTyped(Transport& transport, const MeterSetup& setup) 
                                      TextKind{"typed", std::nullopt, MeterQuality::kUnknown, 0});
 }
 
-}  // namespace lightcal::text
+}  // namespace lightcal::devices::text

@@ -12,7 +12,7 @@
 #include "lightcal_devices/meters/text/frame.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::text {
+namespace lightcal::devices::text {
 
 inline constexpr std::array<MeterOption, 2> kOptions = {
     {{"sigma", "1 sigma of a reading: 0.05 or 5%"},
@@ -53,4 +53,4 @@ class TextMeter final : public Meter {
 [[nodiscard]] std::unique_ptr<Meter> MakeLine(Transport& transport, const MeterSetup& setup);
 [[nodiscard]] std::unique_ptr<Meter> MakeTyped(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::text
+}  // namespace lightcal::devices::text

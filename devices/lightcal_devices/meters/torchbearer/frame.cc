@@ -8,7 +8,7 @@
 
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 namespace {
 
 using ByteSpan = std::span<const std::byte>;
@@ -189,4 +189,4 @@ Result<Measurement> DecodeMeasurement(ByteSpan data, const WavelengthRange& rang
   return measurement;
 }
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

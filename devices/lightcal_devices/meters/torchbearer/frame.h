@@ -11,7 +11,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 
 enum class MessageType : std::uint8_t {
   kStop = 0x04,
@@ -76,4 +76,4 @@ struct Measurement {
 [[nodiscard]] Result<Measurement> DecodeMeasurement(std::span<const std::byte> data,
                                                     const WavelengthRange& range);
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

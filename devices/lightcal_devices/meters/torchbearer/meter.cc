@@ -7,7 +7,7 @@
 #include "lightcal_devices/meters/frame_search.h"
 #include "lightcal_devices/meters/torchbearer/reading.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 namespace {
 
 constexpr std::array kIdArgument = {std::byte{0x18}};
@@ -195,4 +195,4 @@ std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup) 
   return std::make_unique<TorchbearerMeter>(transport, setup);
 }
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

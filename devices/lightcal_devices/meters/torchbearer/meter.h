@@ -10,7 +10,7 @@
 #include "lightcal_devices/meters/torchbearer/frame.h"
 #include "lightcal_devices/transport/transport.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 
 // Errors besides the transport's own: bad_reply (after one more try), nak, over_exposed and
 // under_exposed (the automatic exposure found none that fits), interrupted.
@@ -59,4 +59,4 @@ class TorchbearerMeter final : public Meter {
 // For the meter table.
 [[nodiscard]] std::unique_ptr<Meter> MakeMeter(Transport& transport, const MeterSetup& setup);
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

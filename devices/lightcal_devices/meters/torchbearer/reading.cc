@@ -6,7 +6,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/spectrum.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 namespace {
 
 void AddColor(const Xyz& xyz, MeterReading& result) {
@@ -52,4 +52,4 @@ MeterReading ReadingFromMeasurement(const Measurement& measurement, const Wavele
   return result;
 }
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

@@ -6,7 +6,7 @@
 #include "lightcal_devices/meters/meter.h"
 #include "lightcal_devices/meters/torchbearer/frame.h"
 
-namespace lightcal::torchbearer {
+namespace lightcal::devices::torchbearer {
 
 // 1 sigma of E: nobody has compared one with a reference for us.
 inline constexpr double kSigmaRelative = 0.10;
@@ -20,4 +20,4 @@ inline constexpr double kSigmaRelative = 0.10;
                                                   const WavelengthRange& range,
                                                   const std::string& device);
 
-}  // namespace lightcal::torchbearer
+}  // namespace lightcal::devices::torchbearer

@@ -8,7 +8,7 @@
 
 #include "lightcal_devices/transport/framing.h"
 
-namespace lightcal::ut382 {
+namespace lightcal::devices::ut382 {
 namespace {
 
 constexpr std::size_t kNibbles = 30;
@@ -120,4 +120,4 @@ Result<Display> DecodeDisplay(std::span<const std::byte> bytes) {
   return display;
 }
 
-}  // namespace lightcal::ut382
+}  // namespace lightcal::devices::ut382

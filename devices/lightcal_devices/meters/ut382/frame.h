@@ -9,7 +9,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/meters/display.h"
 
-namespace lightcal::ut382 {
+namespace lightcal::devices::ut382 {
 
 // 30 bytes 3n, carriage return, line feed. A further byte, whose meaning nobody knows, follows each
 // frame and is left to the search for the next one.
@@ -30,4 +30,4 @@ struct Display {
 // unit).
 [[nodiscard]] Result<Display> DecodeDisplay(std::span<const std::byte> bytes);
 
-}  // namespace lightcal::ut382
+}  // namespace lightcal::devices::ut382

@@ -2,7 +2,7 @@
 #include "lightcal_devices/meters/display_meter.h"
 #include "lightcal_devices/meters/ut382/frame.h"
 
-namespace lightcal::ut382 {
+namespace lightcal::devices::ut382 {
 namespace {
 
 constexpr DisplayLimits kLimits{.sigma_relative = 0.05, .highest_lx = 20000.0};
@@ -40,4 +40,4 @@ constexpr DisplayProtocol kProtocol{
     .most_frames = 16,  // 2 s
     .reading = ReadingFrom};
 
-}  // namespace lightcal::ut382
+}  // namespace lightcal::devices::ut382

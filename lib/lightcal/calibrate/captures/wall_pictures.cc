@@ -170,7 +170,6 @@ Result<WallPicture> ReadWallPicture(const Session& session, const CaptureDescrip
                         first.white_luminance.has_value();
   // In cd/m^2 already: how long it was exposed does not matter.
   if (absolute) return FromAbsolutePicture(session, capture, first, sources, evidence);
-  evidence.AddWarnings(bracket->warnings);
   return FromBracket(session, capture, *bracket, sources, evidence);
 }
 

@@ -12,12 +12,13 @@ namespace {
 
 constexpr double kNearTop = 0.998;  // of the top code: saturated
 
-struct Place {
+struct PicturePoint {
   double x = 0.0, y = 0.0;
 };
 
 // Pixel coordinates, y down, of a point in front of the camera.
-std::optional<Place> Projected(const CheckedRig& rig, const Vec3& point, int width, int height) {
+std::optional<PicturePoint> Projected(const CheckedRig& rig, const Vec3& point, int width,
+                                      int height) {
   const Vec3 view = rig.target_m - rig.camera_m;
   const Vec3 ahead = view * (1.0 / Length(view));
   const Vec3 right = Cross(ahead, rig.up);
@@ -25,15 +26,15 @@ std::optional<Place> Projected(const CheckedRig& rig, const Vec3& point, int wid
   const double depth = Dot(to, ahead);
   if (!(depth > 0.0)) return std::nullopt;
   const double focal = height / 2.0 / std::tan(rig.vertical_fov_rad / 2.0);
-  return Place{width / 2.0 + focal * Dot(to, right) / depth,
-               height / 2.0 - focal * Dot(to, rig.up) / depth};
+  return PicturePoint{width / 2.0 + focal * Dot(to, right) / depth,
+                      height / 2.0 - focal * Dot(to, rig.up) / depth};
 }
 
-bool Inside(const std::array<Place, 4>& quad, double x, double y) {
+bool Inside(const std::array<PicturePoint, 4>& quad, double x, double y) {
   int left = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Place& a = quad[i];
-    const Place& b = quad[(i + 1) % 4];
+    const PicturePoint& a = quad[i];
+    const PicturePoint& b = quad[(i + 1) % 4];
     left += (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) > 0.0 ? 1 : 0;
   }
   return left == 0 || left == 4;
@@ -67,11 +68,11 @@ Sampler SamplerOf(const Frame& picture) {
   return sampler;
 }
 
-CardPixels MeanOver(const Sampler& sampler, const std::array<Place, 4>& quad, int width,
+CardPixels MeanOver(const Sampler& sampler, const std::array<PicturePoint, 4>& quad, int width,
                     int height) {
   CardPixels card;
   double low_x = quad[0].x, high_x = quad[0].x, low_y = quad[0].y, high_y = quad[0].y;
-  for (const Place& p : quad) {
+  for (const PicturePoint& p : quad) {
     low_x = std::min(low_x, p.x);
     high_x = std::max(high_x, p.x);
     low_y = std::min(low_y, p.y);
@@ -116,7 +117,7 @@ Result<std::array<CardPixels, 2>> MeasureCards(const Frame& picture, const Check
   const Sampler sampler = SamplerOf(picture);
   std::array<CardPixels, 2> cards;
   for (std::size_t i = 0; i < 2; ++i) {
-    std::array<Place, 4> quad;
+    std::array<PicturePoint, 4> quad;
     for (std::size_t k = 0; k < 4; ++k) {
       const auto place = Projected(rig, rig.cards[i].inner_m[k], width, height);
       if (!place || place->x < 0.0 || place->y < 0.0 || place->x > width || place->y > height) {

@@ -8,8 +8,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double Clamp01(double v) { return std::clamp(v, 0.0, 1.0); }
 
 double SmoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
@@ -54,7 +52,7 @@ double FlatLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
     }
   }
   // The squares inside a circle are not quite its area.
-  const double whole = light.round ? kPi / 4.0 * kPieces * kPieces / inside : 1.0;
+  const double whole = light.round ? std::numbers::pi / 4.0 * kPieces * kPieces / inside : 1.0;
   return light.emitted * area * whole * sum;
 }
 
@@ -63,12 +61,12 @@ double TubeLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
   constexpr int kPieces = 64;
   const Vec3 side = Cross(light.x, light.y);
   const double radius = light.height_m / 2.0;
-  const double area = light.width_m / kPieces * 2.0 * kPi * radius / kPieces;
+  const double area = light.width_m / kPieces * 2.0 * std::numbers::pi * radius / kPieces;
   double sum = 0.0;
   for (int i = 0; i < kPieces; ++i) {
     const Vec3 centre = light.position_m + light.x * (((i + 0.5) / kPieces - 0.5) * light.width_m);
     for (int j = 0; j < kPieces; ++j) {
-      const double turn = 2.0 * kPi * (j + 0.5) / kPieces;
+      const double turn = 2.0 * std::numbers::pi * (j + 0.5) / kPieces;
       const Vec3 outward = light.y * std::cos(turn) + side * std::sin(turn);
       const Vec3 to = point - (centre + outward * radius);
       const double d2 = Dot(to, to);
@@ -81,7 +79,7 @@ double TubeLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
 }  // namespace
 
 double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
-  if (light.kind == EngineLightKind::kDome) return kPi * light.emitted;
+  if (light.kind == EngineLightKind::kDome) return std::numbers::pi * light.emitted;
   if (light.kind == EngineLightKind::kSun) {
     return light.emitted * std::max(0.0, -Dot(light.aim, normal));
   }

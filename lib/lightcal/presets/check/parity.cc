@@ -15,20 +15,20 @@ namespace lightcal {
 namespace {
 
 // Where the lamp is compared.
-struct Place {
+struct ParityPlace {
   double distance_m = 0.0;    // from the reference point; 0 at infinity
   double separation_m = 1.0;  // from the effective source
   double lux = 0.0;           // of the lamp alone
   double axial_part = 1.0;    // intensity on the axis over that of the peak
 };
 
-std::optional<Place> PlaceOf(const FittedLight& lamp) {
+std::optional<ParityPlace> PlaceOf(const FittedLight& lamp) {
   if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) {
     if (!lamp.illuminance_lx || !(lamp.illuminance_lx->value > 0.0)) return std::nullopt;
-    return Place{.distance_m = 0.0,
-                 .separation_m = 1.0,
-                 .lux = lamp.illuminance_lx->value,
-                 .axial_part = 1.0};
+    return ParityPlace{.distance_m = 0.0,
+                       .separation_m = 1.0,
+                       .lux = lamp.illuminance_lx->value,
+                       .axial_part = 1.0};
   }
   LightFile alone;
   alone.lights = {lamp};
@@ -37,10 +37,10 @@ std::optional<Place> PlaceOf(const FittedLight& lamp) {
   const auto curve = LightCurve::Of(lamp);
   if (!punctual || !curve) return std::nullopt;
   const Rig rig = BuildRig(alone, *punctual);
-  Place place{.distance_m = rig.distance.value(),
-              .separation_m = rig.separation.value(),
-              .lux = 0.0,
-              .axial_part = 1.0};
+  ParityPlace place{.distance_m = rig.distance.value(),
+                    .separation_m = rig.separation.value(),
+                    .lux = 0.0,
+                    .axial_part = 1.0};
   if (lamp.distribution) {
     const IntensityTable& table = lamp.distribution->table;
     place.axial_part = table.Towards({0.0, 0.0, -1.0}) / table.peak().intensity;
@@ -62,7 +62,7 @@ std::string InverseSquare(double range_m) {
   return "1/d², range " + RoundedText(range_m, 3) + " m";
 }
 
-std::optional<Lit> LitBy(const Emission& emission, const Place& place) {
+std::optional<Lit> LitBy(const Emission& emission, const ParityPlace& place) {
   if (emission.lux) return Lit{*emission.lux, "no falloff"};
   if (!emission.candela) return std::nullopt;
   const double d = place.separation_m;
@@ -76,7 +76,7 @@ std::optional<Lit> LitBy(const Emission& emission, const Place& place) {
 }
 
 // The light of a file that was read back, seen from the place on its own axis.
-std::optional<Lit> LitBy(const EngineLight& light, const Place& place) {
+std::optional<Lit> LitBy(const EngineLight& light, const ParityPlace& place) {
   const Vec3 point = light.position_m + light.aim * place.separation_m;
   const double lux = LuxAt(light, point, light.aim * -1.0);
   switch (light.kind) {
@@ -94,7 +94,7 @@ std::optional<Lit> LitBy(const EngineLight& light, const Place& place) {
 }
 
 std::optional<Lit> LitIn(const EngineExport& exported, std::size_t index, const FittedLight& lamp,
-                         const Place& place) {
+                         const ParityPlace& place) {
   if (EmissionLaw* emission = exported.engine->emission) {
     return LitBy(emission(exported.derived[index], lamp.kind, place.axial_part), place);
   }

@@ -11,7 +11,6 @@ namespace lightcal {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kPi = std::numbers::pi;
 
 EngineLight FromBlender(const Json& json, double lumens_per_watt) {
   EngineLight light;
@@ -31,7 +30,7 @@ EngineLight FromBlender(const Json& json, double lumens_per_watt) {
   light.position_m = VecFrom(json.at("position_m"));
   light.x = x;
   light.y = up;
-  light.emitted = watts * lumens_per_watt / (4.0 * kPi);
+  light.emitted = watts * lumens_per_watt / (4.0 * std::numbers::pi);
   if (type == "SUN") {
     light.kind = EngineLightKind::kSun;
     light.emitted = watts * lumens_per_watt;
@@ -40,8 +39,9 @@ EngineLight FromBlender(const Json& json, double lumens_per_watt) {
     light.round = json.at("shape").get<std::string>() == "DISK";
     light.width_m = json.at("size_m").at(0).get<double>();
     light.height_m = light.round ? light.width_m : json.at("size_m").at(1).get<double>();
-    const double area = light.width_m * light.height_m * (light.round ? kPi / 4.0 : 1.0);
-    light.emitted = watts * lumens_per_watt / (kPi * area);
+    const double area =
+        light.width_m * light.height_m * (light.round ? std::numbers::pi / 4.0 : 1.0);
+    light.emitted = watts * lumens_per_watt / (std::numbers::pi * area);
   } else if (type == "SPOT") {
     light.kind = EngineLightKind::kSpot;
     light.law = ConeLaw::kSmooth;

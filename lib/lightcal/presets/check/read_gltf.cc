@@ -10,7 +10,6 @@ namespace lightcal {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kPi = std::numbers::pi;
 
 Vec3 Rotated(const Json& q, const Vec3& v) {
   const Vec3 axis = {q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>()};
@@ -32,7 +31,7 @@ EngineLight FromGltf(const Json& node, const Json& definition) {
   if (type == "spot") {
     const Json spot = definition.value("spot", Json::object());
     light.inner_rad = spot.value("innerConeAngle", 0.0);
-    light.outer_rad = spot.value("outerConeAngle", kPi / 4.0);
+    light.outer_rad = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   }
   if (node.contains("translation")) light.position_m = FromYUp(VecFrom(node["translation"]));
   const Vec3 ahead = {0.0, 0.0, -1.0};

@@ -16,8 +16,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Section {
   std::string kind, type, name;  // "node", "OmniLight3D", "key"
   std::map<std::string, std::string> values;
@@ -145,17 +143,17 @@ EngineLight FromNode(const Section& node) {
   }
   const double lumens = node.Number("light_intensity_lumens", 1000.0) * scale;
   if (node.type == "OmniLight3D") {
-    light.emitted = lumens / (4.0 * kPi);
+    light.emitted = lumens / (4.0 * std::numbers::pi);
     light.range_m = node.Number("omni_range", 5.0);
     light.decay = node.Number("omni_attenuation", 1.0);
     return light;
   }
   light.kind = EngineLightKind::kSpot;
   light.law = ConeLaw::kPower;
-  light.emitted = lumens / kPi;
+  light.emitted = lumens / std::numbers::pi;
   light.range_m = node.Number("spot_range", 5.0);
   light.decay = node.Number("spot_attenuation", 1.0);
-  light.outer_rad = node.Number("spot_angle", 45.0) * kPi / 180.0;
+  light.outer_rad = node.Number("spot_angle", 45.0) * std::numbers::pi / 180.0;
   light.cone_power = 1.0 / node.Positive("spot_angle_attenuation", 1.0);
   return light;
 }

@@ -10,7 +10,6 @@ namespace lightcal {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kPi = std::numbers::pi;
 
 EngineLight FromPreset(const Json& json) {
   EngineLight light;
@@ -29,8 +28,9 @@ EngineLight FromPreset(const Json& json) {
   }
   if (kind == "dome") {
     light.kind = EngineLightKind::kDome;
-    light.emitted = photometry.contains("luminance_nits") ? value("luminance_nits")
-                                                          : value("illuminance_lx") / kPi;
+    light.emitted = photometry.contains("luminance_nits")
+                        ? value("luminance_nits")
+                        : value("illuminance_lx") / std::numbers::pi;
     return light;
   }
   light.emitted = value("intensity_cd");
@@ -44,8 +44,8 @@ EngineLight FromPreset(const Json& json) {
   }
   if (kind == "spot" && geometry.contains("outer_deg")) {
     light.kind = EngineLightKind::kSpot;
-    light.outer_rad = geometry["outer_deg"].get<double>() * kPi / 180.0;
-    light.inner_rad = geometry.value("inner_deg", 0.0) * kPi / 180.0;
+    light.outer_rad = geometry["outer_deg"].get<double>() * std::numbers::pi / 180.0;
+    light.inner_rad = geometry.value("inner_deg", 0.0) * std::numbers::pi / 180.0;
   }
   return light;
 }

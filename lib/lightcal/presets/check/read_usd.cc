@@ -15,8 +15,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Prim {
   std::string type, name;
   std::map<std::string, std::string> values;  // "inputs:radius" -> "0.5"; metadata, too
@@ -90,7 +88,7 @@ double LuminanceOf(const Prim& prim) {
 }
 
 // Over the area where the light's power is normalised by it.
-double Nits(const Prim& prim, double area_m2) {
+double UsdNits(const Prim& prim, double area_m2) {
   if (!prim.On("inputs:normalize")) return LuminanceOf(prim);
   return LuminanceOf(prim) / Above0(prim.name + ": its area", area_m2);
 }
@@ -108,7 +106,7 @@ void Place(const Prim& prim, EngineLight& light) {
 
 void FromSphere(const Prim& prim, const FileText& beside, EngineLight& light) {
   const double r = prim.Number("inputs:radius", 0.5);
-  light.emitted = Nits(prim, 4.0 * kPi * r * r) * kPi * r * r;
+  light.emitted = UsdNits(prim, 4.0 * std::numbers::pi * r * r) * std::numbers::pi * r * r;
   if (const std::string& file = prim.Text("inputs:shaping:ies:file"); !file.empty()) {
     std::string name = file.substr(1, file.size() - std::min<std::size_t>(file.size(), 2));
     if (name.starts_with("./")) name.erase(0, 2);
@@ -119,7 +117,7 @@ void FromSphere(const Prim& prim, const FileText& beside, EngineLight& light) {
   if (outer >= 180.0) return;
   light.kind = EngineLightKind::kSpot;
   light.law = ConeLaw::kSmoothInAngle;
-  light.outer_rad = outer * kPi / 180.0;
+  light.outer_rad = outer * std::numbers::pi / 180.0;
   light.inner_rad = light.outer_rad * (1.0 - prim.Number("inputs:shaping:cone:softness", 0.0));
 }
 
@@ -127,8 +125,8 @@ void FromDistant(const Prim& prim, EngineLight& light) {
   light.kind = EngineLightKind::kSun;
   light.emitted = LuminanceOf(prim);
   if (prim.On("inputs:normalize")) return;
-  const double sine = std::sin(prim.Number("inputs:angle", 0.53) * kPi / 360.0);
-  light.emitted *= kPi * sine * sine;
+  const double sine = std::sin(prim.Number("inputs:angle", 0.53) * std::numbers::pi / 360.0);
+  light.emitted *= std::numbers::pi * sine * sine;
 }
 
 EngineLight FromPrim(const Prim& prim, const FileText& beside) {
@@ -147,14 +145,15 @@ EngineLight FromPrim(const Prim& prim, const FileText& beside) {
     light.kind = EngineLightKind::kTube;
     light.width_m = prim.Number("inputs:length", 1.0);
     light.height_m = 2.0 * prim.Number("inputs:radius", 0.5);
-    light.emitted = Nits(prim, kPi * light.height_m * light.width_m);
+    light.emitted = UsdNits(prim, std::numbers::pi * light.height_m * light.width_m);
   } else {
     light.kind = EngineLightKind::kFlat;
     light.round = prim.type == "DiskLight";
     const double diameter = 2.0 * prim.Number("inputs:radius", 0.5);
     light.width_m = light.round ? diameter : prim.Number("inputs:width", 1.0);
     light.height_m = light.round ? diameter : prim.Number("inputs:height", 1.0);
-    light.emitted = Nits(prim, light.width_m * light.height_m * (light.round ? kPi / 4.0 : 1.0));
+    light.emitted =
+        UsdNits(prim, light.width_m * light.height_m * (light.round ? std::numbers::pi / 4.0 : 1.0));
   }
   return light;
 }

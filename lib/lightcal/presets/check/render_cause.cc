@@ -12,7 +12,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kAsItShould = 0.02;   // |ln| of a factor that is nobody's mistake
 constexpr double kSameFactor = 0.025;  // |ln| between what is seen and what a mistake does
 constexpr double kSameTint = 0.03;     // largest difference of max-normalised components
@@ -143,7 +142,8 @@ std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
 // ---- the factor ----
 
 double ConeSr(double degrees) {
-  return 2.0 * kPi * (1.0 - std::cos(std::min(degrees, 90.0) * kPi / 180.0));
+  return 2.0 * std::numbers::pi *
+         (1.0 - std::cos(std::min(degrees, 90.0) * std::numbers::pi / 180.0));
 }
 
 std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
@@ -158,12 +158,14 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
        "the intensity was divided by Y although the engine's colour has luminance 1; write I",
        1 / y},
       {"times_pi",
-       "pi too much: an irradiance or flux factor; a white card under E lx is E/pi nits", kPi},
+       "pi too much: an irradiance or flux factor; a white card under E lx is E/pi nits",
+       std::numbers::pi},
       {"over_pi", "pi too little: a Lambert 1/pi is applied twice, or a flux was taken for pi I",
-       1 / kPi},
-      {"lumens_as_candela", "lumens were written where the engine takes candela (x 4 pi)", 4 * kPi},
+       1 / std::numbers::pi},
+      {"lumens_as_candela", "lumens were written where the engine takes candela (x 4 pi)",
+       4 * std::numbers::pi},
       {"candela_as_lumens", "candela were written where the engine takes lumens (/ 4 pi)",
-       1 / (4 * kPi)},
+       1 / (4 * std::numbers::pi)},
       {"lumens_per_watt_683_for_177", "683 lm/W where the IES node counts 177.83: write 177.83/683",
        683.0 / 177.83},
       {"lumens_per_watt_177_for_683",
@@ -172,9 +174,10 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
       {"over_683",
        "the picture is in watts (Blender EXR): give {render.engine} blender, or multiply by 683",
        1.0 / 683.0},
-      {"area_factor", "an area light's factor: pi L A from Blender 4.0 on, 4 L A before", 4 / kPi},
+      {"area_factor", "an area light's factor: pi L A from Blender 4.0 on, 4 L A before",
+       4 / std::numbers::pi},
       {"area_factor", "an area light's factor: 4 L A before Blender 4.0, pi L A from it on",
-       kPi / 4},
+       std::numbers::pi / 4},
       {"diameter_for_radius", "a radius was given as a diameter, or a diameter as a radius", 4.0},
       {"diameter_for_radius", "a diameter was given as a radius, or a radius as a diameter", 0.25},
       {"centimetres", "centimetres and metres are mixed: 1 cd/cm2 = 10^4 cd/m2", 1e4},
@@ -214,7 +217,7 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
     list.push_back({"spot_lumens",
                     "the engine's spot lumens are pi I or 4 pi I, whatever the cone; "
                     "write candela",
-                    own / kPi});
+                    own / std::numbers::pi});
   }
   return list;
 }
@@ -256,7 +259,7 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
                    "both cards are clipped; lock the rig's exposure, or render to EXR");
   }
   RenderVerdict verdict;
-  const double lux_per_pixel = kPi / ScaleOf(rig, unit);
+  const double lux_per_pixel = std::numbers::pi / ScaleOf(rig, unit);
   verdict.expected_lx = (rig.cards[0].expected_lx + rig.cards[1].expected_lx) / 2.0;
   verdict.lux = Rec709Luminance(*white) * lux_per_pixel;
   for (std::size_t i = 0; i < 2; ++i) {
