@@ -58,28 +58,28 @@ Believed FromApex(double apex, const Scale& scale) {
 Believed Believe(std::optional<double> written_label, std::optional<double> written_apex,
                  const Scale& scale, const std::string& subject, Warnings& warnings) {
   const std::optional<double> label = Plausible(written_label, scale.range);
-  std::optional<double> apex = written_apex;
+  const double apex = written_apex.value_or(0.0);
+  const bool has_apex = written_apex && Plausible(scale.from_stops(apex), scale.range);
   // 0 is what programs write that know nothing: believed only beside a label that agrees.
-  const bool apex_is_default = apex && *apex == 0.0;
-  if (apex && !Plausible(scale.from_stops(*apex), scale.range)) apex.reset();
-  if (!label) return apex && !apex_is_default ? FromApex(*apex, scale) : Believed{};
+  const bool apex_is_default = has_apex && apex == 0.0;
+  if (!label) return has_apex && !apex_is_default ? FromApex(apex, scale) : Believed{};
 
   const double label_stops = scale.stops(*label);
-  const double apart = apex ? std::abs(*apex - label_stops) : 0.0;
-  if (!apex || (apex_is_default && apart > kLabelsStrayStops)) return FromLabel(*label, scale);
+  const double apart = has_apex ? std::abs(apex - label_stops) : 0.0;
+  if (!has_apex || (apex_is_default && apart > kLabelsStrayStops)) return FromLabel(*label, scale);
   if (apart > kLabelsStrayStops) {
     warnings.push_back({"exposure_tags_disagree", subject,
                         std::string("its two tags of the ") + scale.name + " say " +
                             RoundedText(*label, 4) + " and " +
-                            RoundedText(scale.from_stops(*apex), 4) +
+                            RoundedText(scale.from_stops(apex), 4) +
                             "; neither is believed: give it with the session or the command line"});
     return {};
   }
-  if (const auto on_grid = ApexOnGrid(*apex)) {
+  if (const auto on_grid = ApexOnGrid(apex)) {
     return {scale.from_stops(*on_grid), std::abs(*on_grid - label_stops) > 1e-4};
   }
   if (apart < kSameNumberStops) return FromLabel(*label, scale);
-  return {scale.from_stops(*apex), false};
+  return {scale.from_stops(apex), false};
 }
 
 // A shutter angle is exact where times are labels: 172.8 degrees at 24 frames a second are 1/50 s.
