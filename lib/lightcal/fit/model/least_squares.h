@@ -138,6 +138,8 @@ template <class P>
     Hold(at.normal, k);
     at.gradient[k] = 0.0;
   }
+  // A parameter that no row and no prior knows here has no step.
+  if (!(at.normal.diagonal().minCoeff() > 0.0)) return theta;
   const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
   const SquareOf<P> scaled = scale.asDiagonal() * at.normal * scale.asDiagonal();
   const VectorOf<P> step =
