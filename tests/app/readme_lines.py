@@ -85,7 +85,7 @@ def main():
                 line = line.replace("out/light.json", "desk_lamp/out/light.json")
             done = subprocess.run(
                 ["/bin/sh", "-c", line], cwd=home, env=environment, stdin=subprocess.DEVNULL,
-                capture_output=True, text=True, timeout=60, check=False,
+                capture_output=True, text=True, timeout=300, check=False,
             )
             if done.returncode != 0:
                 failures.append(f"{line}\n  exit {done.returncode}: {done.stderr.strip()}")
