@@ -123,9 +123,4 @@ Result<double> ParseTolerance(const std::string& text) {
   return tolerance;
 }
 
-Result<double> SigmaOfMakersFigure(const std::string& text) {
-  constexpr double kSigmas = 2.0;
-  return ParseTolerance(text).map([](double figure) { return figure / kSigmas; });
-}
-
 }  // namespace lightcal::app

@@ -50,7 +50,4 @@ void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options);
 // "1%" or "0.01" -> 0.01.
 [[nodiscard]] Result<double> ParseTolerance(const std::string& text);
 
-// What a maker says of a meter, "3%", as 1 sigma, 0.015: a maker's figure is taken to hold in 95 %.
-[[nodiscard]] Result<double> SigmaOfMakersFigure(const std::string& text);
-
 }  // namespace lightcal::app

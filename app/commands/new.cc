@@ -99,7 +99,8 @@ Run BuildNew(CLI::App& parser) {
   parser.add_option("--accuracy", flags.accuracy,
                     "Of a meter that is typed, as its maker says, taken as 95 %: 3% [asked; 10%]");
   parser.add_option("--to", flags.targets, "Engines: gltf,blender or all [asked; all]");
-  parser.add_option("--room", flags.room, "Width, depth, height in metres: 5,4,2.6 [asked]");
+  parser.add_option("--room", flags.room,
+                    "Width, depth, height in metres: 5,4,2.6, or dark or outdoors [asked]");
   parser.add_option("--reflectance", flags.reflectance, "Of the room's walls [asked; 0.5]");
   parser.add_flag("-y,--yes", options->yes, "Ask nothing: what no flag says takes its default");
   parser.add_flag("--force", options->force, "Write the session.toml anew where there is one");

@@ -2,6 +2,7 @@
 // lightcal quick: no session needed. Typed readings or a data sheet's figures become a session in
 // memory and go through the same fit.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 
@@ -17,6 +18,7 @@
 #include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -25,7 +27,7 @@ struct QuickOptions {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
-  std::string cct, diameter, meter, sigma, beam, field, lumens, watts, inner, outer;
+  std::string cct, diameter, fixture, room, meter, sigma, beam, field, lumens, watts, inner, outer;
   std::vector<std::string> predict_at;
   std::vector<std::string> targets;
   std::string output = "lightcal-quick";
@@ -35,29 +37,6 @@ struct QuickOptions {
   bool plan = false;
   MinutesOptions minutes;
 };
-
-// "192lx@0.5m" -> a reading.
-Result<Reading> ParseTypedReading(const std::string& text, const std::string& light) {
-  const auto at = text.find('@');
-  if (at == std::string::npos) {
-    return WrongUsage(text, "a reading is written ILLUMINANCE@DISTANCE, for example 192lx@0.5m");
-  }
-  const auto illuminance = ParseIlluminance(text.substr(0, at));
-  if (!illuminance) return tl::unexpected(illuminance.error());
-  const auto distance = ParseLength(text.substr(at + 1));
-  if (!distance) return tl::unexpected(distance.error());
-  if (distance->value() <= 0.0) {
-    return Refused("bad_reading", text, "the distance must be above zero");
-  }
-  if (illuminance->value() < 0.0) {
-    return Refused("bad_reading", text, "an illuminance cannot be negative");
-  }
-  Reading reading;
-  reading.light = light;
-  reading.illuminance = *illuminance;
-  reading.distance = *distance;
-  return reading;
-}
 
 // Fills an optional quantity from an option's text; an empty text leaves it absent.
 template <class Unit, class Parse>
@@ -95,6 +74,10 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
   const auto known = LightKindFromName(kind);
   if (!known) return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk or directional");
   light.kind = *known;
+  const auto fixture = std::ranges::find(kFixtureNames, options.fixture);
+  if (fixture != kFixtureNames.end()) {
+    light.fixture = static_cast<Fixture>(fixture - kFixtureNames.begin());
+  }
   std::optional<Radians> inner = std::nullopt;
   std::optional<Radians> outer = std::nullopt;
   for (const Result<void>& filled :
@@ -115,11 +98,15 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
 
 constexpr const char* kQuickMeter = "meter";
 
+bool IsLit(const Reading& reading) {
+  return reading.lamp == LampState::kOn && !reading.shadow_card;
+}
+
 // 1 sigma of a reading as it was typed, or by what the meter's maker says; absent where neither is.
 Result<std::optional<double>> SigmaAsked(const QuickOptions& options) {
   if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
   const auto sigma =
-      options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMakersFigure(options.meter);
+      options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMeter(options.meter);
   if (!sigma) return tl::unexpected(sigma.error());
   return *sigma;
 }
@@ -133,15 +120,17 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
   const auto sigma = SigmaAsked(options);
   if (!sigma) return tl::unexpected(sigma.error());
   for (const std::string& text : options.readings) {
-    auto reading = ParseTypedReading(text, options.name);
-    if (!reading) return Propagate(std::move(reading));
-    reading->cct = cct;
-    if (options.meter.empty()) {
-      reading->sigma_relative = *sigma;
-    } else {
-      reading->meter = kQuickMeter;
+    auto typed = ParseTypedReading(text, options.name);
+    if (!typed) return Propagate(std::move(typed));
+    for (Reading& reading : *typed) {
+      if (IsLit(reading) && !reading.cct) reading.cct = cct;
+      if (options.meter.empty()) {
+        reading.sigma_relative = *sigma;
+      } else {
+        reading.meter = kQuickMeter;
+      }
+      session.readings.push_back({std::move(reading), text});
     }
-    session.readings.push_back({std::move(*reading), text});
   }
   if (options.readings.empty() && cct) {
     Reading color_only;
@@ -175,6 +164,9 @@ Result<Session> SessionFromOptions(const QuickOptions& options) {
   session.stem = options.name;
   session.directory = ".";
   session.lights.push_back(std::move(*light));
+  if (!options.room.empty()) {
+    if (auto set = SetRoom(options.room, session); !set) return Propagate(std::move(set));
+  }
   if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
   if (auto added = AddMeter(session, options); !added) return Propagate(std::move(added));
   return session;
@@ -307,11 +299,20 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
 Run BuildQuick(CLI::App& parser) {
   auto options = std::make_shared<QuickOptions>();
   parser.add_option("readings", options->readings,
-                    "What the meter showed and where: 192lx@0.5m, 17.8fc@20in ...");
+                    "What the meter showed and where: 192lx@0.5m, 17.8fc@20in; with a shadow card "
+                    "52lx@1m,card=5lx, with the lamp off ,off=2lx");
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();
   parser.add_option("--kind", options->kind, "What shines [point; spot with --beam]")
       ->check(OneOf(kQuickKinds));
   parser.add_option("--cct", options->cct, "Colour temperature, e.g. 2900K");
+  parser
+      .add_option("--fixture", options->fixture,
+                  "How the lamp is built: where its light starts, how wide it shines")
+      ->check(OneOf(kFixtureNames));
+  parser.add_option(
+      "--room", options->room,
+      "Where it stands: 5,4,2.6 in metres (and ,0.7 for the walls' reflectance), dark "
+      "or outdoors [an ordinary room]");
   parser.add_option("--diameter", options->diameter, "Of a sphere or disk, e.g. 6cm");
   parser.add_option("--inner", options->inner, "Half angle where the spot starts to fall off");
   parser.add_option("--outer", options->outer, "Half angle where the spot ends");
@@ -320,8 +321,8 @@ Run BuildQuick(CLI::App& parser) {
       parser.add_option("--sigma", options->sigma, "1 sigma of a reading, e.g. 3% [5%]");
   parser
       .add_option("--meter", options->meter,
-                  "What its maker says of the meter, e.g. 3%: taken as 95 %, so half of it is 1 "
-                  "sigma, and shared by all readings as a meter's are")
+                  "phone, hobby or lab, or what its maker says of the meter, e.g. 3%: taken as 95 "
+                  "%, and shared by all readings as a meter's error is")
       ->excludes(sigma);
   parser.add_option("--lumens", options->lumens, "Data sheet: luminous flux, e.g. 806");
   parser.add_option("--beam", options->beam, "Data sheet: full beam angle (50 % of the peak)");

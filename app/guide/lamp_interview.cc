@@ -14,6 +14,7 @@
 #include "lightcal/presets/preset_table.h"
 #include "lightcal_devices/meters/find_meters.h"
 #include "simulate/map_plane.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -221,7 +222,9 @@ class Interview {
 
   Result<void> AskSides() {
     std::vector<double> sides;
-    const auto parse = [](const std::string& text) {
+    const auto parse = [this](const std::string& text) -> Result<std::vector<double>> {
+      session_.surroundings = text == "dark" || text == "outdoors" ? text : "";
+      if (!session_.surroundings.empty()) return std::vector<double>{};
       return ParseSides(text, 2, "WIDTHxHEIGHT, for example 120x60cm");
     };
     auto taken = Take(sides, {"--size", "Its width and height, for example 120x60cm:", ""},
@@ -294,7 +297,7 @@ class Interview {
     return Take(
         session_.meter_sigma_relative,
         {"--accuracy", "How far may it be off, as its data sheet says, for example 3%?", "10%"},
-        flags_.accuracy, SigmaOfMakersFigure);
+        flags_.accuracy, SigmaOfMeter);
   }
 
   Result<void> AskTargets() {
@@ -309,11 +312,12 @@ class Interview {
     const auto parse = [](const std::string& text) {
       return ParseSides(text, 3, "WIDTH,DEPTH,HEIGHT, for example 5,4,2.6 (metres)");
     };
-    auto taken =
-        Take(sides,
-             {"--room", "The room's width, depth, height in metres, for example 5,4,2.6:", "",
-              "Its walls send light back to the meter; the size bounds how much.\n"},
-             flags_.room, parse);
+    auto taken = Take(
+        sides,
+        {"--room",
+         "The room's width, depth, height in metres, for example 5,4,2.6 (or dark, outdoors):", "",
+         "Its walls send light back to the meter; the size bounds how much.\n"},
+        flags_.room, parse);
     if (!taken) return taken;
     if (sides.empty()) {
       if (!flags_.reflectance) return {};

@@ -33,8 +33,14 @@ std::string LineIf(const std::string& key, const std::optional<Quantity>& quanti
   return quantity ? TomlLine(key, ShortestText(quantity->value()), comment) : "";
 }
 
-std::string RoomText(const std::optional<Room>& room) {
-  const std::string why = "# Walls send light back to the meter; the room bounds how much.\n";
+std::string RoomText(const std::optional<Room>& room, const std::string& surroundings) {
+  const std::string why =
+      "# Walls send light back to the meter; the room bounds how much (or dark, outdoors = "
+      "true).\n";
+  if (!surroundings.empty()) {
+    return "[room]\n" + TomlLine(surroundings, "true", "nothing sends the lamp's light back") +
+           "\n";
+  }
   if (!room) {
     return why + "# [room]\n" + TomlLine("# size_m", "[5, 4, 2.6]", kRoomSize) +
            TomlLine("# reflectance", "0.5", kReflectance) + "\n";
@@ -110,8 +116,8 @@ Result<std::string> SessionText(const NewSession& session) {
       "# Readings go into readings.jsonl beside it, a line each:\n#   " +
       ReadLine(session) + "\n# Then the fit, the presets and the report, all in out/:\n#   " +
       RunLine(session) + "\nlightcal = 1\n\n";
-  text += RoomText(session.room) + LightText(session.light) + MeterText(session) +
-          BoxColorText(session);
+  text += RoomText(session.room, session.surroundings) + LightText(session.light) +
+          MeterText(session) + BoxColorText(session);
   text.pop_back();
   if (auto read_back = ParseSessionToml(text, "session.toml"); !read_back) {
     return Propagate(std::move(read_back));

@@ -20,6 +20,7 @@ struct NewSession {
   double meter_sigma_relative = 0;   // of a typed meter, 1 sigma
   std::vector<std::string> targets;  // engines; none = all of them
   std::optional<Room> room;
+  std::string surroundings{};  // "dark" or "outdoors": no walls; "" = a room
 };
 
 // The name that a typed meter has in the session.

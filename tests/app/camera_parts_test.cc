@@ -321,7 +321,7 @@ TEST_F(CameraParts, AProfileServesItsOwnCameraOnly) {
   EXPECT_EQ(RunLightcal(merge::MergeWords(files_, Out(), {"--nd", "nd3"})).exit_code, 2);
 }
 
-// A lamp of 200 cd in daylight's colour, 0.8 m from a card of 18 %.
+// A lamp of 200 cd in daylight's colour, 0.8 m from a card of 18 % and without walls.
 TEST_F(CameraParts, ACaptureByAProfiledCameraRestsOnNoPrior) {
   constexpr double kCandela = 200.0, kDistance = 0.8, kReflectance = 0.18;
   Shoot("spot", Steady(), Even(300.0));
@@ -330,7 +330,8 @@ TEST_F(CameraParts, ACaptureByAProfiledCameraRestsOnNoPrior) {
   const double nits = kCandela / (kDistance * kDistance) * kReflectance / std::numbers::pi;
   Shoot("card", Steady(4, 8.0, 31, 1.0 / 256), Even(nits));
   const std::string capture =
-      "[[light]]\nname = \"lamp\"\nkind = \"point\"\n[[capture]]\nlight = \"lamp\"\n"
+      "[room]\ndark = true\n[[light]]\nname = \"lamp\"\nkind = \"point\"\nfixture = \"bulb\"\n"
+      "[[capture]]\nlight = \"lamp\"\n"
       "frames = \"card_*.dng\"\nuse = \"card\"\nreflectance = 0.18\ndistance_m = 0.8\n"
       "camera = \"camera.json\"\n" +
       std::string(kDaylight);

@@ -132,7 +132,8 @@ def make(folder, name):
     session = pathlib.Path(folder) / name.replace(" ", "_")
     session.mkdir()
     (session / "session.toml").write_text(
-        f'lightcal = 1\nname = "{name}"\n[[light]]\nname = "lamp"\n{keys}' + "".join(
+        f'lightcal = 1\nname = "{name}"\n[room]\ndark = true\n'
+        f'[[light]]\nname = "lamp"\n{keys}' + "".join(
             f'[[reading]]\nlight = "lamp"\n{r}cct_K = 2700\nduv = 0.001\n' for r in readings))
     with open(session / "lamp.ies", "w", newline="") as ies:
         ies.write(cases.ies_text())

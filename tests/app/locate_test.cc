@@ -19,7 +19,7 @@ using nlohmann::json;
 using Point = std::array<double, 3>;
 
 constexpr const char* kHead =
-    "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+    "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
     "[[meter]]\nname = \"m\"\nsigma_relative = 0.01\n";
 
 // A meter on the floor below a point of 900 cd.

@@ -6,8 +6,8 @@ by piece (tests/tools/lamp_worlds.py).
 usage: nine_kinds.py LIGHTCAL
 
 Every session's readings hold ambient light, noise, one gain of the meter and, where given by place,
-tilt. Over all seeds each kind's intervals must hold the truth as often as 95 % intervals do; presets
-and report are there, and no NaN in any file.
+tilt; no light from walls. Over all seeds each kind's intervals must hold the truth as often as 95 %
+intervals do; presets and report are there, and no NaN in any file.
 """
 import json
 import pathlib
@@ -31,7 +31,8 @@ class World:
         self.random = np.random.default_rng(seed)
         self.folder = folder
         self.meter = Meter(self.random, REPEATABILITY, CALIBRATION)
-        self.text = 'lightcal = 1\nname = "nine kinds"\n' + self.meter.toml("m")
+        self.text = ('lightcal = 1\nname = "nine kinds"\n[room]\ndark = true\n'
+                     + self.meter.toml("m"))
         self.readings = ""
         self.truth = {}
 

@@ -33,7 +33,8 @@ class Shoot : public testing::Test {
  protected:
   Shoot() {
     folder_.Write("lamp/session.toml",
-                  "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+                  "lightcal = 1\n[room]\ndark = true\n"
+                  "[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = \"bulb\"\n");
   }
   [[nodiscard]] std::string Session() const { return folder_.path() + "/lamp"; }
   [[nodiscard]] std::string Captures(const std::string& name) const {

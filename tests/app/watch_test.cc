@@ -110,7 +110,7 @@ TEST(Watch, JsonIsOneDocumentWithTheModulation) {
 TEST(Watch, TheLampsIntensityIsFittedWithTheSessionsReadings) {
   const TempDir home;
   home.Write("s/session.toml",
-             "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+             "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
              "[[reading]]\nlight = \"key\"\ndistance_m = 0.5\nilluminance_lx = 400\n"
              "[[reading]]\nlight = \"key\"\ndistance_m = 2\nilluminance_lx = 25\n");
   const CliResult result =

@@ -123,8 +123,9 @@ class BallSession : public testing::Test {
     return toml;
   }
   CliResult Fit(const std::string& captures, const Point& lamp, const std::string& place = "") {
-    const std::string toml = "lightcal = 1\n[[light]]\nname = \"lamp\"\nkind = \"point\"\n" +
-                             place + Readings(lamp) + captures;
+    const std::string toml =
+        "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"lamp\"\nkind = \"point\"\n" +
+        place + Readings(lamp) + captures;
     return RunLightcal({"fit", folder_.Write("session.toml", toml), "-o",
                         folder_.path() + "/light.json", "--force", "--json"});
   }

@@ -19,7 +19,10 @@ using ::testing::ElementsAre;
 using ::testing::Pair;
 using ::testing::UnorderedElementsAre;
 
+// 48 cd by the inverse square: nothing sends light back.
 const char* const kTwoReadings = R"(lightcal = 1
+[room]
+dark = true
 [[light]]
 name = "key"
 kind = "point"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sessions that hold a bracket, driven as a shell would. The brackets are synthetic: a lamp of 300
-// cd and 3000 K, 0.8 m from a card of 18 %, seen by a camera 15 % less sensitive than its ISO says.
+// cd and 3000 K, 0.8 m from a card of 18 %, seen by a camera 15 % less sensitive than its ISO says;
+// no walls, and the light starts where the lamp is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -29,7 +30,9 @@ using testing::HasSubstr;
 
 constexpr double kIntensityCd = 300.0, kKelvin = 3000.0, kLux = 300.0 / (0.8 * 0.8);
 constexpr double kCameraSensitivity = 0.85;
-const std::string kHead = "lightcal = 1\n[[light]]\nname = \"lamp\"\nkind = \"point\"\n";
+const std::string kHead =
+    "lightcal = 1\n[room]\ndark = true\n"
+    "[[light]]\nname = \"lamp\"\nkind = \"point\"\nfixture = \"bulb\"\n";
 
 std::string Frames(const std::string& session) {
   return SampleData("sessions/" + session + "/captures/");

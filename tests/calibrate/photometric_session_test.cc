@@ -37,7 +37,7 @@ std::string LobeIes() {
 }
 
 std::string Toml(const std::string& rest, const std::string& kind = "photometric") {
-  return "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"" + kind +
+  return "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"" + kind +
          "\"\nposition_m = [0, 0, 3]\naim = [0, 0, -1]\n[[meter]]\nname = \"m\"\n"
          "sigma_relative = 0.02\n" +
          rest;

@@ -148,7 +148,7 @@ TEST_F(SourceSession, AnUnevenLampIsItsSum) {
   std::vector<double> sum;
   for (std::size_t i = 0; i < base.size(); ++i) sum.push_back(base[i] + more[i]);
   Shoot(sum, {1.0 / 400.0, 1.0 / 100.0});
-  const json light = Run(Toml("kind = \"point\"\n"));
+  const json light = Run(Toml("kind = \"point\"\nfixture = \"panel\"\n"));
   EXPECT_NEAR(Value(light["intensity_cd"]) / (3997.0 * pi * 0.01), 1.0, 0.015);
 }
 

@@ -135,6 +135,7 @@ double TrueLux(const AreaTwin& twin, const Vec3& meter, const Vec3& normal) {
 Session ReadAt(const AreaTwin& twin, const std::vector<Pose>& poses, double sigma,
                std::mt19937_64& random) {
   Session session;
+  session.no_walls = true;
   session.name = "twin";
   session.lights = {twin.light};
   std::normal_distribution<double> normal;

@@ -8,7 +8,7 @@
 namespace lightcal::fit {
 namespace {
 
-const Theta kTruth = {std::log(7.0), 0.05, 0.3};
+const Theta kTruth = {std::log(7.0), 0.05, 0.3, std::log(0.1), -0.8};
 
 ReadingRow RowAtTruth(ReadingRow::Form form, AxialShape shape = {}) {
   ReadingRow row;
@@ -18,7 +18,7 @@ ReadingRow RowAtTruth(ReadingRow::Form form, AxialShape shape = {}) {
   row.direct_gain = 0.8;
   row.bounce = 0.02;
   row.sigma = 0.1;
-  row.measured = RowIlluminance(row, kTruth[0], kTruth[1], kTruth[2]);
+  row.measured = RowIlluminance(row, kTruth.data());
   return row;
 }
 
@@ -57,7 +57,8 @@ TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
                                   AxialShape{AxialShape::Outline::kRect, 0.3, 0.5},
                                   AxialShape{AxialShape::Outline::kTube, 0.6, 0.0}}) {
     ReadingRow row = RowAtTruth(GetParam(), shape);
-    row.measured *= 1.2;  // away from the censored cost's kink
+    row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
+    row.measured = 1.2 * RowIlluminance(row, kTruth.data());  // away from the censored cost's kink
     const RowDerivative at = DifferentiateRow(row, kTruth);
     for (int k = 0; k < kParameters; ++k) {
       constexpr double kStep = 1e-6;
@@ -86,13 +87,13 @@ INSTANTIATE_TEST_SUITE_P(Forms, EachCost,
 TEST(LinearIlluminanceCost, KeepsTheSignOfANegativeReading) {
   ReadingRow row = RowAtTruth(ReadingRow::Form::kLinear);
   row.measured = -0.5;
-  EXPECT_NEAR(RowResidual(row, kTruth),
-              (-0.5 - RowIlluminance(row, kTruth[0], kTruth[1], kTruth[2])) / 0.1, 1e-12);
+  EXPECT_NEAR(RowResidual(row, kTruth), (-0.5 - RowIlluminance(row, kTruth.data())) / 0.1, 1e-12);
 }
 
 TEST(LogIlluminanceCost, IsUndefinedWhereTheModelIsDark) {
   ReadingRow row = RowAtTruth(ReadingRow::Form::kLog);
-  EXPECT_FALSE(std::isfinite(RowResidual(row, {kTruth[0], kTruth[1], -100.0})));
+  EXPECT_FALSE(
+      std::isfinite(RowResidual(row, {kTruth[0], kTruth[1], -100.0, kTruth[3], kTruth[4]})));
 }
 
 TEST(Prior, CountsStandardDeviationsFromItsMean) {

@@ -40,11 +40,12 @@ TEST_P(Coverage, NinetyFiveOfAHundredIntervalsHoldTheTruth) {
   for (int i = 0; i < kTwins; ++i) {
     LampTruth truth;
     truth.intensity_cd = std::exp(5.0 + 2.0 * normal(random));
-    truth.offset_m = 0.15 * kind.distances_m.front() * normal(random);
+    truth.offset_m = 0.03 * normal(random);  // a bulb's
     const double far = TrueDirect(truth, kind.distances_m.back());
     truth.ambient_lx = 2.0 * kind.ambient_share * uniform(random) * far;
     truth.bounce_lx = kind.bounce_share * far;
     TwinSession twin(truth, kind.sigma, random());
+    twin.session().lights.front().fixture = Fixture::kBulb;
     twin.On(kind.distances_m);
     for (int k = 0; k < kind.off_readings; ++k) twin.Off();
     if (kind.shadow_card) {

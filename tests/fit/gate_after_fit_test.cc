@@ -93,7 +93,7 @@ TEST(Budget, OneReadingIsItsOwnSigmaAndThePriorOfTheOffset) {
   const FittedLight light = FitOk(TypedSession({{1.0, 100.0}}, 0.05));
   ASSERT_GE(light.budget.size(), 2U);
   EXPECT_EQ(light.budget[0].name, "distance_offset");
-  EXPECT_NEAR(light.budget[0].sd_relative, 0.3, 0.01);  // 2 x 15 %
+  EXPECT_NEAR(light.budget[0].sd_relative, 0.06, 1e-3);  // twice a bulb's 3 cm, at 1 m
   EXPECT_EQ(light.budget[1].name, "readings");
   EXPECT_NEAR(light.budget[1].sd_relative, 0.05, 1e-6);
 }

@@ -15,6 +15,7 @@ TwinSession::TwinSession(const LampTruth& truth, double sigma, std::uint64_t see
   session_.name = "twin";
   session_.lights.emplace_back();
   session_.lights.back().name = "lamp";
+  session_.no_walls = true;  // a twin shines in the open
 }
 
 Reading& TwinSession::Add(double illuminance_lx) {
@@ -54,6 +55,8 @@ Session TypedSession(const std::vector<TypedReading>& readings, double sigma) {
   Session session;
   session.lights.emplace_back();
   session.lights.back().name = "lamp";
+  session.lights.back().fixture = Fixture::kBulb;
+  session.no_walls = true;
   for (const TypedReading& typed : readings) {
     SessionReading row;
     row.reading.light = "lamp";

@@ -34,6 +34,7 @@ LocatedTwin::LocatedTwin(const PlacedLamp& lamp, double sigma, std::uint64_t see
   session_.name = "located twin";
   session_.lights.emplace_back();
   session_.lights.back().name = "lamp";
+  session_.no_walls = true;
 }
 
 Reading& LocatedTwin::Add(double lux) {

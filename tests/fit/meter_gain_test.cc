@@ -86,13 +86,15 @@ TEST(MeterGain, RepeatingNeverBringsTheIntervalBelowTheCalibration) {
   EXPECT_NEAR(sd_of(1, kCalibration), apart, 0.02 * apart) << "one factor, added after the fit";
 }
 
-TEST(MeterGain, AMeterThatStatesOneSigmaSharesHalfItsVariance) {
+TEST(MeterGain, AMeterThatStatesOneSigmaSharesItWithAllItsReadings) {
   Session session = ByMeter(TwinSession(LampTruth{}, 0.01, 1).On(1.0).session(), 1.0, 0.03, 0.04);
   const Reading& reading = session.readings.front().reading;
   EXPECT_NEAR(RepeatabilityRelative(session, reading), 0.03, 1e-12);
   session.meters.front().calibration_relative.reset();
-  EXPECT_NEAR(CalibrationRelative(session, reading), 0.05 / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(RepeatabilityRelative(session, reading), 0.05 / std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(CalibrationRelative(session, reading), 0.05, 1e-12);
+  EXPECT_NEAR(RepeatabilityRelative(session, reading), 0.01, 1e-12) << "what no sigma says";
+  session.meters.front().sigma_relative = 0.002;
+  EXPECT_NEAR(RepeatabilityRelative(session, reading), 0.002, 1e-12) << "never above sigma";
   Reading own;
   own.sigma_relative = 0.02;
   EXPECT_EQ(CalibrationRelative(session, own), 0.0) << "written by hand: its own";
@@ -121,15 +123,20 @@ TEST(MeterGain, TwoMetersAverageTheirCalibrations) {
 // ---- several lamps, on and off ----
 
 constexpr const char* kThreeLamps = R"(lightcal = 1
+[room]
+dark = true
 [[light]]
 name = "key"
 kind = "point"
+fixture = "bulb"
 [[light]]
 name = "fill"
 kind = "point"
+fixture = "bulb"
 [[light]]
 name = "rim"
 kind = "point"
+fixture = "bulb"
 [[meter]]
 name = "m"
 sigma_relative = 0.0316

@@ -99,11 +99,8 @@ TEST(SpotBeam, AnOffsetAsLargeAsItsPriorStaysWithinTheIntervals) {
     AreaTwin twin = CeilingSpot(14.0, 32.0);
     twin.intensity_cd = 900.0;
     const std::vector<Pose> poses = FloorRings(twin);
-    double nearest = INFINITY;
-    for (const Pose& pose : poses) {
-      nearest = std::min(nearest, Length(pose.position - *twin.light.position_m));
-    }
-    twin.offset_m = 0.15 * nearest * normal(random);
+    const OffsetPart prior = MatchedOffset(OffsetParts(std::nullopt));
+    twin.offset_m = prior.mean_m + prior.sd_m * normal(random);
     Session session = ReadAt(twin, poses, 0.01, random);
     LightDescription& said = session.lights.front();
     const Vec3 stated = *said.aim + Vec3{0.03 * normal(random), 0.03 * normal(random), 0.0};

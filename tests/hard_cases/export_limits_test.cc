@@ -80,7 +80,7 @@ TEST(HardCaseX, X04GodotGetsTheInverseSquare) {
 }
 
 TEST(HardCaseX, X05EnginesInWattsGiveTheLuxBack) {
-  KeySession session;
+  KeySession session("point", kDarkBulb);
   const Answer fitted = session.At(0.5, 400).At(1, 100).At(2, 25).Run();
   ExpectAnswered(fitted);
   // Blender has watts, Filament lumens, glTF candela: each file read back casts the readings.

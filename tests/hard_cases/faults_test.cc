@@ -34,8 +34,10 @@ class Writers : public testing::Test {
  protected:
   void SetUp() override {
     folder_.Write("lamp/session.toml",
-                  "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n[[reading]]\n"
-                  "light = \"key\"\ndistance_m = 1.0\nilluminance_lx = 100.0\n");
+                  "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n" +
+                      std::string(kDarkBulb) +
+                      "\n[[reading]]\nlight = \"key\"\ndistance_m = 1.0\n"
+                      "illuminance_lx = 100.0\n");
     for (int i = 0; i < 8; ++i) ASSERT_EQ(RunLightcal(Read()).exit_code, 0);
     ASSERT_EQ(RunLightcal({"fit", session(), "-o", folder_.path() + "/in/light.json"}).exit_code,
               0);

@@ -39,6 +39,11 @@ void ExpectFiniteFiles(const std::string& directory);
 // The shortest text that reads back as this double; nan and inf as TOML writes them.
 std::string Text(double value);
 
+// Lines after [[light]]: readings made by the inverse square law have no walls in them; and a lamp
+// whose light starts where it is measured from, within 3 cm.
+inline constexpr const char* kDark = "[room]\ndark = true";
+inline constexpr const char* kDarkBulb = "fixture = \"bulb\"\n[room]\ndark = true";
+
 // One lamp, "key", in a session of its own folder.
 class KeySession {
  public:

@@ -32,7 +32,7 @@ double FlatLux(const Place& lamp, const Place& meter) {
 }
 
 Answer Locate(const Place& lamp, const std::vector<Place>& meters) {
-  KeySession session;
+  KeySession session("point", kDark);
   for (const Place& meter : meters) {
     session.Flat(meter, FlatLux(lamp, meter), "sigma_relative = 0.01");
   }
@@ -69,8 +69,10 @@ TEST(HardCaseG, G03ReadingsThatNoHeightExplainsAreRefused) {
 }
 
 TEST(HardCaseG, G04AMeterAtTheLampsOwnPlaceIsRejected) {
-  const Answer answer =
-      KeySession("point", "position_m = [0, 0, 1]").Flat({0, 0, 1}, 1e5).Flat({0, 0, 0}, 100).Run();
+  const Answer answer = KeySession("point", "position_m = [0, 0, 1]\n" + std::string(kDarkBulb))
+                            .Flat({0, 0, 1}, 1e5)
+                            .Flat({0, 0, 0}, 100)
+                            .Run();
   ExpectWarned(answer, "row_rejected");
   EXPECT_THAT(Rejected(answer), ElementsAre(0));
   EXPECT_NEAR(Value(answer, "intensity_cd"), 100.0, 1e-9);
@@ -105,7 +107,10 @@ TEST(HardCaseG, G17AnInnerAngleBeyondTheOuterBecomesIt) {
 }
 
 TEST(HardCaseG, G18EqualAnglesAreAHardCone) {
-  const Answer answer = KeySession("spot", "inner_deg = 35\nouter_deg = 35").At(2, 400).Run();
+  const Answer answer =
+      KeySession("spot", "inner_deg = 35\nouter_deg = 35\n" + std::string(kDarkBulb))
+          .At(2, 400)
+          .Run();
   ExpectAnswered(answer);
   EXPECT_NEAR(Value(answer, "flux_lm"), 1600.0 * SolidAngleOfCone(RadiansFromDegrees(35.0)).value(),
               1e-6);

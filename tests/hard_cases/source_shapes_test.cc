@@ -135,7 +135,7 @@ TEST(HardCaseG, G08ALineGivesLuxOfItsCandelaAndNothingOfALuminance) {
 
 TEST(HardCaseG, G08ASessionMayHoldALine) {
   for (const char* size : {"[0, 0.6]", "[0.6, 0]"}) {
-    KeySession session("rect", "size_m = " + std::string(size));
+    KeySession session("rect", "size_m = " + std::string(size) + "\n" + kDark);
     for (const double d : {0.3, 0.6, 1.2}) session.At(d, 100.0 * LineByPieces(0.6, Before(d)));
     const Answer answer = session.Run();
     ExpectWarned(answer, "substituted");  // no engine has a lamp without area

@@ -37,9 +37,11 @@ name = "all"
 [room]
 size_m = [5.0, 4.0, 2.6]
 reflectance = 0.4
+reflectance_u95 = 0.1
 [[light]]
 name = "key"
 kind = "spot"
+fixture = "fresnel"
 position_m = [0, 0, 1.2]
 aim = [0, 0, -2]
 diameter_m = 0.06
@@ -195,9 +197,18 @@ chart = "chart.csv"
 TEST(Schemas, SessionSchemaAndParserKnowTheSameKeys) {
   const TempDir dir;
   const std::string path = dir.Write("session.toml", kEveryKeySession);
-  ExpectValid("session", {"--every-key", path});
-  const auto session = ParseSessionToml(kEveryKeySession, "session.toml");
-  EXPECT_TRUE(session) << session.error().message;
+  std::vector<std::string> files = {"--every-key", path};
+  std::vector<std::string> texts = {kEveryKeySession};
+  for (const std::string none : {"dark", "outdoors"}) {  // a room of its own kind each
+    texts.push_back("lightcal = 1\n[room]\n" + none +
+                    " = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+    files.push_back(dir.Write(none + ".toml", texts.back()));
+  }
+  ExpectValid("session", files);
+  for (const std::string& text : texts) {
+    const auto session = ParseSessionToml(text, "session.toml");
+    EXPECT_TRUE(session) << session.error().message;
+  }
 }
 
 TEST(Schemas, ReadingSchemaAndWriterKnowTheSameKeys) {

@@ -4,6 +4,7 @@
 // and disks are integrated over their area.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -90,7 +91,7 @@ inline std::string Line(const std::string& key, const std::vector<double>& value
 inline std::vector<std::pair<double, double>> DarkLamp(int kind, int count, double offset,
                                                        std::string& keys) {
   constexpr double kDiameter = 0.2, kWidth = 0.6, kHeight = 0.3;
-  if (kind == 0) keys = "kind = \"point\"\n";
+  if (kind == 0) keys = "kind = \"point\"\nfixture = \"bulb\"\n";
   if (kind == 1) keys = "kind = \"disk\"\naim = [1, 0, 0]\n" + Line("diameter_m", kDiameter);
   if (kind == 2) {
     keys =
@@ -115,13 +116,13 @@ inline std::string KeysOf(const TracedRoom& room) {
     const double half = std::acos(std::pow(0.5, 1.0 / room.power));
     return "kind = \"spot\"\naim = [1, 0, 0]\n" + Line("beam_deg", 2.0 * half * 57.29577951308232);
   }
-  return "kind = \"point\"\n";
+  return "kind = \"point\"\nfixture = \"bulb\"\n";
 }
 
 }  // namespace lux_twin
 
 // 4 to 8 readings of a bulb, disk or panel in the dark, or of a bulb, panel or beam in a room, by a
-// meter of 0.5 to 5 %, half of whose variance all its readings share.
+// meter that is off by 0.5 to 5 % in all its readings and by 1 % (or less) in each.
 inline LuxTwin RandomLuxTwin(const std::vector<TracedRoom>& rooms, std::mt19937_64& random) {
   using lux_twin::Line;
   std::uniform_real_distribution<double> share(0.0, 1.0);
@@ -144,13 +145,14 @@ inline LuxTwin RandomLuxTwin(const std::vector<TracedRoom>& rooms, std::mt19937_
     keys = lux_twin::KeysOf(room);
     lux = room.lux_per_candela;
   } else {
+    twin.toml += "[room]\ndark = true\n";
     const int kind = static_cast<int>(3.0 * share(random));
     lux = lux_twin::DarkLamp(kind, 4 + static_cast<int>(5.0 * share(random)), offset, keys);
   }
   twin.toml += "[[light]]\nname = \"key\"\n" + keys + "[[meter]]\nname = \"m\"\n" +
                Line("sigma_relative", sigma);
-  const double each = sigma / std::sqrt(2.0);
-  const double gain = twin.intensity_cd * std::exp(each * normal(random));
+  const double each = std::min(0.01, sigma);
+  const double gain = twin.intensity_cd * std::exp(sigma * normal(random));
   for (const auto& [d, per_candela] : lux) {
     twin.toml += "[[reading]]\nlight = \"key\"\nmeter = \"m\"\n" + Line("distance_m", d - offset) +
                  Line("illuminance_lx", gain * per_candela * std::exp(each * normal(random)));

@@ -12,6 +12,8 @@
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/uncertainty.h"
 #include "lightcal/light/axial_shape.h"
+#include "lightcal/light/fixture.h"
+#include "lightcal/light/wall_prior.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal::fit {
@@ -26,30 +28,43 @@ struct ForwardModel {
   bool fit_offset = true;                  // false: d0 = 0, exactly
   bool fit_ambient = true;                 // false: E0 = 0, and lamp-off readings say nothing
   std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none
+  std::vector<WallHypothesis> walls;       // light from the walls, to be fitted; empty = none
+  std::vector<OffsetPart> offsets;         // of such a lamp; empty = 15 % of the shortest distance
   std::vector<Consider> considered;        // influences that widen the interval
+  bool judge_misfit = true;                // false: the rows follow a shape that was found in them
   EstimatorChoice choice{};
 };
 
-// 1 sigma of the distance offset's prior, as a fraction of the shortest distance.
+// 1 sigma of the distance offset's prior, as a fraction of the shortest distance, where nothing is
+// known of the lamp.
 inline constexpr double kOffsetPriorRelative = 0.15;
 
+struct LnInterval {
+  double low = 0.0, high = 0.0;
+};
+
 struct LightEstimate {
-  Theta theta{};  // ln I, d0, E0 in cd, m, lx
+  Theta theta{};  // ln I, d0, E0 in cd, m, lx; ln b and the slope of the walls' light
   Covariance covariance{};
   FitDiagnostics diagnostics;
   std::vector<ResidualRow> residuals;
   std::vector<VariancePart> variance_parts;  // of ln I
   bool ambient_free = false;
+  // Of several things that the lamp may be: the 95 % interval of ln I, which need not be normal.
+  std::optional<LnInterval> ln_interval;
+  std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
   std::optional<double> upper_limit;
   std::optional<SampledEstimate> sampled;  // where it was asked for
   Warnings warnings;                       // row_rejected, prior_conflict, bimodal, ...
 };
 
-// Fits E = I (cos(tilt) g(r)/r^2 + bounce) + E0, r = d + d0.
-//   d0 ~ N(0, (0.15 d_min)^2), at or above -0.9 d_min; a posterior beyond two prior standard
-//   deviations widens the prior to the offset the readings ask for, with the warning
-//   prior_conflict. E0 is 0 unless lamp-off readings or four distinct distances tell it.
+// Fits E = I (cos(tilt) g(r)/r^2 + walls) + E0, r = d + d0, walls as in light/wall_prior.h.
+//   d0 under the prior of the lamp's fixture, at or above -0.9 d_min; a posterior beyond two prior
+//   standard deviations widens the prior to the offset the readings ask for, with the warning
+//   prior_conflict. E0 is 0 unless lamp-off readings tell it, or, where no wall shines, four
+//   distinct distances. A lamp that may be several things is fitted as each of them; the answer is
+//   the mixture by their evidence: its median, its quantiles, its covariance about them.
 // Refused: no_valid_readings, over_range (no reading within the meter's range).
 [[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
                                                   const ForwardModel& model,

@@ -103,6 +103,9 @@ double Sd(const fit::Covariance& covariance, fit::Parameter k) {
   return std::sqrt(covariance[k * kParameters + k]);
 }
 
+// Parameters of which light.json keeps the covariance: ln I, d0, E0.
+constexpr int kPredicting = 3;
+
 // An interval that need not be symmetric.
 Uncertain Within(double value, double low, double high) {
   return {value, 0.5 * (high - low), low, high};
@@ -141,7 +144,10 @@ void FillParameters(const fit::LightEstimate& estimate, bool distance_law, Fitte
   }
   Uncertain main =
       UncertainFromLog(estimate.theta[kLnIntensity], Sd(estimate.covariance, kLnIntensity));
-  if (estimate.sampled) {
+  if (estimate.ln_interval) {
+    main = Within(main.value, std::exp(estimate.ln_interval->low),
+                  std::exp(estimate.ln_interval->high));
+  } else if (estimate.sampled) {
     const fit::SampledParameter& ln = estimate.sampled->parameters[kLnIntensity];
     main = Within(main.value, std::exp(ln.low), std::exp(ln.high));
   }
@@ -167,7 +173,12 @@ void FillParameters(const fit::LightEstimate& estimate, bool distance_law, Fitte
     ambient = Within(ambient.value, std::max(0.0, e0.low), e0.high);
   }
   out.ambient_lx = ambient;
-  out.covariance_lnI_d0_E0 = estimate.covariance;
+  out.covariance_lnI_d0_E0.emplace();
+  for (int i = 0; i < kPredicting; ++i) {
+    for (int j = 0; j < kPredicting; ++j) {
+      (*out.covariance_lnI_d0_E0)[i * kPredicting + j] = estimate.covariance[i * kParameters + j];
+    }
+  }
 }
 
 double LargestCalibration(const fit::Observations& observations) {
@@ -240,6 +251,33 @@ void WidenByShape(const fit::Observations& seen, fit::ForwardModel& model) {
   if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0, "finite_source"});
 }
 
+// Of a lamp whose place is sought, the light from the walls is not fitted: its prior's mean shines
+// and its spread widens the interval.
+void HoldWalls(const fit::Observations& seen, fit::ForwardModel& model) {
+  if (model.walls.empty()) return;
+  double lit = 0.0;
+  double sd = 0.0;
+  model.bounce_per_candela.clear();
+  for (const fit::Observation& o : seen.rows) {
+    double mean = 0.0;
+    double square = 0.0;
+    for (const WallHypothesis& one : model.walls) {
+      const double median = WallsPerCandela(one.prior, o.distance_m);
+      const double above = WallsPerCandela(one.prior, o.distance_m, 1.0);
+      const double variance = std::pow(std::log(above / median), 2.0);
+      mean += one.weight * median * std::exp(0.5 * variance);
+      square += one.weight * median * median * std::exp(2.0 * variance);
+    }
+    const bool counts = o.lit && o.sees_walls && !o.differenced;
+    model.bounce_per_candela.push_back(counts ? mean : 0.0);
+    if (!counts) continue;
+    lit += 1.0;
+    sd += std::sqrt(std::max(0.0, square - mean * mean));
+  }
+  if (lit > 0.0) model.considered.push_back({sd / lit, 2.0, "room_bounce"});
+  model.walls.clear();
+}
+
 // A lamp at an unknown place: found once for the gate to see its distances, and again with what the
 // gate then models.
 Result<FittedLight> FitLocated(const Session& session, const LightDescription& light,
@@ -254,6 +292,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   Result<fit::ForwardPlan> plan = fit::PlanForward(session, placed, seen, settings);
   if (!plan) return Propagate(std::move(plan));
   WidenByShape(seen, plan->model);
+  HoldWalls(seen, plan->model);
   Result<fit::LampLocation> location = fit::LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
   if (auto known = CheckKnown(location->estimate, light.name); !known) {
@@ -279,6 +318,12 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   AddDerivedQuantities(light, out);
   fit::CheckDataSheet(light, out, warnings);
   return out;
+}
+
+// A cone was found under one offset's prior, and in all its readings: the intensity keeps to both.
+void KeepToBeam(fit::ForwardModel& model) {
+  model.offsets = {MatchedOffset(model.offsets)};
+  model.judge_misfit = false;
 }
 
 Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
@@ -340,6 +385,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Result<fit::ForwardPlan> plan = fit::PlanForward(session, seen, *observations, settings);
   if (!plan) return Propagate(std::move(plan));
   const std::optional<fit::SamplingRule> sampling = SamplingOf(settings);
+  if (beam) KeepToBeam(plan->model);
   Result<fit::LightEstimate> estimate =
       fit::EstimateLight(*observations, plan->model, light.name, beam ? std::nullopt : sampling);
   if (!estimate) return Propagate(std::move(estimate));
@@ -348,6 +394,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (!again) return Propagate(std::move(again));
   if (*again) {
     plan = **std::move(again);
+    if (beam) KeepToBeam(plan->model);
     estimate =
         fit::EstimateLight(*observations, plan->model, light.name, beam ? std::nullopt : sampling);
     if (!estimate) return Propagate(std::move(estimate));

@@ -51,10 +51,10 @@ double VarianceOfLog(const FittedLight& light, const Uncertain& strength,
     return gradient[0] * gradient[0] * sd * sd;
   }
   double variance = 0.0;
-  for (int i = 0; i < fit::kParameters; ++i) {
-    for (int j = 0; j < fit::kParameters; ++j) {
-      variance +=
-          gradient[i] * gradient[j] * (*light.covariance_lnI_d0_E0)[i * fit::kParameters + j];
+  constexpr int kKept = 3;
+  for (int i = 0; i < kKept; ++i) {
+    for (int j = 0; j < kKept; ++j) {
+      variance += gradient[i] * gradient[j] * (*light.covariance_lnI_d0_E0)[i * kKept + j];
     }
   }
   return std::max(0.0, variance);

@@ -8,6 +8,8 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/axial_shape.h"
+#include "lightcal/light/fixture.h"
+#include "lightcal/light/wall_prior.h"
 #include "lightcal/photometry/light_kind.h"
 
 namespace lightcal {
@@ -92,6 +94,9 @@ struct Scene {
   int distances = 1;                    // distinct
   std::optional<double> ambient_ratio;  // lamp-off illuminance over the dimmest reading
   std::optional<RoomBox> room;
+  bool no_walls = false;              // outdoors, or draped in black
+  std::vector<WallHypothesis> walls;  // what a fit knows of their light; empty: no fit asks
+  std::vector<OffsetPart> offsets;    // where such a lamp's light starts; empty: 15 % of d
   std::optional<double> spectral_f1;  // of the worst meter that states it, fraction
   std::optional<double> cosine_f2;
   std::optional<Metres> head_radius;

@@ -67,6 +67,11 @@ class FieldReader {
     if (const auto index = TakeWord(key, words)) out = static_cast<Enum>(*index);
   }
   template <class Enum>
+  void Word(std::string_view key, std::optional<Enum>& out,
+            std::span<const std::string_view> words) {
+    if (const auto index = TakeWord(key, words)) out = static_cast<Enum>(*index);
+  }
+  template <class Enum>
   void WordUnlessFirst(std::string_view key, Enum& out, std::span<const std::string_view> words) {
     Word(key, out, words);
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 namespace lightcal {
 
@@ -21,15 +20,21 @@ double CalibrationRelative(const Session& session, const Reading& reading) {
   const bool described = meter != session.meters.end();
   if (described && meter->calibration_relative) return *meter->calibration_relative;
   const bool own = reading.sigma_relative && InstrumentOf(reading).empty();
-  return own ? 0.0 : SigmaRelative(session, reading) / std::numbers::sqrt2;
+  if (own) return 0.0;
+  const double sigma = SigmaRelative(session, reading);
+  return described ? std::min(sigma, meter->sigma_relative) : sigma;
+}
+
+double RepeatabilityBeside(double sigma, double calibration) {
+  constexpr double kRepeatability = 0.01;
+  const double square = sigma * sigma - calibration * calibration;
+  const double least = std::min(kRepeatability, sigma);
+  return std::sqrt(std::max(square, least * least));
 }
 
 double RepeatabilityRelative(const Session& session, const Reading& reading) {
-  constexpr double kLeastShare = 0.1;
-  const double sigma = SigmaRelative(session, reading);
-  const double calibration = CalibrationRelative(session, reading);
-  const double square = sigma * sigma - calibration * calibration;
-  return std::sqrt(std::max(square, kLeastShare * kLeastShare * sigma * sigma));
+  return RepeatabilityBeside(SigmaRelative(session, reading),
+                             CalibrationRelative(session, reading));
 }
 
 const std::string& InstrumentOf(const Reading& reading) {

@@ -10,6 +10,7 @@
 
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/light/fixture.h"
 #include "lightcal/light/intensity_table.h"
 #include "lightcal/photometry/light_kind.h"
 #include "lightcal/records/camera_frames.h"
@@ -21,12 +22,14 @@ namespace lightcal {
 struct Room {
   Vec3 size_m{};
   double reflectance = 0.5;
+  std::optional<double> reflectance_u95{};  // of it, absolute; absent: a fifth of it
 };
 
 // What the person says of a lamp; everything absent is fitted, defaulted or a prior, and marked so.
 struct LightDescription {
   std::string name;
   LightKind kind = LightKind::kPoint;
+  std::optional<Fixture> fixture{};
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;               // unit length after loading
   std::optional<Vec3> axis;              // of a tube's length or a rect's width, unit length
@@ -82,6 +85,7 @@ struct Session {
   std::string directory;  // base of relative paths
   std::string stem;       // the directory's name (or the .toml's stem)
   std::optional<Room> room;
+  bool no_walls = false;  // [room] outdoors or dark: nothing throws the lamp's light back
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;
   std::vector<SessionReading> readings;  // session.toml's first, then the journal's, then lit ones
@@ -95,10 +99,13 @@ struct Session {
 // The sigma a reading carries: its own, its meter's, the data sheet's, or the unnamed meter's.
 [[nodiscard]] double SigmaRelative(const Session& session, const Reading& reading);
 // Of that, what every reading of the same meter has in common: its calibration, 1 sigma, relative.
-// The meter's own calibration_relative, else sigma/sqrt(2); 0 for the data sheet and for a sigma
-// written on a reading of no named meter or device, whose error is taken as its own.
+// The meter's own calibration_relative, else all of the sigma: a meter's accuracy is a statement on
+// its scale. 0 for the data sheet and for a sigma written on a reading of no named meter or device,
+// whose error is taken as its own.
 [[nodiscard]] double CalibrationRelative(const Session& session, const Reading& reading);
-// The rest: sqrt(sigma^2 - calibration^2), at least a tenth of sigma.
+// What remains of sigma beside that calibration: sqrt(sigma^2 - calibration^2), but never less than
+// what two readings of one meter differ by: 1 %, or sigma where that is less.
+[[nodiscard]] double RepeatabilityBeside(double sigma, double calibration);
 [[nodiscard]] double RepeatabilityRelative(const Session& session, const Reading& reading);
 // The instrument a reading's calibration belongs to: its meter's name, else its device, "" =
 // unnamed.

@@ -69,7 +69,9 @@ class SessionReader {
     ReadVersion(reader);
     Session& session = out_.session;
     reader.Text("name", session.name);
-    reader.Object("room", session.room, [](FieldReader& r, Room& room) { ReadRoom(r, room); });
+    reader.Object("room", session.room,
+                  [&](FieldReader& r, Room& room) { ReadRoom(r, room, session.no_walls); });
+    if (session.no_walls) session.room.reset();
     reader.List("light", session.lights, [this](FieldReader& r, LightDescription& light) {
       ReadLight(r, light);
       CheckName(r, out_.session.lights, "light");
@@ -104,15 +106,27 @@ class SessionReader {
     }
   }
 
-  static void ReadRoom(FieldReader& reader, Room& room) {
+  static void ReadRoom(FieldReader& reader, Room& room, bool& no_walls) {
+    bool outdoors = false;
+    bool dark = false;
+    reader.Truth("outdoors", outdoors);
+    reader.Truth("dark", dark);
     reader.Array("size_m", room.size_m, kPositive);
     reader.Number("reflectance", room.reflectance, kReflectanceRule);
-    reader.Require({"size_m"});
+    reader.Number("reflectance_u95", room.reflectance_u95, kPositive);
+    no_walls = outdoors || dark;
+    if (!no_walls) return reader.Require({"size_m"});
+    for (const std::string_view key : {"size_m", "reflectance", "reflectance_u95"}) {
+      if (!reader.Has(key)) continue;
+      reader.Fail(key, std::string(key) + " describes walls, and " + (dark ? "dark" : "outdoors") +
+                           " = true says there are none; keep one");
+    }
   }
 
   void ReadLight(FieldReader& reader, LightDescription& light) {
     reader.Text("name", light.name);
     reader.Word("kind", light.kind, kLightKindNames);
+    reader.Word("fixture", light.fixture, kFixtureNames);
     reader.Array("position_m", light.position_m);
     reader.Array("aim", light.aim);
     light.aim = UnitVector(reader, "aim", light.aim);

@@ -6,7 +6,8 @@
 
 int main() {
   lightcal::Session session;
-  session.lights.push_back({.name = "key"});
+  session.no_walls = true;
+  session.lights.push_back({.name = "key", .fixture = lightcal::Fixture::kBulb});
   lightcal::Reading reading;
   reading.light = "key";
   reading.distance = lightcal::Metres(0.5);

@@ -62,8 +62,8 @@ def ies_text(axial=False):
 
 
 KINDS = {
-    'point': ('kind = "point"', 250.0),
-    'spot': ('kind = "spot"\ninner_deg = 15\nouter_deg = 25', 1250.0),
+    'point': ('kind = "point"\nfixture = "bulb"', 250.0),
+    'spot': ('kind = "spot"\nfixture = "bulb"\ninner_deg = 15\nouter_deg = 25', 1250.0),
     'sun': ('kind = "directional"', 1000.0),
     'rect': ('kind = "rect"\nsize_m = [0.6, 0.3]', 200.0),
     'ies': ('kind = "photometric"\ndistribution = "lamp.ies"', 250.0),
@@ -73,10 +73,12 @@ KINDS = {
 
 
 def session_toml(kind, color):
+    """No walls: only the lamp is rendered."""
     keys, lux = KINDS[kind]
     cct, duv = COLORS[color]
     aim = '' if kind == 'dome' else f'aim = {AIM}\nposition_m = {POSITION}\n'
-    return (f'lightcal = 1\nname = "{kind} {color}"\n[[light]]\nname = "lamp"\n{keys}\n{aim}'
+    return (f'lightcal = 1\nname = "{kind} {color}"\n[room]\ndark = true\n'
+            f'[[light]]\nname = "lamp"\n{keys}\n{aim}'
             f'[[reading]]\nlight = "lamp"\ndistance_m = {D}\nilluminance_lx = {lux}\n'
             f'cct_K = {cct}\nduv = {duv}\n')
 

@@ -42,7 +42,7 @@ class TinyUsdz(unittest.TestCase):
     def test_its_own_dump_of_the_layer_gives_the_same_residuals(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "session.toml"), "w") as out:
-                out.write('lightcal = 1\nname = "two"\n')
+                out.write('lightcal = 1\nname = "two"\n[room]\ndark = true\n')
                 for name, keys in (("key", 'kind = "spot"\ninner_deg = 15\nouter_deg = 25\n'),
                                    ("fill", 'kind = "rect"\nsize_m = [0.6, 0.3]\n')):
                     out.write('[[light]]\nname = "%s"\n%sposition_m = [1, 2, 3]\naim = [0, 0.6, -0.8]\n'

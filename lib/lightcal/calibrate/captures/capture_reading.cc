@@ -114,7 +114,9 @@ Nits AnchorLuminance(const CaptureDescription& capture) {
 double AnchorSigma(const Session& session, const CaptureDescription& capture) {
   Reading anchor;
   anchor.meter = capture.meter;
-  return SigmaRelative(session, anchor);
+  const double sigma = SigmaRelative(session, anchor);
+  const double calibration = CalibrationRelative(session, anchor);
+  return std::hypot(calibration, RepeatabilityBeside(sigma, calibration));
 }
 
 Rgb RgbAt(const MergedBracket& merged, std::size_t pixel) {

@@ -96,7 +96,8 @@ Beam BeamOf(const Observations& observations, const LightDescription& light) {
   }
   const double aim_sd = light.aim ? std::tan(RadiansFromDegrees(kAimSigmaDegrees).value()) : 0.0;
   beam.rules[kSpotLnIntensity] = {true};
-  beam.rules[kSpotOffset] = {true, 0.0, kOffsetPriorRelative * nearest};
+  const OffsetPart offset = MatchedOffset(OffsetParts(light.fixture));
+  beam.rules[kSpotOffset] = {true, offset.mean_m, offset.sd_m};
   beam.rules[kSpotOuter] = {!light.outer};
   beam.rules[kSpotInner] = {!light.inner};
   beam.rules[kSpotAimX] = beam.rules[kSpotAimY] = {true, 0.0, aim_sd};
@@ -178,10 +179,10 @@ Information InformationAt(const Beam& beam, const Parameters& p) {
   return information;
 }
 
-// The covariance averaged over the estimate's own spread (itself and kBeamSpread standard deviations to
-// both sides along each axis). A reading on the edge of the inner cone tells much on one side of it
-// and nothing on the other, so that the curvature at the estimate alone may claim four times too
-// much.
+// The covariance averaged over the estimate's own spread (itself and kBeamSpread standard
+// deviations to both sides along each axis). A reading on the edge of the inner cone tells much on
+// one side of it and nothing on the other, so that the curvature at the estimate alone may claim
+// four times too much.
 Information SpreadCovariance(const Beam& beam, const Parameters& p) {
   const Information at = InformationAt(beam, p);
   const Eigen::SelfAdjointEigenSolver<Information> axes(at);

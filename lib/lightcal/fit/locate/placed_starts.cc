@@ -14,7 +14,7 @@ constexpr double kSame = 1e-9;  // of the layout's extent, of unit vectors
 constexpr double kLeastPivot = 1e-6;
 constexpr int kDirections = 300;
 constexpr int kDistances = 14;
-constexpr double kNearest = 0.15;  // in extents of the layout
+constexpr double kNearestStart = 0.15;  // in extents of the layout
 constexpr double kFarthest = 40.0;
 constexpr std::size_t kMostStarts = 8;
 
@@ -197,7 +197,8 @@ std::vector<PlacedTheta> ScanPlacedStarts(const PlacedEstimation& estimation, do
   std::vector<ScanPoint> points;
   for (int k = 0; k < kDistances; ++k) {
     const double share = static_cast<double>(k) / (kDistances - 1);
-    const double radius = layout.extent * kNearest * std::pow(kFarthest / kNearest, share);
+    const double radius =
+        layout.extent * kNearestStart * std::pow(kFarthest / kNearestStart, share);
     for (int i = 0; i < kDirections; ++i) {
       const ScanPoint point = Evaluate(estimation, layout.middle + Direction(i) * radius, ambient);
       if (std::isfinite(point.chi_squared)) points.push_back(point);

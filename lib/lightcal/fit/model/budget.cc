@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 25> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kCures = {{
     {"readings", "four times as many readings, or a meter twice as sure"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
     {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
@@ -21,6 +21,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 25> kCures =
     {"cone", "four times as many readings between the beam's middle and its edge"},
     {"finite_source", "stand 1.4 times as far away, or state the lamp's size"},
     {"sphere_surface", "state position_m, so that distances reach the centre"},
+    {"unknown_lamp", "state the lamp's kind, its size and its fixture"},
     {"horizon", "turn the meter towards the lamp"},
     {"meter_tilt", "point the meter within 1.5 degrees of the lamp, or state tilt_deg"},
     {"distance_error", "read distances to 2.5 mm, or stand twice as far away"},
@@ -73,9 +74,13 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   some.considered.clear();
   estimation.rules[kDistanceOffset] = {};
   estimation.rules[kAmbient] = {};
+  estimation.rules[kLnWalls] = estimation.rules[kWallsSlope] = {};
   const double readings = IntensityVariance(some);
   estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
   const double with_offset = IntensityVariance(some);
+  estimation.rules[kLnWalls] = rules[kLnWalls];
+  estimation.rules[kWallsSlope] = rules[kWallsSlope];
+  const double with_walls = IntensityVariance(some);
   estimation.rules[kAmbient] = rules[kAmbient];
   std::vector<VariancePart> parts =
       VarianceParts("ambient", input.considered, [&](const std::vector<Consider>& considered) {
@@ -87,8 +92,10 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   const double whole = parts.front().variance;
   const double first = std::min(readings, whole);
   const double second = std::clamp(with_offset - readings, 0.0, whole - first);
-  parts.front().variance = whole - first - second;
+  const double third = std::clamp(with_walls - with_offset, 0.0, whole - first - second);
+  parts.front().variance = whole - first - second - third;
   parts.push_back({"distance_offset", second});
+  if (third > 0.0) parts.push_back({"room_bounce", third});
   parts.push_back({"readings", first});
   return parts;
 }

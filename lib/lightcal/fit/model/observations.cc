@@ -57,6 +57,18 @@ double InnerRadius(const LightDescription& light) {
   return 0.0;
 }
 
+// Whether the light from the walls is in a reading.
+bool SeesWalls(const Session& session, const LightDescription& light, const Reading& reading) {
+  if (session.no_walls || reading.meter == kDataSheetMeter || !HasDistanceLaw(light.kind)) {
+    return false;
+  }
+  const auto of_its_luminance = [&](const CaptureDescription& capture) {
+    return capture.light == light.name && capture.use == CaptureUse::kSource;
+  };
+  return reading.quality != MeterQuality::kDerived ||
+         std::ranges::none_of(session.captures, of_its_luminance);
+}
+
 class Collector {
  public:
   Collector(const Session& session, const LightDescription& light)
@@ -97,12 +109,15 @@ class Collector {
     Observation observation;
     observation.index = index;
     observation.lit = lit;
+    observation.behind_card = reading.shadow_card;
     observation.distance_m = geometry->distance_m;
     observation.placed = reading.distance || reading.position_m;
     observation.tilt_rad = geometry->tilt_rad;
     observation.measured_lx = observation.raw_lx =
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
+    observation.data_sheet = reading.meter == kDataSheetMeter;
+    observation.sees_walls = SeesWalls(session_, light_, reading);
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
     observation.table_part = TablePart(reading);
@@ -263,7 +278,9 @@ class Collector {
     }
     if (!(weights > 0.0)) return false;
     row.measured_lx = row.raw_lx - sum / weights;
-    row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, 1.0 / std::sqrt(weights));
+    row.card_lx = sum / weights;
+    row.card_sigma_lx = 1.0 / std::sqrt(weights);
+    row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, row.card_sigma_lx);
     return true;
   }
 
@@ -281,7 +298,7 @@ class Collector {
         return here;
       };
       if (!Subtract(i, shadows, shadow)) continue;
-      out_.rows[i].differenced = true;
+      out_.rows[i].differenced = out_.rows[i].behind_card = true;
       if (row.measured_lx < 0.0) WarnOfNegative(row);
     }
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
@@ -293,6 +310,7 @@ class Collector {
       out_.warnings.push_back({"shadow_unmatched", light_.name,
                                "a shadow-card reading has no lamp-on reading at its distance; it "
                                "counts as ambient light, within 30 %"});
+      out_.rows[i].behind_card = !relative_[i].no_place;
       relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
     }
     Keep(consumed);

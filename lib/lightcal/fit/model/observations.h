@@ -24,11 +24,17 @@ struct Observation {
   double raw_lx = 0.0;       // as read
   double sigma_lx = 0.0;     // 1 sigma of measured_lx
   bool differenced = false;  // shadow card subtracted: no ambient, no bounce
+  // What was read behind a card: subtracted from this reading, or (lit false) this row itself.
+  bool behind_card = false;
+  double card_lx = 0.0;        // the mean that was subtracted
+  double card_sigma_lx = 0.0;  // 1 sigma
   // The same place with this lamp off was subtracted: no ambient, no other lamps, its own bounce.
   bool ambient_subtracted = false;
   double calibration = 0.0;  // 1 sigma, relative: of every reading of this instrument alike
   int instrument = 0;        // among this light's
   bool over_range = false;
+  bool data_sheet = false;  // what the manufacturer prints
+  bool sees_walls = true;   // false: a manufacturer's figure, or from the lamp's own luminance
   double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
   bool measured_from_center = false;  // by positions, the lamp's known or to be found
   std::optional<Vec3> position_m;

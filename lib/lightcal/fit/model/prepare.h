@@ -21,6 +21,7 @@ struct Scales {
 struct Prepared {
   Estimation estimation;
   std::vector<int> observation;  // of each row
+  int own_rows = 0;              // rows that are an observation; after them what cards hid
   Scales scales;
   double shortest = 1.0;  // in solver units
   int lit_rows = 0;
@@ -29,7 +30,8 @@ struct Prepared {
 };
 
 // Rows with their gains and sigmas, and which parameters are free under which prior: d0 from two
-// distinct distances on, E0 where lamp-off readings or four distinct distances tell it.
+// distinct distances on, E0 where lamp-off readings tell it, or four distinct distances where no
+// wall shines. What a card hid the lamp from measures the walls for the readings without a card.
 [[nodiscard]] Prepared Prepare(const Observations& observations, const ForwardModel& model);
 
 }  // namespace lightcal::fit

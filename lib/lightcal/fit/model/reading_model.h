@@ -12,9 +12,16 @@
 namespace lightcal::fit {
 
 // The parameters, in this order everywhere: natural logarithm of the axial intensity, the distance
-// offset, the ambient illuminance. Units are those of the rows (the solver scales both).
-enum Parameter : std::uint8_t { kLnIntensity = 0, kDistanceOffset = 1, kAmbient = 2 };
-inline constexpr int kParameters = 3;
+// offset, the ambient illuminance, and of the walls' light (light/wall_prior.h) ln b and the slope.
+// Units are those of the rows (the solver scales lengths and illuminances); b stays in 1/m^2.
+enum Parameter : std::uint8_t {
+  kLnIntensity = 0,
+  kDistanceOffset = 1,
+  kAmbient = 2,
+  kLnWalls = 3,
+  kWallsSlope = 4,
+};
+inline constexpr int kParameters = 5;
 
 // How a reading m of a meter that should see E counts, over its sigma.
 enum class RowForm : std::uint8_t {
@@ -38,9 +45,17 @@ template <class T>
   return true;
 }
 
+// The light from the walls in one row: E_walls = exp(ln I + ln b + slope x + constant).
+struct WallsOfRow {
+  double x = 0.0;         // ln(d / 3 m)
+  double constant = 0.0;  // bend x^2, and ln of the solver's unit of length squared
+  double scatter = 0.0;   // 1 sigma of ln E_walls at this place, shared by the rows there
+};
+
 struct ReadingRow {
   using Form = RowForm;
   Form form = Form::kLog;
+  std::optional<WallsOfRow> walls;
   AxialShape shape;
   std::optional<OffAxisPose> off_axis;  // instead of shape and distance
   double distance = 1.0;
@@ -49,6 +64,7 @@ struct ReadingRow {
   double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
   double measured = 0.0;
   double sigma = 1.0;
+  double own_sigma = 1.0;    // of it, what is not scatter of the walls' light
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
   int instrument = 0;
 };
@@ -64,22 +80,29 @@ template <class T>
   return row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
 }
 
-// E = exp(ln I) (illuminance per candela) + ambient. T is double or an automatic-differentiation
-// scalar.
+// Of the walls, per candela; 0 in rows that see none of their light.
 template <class T>
-[[nodiscard]] T RowIlluminance(const ReadingRow& row, const T& ln_intensity,
-                               const T& distance_offset, const T& ambient) {
+[[nodiscard]] T WallsPerCandela(const ReadingRow& row, const T* theta) {
   using std::exp;
-  const T direct = row.direct_gain > 0.0 ? LuxPerCandela(row, distance_offset) : T(row.bounce);
-  return exp(ln_intensity) * direct + row.ambient_gain * ambient;
+  if (!row.walls) return T(0.0);
+  return exp(theta[kLnWalls] + theta[kWallsSlope] * row.walls->x + row.walls->constant);
+}
+
+// E = exp(ln I) (illuminance per candela + walls) + ambient. theta: kParameters of T, which is
+// double or an automatic-differentiation scalar.
+template <class T>
+[[nodiscard]] T RowIlluminance(const ReadingRow& row, const T* theta) {
+  using std::exp;
+  T per_candela =
+      row.direct_gain > 0.0 ? LuxPerCandela(row, theta[kDistanceOffset]) : T(row.bounce);
+  if (row.walls) per_candela += WallsPerCandela(row, theta);
+  return exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
 }
 
 // What a row adds to the least-squares problem (least_squares.h).
 template <class T>
 [[nodiscard]] bool RowResidual(const ReadingRow& row, const T* theta, T* residual) {
-  return WhitenedResidual(
-      row.form, row.measured, row.sigma,
-      RowIlluminance(row, theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient]), residual);
+  return WhitenedResidual(row.form, row.measured, row.sigma, RowIlluminance(row, theta), residual);
 }
 
 }  // namespace lightcal::fit

@@ -40,21 +40,6 @@ std::vector<int> Beyond(const std::vector<double>& residuals, double limit) {
   return out;
 }
 
-std::vector<ReadingRow> Without(const std::vector<ReadingRow>& rows,
-                                const std::vector<int>& rejected) {
-  std::vector<ReadingRow> kept;
-  kept.reserve(rows.size());
-  auto next = rejected.begin();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (next != rejected.end() && *next == static_cast<int>(i)) {
-      ++next;
-    } else {
-      kept.push_back(rows[i]);
-    }
-  }
-  return kept;
-}
-
 // ln(E d^2) of four readings falls into two pairs, each close within itself.
 bool TwoAgainstTwo(const Estimation& estimation) {
   std::vector<std::pair<double, double>> values;  // ln(E d^2), sigma
@@ -136,8 +121,23 @@ Result<RobustEstimate> RejectAndRefit(const Estimation& estimation, const Theta&
 
 }  // namespace
 
-Result<RobustEstimate> EstimateRobustly(const Estimation& estimation) {
-  Result<Theta> squared = SolveSquared(estimation);
+std::vector<ReadingRow> Without(const std::vector<ReadingRow>& rows,
+                                const std::vector<int>& rejected) {
+  std::vector<ReadingRow> kept;
+  kept.reserve(rows.size());
+  auto next = rejected.begin();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (next != rejected.end() && *next == static_cast<int>(i)) {
+      ++next;
+    } else {
+      kept.push_back(rows[i]);
+    }
+  }
+  return kept;
+}
+
+Result<RobustEstimate> EstimateRobustly(const Estimation& estimation, const Theta* known) {
+  Result<Theta> squared = known != nullptr ? Result<Theta>(*known) : SolveSquared(estimation);
   if (!squared) return Propagate(std::move(squared));
   RobustEstimate out{*squared, estimation, {}, {}, false};
   const std::vector<int> far = Beyond(Residuals(estimation, *squared), kSuspiciousResidual);

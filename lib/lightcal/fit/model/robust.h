@@ -21,8 +21,12 @@ struct RobustEstimate {
 // with the lamp on: n <= 3 none is rejected; n = 4 median start and Huber loss, none is rejected; n
 // >= 5 median start, Huber, then Tukey polish with the scale max(1, 1.4826 MAD); readings beyond
 // kTukeyConstant scales are rejected and the estimate is the squared-loss one on those kept.
-// Fails as Solve.
-[[nodiscard]] Result<RobustEstimate> EstimateRobustly(const Estimation& estimation);
+// `squared`: the squared-loss optimum, where the caller knows it. Fails as Solve.
+[[nodiscard]] Result<RobustEstimate> EstimateRobustly(const Estimation& estimation,
+                                                      const Theta* squared = nullptr);
+// The rows without those at the ascending positions `rejected`.
+[[nodiscard]] std::vector<ReadingRow> Without(const std::vector<ReadingRow>& rows,
+                                              const std::vector<int>& rejected);
 
 inline constexpr double kSuspiciousResidual = 2.5;
 

@@ -69,7 +69,7 @@ LinearFit FitIntensityAndAmbient(const Estimation& estimation, double d0) {
     if (row.form == ReadingRow::Form::kCensored) continue;
     const double sigma = row.form == ReadingRow::Form::kLog ? row.sigma * row.measured : row.sigma;
     const double w = 1.0 / sigma;
-    const double a = w * (row.direct_gain > 0.0 ? LuxPerCandela(row, d0) : 0.0);
+    const double a = w * (row.direct_gain > 0.0 ? LuxPerCandela(row, d0) : row.bounce);
     const double b = w * row.ambient_gain;
     const double m = w * row.measured - (rule.free ? 0.0 : b * rule.prior_mean);
     aa += a * a;
@@ -133,9 +133,31 @@ Estimation Thinned(const Estimation& estimation) {
   return out;
 }
 
+// A start with the walls' light as known as its prior says.
+template <class Start>
+Theta AtPriorWalls(const Estimation& estimation, const Start& start) {
+  Theta walls{};
+  walls[kLnWalls] = estimation.rules[kLnWalls].prior_mean;
+  walls[kWallsSlope] = estimation.rules[kWallsSlope].prior_mean;
+  Estimation held = estimation;
+  held.rules[kLnWalls] = held.rules[kWallsSlope] = {};
+  for (ReadingRow& row : held.rows) {
+    row.bounce += WallsPerCandela(row, walls.data());
+    row.walls.reset();
+  }
+  Theta theta = start(held);
+  theta[kLnWalls] = walls[kLnWalls];
+  theta[kWallsSlope] = walls[kWallsSlope];
+  return theta;
+}
+
 }  // namespace
 
 Theta ClosedFormStart(const Estimation& estimation, double ambient) {
+  if (estimation.rules[kLnWalls].free) {
+    return AtPriorWalls(estimation,
+                        [&](const Estimation& held) { return ClosedFormStart(held, ambient); });
+  }
   const ParameterRule& rule = estimation.rules[kDistanceOffset];
   if (!rule.free) {
     return {MeanLnIntensity(estimation, rule.prior_mean, ambient), rule.prior_mean, ambient};
@@ -178,6 +200,7 @@ Theta ClosedFormStart(const Estimation& estimation, double ambient) {
 }
 
 Theta ScanStart(const Estimation& estimation) {
+  if (estimation.rules[kLnWalls].free) return AtPriorWalls(estimation, ScanStart);
   const OffsetRange range = ScanRange(estimation);
   Theta best = {0.0, estimation.rules[kDistanceOffset].prior_mean, 0.0};
   double least = std::numeric_limits<double>::infinity();
@@ -209,6 +232,7 @@ std::optional<double> MedianLnIntensity(const Estimation& estimation, double d0,
 }  // namespace
 
 Theta MedianStart(const Estimation& all) {
+  if (all.rules[kLnWalls].free) return AtPriorWalls(all, MedianStart);
   const Estimation estimation = Thinned(all);
   // Fractions of the dimmest reading that may be ambient light.
   static constexpr std::array<double, 10> kAmbientLadder = {0.0,  0.02, 0.05, 0.1,  0.2,

@@ -72,6 +72,26 @@ std::optional<std::string> AboutPlace(const Session& session, const FittedLight&
          percent(*plan->u95_relative);
 }
 
+// Whether the walls are a large part of what is not known.
+bool WallsDecide(const FittedLight& light) {
+  for (const BudgetPart& part : light.budget) {
+    constexpr double kLarge = 0.2;  // of the variance
+    if (part.name == "room_bounce") return part.share > kLarge;
+  }
+  return false;
+}
+
+// The card that tells most of the walls' light, with what it leaves.
+std::optional<std::string> AboutWalls(const Session& session, const FittedLight& light) {
+  if (!WallsDecide(light)) return std::nullopt;
+  const auto plan = PlanShadowCard(session, light.name, {});
+  if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
+  const PlannedReading& card = plan->steps.front();
+  if (!(card.u95_relative < *plan->u95_relative)) return std::nullopt;
+  return SayPlannedReading(card) + ": ± " + PercentText(*plan->u95_relative) + " → ± " +
+         PercentText(card.u95_relative);
+}
+
 }  // namespace
 
 std::string NextStep(const Session& session, const FittedLight& light) {
@@ -96,11 +116,14 @@ std::string NextStep(const Session& session, const FittedLight& light) {
     return "measure your own lamp once at " + RoundedText(nearest, 2) +
            " m: so far only the manufacturer's figures speak";
   }
+  if (taken.distances_m.size() > 1) {
+    if (auto walls = AboutWalls(session, light)) return *walls;
+  }
   if (IsPrior(light, "distance_offset")) {
     return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,
                        "the distance offset is still a prior");
   }
-  if (!taken.shadow) {
+  if (!taken.shadow && !session.no_walls) {
     return "add a shadow-card reading at " + RoundedText(farthest, 2) +
            " m (block only the direct beam): it takes ambient light and the room's bounce out";
   }

@@ -8,9 +8,11 @@
 #include <utility>
 #include <variant>
 
+#include "lightcal/core/uncertain.h"
 #include "lightcal/light/effects/detector_size.h"
 #include "lightcal/light/gate.h"
 #include "lightcal/light/room_bounce.h"
+#include "lightcal/photometry/spot_cone.h"
 
 namespace lightcal::fit {
 namespace {
@@ -90,6 +92,64 @@ void AddTime(const Session& session, const LightDescription& light, Scene& scene
   }
 }
 
+// Flux over axial intensity, where a cone or a table tells it.
+std::optional<double> FluxOverIntensity(const LightDescription& light) {
+  if (light.distribution) {
+    const IntensityTable& table = *light.distribution;
+    const double peak = table.peak().intensity.value();
+    return peak > 0.0 ? std::optional(table.Flux().value() / peak) : std::nullopt;
+  }
+  if (light.kind != LightKind::kSpot || !light.outer || light.beam) return std::nullopt;
+  const SpotCone cone{light.inner.value_or(Radians(0.0)), *light.outer};
+  return SolidAngleOfSpot(cone, SpotFalloff::kSquaredLinear).value();
+}
+
+// What the light is built like, where its kind says it.
+std::optional<Fixture> FixtureOf(const LightDescription& light) {
+  if (light.fixture) return light.fixture;
+  switch (light.kind) {
+    case LightKind::kSphere:
+      return Fixture::kBulb;
+    case LightKind::kDisk:
+    case LightKind::kRect:
+    case LightKind::kTube:
+      return Fixture::kPanel;
+    case LightKind::kPhotometric:
+      return light.position_m ? std::optional(Fixture::kLuminaire) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+// What is known beforehand of the walls' light and of where the lamp's starts.
+void AddPriors(const Session& session, const LightDescription& light,
+               const Observations& observations, Scene& scene) {
+  const auto own = [](const Observation& o) { return o.lit && o.sees_walls; };
+  scene.no_walls = std::ranges::none_of(observations.rows, own);
+  if (HasDistanceLaw(light.kind) && !scene.no_walls) {
+    std::optional<StatedRoom> room;
+    if (session.room) {
+      constexpr double kU95 = 0.2;  // of the reflectance, as people guess it
+      const double rho = session.room->reflectance;
+      room = {session.room->size_m, rho, session.room->reflectance_u95.value_or(kU95 * rho) / kZ95};
+    }
+    scene.walls =
+        WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)}, room);
+  }
+  // A table of a film fixture gives its offset with its own first distance.
+  const auto held = [](const Observation& o) { return o.lit && !o.data_sheet; };
+  if (!light.fixture && std::ranges::none_of(observations.rows, held)) return;
+  const auto parts = OffsetParts(FixtureOf(light));
+  scene.offsets.assign(parts.begin(), parts.end());
+  // Distances end at a ball's surface or at its centre; nobody said.
+  if (light.kind == LightKind::kSphere && light.diameter && scene.offsets.size() == 1) {
+    OffsetPart centre = scene.offsets.front();
+    centre.mean_m += 0.5 * light.diameter->value();
+    scene.offsets.front().weight = centre.weight = 0.5;
+    scene.offsets.push_back(centre);
+  }
+}
+
 Scene SceneOf(const Session& session, const LightDescription& light,
               const Observations& observations, int patches) {
   Scene scene;
@@ -114,6 +174,7 @@ Scene SceneOf(const Session& session, const LightDescription& light,
     scene.table = SceneTableOf(*light.distribution);
     scene.table->least_part = least_part;
   }
+  AddPriors(session, light, observations, scene);
   AddMeters(session, light, scene);
   AddTime(session, light, scene);
   return scene;
@@ -165,7 +226,15 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
            const GatedEffect& effect, ForwardModel& model) {
   const Treatment treatment = effect.finding.treatment;
   const double bound = effect.finding.bound;
-  if (effect.name == "distance_offset") model.fit_offset = effect.state != GateState::kOff;
+  if (effect.name == "distance_offset") {
+    model.fit_offset = effect.state != GateState::kOff;
+    // Who switches it off bends the model, not the readings.
+    model.judge_misfit = model.fit_offset || effect.ignored;
+  }
+  // Behind cards alone no wall is left to fit, but a lamp of unknown kind may still be a panel.
+  if (effect.name == "room_bounce" && (effect.state == GateState::kFitted || bound == 0.0)) {
+    model.walls = scene.walls;
+  }
   if (effect.name == "ambient" && effect.state == GateState::kOff) {
     model.fit_ambient = treatment == Treatment::kUnknown && !effect.forced;
   }
@@ -221,6 +290,8 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
       part = row.off_axis ? SizeOffAxis(row) : AxialShapeFactor(model.shape, d) - 1.0;
     } else if (effect.name == "meter_tilt") {
       part = std::cos(row.tilt_rad) - 1.0;
+    } else if (effect.name == "room_bounce" && !estimate.walls_per_candela.empty()) {
+      part = estimate.walls_per_candela[i] * d * d;
     } else if (effect.name == "room_bounce" && !model.bounce_per_candela.empty()) {
       part = model.bounce_per_candela[i] * d * d;
     } else if (effect.name == "detector_size" && model.head_radius_m > 0.0) {
@@ -243,6 +314,7 @@ void Follow(const LightDescription& light, const Observations& observations,
   plan.model = {};
   plan.model.choice = choice;
   plan.model.distance_law = HasDistanceLaw(light.kind);
+  plan.model.offsets = plan.scene.offsets;
   plan.model.tilt = false;
   plan.effects.clear();
   for (GatedEffect& effect : plan.gated) {
@@ -254,6 +326,10 @@ void Follow(const LightDescription& light, const Observations& observations,
     }
     Apply(plan.scene, light, observations, effect, plan.model);
     if (!choice.exact_source) plan.model.shape = {};
+    if (plan.model.surface_radius_m > 0.0 && plan.scene.offsets.size() == 2) {
+      plan.model.offsets = {
+          {1.0, plan.scene.offsets.front().mean_m, plan.scene.offsets.front().sd_m}};
+    }
     if (!effect.finding.applies) continue;
     plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
                             std::nullopt, effect.cost_ns, effect.reason});

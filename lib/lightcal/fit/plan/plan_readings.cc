@@ -52,10 +52,12 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
 
 class Planner {
  public:
-  Planner(Session session, const FitSettings& settings, double reach_m)
+  Planner(Session session, const FitSettings& settings, double reach_m,
+          std::optional<PlannedAction> only = {})
       : session_(std::move(session)),
         settings_(settings),
         reach_m_(reach_m),
+        only_(only),
         like_(LikeTheLast(session_)) {}
 
   Result<ReadingPlan> Plan(int steps) {
@@ -134,6 +136,7 @@ class Planner {
     std::vector<PlannedReading> out;
     for (PlannedReading& candidate :
          fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
+      if (only_ && candidate.action != *only_) continue;
       if (Judge(candidate)) out.push_back(std::move(candidate));
     }
     return out;
@@ -317,6 +320,7 @@ class Planner {
   Session session_;
   const FitSettings& settings_;
   double reach_m_;
+  std::optional<PlannedAction> only_;
   Reading like_;
   std::optional<FittedLight> now_;
   std::optional<PlannedReading> stands_;  // where the meter does
@@ -351,6 +355,7 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
   if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
   Session alone;
   alone.room = session.room;
+  alone.no_walls = session.no_walls;
   alone.meters = session.meters;
   alone.lights = {*found};
   for (const SessionReading& row : session.readings) {
@@ -366,6 +371,14 @@ Result<ReadingPlan> PlanReadings(const Session& session, const std::string& ligh
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
   return Planner(*std::move(alone), settings, fit::kFarthestReach).Plan(steps);
+}
+
+Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,
+                                   const FitSettings& settings) {
+  auto alone = AloneIn(session, light);
+  if (!alone) return Propagate(std::move(alone));
+  return Planner(*std::move(alone), settings, fit::kFarthestReach, PlannedAction::kShadowCard)
+      .Plan(1);
 }
 
 Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,

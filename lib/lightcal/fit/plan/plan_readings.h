@@ -31,6 +31,10 @@ struct ReadingPlan {
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                                const FitSettings& settings, int steps);
 
+// The same of shadow cards alone, one step: quick to ask.
+[[nodiscard]] Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,
+                                                 const FitSettings& settings);
+
 struct LadderWishes {
   MeasuringMinutes minutes{};
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has

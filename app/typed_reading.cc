@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "typed_reading.h"
+
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+#include "calibration_options.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/core/units_text.h"
+
+namespace lightcal::app {
+namespace {
+
+constexpr const char* kForm =
+    "a reading is written ILLUMINANCE@DISTANCE, for example 192lx@0.5m or 52lx@1m,card=5lx";
+
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  while (true) {
+    const std::size_t comma = text.find(',', begin);
+    parts.push_back(text.substr(begin, comma - begin));
+    if (comma == std::string::npos) return parts;
+    begin = comma + 1;
+  }
+}
+
+Result<Lux> NotNegative(const std::string& text) {
+  Result<Lux> lux = ParseIlluminance(text);
+  if (lux && lux->value() < 0.0) {
+    return Refused("bad_reading", text, "an illuminance cannot be negative");
+  }
+  return lux;
+}
+
+// One word after a comma.
+Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Reading>& out) {
+  const auto equals = part.find('=');
+  const std::string key = part.substr(0, equals);
+  if (equals != std::string::npos && (key == "card" || key == "off")) {
+    const Result<Lux> lux = NotNegative(part.substr(equals + 1));
+    if (!lux) return tl::unexpected(lux.error());
+    Reading other = lit;
+    other.illuminance = *lux;
+    if (key == "card") {
+      other.shadow_card = true;
+    } else {
+      other.lamp = LampState::kOff;
+    }
+    out.push_back(std::move(other));
+    return {};
+  }
+  if (!part.empty() && (part.back() == 'K' || part.back() == 'k')) {
+    const auto cct = ParseTemperature(part);
+    if (!cct) return tl::unexpected(cct.error());
+    out.front().cct = *cct;
+    return {};
+  }
+  return WrongUsage(part,
+                    std::string(kForm) +
+                        "; after a comma stand card=LUX (behind a shadow card), off=LUX (the "
+                        "lamp off) or a colour temperature such as 2900K; decimals have a point");
+}
+
+}  // namespace
+
+Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const std::string& light) {
+  const std::vector<std::string> parts = SplitAtCommas(text);
+  const std::string& first = parts.front();
+  const auto at = first.find('@');
+  if (at == std::string::npos) return WrongUsage(text, kForm);
+  const Result<Lux> illuminance = NotNegative(first.substr(0, at));
+  if (!illuminance) return tl::unexpected(illuminance.error());
+  const auto distance = ParseLength(first.substr(at + 1));
+  if (!distance) return tl::unexpected(distance.error());
+  std::vector<Reading> out(1);
+  out.front().light = light;
+  out.front().illuminance = *illuminance;
+  out.front().distance = *distance;
+  const Reading lit = out.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (auto added = AddPart(parts[i], lit, out); !added) return Propagate(std::move(added));
+  }
+  if (distance->value() <= 0.0) {
+    return Refused("bad_reading", text, "the distance must be above zero");
+  }
+  return out;
+}
+
+Result<void> SetRoom(const std::string& text, Session& session) {
+  constexpr const char* kRoomForm =
+      "a room is written LENGTH,WIDTH,HEIGHT in metres, for example 5,4,2.6 (and ,0.7 for its "
+      "reflectance), or dark, or outdoors";
+  if (text == "dark" || text == "outdoors") {
+    session.no_walls = true;
+    return {};
+  }
+  const std::vector<std::string> parts = SplitAtCommas(text);
+  if (parts.size() != 3 && parts.size() != 4) return WrongUsage(text, kRoomForm);
+  Room room;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto side = ParseLength(parts[i]);
+    if (!side || !(side->value() > 0.0)) return WrongUsage(text, kRoomForm);
+    room.size_m[i] = side->value();
+  }
+  if (parts.size() == 4) {
+    const auto reflectance = SplitNumberAndUnit(parts[3]);
+    if (!reflectance || !reflectance->unit.empty() || !(reflectance->number >= 0.0) ||
+        !(reflectance->number < 1.0)) {
+      return WrongUsage(text, std::string("a reflectance lies from 0 to below 1; ") + kRoomForm);
+    }
+    room.reflectance = reflectance->number;
+  }
+  session.room = room;
+  return {};
+}
+
+Result<double> SigmaOfMeter(const std::string& text) {
+  constexpr std::array<std::pair<std::string_view, double>, 3> kClasses = {
+      {{"phone", 0.25}, {"hobby", 0.05}, {"lab", 0.02}}};
+  for (const auto& [name, figure] : kClasses) {
+    if (text == name) return figure / kZ95;
+  }
+  if (!text.empty() && std::isalpha(static_cast<unsigned char>(text.front())) != 0) {
+    return WrongUsage(text, "a meter is phone, hobby or lab, or its maker's figure, e.g. 3%");
+  }
+  return ParseTolerance(text).map([](double figure) { return figure / kZ95; });
+}
+
+}  // namespace lightcal::app

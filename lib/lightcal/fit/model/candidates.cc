@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/hypotheses.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kPriorConflict = 2.0;  // prior standard deviations
+// Logarithm of a blunder's density in ln E: one reading in fifty, anywhere within a factor of 150.
+const double kLnBlunder = std::log(0.02 / std::log(150.0));
+
+// Every hypothesis solved, the likeliest first. Fails as Solve, where none has an optimum.
+Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const ForwardModel& model,
+                                         const Observations& observations) {
+  std::vector<Candidate> out;
+  std::optional<Error> failure;
+  const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
+  for (const LampHypothesis& hypothesis : hypotheses) {
+    Candidate one;
+    one.estimation = EstimationUnder(hypothesis, prepared, observations);
+    const Result<Theta> theta = SolveSettled(one.estimation);
+    if (!theta) {
+      failure = theta.error();
+      continue;
+    }
+    one.squared = *theta;
+    if (hypotheses.size() > 1) {
+      one.ln_prior = std::log(hypothesis.weight);
+      one.ln_probability = one.ln_prior + LnEvidence(one.estimation, one.squared);
+    }
+    out.push_back(std::move(one));
+  }
+  if (out.empty()) return tl::unexpected(*std::move(failure));
+  std::ranges::stable_sort(out, std::ranges::greater(), &Candidate::ln_probability);
+  return out;
+}
+
+bool HasFarRow(const Candidate& candidate) {
+  return std::ranges::any_of(candidate.estimation.rows, [&](const ReadingRow& row) {
+    return std::abs(RowResidual(row, candidate.squared)) > kSuspiciousResidual;
+  });
+}
+
+// Where readings contradict the likeliest, each is estimated robustly, and the likeliest with its
+// blunders takes its place: a blunder bends whatever is told to explain it.
+Result<void> ChooseRobustly(std::vector<Candidate>& candidates) {
+  const auto settle = [](Candidate& one) -> Result<void> {
+    Result<RobustEstimate> estimate = EstimateRobustly(one.estimation, &one.squared);
+    if (!estimate) return Propagate(std::move(estimate));
+    one.estimate = *std::move(estimate);
+    return {};
+  };
+  if (candidates.size() == 1 || !HasFarRow(candidates.front())) return settle(candidates.front());
+  for (Candidate& one : candidates) {
+    if (auto settled = settle(one); !settled) return settled;
+    one.ln_probability = one.ln_prior + LnEvidence(one.estimate.kept, one.estimate.theta) +
+                         kLnBlunder * static_cast<double>(one.estimate.rejected.size());
+  }
+  std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::ln_probability);
+  return {};
+}
+
+// Readings that ask for an offset beyond two standard deviations of its prior widen it, and leave
+// the other hypotheses out.
+Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& prepared,
+                         const std::string& light, Warnings& warnings) {
+  Candidate& first = candidates.front();
+  ParameterRule& rule = first.estimation.rules[kDistanceOffset];
+  if (!rule.free) return {};
+  const auto again = [&](const Estimation& estimation) { return EstimateRobustly(estimation); };
+  if (first.estimate.bimodal) {
+    // Two camps among four readings say nothing of offset and ambient light, however hard they
+    // pull.
+    rule.free = false;
+    if (!prepared.ambient_told) first.estimation.rules[kAmbient] = {};
+    Result<RobustEstimate> held = again(first.estimation);
+    if (!held) return Propagate(std::move(held));
+    first.estimate = *std::move(held);
+    return {};
+  }
+  const auto pull = [&](const Theta& theta) {
+    return std::abs(theta[kDistanceOffset] - rule.prior_mean);
+  };
+  if (pull(first.estimate.theta) <= kPriorConflict * rule.prior_sd) return {};
+  const double stated = rule.prior_sd;
+  rule.prior_sd = 100.0 * stated;
+  Result<RobustEstimate> unguided = again(first.estimation);
+  if (!unguided) return Propagate(std::move(unguided));
+  rule.prior_sd = std::clamp(pull(unguided->theta), kPriorConflict * stated, 100.0 * stated);
+  warnings.push_back(
+      {"prior_conflict", light,
+       "the readings ask for a distance offset of " +
+           RoundedText(unguided->theta[kDistanceOffset] * prepared.scales.length_m, 3) +
+           " m, more than two standard deviations of its prior (" +
+           RoundedText(stated * prepared.scales.length_m, 3) +
+           " m); the prior was widened: check the distances and the lamp's reference point"});
+  Result<RobustEstimate> estimate = again(first.estimation);
+  if (!estimate) return Propagate(std::move(estimate));
+  first.estimate = *std::move(estimate);
+  candidates.resize(1);
+  return {};
+}
+}  // namespace
+
+Result<std::vector<Candidate>> SolveCandidates(const Prepared& prepared, const ForwardModel& model,
+                                               const Observations& observations,
+                                               const std::string& light, Warnings& warnings) {
+  Result<std::vector<Candidate>> solved = SolveEach(prepared, model, observations);
+  if (!solved) return solved;
+  if (auto chosen = ChooseRobustly(*solved); !chosen) return Propagate(std::move(chosen));
+  if (auto widened = WidenOffset(*solved, prepared, light, warnings); !widened) {
+    return Propagate(std::move(widened));
+  }
+  return solved;
+}
+
+void KeepComparable(std::vector<Candidate>& candidates) {
+  const RobustEstimate& first = candidates.front().estimate;
+  if (!first.suspicious.empty() || first.bimodal) candidates.resize(1);
+  const std::vector<int> rejected = first.rejected;
+  for (std::size_t i = 1; i < candidates.size(); ++i) {
+    Candidate& one = candidates[i];
+    one.estimate = {one.squared, one.estimation, rejected, {}, false};
+    if (rejected.empty()) continue;
+    one.estimate.kept.rows = Without(one.estimation.rows, rejected);
+    const Result<Theta> theta = SolveSettled(one.estimate.kept);
+    one.estimate.theta = theta ? *theta : one.squared;
+    one.ln_probability = one.ln_prior + LnEvidence(one.estimate.kept, one.estimate.theta);
+  }
+}
+
+std::vector<double> SharesOf(std::vector<Candidate>& candidates) {
+  constexpr double kLeastLikelihood = 1e-4;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Candidate& one : candidates) most = std::max(most, one.ln_probability);
+  const auto likelihood = [most](const Candidate& one) {
+    return std::exp(one.ln_probability - most);
+  };
+  // The first stays: its rows were looked at.
+  const auto gone = std::ranges::remove_if(
+      candidates.begin() + 1, candidates.end(),
+      [&](const Candidate& one) { return likelihood(one) < kLeastLikelihood; });
+  candidates.erase(gone.begin(), gone.end());
+  std::vector<double> shares;
+  double whole = 0.0;
+  for (const Candidate& one : candidates) whole += likelihood(one);
+  for (const Candidate& one : candidates) shares.push_back(likelihood(one) / whole);
+  return shares;
+}
+
+void Mix(const std::vector<Candidate>& candidates, const std::vector<double>& shares,
+         LightEstimate& out) {
+  constexpr double kTail = 0.025;
+  const auto marginal = [&](int k) {
+    std::vector<NormalPart> parts;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const Candidate& one = candidates[i];
+      parts.push_back({shares[i], one.estimate.theta[k],
+                       std::sqrt(std::max(0.0, one.covariance[k * kParameters + k]))});
+    }
+    return parts;
+  };
+  const std::vector<NormalPart> ln = marginal(kLnIntensity);
+  out.theta = candidates.front().estimate.theta;
+  for (const Parameter k : {kLnIntensity, kDistanceOffset}) {
+    out.theta[k] = QuantileOf(marginal(k), 0.5);
+  }
+  out.ln_interval = {QuantileOf(ln, kTail), QuantileOf(ln, 1.0 - kTail)};
+  out.covariance = {};
+  for (std::size_t n = 0; n < candidates.size(); ++n) {
+    const Candidate& one = candidates[n];
+    for (int i = 0; i < kParameters; ++i) {
+      for (int j = 0; j < kParameters; ++j) {
+        out.covariance[i * kParameters + j] +=
+            shares[n] *
+            (one.covariance[i * kParameters + j] +
+             (one.estimate.theta[i] - out.theta[i]) * (one.estimate.theta[j] - out.theta[j]));
+      }
+    }
+  }
+  constexpr int kVariance = kLnIntensity * (kParameters + 1);
+  const double between = out.covariance[kVariance] - candidates.front().covariance[kVariance];
+  if (between > 0.0) out.variance_parts.push_back({"unknown_lamp", between});
+}
+}  // namespace lightcal::fit

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "lightcal/fit/model/least_squares.h"
+#include "lightcal/fit/model/starts.h"
+
+namespace lightcal::fit {
+namespace {
+
+// The meter stands before a lamp's virtual source, however far that lies in front of its reference.
+constexpr double kNearestSource = -0.7;  // of the shortest distance
+
+WallsOfRow WallsAt(const WallPrior& prior, double distance_m, double length_m) {
+  const double x = std::log(distance_m / kWallReference_m);
+  return {x, prior.bend * x * x + 2.0 * std::log(length_m), prior.scatter};
+}
+
+bool SeesWalls(const Observation& observation, bool lit_row) {
+  return observation.sees_walls && (lit_row ? !observation.differenced : observation.behind_card);
+}
+
+// n rows of one place are as good as one: each takes sqrt(n) times its scatter.
+void ShareScatter(std::vector<ReadingRow>& rows) {
+  constexpr double kOnePlace = 1e-3;  // of the distance
+  std::vector<ReadingRow*> seeing;
+  for (ReadingRow& row : rows) {
+    if (row.walls) seeing.push_back(&row);
+  }
+  const auto kind_and_place = [](const ReadingRow* row) {
+    return std::pair(row->direct_gain > 0.0, row->walls->x);
+  };
+  std::ranges::sort(seeing, {}, kind_and_place);
+  for (auto first = seeing.begin(); first != seeing.end();) {
+    const auto [lit, x] = kind_and_place(*first);
+    const auto last = std::find_if(first, seeing.end(), [&](const ReadingRow* row) {
+      return (row->direct_gain > 0.0) != lit || row->walls->x > x + kOnePlace;
+    });
+    const double share = std::sqrt(static_cast<double>(last - first));
+    for (; first != last; ++first) (*first)->walls->scatter *= share;
+  }
+}
+
+double Normal(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+}  // namespace
+
+std::vector<LampHypothesis> HypothesesOf(const ForwardModel& model) {
+  std::vector<LampHypothesis> offsets;
+  for (const OffsetPart& part : model.offsets) offsets.push_back({part.weight, part, {}});
+  if (offsets.empty() || !model.fit_offset) offsets = {{}};
+  if (model.walls.empty()) return offsets;
+  std::vector<LampHypothesis> out;
+  for (const LampHypothesis& one : offsets) {
+    for (const WallHypothesis& walls : model.walls) {
+      out.push_back({one.weight * walls.weight, one.offset, walls});
+    }
+  }
+  return out;
+}
+
+Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
+                           const Observations& observations) {
+  Estimation out = prepared.estimation;
+  ParameterRule& offset = out.rules[kDistanceOffset];
+  if (hypothesis.offset && offset.prior_sd > 0.0) {
+    const double unit = prepared.scales.length_m;
+    offset.prior_mean =
+        std::max(hypothesis.offset->mean_m / unit, kNearestSource * prepared.shortest);
+    offset.prior_sd = hypothesis.offset->sd_m / unit;
+  }
+  if (!hypothesis.walls) return out;
+  const WallPrior& prior = hypothesis.walls->prior;
+  bool seen = false;
+  for (std::size_t i = 0; i < out.rows.size(); ++i) {
+    ReadingRow& row = out.rows[i];
+    const Observation& observation =
+        observations.rows[static_cast<std::size_t>(prepared.observation[i])];
+    const bool lit_row = row.direct_gain > 0.0;
+    if (lit_row && hypothesis.walls->width_m > 0.0) {
+      SourceSize size;
+      size.width = Metres(hypothesis.walls->width_m / prepared.scales.length_m);
+      size.height = Metres(hypothesis.walls->height_m / prepared.scales.length_m);
+      row.shape = AxialShapeOf(LightKind::kRect, size);
+    }
+    if (!SeesWalls(observation, lit_row)) continue;
+    row.walls = WallsAt(prior, observation.distance_m, prepared.scales.length_m);
+    seen = true;
+  }
+  if (!seen) return out;
+  ShareScatter(out.rows);
+  out.rules[kLnWalls] = {true, prior.ln_b, prior.sd_ln_b};
+  out.rules[kWallsSlope] = {true, prior.slope, prior.sd_slope};
+  return out;
+}
+
+double SettleScatter(Estimation& estimation, const Theta& theta) {
+  double most = 0.0;
+  for (ReadingRow& row : estimation.rows) {
+    if (!row.walls) continue;
+    const double walls = std::exp(theta[kLnIntensity]) * WallsPerCandela(row, theta.data());
+    const double scatter = row.walls->scatter * walls;
+    const double whole = row.form == RowForm::kLinear ? 1.0 : RowIlluminance(row, theta.data());
+    const double before = row.sigma;
+    row.sigma = whole > 0.0 ? std::hypot(row.own_sigma, scatter / whole) : row.own_sigma;
+    most = std::max(most, std::abs(std::log(row.sigma / before)));
+  }
+  return most;
+}
+
+Result<Theta> SolveSettled(Estimation& estimation) {
+  const ParameterRule& ambient = estimation.rules[kAmbient];
+  const Theta start =
+      ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
+  constexpr int kRounds = 8;
+  constexpr double kSettled = 0.02;
+  SettleScatter(estimation, start);
+  Result<Theta> theta = Solve(estimation, start);
+  if (!estimation.rules[kLnWalls].free) return theta;
+  for (int i = 0; i < kRounds && theta && SettleScatter(estimation, *theta) > kSettled; ++i) {
+    theta = Solve(estimation, *theta);
+  }
+  return theta;
+}
+
+double LnEvidence(const Estimation& estimation, const Theta& theta) {
+  double ln = -HalfChiSquared(estimation, theta);
+  for (const ReadingRow& row : estimation.rows) ln -= std::log(row.sigma);
+  const auto r = FreeTriangle(estimation, Linearise(estimation, theta));
+  for (int k = 0; k < kParameters; ++k) {
+    if (!estimation.rules[k].free) continue;
+    ln -= std::log(std::abs(r(k, k)));
+    if (estimation.rules[k].prior_sd > 0.0) ln -= std::log(estimation.rules[k].prior_sd);
+  }
+  return std::isfinite(ln) ? ln : -std::numeric_limits<double>::max();
+}
+
+double QuantileOf(std::span<const NormalPart> mixture, double probability) {
+  constexpr double kReach = 9.0;  // standard deviations
+  constexpr int kHalvings = 60;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  double whole = 0.0;
+  for (const NormalPart& part : mixture) {
+    low = std::min(low, part.mean - kReach * part.sd);
+    high = std::max(high, part.mean + kReach * part.sd);
+    whole += part.weight;
+  }
+  for (int i = 0; i < kHalvings && low < high; ++i) {
+    const double middle = 0.5 * (low + high);
+    double below = 0.0;
+    for (const NormalPart& part : mixture) {
+      const double z = (middle - part.mean) / part.sd;
+      below += part.weight * (part.sd > 0.0 ? Normal(z) : (middle >= part.mean ? 1.0 : 0.0));
+    }
+    (below < probability * whole ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace lightcal::fit

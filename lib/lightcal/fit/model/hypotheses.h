@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a lamp of unknown make may be, and what its readings then say: one estimate for each,
+// weighed by how well it explains them.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/prepare.h"
+#include "lightcal/light/fixture.h"
+#include "lightcal/light/wall_prior.h"
+
+namespace lightcal::fit {
+
+struct LampHypothesis {
+  double weight = 1.0;
+  std::optional<OffsetPart> offset;     // absent: 15 % of the shortest distance
+  std::optional<WallHypothesis> walls;  // absent: none shine
+};
+
+// Every pair of a fixture's offset and a family of rooms the model names; weights make 1.
+[[nodiscard]] std::vector<LampHypothesis> HypothesesOf(const ForwardModel& model);
+
+// The rows and priors as they are if it holds.
+[[nodiscard]] Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
+                                         const Observations& observations);
+
+// Gives each row's sigma the scatter of the light from the walls, by their share at theta. Returns
+// the largest change of a sigma, in ln.
+double SettleScatter(Estimation& estimation, const Theta& theta);
+
+// The optimum with its scatter settled. Fails as Solve.
+[[nodiscard]] Result<Theta> SolveSettled(Estimation& estimation);
+
+// Logarithm of the probability of the rows, up to a constant that all hypotheses share: Laplace's
+// approximation about theta.
+[[nodiscard]] double LnEvidence(const Estimation& estimation, const Theta& theta);
+
+// A mixture of normals.
+struct NormalPart {
+  double weight = 1.0;
+  double mean = 0.0;
+  double sd = 0.0;
+};
+// The value below which a part `probability` of it lies.
+[[nodiscard]] double QuantileOf(std::span<const NormalPart> mixture, double probability);
+
+}  // namespace lightcal::fit

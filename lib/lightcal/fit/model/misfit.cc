@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/misfit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/hypotheses.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kLeastProbability = 1e-3;
+constexpr double kExplained = 0.05;
+constexpr double kMostRatio = 3.0;     // of scatter over sigma that an answer is worth having with
+constexpr double kLeastMisfit = 0.04;  // rms in ln E, below which widening is answer enough
+constexpr int kFewestDistances = 3;
+constexpr int kFewestRepeats = 3;  // degrees of freedom
+
+// Chi-squared with the priors, and the degrees of freedom: each prior is a row and a parameter.
+struct Contradiction {
+  double chi_squared = 0.0;
+  int dof = 0;
+
+  [[nodiscard]] double Probability() const {
+    return dof > 0 ? ChiSquaredTail(chi_squared, dof) : 1.0;
+  }
+  [[nodiscard]] double Ratio() const { return dof > 0 ? std::sqrt(chi_squared / dof) : 1.0; }
+};
+Contradiction ContradictionOf(const Estimation& estimation, const Theta& theta) {
+  Contradiction out{2.0 * HalfChiSquared(estimation, theta), 0};
+  for (const ReadingRow& row : estimation.rows) out.dof += row.form != RowForm::kCensored ? 1 : 0;
+  for (const ParameterRule& rule : estimation.rules) {
+    if (rule.free && !(rule.prior_sd > 0.0)) --out.dof;
+  }
+  return out;
+}
+
+struct Place {
+  double distance_m = 0.0;
+  double residual = 0.0;
+  int row = 0;
+  bool rejected = false;
+};
+std::vector<Place> ByDistance(const RobustEstimate& estimate, const Estimation& all,
+                              const Prepared& prepared, const Observations& observations) {
+  std::vector<Place> out;
+  for (int i = 0; i < prepared.own_rows; ++i) {
+    const ReadingRow& row = all.rows[static_cast<std::size_t>(i)];
+    if (!(row.direct_gain > 0.0) || row.form == RowForm::kCensored) continue;
+    const auto at = static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(i)]);
+    out.push_back({observations.rows[at].distance_m, RowResidual(row, estimate.theta), i,
+                   std::ranges::binary_search(estimate.rejected, i)});
+  }
+  std::ranges::stable_sort(out, {}, &Place::distance_m);
+  return out;
+}
+
+// How much repeated readings differ beyond their sigma: noise is no misfit.
+double NoiseRatio(const std::vector<Place>& places) {
+  double squares = 0.0;
+  int dof = 0;
+  for (std::size_t first = 0; first < places.size();) {
+    std::size_t last = first;
+    double sum = 0.0;
+    for (; last < places.size() && SameDistance(places[first].distance_m, places[last].distance_m);
+         ++last) {
+      sum += places[last].residual;
+    }
+    const double mean = sum / static_cast<double>(last - first);
+    dof += static_cast<int>(last - first) - 1;
+    for (; first < last; ++first) squares += std::pow(places[first].residual - mean, 2.0);
+  }
+  return dof >= kFewestRepeats ? std::max(1.0, std::sqrt(squares / dof)) : 1.0;
+}
+
+double RmsOf(const Estimation& kept, const Theta& theta) {
+  double squares = 0.0;
+  int count = 0;
+  for (const ReadingRow& row : kept.rows) {
+    if (row.form != RowForm::kLog || !(row.direct_gain > 0.0)) continue;
+    squares += std::pow(RowResidual(row, theta) * row.sigma, 2.0);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
+// Blunders fall anywhere; neighbours that err together are something else.
+bool RejectedTogether(const std::vector<Place>& places) {
+  int run = 0;
+  int most = 0;
+  int count = 0;
+  const Place* before = nullptr;
+  for (const Place& place : places) {
+    count += place.rejected ? 1 : 0;
+    const bool together = place.rejected && before != nullptr && before->rejected &&
+                          (place.residual > 0.0) == (before->residual > 0.0);
+    run = together ? run + 1 : (place.rejected ? 1 : 0);
+    most = std::max(most, run);
+    before = &place;
+  }
+  return most >= 2 && most == count && 4 * count > static_cast<int>(places.size());
+}
+
+std::string NameOf(const Observation& o) {
+  return "reading " + std::to_string(o.index) + " (" + RoundedText(o.raw_lx, 4) + " lx at " +
+         RoundedText(o.distance_m, 4) + " m)";
+}
+
+// The one reading without which the rest agree.
+std::optional<std::string> OneReading(const Estimation& all, const Prepared& prepared,
+                                      const Observations& observations) {
+  constexpr double kSquareFoot = 10.7639;
+  if (all.rows.size() < 4 || all.rows.size() > 40) return std::nullopt;
+  for (int i = 0; i < prepared.own_rows; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!(all.rows[at].direct_gain > 0.0)) continue;
+    Estimation rest = all;
+    rest.rows = Without(all.rows, {i});
+    const Result<Theta> theta = SolveSettled(rest);
+    if (!theta || ContradictionOf(rest, *theta).Probability() < kExplained) continue;
+    const Observation& o = observations.rows[static_cast<std::size_t>(prepared.observation[at])];
+    const double ratio = all.rows[at].measured / RowIlluminance(all.rows[at], theta->data());
+    const double foot = std::abs(std::log(ratio / kSquareFoot));
+    const std::string apart =
+        NameOf(o) + " alone contradicts the others, by a factor of " + RoundedText(ratio, 3);
+    if (foot < 0.1) return apart + ": was its distance read in feet?";
+    return apart + ": read it again, or was it another lamp's?";
+  }
+  return std::nullopt;
+}
+
+// Readings beside the axis of a beam that was taken for a lamp shining alike all round.
+std::optional<std::string> Beam(const std::vector<Place>& places, const Prepared& prepared,
+                                const Observations& observations) {
+  constexpr double kAside = 5.0 * std::numbers::pi / 180.0;
+  double largest = 0.0;
+  for (const Place& a : places) {
+    for (const Place& b : places) {
+      const auto& p = observations.rows[static_cast<std::size_t>(
+          prepared.observation[static_cast<std::size_t>(a.row)])];
+      const auto& q = observations.rows[static_cast<std::size_t>(
+          prepared.observation[static_cast<std::size_t>(b.row)])];
+      if (!p.position_m || !q.position_m || !p.normal || !q.normal) return std::nullopt;
+      largest = std::max(largest, std::acos(std::clamp(Dot(*p.normal, *q.normal), -1.0, 1.0)));
+    }
+  }
+  if (largest < kAside) return std::nullopt;
+  return "readings " + RoundedText(largest * 180.0 / std::numbers::pi, 2) +
+         " degrees apart as seen from the lamp fall faster than distance explains: it is a beam; "
+         "describe it as kind = \"spot\" with its aim";
+}
+
+std::string CauseOf(const std::vector<Place>& places, bool at_bound, const Estimation& all,
+                    const Prepared& prepared, const Observations& observations) {
+  if (auto beam = Beam(places, prepared, observations)) return *beam;
+  if (auto one = OneReading(all, prepared, observations)) return *one;
+  if (at_bound) {
+    return "they fall faster with distance than any lamp's light: do the distances start where its "
+           "light does, and did the meter stay on the axis of its beam?";
+  }
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const ReadingRow& near = all.rows[static_cast<std::size_t>(places[i - 1].row)];
+    const ReadingRow& far = all.rows[static_cast<std::size_t>(places[i].row)];
+    const bool brighter_from_here =
+        std::all_of(places.begin() + static_cast<std::ptrdiff_t>(i), places.end(),
+                    [](const Place& place) { return place.residual > kMostRatio; });
+    if (far.measured > near.measured || brighter_from_here) {
+      const auto at =
+          static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(places[i].row)]);
+      return "from " + NameOf(observations.rows[at]) +
+             " on there is more light than one lamp gives: does another shine too? Switch it off, "
+             "or read the same places once with this lamp off";
+    }
+  }
+  return "check that every reading is of this lamp, in lux, at its distance in metres";
+}
+
+}  // namespace
+
+double ChiSquaredTail(double chi_squared, int dof) {
+  const double spread = 2.0 / (9.0 * dof);
+  const double z = (std::cbrt(chi_squared / dof) - (1.0 - spread)) / std::sqrt(spread);
+  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
+                         const Prepared& prepared, const Observations& observations,
+                         const std::string& light, Warnings& warnings) {
+  if (prepared.distances < kFewestDistances || estimate.bimodal) return {};
+  const std::vector<Place> places = ByDistance(estimate, all, prepared, observations);
+  Contradiction left = ContradictionOf(estimate.kept, estimate.theta);
+  left.chi_squared /= std::pow(NoiseRatio(places), 2.0);
+  const bool contradicted = left.Probability() < kLeastProbability;
+  const bool at_bound = all.rules[kDistanceOffset].free &&
+                        estimate.theta[kDistanceOffset] <= all.least_distance_offset * (1.0 - 1e-6);
+  if (!RejectedTogether(places) && !at_bound && !contradicted) return {};
+  const bool small =
+      left.Ratio() <= kMostRatio || RmsOf(estimate.kept, estimate.theta) < kLeastMisfit;
+  // Whose figures are printed cannot read again.
+  const bool printed =
+      std::ranges::all_of(observations.rows, [](const Observation& o) { return o.data_sheet; });
+  if (printed && !contradicted) return {};
+  if (printed || (!RejectedTogether(places) && !at_bound && small)) {
+    warnings.push_back({"misfit", light,
+                        "the readings contradict one another by " + RoundedText(left.Ratio(), 2) +
+                            " times what their sigma allows; the interval is widened by it: check "
+                            "the distances, and for other light"});
+    return {};
+  }
+  return Refused(
+      "model_misfit", light,
+      "no lamp gives these readings: " + CauseOf(places, at_bound, all, prepared, observations));
+}
+
+}  // namespace lightcal::fit

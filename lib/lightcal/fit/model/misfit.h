@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readings that no lamp of the model can have made.
+#pragma once
+
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/model/prepare.h"
+#include "lightcal/fit/model/robust.h"
+
+namespace lightcal::fit {
+
+// Probability that chi-squared with `dof` degrees of freedom exceeds `chi_squared` (Wilson and
+// Hilferty 1931). dof >= 1.
+[[nodiscard]] double ChiSquaredTail(double chi_squared, int dof);
+
+// Refused: model_misfit, where readings at three distances or more contradict every lamp under its
+// priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where two
+// neighbours at least had to be thrown out on the same side, or where the offset they ask for
+// stands at its bound. The message names the cause that explains the rest when tried: one reading,
+// a distance in feet, a beam read off its axis, another lamp. Less than three times: the warning
+// misfit; the interval holds it.
+[[nodiscard]] Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
+                                       const Prepared& prepared, const Observations& observations,
+                                       const std::string& light, Warnings& warnings);
+
+}  // namespace lightcal::fit

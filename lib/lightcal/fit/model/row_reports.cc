@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/row_reports.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::fit {
+namespace {
+
+std::string Plural(int n, const std::string& what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+// chi-squared of the rows alone and the degrees of freedom left.
+struct Scatter {
+  double chi_squared = 0.0;
+  double sum_squared_ln = 0.0;
+  int log_rows = 0;
+  int rows = 0;
+};
+Scatter ScatterOf(const Estimation& estimation, const Theta& theta) {
+  Scatter out;
+  for (const ReadingRow& row : estimation.rows) {
+    if (row.form == ReadingRow::Form::kCensored) continue;
+    const double r = RowResidual(row, theta);
+    out.chi_squared += r * r;
+    ++out.rows;
+    if (row.form != ReadingRow::Form::kLog) continue;
+    out.sum_squared_ln += r * row.sigma * r * row.sigma;
+    ++out.log_rows;
+  }
+  return out;
+}
+
+}  // namespace
+
+void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
+                const Observations& observations, const std::string& light, Warnings& warnings) {
+  const auto describe = [&](int row) {
+    const Observation& o = observations.rows[prepared.observation[row]];
+    if (row >= prepared.own_rows) {
+      return "what was read behind the card at " + RoundedText(o.distance_m, 4) + " m (" +
+             RoundedText(o.card_lx, 4) + " lx)";
+    }
+    return "reading " + std::to_string(o.index) + " (" + RoundedText(o.measured_lx, 4) + " lx at " +
+           RoundedText(o.distance_m, 4) + " m)";
+  };
+  for (const int row : estimate.rejected) {
+    warnings.push_back({"row_rejected", light,
+                        describe(row) + " lies beyond 4.7 standard deviations of the others; it "
+                                        "carries nothing: read again there"});
+  }
+  if (estimate.bimodal) {
+    warnings.push_back({"bimodal", light,
+                        "two of the four readings disagree with the other two; nothing tells which "
+                        "are right: read again"});
+  }
+  for (const int row : estimate.suspicious) {
+    warnings.push_back({"suspicious_reading", light,
+                        describe(row) + " disagrees with the model; with " +
+                            Plural(prepared.lit_rows, "reading") +
+                            " none can be rejected: read again"});
+  }
+}
+
+void NameLearned(const Estimation& estimation, const Covariance& covariance, bool distance_law,
+                 FitDiagnostics& diagnostics) {
+  const auto learned = [&](Parameter k) {
+    const ParameterRule& rule = estimation.rules[k];
+    if (!rule.free) return false;
+    return !(rule.prior_sd > 0.0) ||
+           std::sqrt(covariance[k * kParameters + k]) < kLearnedShare * rule.prior_sd;
+  };
+  diagnostics.learned.emplace_back(distance_law ? "intensity" : "illuminance");
+  if (distance_law) {
+    (learned(kDistanceOffset) ? diagnostics.learned : diagnostics.prior)
+        .emplace_back("distance_offset");
+  }
+  (learned(kAmbient) ? diagnostics.learned : diagnostics.prior).emplace_back("ambient");
+  if (!estimation.rules[kLnWalls].free) return;
+  (learned(kLnWalls) ? diagnostics.learned : diagnostics.prior).emplace_back("room_bounce");
+}
+
+void FillDiagnostics(const RobustEstimate& estimate, const Prepared& prepared,
+                     const Observations& observations, LightEstimate& out) {
+  FitDiagnostics& d = out.diagnostics;
+  d.readings = observations.readings;
+  d.used = prepared.own_rows + static_cast<int>(observations.shadow_used.size());
+  d.rejected = observations.rejected;
+  for (const int row : estimate.rejected) {
+    if (row >= prepared.own_rows) continue;
+    --d.used;
+    d.rejected.push_back(observations.rows[prepared.observation[row]].index);
+  }
+  std::sort(d.rejected.begin(), d.rejected.end());
+  const Scatter scatter = ScatterOf(estimate.kept, estimate.theta);
+  d.degrees_of_freedom = std::max(0, scatter.rows - static_cast<int>(d.learned.size()));
+  if (d.degrees_of_freedom > 0) {
+    d.chi2_dof = scatter.chi_squared / d.degrees_of_freedom;
+    if (scatter.log_rows > 0) d.rms_relative = std::sqrt(scatter.sum_squared_ln / scatter.log_rows);
+    if (estimate.kept.choice.leave_one_out) {
+      d.leave_one_out = LeaveOneOut(estimate.kept, estimate.theta);
+    }
+  }
+}
+
+double BirgeRatio(const Estimation& estimation, const Theta& theta, int dof) {
+  if (dof < 1) return 1.0;
+  const double chi_squared = ScatterOf(estimation, theta).chi_squared;
+  return chi_squared > ChiSquared95(dof) ? std::sqrt(chi_squared / dof) : 1.0;
+}
+
+void FillResiduals(const RobustEstimate& estimate, const Estimation& all, const Prepared& prepared,
+                   const Observations& observations, LightEstimate& out) {
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const ReadingRow& row = all.rows[i];
+    const Observation& o = observations.rows[prepared.observation[i]];
+    if (static_cast<int>(i) >= prepared.own_rows || !o.lit) continue;
+    const double predicted =
+        RowIlluminance(row, estimate.theta.data()) * prepared.scales.illuminance_lx;
+    ResidualRow residual;
+    residual.index = o.index;
+    if (o.placed) residual.distance_m = o.distance_m;
+    residual.measured_lx = o.measured_lx;
+    residual.predicted_lx = predicted;
+    residual.relative = o.measured_lx / predicted - 1.0;
+    residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
+    residual.used = std::find(estimate.rejected.begin(), estimate.rejected.end(),
+                              static_cast<int>(i)) == estimate.rejected.end();
+    out.residuals.push_back(residual);
+  }
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/light/wall_prior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// One family of lamps over the traced rooms.
+struct Family {
+  WallPrior prior;    // of an ordinary room
+  double in_room;     // k, 1/(m^2 sr)
+  double sd_in_room;  // of ln k
+  double flux;        // over intensity, sr
+};
+const Family kBulb = {
+    {std::log(0.122), 0.42, -1.05, 0.42, -0.27, 0.07}, 0.0113, 0.27, 0.86 * 4 * kPi};
+const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14}, 0.0120, 0.31, kPi};
+// Of unknown angle.
+const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25}, 0.0082, 0.63, 0.0};
+// ln b over flux/I of a beam whose angle is known.
+constexpr double kBeamOverFlux = 0.0092;
+constexpr double kSdOfBeam = 0.75;
+constexpr double kRoomPower = 0.7;
+// ln b of a place with hardly a wall, below an ordinary one's.
+constexpr double kFarLess = 2.5;
+constexpr double kSdOfFar = 1.2;
+constexpr double kOrdinaryRoom = 0.0088;  // f, 1/m^2
+// Below these fluxes over intensity a lamp lights its room as a panel, as a beam does.
+constexpr double kLeastOfBulb = 7.0;
+constexpr double kLeastOfPanel = 2.0;
+
+WallPrior InRoom(const Family& family, double flux, const StatedRoom& room) {
+  const double rho = std::clamp(room.reflectance, 0.02, 0.95);
+  const Vec3& s = room.size_m;
+  const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
+  WallPrior prior = family.prior;
+  prior.ln_b = std::log(family.in_room * flux) +
+               kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom);
+  prior.sd_ln_b =
+      std::hypot(family.sd_in_room, kRoomPower * room.reflectance_sigma / (rho * (1.0 - rho)));
+  return prior;
+}
+
+WallPrior PriorOf(const Family& family, std::optional<double> flux,
+                  const std::optional<StatedRoom>& room) {
+  const bool beam = family.flux == 0.0;
+  if (beam && !flux) return family.prior;
+  if (room) return InRoom(family, flux.value_or(family.flux), *room);
+  WallPrior prior = family.prior;
+  if (beam) {
+    prior.ln_b = std::log(kBeamOverFlux * *flux);
+    prior.sd_ln_b = kSdOfBeam;
+  } else if (flux) {
+    prior.ln_b += std::log(*flux / family.flux);
+  }
+  return prior;
+}
+
+// Of a beam cos^n, n of its full angle at half the peak.
+double FluxOfBeam(Radians beam) {
+  const double half = std::min(0.5 * beam.value(), 1.5);
+  return 2.0 * kPi / (std::log(0.5) / std::log(std::cos(half)) + 1.0);
+}
+
+const Family* FamilyOf(const LampSpread& lamp) {
+  switch (lamp.kind) {
+    case LightKind::kSphere:
+    case LightKind::kTube:
+      return &kBulb;
+    case LightKind::kDisk:
+    case LightKind::kRect:
+      return &kPanel;
+    case LightKind::kSpot:
+      return &kBeam;
+    default:
+      break;
+  }
+  if (!lamp.fixture) return nullptr;
+  switch (*lamp.fixture) {
+    case Fixture::kBulb:
+      return &kBulb;
+    case Fixture::kCobBare:
+    case Fixture::kPanel:
+    case Fixture::kSoftbox:
+      return &kPanel;
+    case Fixture::kReflector:
+    case Fixture::kFresnel:
+      return &kBeam;
+    case Fixture::kLuminaire:
+      break;
+  }
+  return nullptr;
+}
+
+// Four lamps in five stand in the open, one near a wall, whose light falls faster. One room in
+// twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
+std::vector<WallHypothesis> WithOtherPlaces(const Family& family, WallPrior prior) {
+  if (family.flux == 0.0) return {{1.0, prior}};
+  const bool bulb = &family == &kBulb;
+  prior.slope = bulb ? -1.00 : -0.45;
+  prior.sd_slope = bulb ? 0.36 : 0.55;
+  WallPrior near = prior;
+  near.slope = bulb ? -1.60 : -1.10;
+  near.sd_slope = bulb ? 0.45 : 0.60;
+  WallPrior far = prior;
+  far.ln_b -= kFarLess;
+  far.sd_ln_b = kSdOfFar;
+  return {{0.76, prior}, {0.19, near}, {0.05, far}};
+}
+
+}  // namespace
+
+std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
+                                       const std::optional<StatedRoom>& room) {
+  if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return {};
+  std::optional<double> flux = lamp.flux_over_intensity;
+  if (lamp.beam && lamp.beam->value() > 0.0) flux = FluxOfBeam(*lamp.beam);
+  if (flux) {
+    const Family& family = *flux > kLeastOfBulb ? kBulb : (*flux > kLeastOfPanel ? kPanel : kBeam);
+    return WithOtherPlaces(family, PriorOf(family, flux, room));
+  }
+  if (const Family* family = FamilyOf(lamp)) {
+    return WithOtherPlaces(*family, PriorOf(*family, {}, room));
+  }
+  std::vector<WallHypothesis> any = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
+  for (WallHypothesis& bulb : any) bulb.weight *= 0.5;
+  const WallPrior panel = PriorOf(kPanel, {}, room);
+  any.push_back({0.10, panel, 0.12, 0.09});
+  any.push_back({0.08, panel, 0.25, 0.19});
+  any.push_back({0.07, panel, 0.42, 0.32});
+  any.push_back({0.25, PriorOf(kBeam, {}, room)});
+  return any;
+}
+
+double WallsPerCandela(const WallPrior& prior, double distance_m, double deviates) {
+  const double x = std::log(distance_m / kWallReference_m);
+  const double sd = std::hypot(prior.sd_ln_b, prior.sd_slope * x);
+  return std::exp(prior.ln_b + prior.slope * x + prior.bend * x * x + deviates * sd);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that walls, ceiling, floor and furniture throw back from a lamp onto a meter that faces it:
+// what is known of it before anything is read.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lightcal/core/units.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/light/fixture.h"
+#include "lightcal/photometry/light_kind.h"
+
+namespace lightcal {
+
+// E_walls = I b exp(slope x + bend x^2),  x = ln(d / 3 m),  b in lx/cd (1/m^2). ln b and slope are
+// normal and independent: three metres from the lamp they are so in traced rooms, at one they lean
+// on each other. `scatter`: what a place adds to ln E_walls, 1 sigma.
+struct WallPrior {
+  double ln_b = 0.0, sd_ln_b = 0.0;
+  double slope = 0.0, sd_slope = 0.0;
+  double bend = 0.0;
+  double scatter = 0.0;
+};
+inline constexpr double kWallReference_m = 3.0;
+
+// One thing that the lamp may be, of which one is.
+struct WallHypothesis {
+  double weight = 1.0;
+  WallPrior prior;
+  // Of a lamp of unknown kind: the luminous rectangle it would be, 0 = a point.
+  double width_m = 0.0, height_m = 0.0;
+};
+
+// What is known of where a lamp sends its light.
+struct LampSpread {
+  LightKind kind = LightKind::kPoint;
+  std::optional<Fixture> fixture;
+  std::optional<Radians> beam;                // full angle at half the peak
+  std::optional<double> flux_over_intensity;  // sr, of a cone or a table
+};
+
+// A stated room: a closed box with one mean reflectance, 1 sigma of it.
+struct StatedRoom {
+  Vec3 size_m{};
+  double reflectance = 0.5;
+  double reflectance_sigma = 0.05;
+};
+
+// From 1,500 path-traced ordinary rooms (tests/tools/traced_rooms): b of the lamp's flux over
+// intensity, in a stated room b = k flux/I (f/.0088)^.7 with f = rho/(A (1 - rho)), .0088 being an
+// ordinary room's. Empty for kinds without a distance.
+[[nodiscard]] std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
+                                                     const std::optional<StatedRoom>& room);
+
+// Median of E_walls/I at a distance, lx/cd, and the same `deviates` standard deviations above.
+[[nodiscard]] double WallsPerCandela(const WallPrior& prior, double distance_m,
+                                     double deviates = 0.0);
+
+}  // namespace lightcal
