@@ -9,7 +9,8 @@ namespace {
 constexpr CommandRow kCommands[] = {
     {"quick", "One lamp from what you typed: lux at a distance, or a data sheet's figures",
      "  lightcal quick 192lx@0.5m --cct 2900K\n"
-     "  lightcal quick 192lx@0.5m 52lx@1m --at 3m\n"
+     "  lightcal quick 203lx@0.5m 58lx@1m 20lx@2m,card=8lx --fixture bulb --meter hobby\n"
+     "  lightcal quick 192lx@0.5m 48lx@1m --room dark --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
      "  lightcal quick --plan --reach 3m --minutes move=5\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},

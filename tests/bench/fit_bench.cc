@@ -55,6 +55,35 @@ fit::Estimation SixReadings() {
   return estimation;
 }
 
+// The same with light from walls: five parameters, four priors.
+fit::Estimation SixReadingsInARoom() {
+  fit::Estimation estimation = SixReadings();
+  estimation.rules[fit::kAmbient] = {};
+  estimation.rules[fit::kLnWalls] = {true, std::log(0.122), 0.42};
+  estimation.rules[fit::kWallsSlope] = {true, -1.05, 0.42};
+  for (fit::ReadingRow& row : estimation.rows) {
+    const double x = std::log(row.distance / 3.0);
+    row.walls = fit::WallsOfRow{x, -0.27 * x * x, 0.07};
+    row.measured += 0.122 * std::exp(-1.05 * x - 0.27 * x * x);
+    row.own_sigma = row.sigma;
+  }
+  return estimation;
+}
+
+void BM_SolveInFullSixReadingsInARoom(benchmark::State& state) {
+  const fit::Estimation estimation = SixReadingsInARoom();
+  const fit::Theta start = fit::ScanStart(estimation);
+  for (auto _ : state) benchmark::DoNotOptimize(fit::SolveInFull(estimation, start));
+}
+BENCHMARK(BM_SolveInFullSixReadingsInARoom);
+
+void BM_SolveQuicklySixReadingsInARoom(benchmark::State& state) {
+  const fit::Estimation estimation = SixReadingsInARoom();
+  const fit::Theta start = fit::ScanStart(estimation);
+  for (auto _ : state) benchmark::DoNotOptimize(fit::SolveQuickly(estimation, start));
+}
+BENCHMARK(BM_SolveQuicklySixReadingsInARoom);
+
 // The Ceres path alone: rows to optimum.
 void BM_SolveInFullSixReadings(benchmark::State& state) {
   const fit::Estimation estimation = SixReadings();

@@ -13,18 +13,17 @@
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/locate/locate.h"
 #include "lightcal/fit/model/data_sheet.h"
+#include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/input_checks.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/plan/plan_forward.h"
-#include "lightcal/photometry/source_photometry.h"
 
 namespace lightcal {
 namespace {
 
 using fit::kAmbient;
-using fit::kDistanceOffset;
 using fit::kLnIntensity;
 using fit::kParameters;
 
@@ -32,83 +31,8 @@ void Append(Warnings& to, Warnings&& from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-std::optional<double> ValueOf(const std::optional<Metres>& length) {
-  if (!length) return std::nullopt;
-  return length->value();
-}
-
-FittedLight Describe(const LightDescription& light) {
-  FittedLight out;
-  out.name = light.name;
-  out.kind = light.kind;
-  out.diameter_m = ValueOf(light.diameter);
-  out.width_m = ValueOf(light.width);
-  out.height_m = ValueOf(light.height);
-  out.length_m = ValueOf(light.length);
-  out.radius_m = ValueOf(light.radius);
-  if (light.inner) out.inner_deg = DegreesFromRadians(*light.inner);
-  if (light.outer) out.outer_deg = DegreesFromRadians(*light.outer);
-  out.position_m = light.position_m;
-  out.aim = light.aim;
-  out.axis = light.axis;
-  return out;
-}
-
-SourceGeometry GeometryOf(const LightDescription& light) {
-  SourceGeometry geometry;
-  geometry.kind = light.kind;
-  if (light.radius) geometry.radius = *light.radius;
-  if (light.diameter) geometry.radius = *light.diameter / 2.0;
-  geometry.width = light.width;
-  geometry.height = light.height;
-  geometry.length = light.length;
-  if (light.outer) geometry.cone = SpotCone{light.inner.value_or(Radians(0.0)), *light.outer};
-  return geometry;
-}
-
-// What scales with the intensity shares its relative interval.
-Uncertain ScaledTo(const Uncertain& intensity, double value) {
-  const double ratio = value / intensity.value;
-  Uncertain u{value, intensity.u95 * ratio, std::nullopt, std::nullopt};
-  if (intensity.low) u.low = *intensity.low * ratio;
-  if (intensity.high) u.high = *intensity.high * ratio;
-  return u;
-}
-
-// The file's shape, as bright as the readings say.
-void AddTable(const IntensityTable& table, FittedLight& out) {
-  const Uncertain& intensity = *out.intensity_cd;
-  IntensityTable scaled = table.Scaled(intensity.value / table.peak().intensity.value());
-  out.flux_lm = ScaledTo(intensity, scaled.Flux().value());
-  out.distribution = MeasuredDistribution{std::move(scaled)};
-}
-
-void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {
-  if (!out.intensity_cd) return;
-  if (light.distribution) return AddTable(*light.distribution, out);
-  if (light.kind == LightKind::kPhotometric) return;
-  const SourceGeometry geometry = GeometryOf(light);
-  const Uncertain& intensity = *out.intensity_cd;
-  const auto photometry = ConvertSource(geometry, SourceQuantity::kIntensity, intensity.value);
-  if (!photometry) return;  // a size this kind needs is not given
-  if (photometry->flux) out.flux_lm = ScaledTo(intensity, photometry->flux->value());
-  const bool has_surface = light.kind == LightKind::kSphere || light.kind == LightKind::kDisk ||
-                           light.kind == LightKind::kRect || light.kind == LightKind::kTube;
-  if (has_surface && photometry->luminance) {
-    out.luminance_nits = ScaledTo(intensity, photometry->luminance->value());
-  }
-}
-
 double Sd(const fit::Covariance& covariance, fit::Parameter k) {
   return std::sqrt(covariance[k * kParameters + k]);
-}
-
-// Parameters of which light.json keeps the covariance: ln I, d0, E0.
-constexpr int kPredicting = 3;
-
-// An interval that need not be symmetric.
-Uncertain Within(double value, double low, double high) {
-  return {value, 0.5 * (high - low), low, high};
 }
 
 std::optional<fit::SamplingRule> SamplingOf(const FitSettings& settings) {
@@ -133,52 +57,6 @@ std::string SayOfSampling(const fit::LightEstimate& estimate, const std::string&
          (estimate.sampled->stable ? "" : " (two digits would take more)") + ": 95 % from " +
          percent(ln.low - middle) + " to +" + percent(ln.high - middle) +
          "; the covariance alone says " + percent(-linear) + " to +" + percent(linear);
-}
-
-void FillParameters(const fit::LightEstimate& estimate, bool distance_law, FittedLight& out) {
-  if (estimate.upper_limit) {
-    const Uncertain limit{0.5 * *estimate.upper_limit, 0.5 * *estimate.upper_limit, 0.0,
-                          *estimate.upper_limit};
-    (distance_law ? out.intensity_cd : out.illuminance_lx) = limit;
-    return;
-  }
-  Uncertain main =
-      UncertainFromLog(estimate.theta[kLnIntensity], Sd(estimate.covariance, kLnIntensity));
-  if (estimate.ln_interval) {
-    main = Within(main.value, std::exp(estimate.ln_interval->low),
-                  std::exp(estimate.ln_interval->high));
-  } else if (estimate.sampled) {
-    const fit::SampledParameter& ln = estimate.sampled->parameters[kLnIntensity];
-    main = Within(main.value, std::exp(ln.low), std::exp(ln.high));
-  }
-  if (distance_law) {
-    out.intensity_cd = main;
-    out.distance_offset_m = UncertainFromNormal(estimate.theta[kDistanceOffset],
-                                                Sd(estimate.covariance, kDistanceOffset));
-    if (estimate.sampled) {
-      const fit::SampledParameter& d0 = estimate.sampled->parameters[kDistanceOffset];
-      out.distance_offset_m = Within(estimate.theta[kDistanceOffset], d0.low, d0.high);
-    }
-  } else {
-    out.illuminance_lx = main;
-  }
-  Uncertain ambient =
-      UncertainFromNormal(estimate.theta[kAmbient], Sd(estimate.covariance, kAmbient));
-  if (ambient.value < ambient.u95) {  // illuminance cannot be negative: a one-sided interval
-    ambient.low = 0.0;
-    ambient.high = ambient.value + ambient.u95;
-  }
-  if (estimate.sampled && estimate.ambient_free) {
-    const fit::SampledParameter& e0 = estimate.sampled->parameters[kAmbient];
-    ambient = Within(ambient.value, std::max(0.0, e0.low), e0.high);
-  }
-  out.ambient_lx = ambient;
-  out.covariance_lnI_d0_E0.emplace();
-  for (int i = 0; i < kPredicting; ++i) {
-    for (int j = 0; j < kPredicting; ++j) {
-      (*out.covariance_lnI_d0_E0)[i * kPredicting + j] = estimate.covariance[i * kParameters + j];
-    }
-  }
 }
 
 double LargestCalibration(const fit::Observations& observations) {
@@ -303,7 +181,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }
-  FillParameters(location->estimate, true, out);
+  fit::FillParameters(location->estimate, true, out);
   out.distance_offset_m.reset();
   out.position_m = location->position_m;
   Vec3 u95{};
@@ -315,7 +193,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   out.budget = fit::BudgetOf(location->estimate.variance_parts);
   NameOffsetFound(out.effects);
   ReportCalibration(seen, out.effects);
-  AddDerivedQuantities(light, out);
+  fit::AddDerivedQuantities(light, out);
   fit::CheckDataSheet(light, out, warnings);
   return out;
 }
@@ -333,14 +211,14 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (!observations) return Propagate(std::move(observations));
   fit::CheckTimes(session, light, warnings);
   fit::CheckRoom(session, light, warnings);
-  FittedLight out = Describe(light);
+  FittedLight out = fit::Describe(light);
   out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {
     if (observations->rejected.empty() && fit::HasDataSheet(light)) {
       if (auto filled = fit::FillFromDataSheet(light, out); !filled) {
         return Propagate(std::move(filled));
       }
-      AddDerivedQuantities(light, out);
+      fit::AddDerivedQuantities(light, out);
       out.flux_lm =
           Uncertain{light.flux->value(), fit::kFluxToleranceRelative * light.flux->value(), {}, {}};
       return out;
@@ -408,13 +286,13 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
     estimate->diagnostics.used += beyond;
     estimate->diagnostics.learned.emplace_back("cone");
   }
-  FillParameters(*estimate, distance_law, out);
+  fit::FillParameters(*estimate, distance_law, out);
   out.fit = estimate->diagnostics;
   out.residuals = estimate->residuals;
   out.effects = fit::ReportEffects(*plan, *observations, *estimate);
   ReportCalibration(*observations, out.effects);
   if (!estimate->upper_limit) out.budget = fit::BudgetOf(estimate->variance_parts);
-  AddDerivedQuantities(seen, out);
+  fit::AddDerivedQuantities(seen, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);
   fit::CheckDrift(session, out, warnings);
   return out;

@@ -40,15 +40,15 @@ Contradiction ContradictionOf(const Estimation& estimation, const Theta& theta) 
   return out;
 }
 
-struct Place {
+struct ReadAt {
   double distance_m = 0.0;
   double residual = 0.0;
   int row = 0;
   bool rejected = false;
 };
-std::vector<Place> ByDistance(const RobustEstimate& estimate, const Estimation& all,
-                              const Prepared& prepared, const Observations& observations) {
-  std::vector<Place> out;
+std::vector<ReadAt> ReadingsByDistance(const RobustEstimate& estimate, const Estimation& all,
+                                       const Prepared& prepared, const Observations& observations) {
+  std::vector<ReadAt> out;
   for (int i = 0; i < prepared.own_rows; ++i) {
     const ReadingRow& row = all.rows[static_cast<std::size_t>(i)];
     if (!(row.direct_gain > 0.0) || row.form == RowForm::kCensored) continue;
@@ -56,12 +56,12 @@ std::vector<Place> ByDistance(const RobustEstimate& estimate, const Estimation& 
     out.push_back({observations.rows[at].distance_m, RowResidual(row, estimate.theta), i,
                    std::ranges::binary_search(estimate.rejected, i)});
   }
-  std::ranges::stable_sort(out, {}, &Place::distance_m);
+  std::ranges::stable_sort(out, {}, &ReadAt::distance_m);
   return out;
 }
 
 // How much repeated readings differ beyond their sigma: noise is no misfit.
-double NoiseRatio(const std::vector<Place>& places) {
+double NoiseRatio(const std::vector<ReadAt>& places) {
   double squares = 0.0;
   int dof = 0;
   for (std::size_t first = 0; first < places.size();) {
@@ -89,13 +89,14 @@ double RmsOf(const Estimation& kept, const Theta& theta) {
   return count > 0 ? std::sqrt(squares / count) : 0.0;
 }
 
-// Blunders fall anywhere; neighbours that err together are something else.
-bool RejectedTogether(const std::vector<Place>& places) {
+// Blunders are few and fall anywhere: half of the readings, or neighbours that err together, are
+// something else.
+bool RejectedAsNoBlunders(const std::vector<ReadAt>& places) {
   int run = 0;
   int most = 0;
   int count = 0;
-  const Place* before = nullptr;
-  for (const Place& place : places) {
+  const ReadAt* before = nullptr;
+  for (const ReadAt& place : places) {
     count += place.rejected ? 1 : 0;
     const bool together = place.rejected && before != nullptr && before->rejected &&
                           (place.residual > 0.0) == (before->residual > 0.0);
@@ -103,7 +104,8 @@ bool RejectedTogether(const std::vector<Place>& places) {
     most = std::max(most, run);
     before = &place;
   }
-  return most >= 2 && most == count && 4 * count > static_cast<int>(places.size());
+  const auto all = static_cast<int>(places.size());
+  return 2 * count >= all || (most >= 2 && most == count && 4 * count > all);
 }
 
 std::string NameOf(const Observation& o) {
@@ -135,12 +137,12 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
 }
 
 // Readings beside the axis of a beam that was taken for a lamp shining alike all round.
-std::optional<std::string> Beam(const std::vector<Place>& places, const Prepared& prepared,
+std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepared& prepared,
                                 const Observations& observations) {
   constexpr double kAside = 5.0 * std::numbers::pi / 180.0;
   double largest = 0.0;
-  for (const Place& a : places) {
-    for (const Place& b : places) {
+  for (const ReadAt& a : places) {
+    for (const ReadAt& b : places) {
       const auto& p = observations.rows[static_cast<std::size_t>(
           prepared.observation[static_cast<std::size_t>(a.row)])];
       const auto& q = observations.rows[static_cast<std::size_t>(
@@ -155,7 +157,7 @@ std::optional<std::string> Beam(const std::vector<Place>& places, const Prepared
          "describe it as kind = \"spot\" with its aim";
 }
 
-std::string CauseOf(const std::vector<Place>& places, bool at_bound, const Estimation& all,
+std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Estimation& all,
                     const Prepared& prepared, const Observations& observations) {
   if (auto beam = Beam(places, prepared, observations)) return *beam;
   if (auto one = OneReading(all, prepared, observations)) return *one;
@@ -168,7 +170,7 @@ std::string CauseOf(const std::vector<Place>& places, bool at_bound, const Estim
     const ReadingRow& far = all.rows[static_cast<std::size_t>(places[i].row)];
     const bool brighter_from_here =
         std::all_of(places.begin() + static_cast<std::ptrdiff_t>(i), places.end(),
-                    [](const Place& place) { return place.residual > kMostRatio; });
+                    [](const ReadAt& place) { return place.residual > kMostRatio; });
     if (far.measured > near.measured || brighter_from_here) {
       const auto at =
           static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(places[i].row)]);
@@ -192,20 +194,20 @@ Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
                          const Prepared& prepared, const Observations& observations,
                          const std::string& light, Warnings& warnings) {
   if (prepared.distances < kFewestDistances || estimate.bimodal) return {};
-  const std::vector<Place> places = ByDistance(estimate, all, prepared, observations);
+  const std::vector<ReadAt> places = ReadingsByDistance(estimate, all, prepared, observations);
   Contradiction left = ContradictionOf(estimate.kept, estimate.theta);
   left.chi_squared /= std::pow(NoiseRatio(places), 2.0);
   const bool contradicted = left.Probability() < kLeastProbability;
   const bool at_bound = all.rules[kDistanceOffset].free &&
                         estimate.theta[kDistanceOffset] <= all.least_distance_offset * (1.0 - 1e-6);
-  if (!RejectedTogether(places) && !at_bound && !contradicted) return {};
+  if (!RejectedAsNoBlunders(places) && !at_bound && !contradicted) return {};
   const bool small =
       left.Ratio() <= kMostRatio || RmsOf(estimate.kept, estimate.theta) < kLeastMisfit;
   // Whose figures are printed cannot read again.
   const bool printed =
       std::ranges::all_of(observations.rows, [](const Observation& o) { return o.data_sheet; });
   if (printed && !contradicted) return {};
-  if (printed || (!RejectedTogether(places) && !at_bound && small)) {
+  if (printed || (!RejectedAsNoBlunders(places) && !at_bound && small)) {
     warnings.push_back({"misfit", light,
                         "the readings contradict one another by " + RoundedText(left.Ratio(), 2) +
                             " times what their sigma allows; the interval is widened by it: check "

@@ -16,8 +16,8 @@ namespace lightcal::fit {
 [[nodiscard]] double ChiSquaredTail(double chi_squared, int dof);
 
 // Refused: model_misfit, where readings at three distances or more contradict every lamp under its
-// priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where two
-// neighbours at least had to be thrown out on the same side, or where the offset they ask for
+// priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where half
+// of them or neighbours on one side had to be thrown out, or where the offset they ask for
 // stands at its bound. The message names the cause that explains the rest when tried: one reading,
 // a distance in feet, a beam read off its axis, another lamp. Less than three times: the warning
 // misfit; the interval holds it.
