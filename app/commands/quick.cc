@@ -12,6 +12,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
@@ -98,10 +99,6 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
 
 constexpr const char* kQuickMeter = "meter";
 
-bool IsLit(const Reading& reading) {
-  return reading.lamp == LampState::kOn && !reading.shadow_card;
-}
-
 // 1 sigma of a reading as it was typed, or by what the meter's maker says; absent where neither is.
 Result<std::optional<double>> SigmaAsked(const QuickOptions& options) {
   if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
@@ -123,7 +120,7 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
     auto typed = ParseTypedReading(text, options.name);
     if (!typed) return Propagate(std::move(typed));
     for (Reading& reading : *typed) {
-      if (IsLit(reading) && !reading.cct) reading.cct = cct;
+      if (fit::IsLit(reading) && !reading.cct) reading.cct = cct;
       if (options.meter.empty()) {
         reading.sigma_relative = *sigma;
       } else {

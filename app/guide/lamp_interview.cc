@@ -222,9 +222,7 @@ class Interview {
 
   Result<void> AskSides() {
     std::vector<double> sides;
-    const auto parse = [this](const std::string& text) -> Result<std::vector<double>> {
-      session_.surroundings = text == "dark" || text == "outdoors" ? text : "";
-      if (!session_.surroundings.empty()) return std::vector<double>{};
+    const auto parse = [](const std::string& text) {
       return ParseSides(text, 2, "WIDTHxHEIGHT, for example 120x60cm");
     };
     auto taken = Take(sides, {"--size", "Its width and height, for example 120x60cm:", ""},
@@ -309,7 +307,9 @@ class Interview {
 
   Result<void> AskRoom() {
     std::vector<double> sides;
-    const auto parse = [](const std::string& text) {
+    const auto parse = [this](const std::string& text) -> Result<std::vector<double>> {
+      session_.surroundings = text == "dark" || text == "outdoors" ? text : "";
+      if (!session_.surroundings.empty()) return std::vector<double>{};
       return ParseSides(text, 3, "WIDTH,DEPTH,HEIGHT, for example 5,4,2.6 (metres)");
     };
     auto taken = Take(

@@ -41,6 +41,22 @@ TEST_P(NewOfKind, WritesASessionThatThePlanAndAReadingTake) {
   const CliResult fitted = RunLightcal({"fit", session});
   EXPECT_EQ(fitted.exit_code, 0) << fitted.err << text;
 }
+TEST(New, ARoomWithoutWallsIsWrittenAsOne) {
+  const NoUsb machine;
+  for (const std::string none : {"dark", "outdoors"}) {
+    const TempDir home;
+    const std::string session = home.path() + "/s";
+    const CliResult begun =
+        RunLightcal({"new", session, "--kind", "point", "--yes", "--room", none});
+    ASSERT_EQ(begun.exit_code, 0) << begun.err;
+    EXPECT_THAT(ReadFile(session + "/session.toml"), HasSubstr("[room]\n" + none + " = true"));
+    EXPECT_EQ(RunLightcal({"new", home.path() + "/t", "--kind", "rect", "--yes", "--size", none})
+                  .exit_code,
+              2)
+        << "no size";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     NewSession, NewOfKind,
     testing::Values(KindCase{"point",

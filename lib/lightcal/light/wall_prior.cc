@@ -18,7 +18,7 @@ struct Family {
   double flux;        // over intensity, sr
 };
 const Family kBulb = {
-    {std::log(0.122), 0.42, -1.05, 0.42, -0.27, 0.07}, 0.0113, 0.27, 0.86 * 4 * kPi};
+    {std::log(0.122), 0.42, -1.00, 0.36, -0.27, 0.07}, 0.0113, 0.27, 0.86 * 4 * kPi};
 const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14}, 0.0120, 0.31, kPi};
 // Of unknown angle.
 const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25}, 0.0082, 0.63, 0.0};
@@ -99,11 +99,9 @@ const Family* FamilyOf(const LampSpread& lamp) {
 
 // Four lamps in five stand in the open, one near a wall, whose light falls faster. One room in
 // twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
-std::vector<WallHypothesis> WithOtherPlaces(const Family& family, WallPrior prior) {
+std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrior& prior) {
   if (family.flux == 0.0) return {{1.0, prior}};
   const bool bulb = &family == &kBulb;
-  prior.slope = bulb ? -1.00 : -0.45;
-  prior.sd_slope = bulb ? 0.36 : 0.55;
   WallPrior near = prior;
   near.slope = bulb ? -1.60 : -1.10;
   near.sd_slope = bulb ? 0.45 : 0.60;

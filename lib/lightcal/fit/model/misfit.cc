@@ -200,14 +200,15 @@ Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
   const bool contradicted = left.Probability() < kLeastProbability;
   const bool at_bound = all.rules[kDistanceOffset].free &&
                         estimate.theta[kDistanceOffset] <= all.least_distance_offset * (1.0 - 1e-6);
-  if (!RejectedAsNoBlunders(places) && !at_bound && !contradicted) return {};
+  const bool no_blunders = RejectedAsNoBlunders(places);
+  if (!no_blunders && !at_bound && !contradicted) return {};
   const bool small =
       left.Ratio() <= kMostRatio || RmsOf(estimate.kept, estimate.theta) < kLeastMisfit;
   // Whose figures are printed cannot read again.
   const bool printed =
       std::ranges::all_of(observations.rows, [](const Observation& o) { return o.data_sheet; });
   if (printed && !contradicted) return {};
-  if (printed || (!RejectedAsNoBlunders(places) && !at_bound && small)) {
+  if (printed || (!no_blunders && !at_bound && small)) {
     warnings.push_back({"misfit", light,
                         "the readings contradict one another by " + RoundedText(left.Ratio(), 2) +
                             " times what their sigma allows; the interval is widened by it: check "
