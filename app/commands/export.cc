@@ -23,7 +23,7 @@ struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
-  std::string space, white, range;
+  std::string space, white, range, spots = "auto";
   bool bare = false;
   bool force = false;
 };
@@ -54,6 +54,9 @@ Result<PresetOptions> OptionsOf(const ExportOptions& options) {
     if (!white) return tl::unexpected(white.error());
     preset.color.white = *white;
   }
+  preset.spots = options.spots == "ies"    ? SpotForm::kIes
+                 : options.spots == "cone" ? SpotForm::kCone
+                                           : SpotForm::kAuto;
   if (!options.range.empty()) {
     const auto range = ParseLength(options.range);
     if (!range || !(range->value() > 0.0)) {
@@ -126,6 +129,14 @@ Run BuildExport(CLI::App& parser) {
                     "What the pipeline shows as white: 3200K, D65 or x,y [no adaptation]");
   parser.add_option("--range", options->range,
                     "Range of the engine's lights; intensities are refitted in it [no limit]");
+  parser
+      .add_option(
+          "--spots", options->spots,
+          "ies: spots as IES lights or projected profiles where the engine has them; cone: as "
+          "its own cone, refitted; auto: as a cone where that stays within 3 % of the axial "
+          "intensity")
+      ->check(CLI::IsMember({"auto", "ies", "cone"}))
+      ->capture_default_str();
   parser.add_flag("--bare", options->bare, "The lights only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunExport(*options, console); };

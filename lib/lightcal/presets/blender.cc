@@ -6,8 +6,9 @@
 //   rect, disk           pi I/(K Y)       world  L/(K Y)
 //   measured             177.83/(K Y), the candela in the IES text (Cycles turns them to watts at
 //                        4 pi/177.83), mirrored: Cycles has C0 along -y and C90 along -x
-// Cycles' spot falls smoothly (smoothstep) in the cosine from spot_blend's edge to spot_size.
-// Sources: Cycles 3.4 and 5.2, rendered (tests/engines/render).
+// Cycles' spot falls smoothly (smoothstep) in the cosine from spot_blend's edge to spot_size;
+// before 4.0, where a spot is a disc, another cosine dims it within. The script holds the cone for
+// both. Sources: Cycles 3.4 and 5.2, rendered (tests/engines/render).
 #include <cmath>
 #include <numbers>
 
@@ -23,8 +24,13 @@ namespace {
 using records::Node;
 constexpr double kLumensPerWatt = 683.0;
 constexpr double kLumensPerWattOfIes = 177.83;
-constexpr EngineForms kBlender{
-    .sphere = true, .disk = true, .rect = true, .table = true, .dome = true};
+constexpr EngineForms kBlender{.sphere = true,
+                               .disk = true,
+                               .rect = true,
+                               .table = true,
+                               .dome = true,
+                               .cone = EngineConeLaw::kSmooth,
+                               .spots_by_table = true};
 
 const char* BlenderType(LightForm form) {
   switch (form) {
@@ -68,8 +74,16 @@ Node Axes(const PresetLight& light) {
   return Node::List(columns, [](const Vec3& v) { return NodeOf(v); });
 }
 
+Node SpotShape(const EngineCone& fit) {
+  const double outer = std::cos(fit.cone.outer.value());
+  Node shape = {{"spot_size_rad", 2.0 * fit.cone.outer.value()},
+                {"spot_blend", (std::cos(fit.cone.inner.value()) - outer) / (1.0 - outer)}};
+  shape.Put("worst_of_axial", fit.worst);
+  shape.Put("flux_factor", fit.flux);
+  return shape;
+}
+
 Node Shape(const PresetLight& light) {
-  const SpotCone& cone = light.punctual.cone;
   const bool disk = light.form == LightForm::kDisk;
   Node shape = Node::Table();
   switch (light.form) {
@@ -81,9 +95,11 @@ Node Shape(const PresetLight& light) {
               {"size_m", Node{disk ? 2.0 * light.radius_m : light.width_m,
                               disk ? 2.0 * light.radius_m : light.height_m}}};
     case LightForm::kSpot: {
-      const double outer = std::cos(cone.outer.value());
-      shape = {{"spot_size_rad", 2.0 * cone.outer.value()},
-               {"spot_blend", (std::cos(cone.inner.value()) - outer) / (1.0 - outer)}};
+      shape = SpotShape(light.cone);
+      if (light.beam) {
+        shape.Put("before_4_0",
+                  SpotShape(RefitCone(EngineConeLaw::kSmoothTimesCosine, *light.beam)));
+      }
       break;
     }
     default:
@@ -130,12 +146,14 @@ Result<IntensityTable> MirroredInC0(const IntensityTable& table) {
 
 Result<std::string> MirroredIes(const LightFile& file, const FittedLight& lamp,
                                 const PresetLight& light, const std::string& stem) {
-  auto mirrored = MirroredInC0(*light.table);
-  if (!mirrored) return Propagate(std::move(mirrored));
   LightFile alone;
   alone.lights = {lamp};
   alone.provenance = file.provenance;
-  alone.lights.front().distribution->table = *std::move(mirrored);
+  if (lamp.distribution) {
+    auto mirrored = MirroredInC0(*light.table);
+    if (!mirrored) return Propagate(std::move(mirrored));
+    alone.lights.front().distribution->table = *std::move(mirrored);
+  }
   auto files = IesFiles(alone, stem);
   if (!files) return Propagate(std::move(files));
   return files->front()->contents;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightcal/light/axial_shape.h"
+#include "lightcal/presets/check/engine_light.h"
 #include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/records/fitted_light.h"
@@ -18,6 +19,8 @@ struct Emission {
   AxialShape shape{};
   std::optional<EngineFalloff> falloff{};  // absent: 1/d^2
   double range_m = 0.0;
+  std::optional<ConeOfLaw> cone{};  // of a spot
+  bool table = false;               // a photometric file: what was measured, in every direction
 };
 
 // `axial_part`: the lamp's intensity on its axis over that of its peak.

@@ -5,14 +5,15 @@
 //   FOCUSED_SPOT  intensityCandela I/Y;  intensity [lm] 2 pi (1 - cos outer) I/Y
 //   DIRECTIONAL, SUN  intensity E/Y [lx]
 //   INDIRECT      one band of irradiance, the colour; intensity L/Y
-// setExposure(16, 307.2 k, 100) makes pixel = k L. A falloff of 1000 m is no window: Filament's
-// own default in glTF files, 10 m, takes 12 % at 5 m.
+// setExposure(16, 307.2 k, 100) makes pixel = k L. A falloff of 1000 m is no window (one that
+// was asked for is refitted in); Filament's own default in glTF files, 10 m, takes 12 % at 5 m.
 // Sources: Filament 1.53.4, rendered (tests/engines/render); filament/LightManager.h.
 #include <cmath>
 #include <numbers>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
+#include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
@@ -22,13 +23,14 @@ namespace {
 
 using records::Node;
 constexpr EngineForms kFilament{.dome = true};
-constexpr double kFalloff_m = 1000.0;
+constexpr Metres kFarFalloff{1000.0};
+constexpr EngineFalloff kFilamentFalloff{[](Metres d, Metres r) { return FilamentFalloff(d, r); }};
 // pixel = L/(1.2 2^EV100) and 2^EV100 = N^2/t at ISO 100: N = 16 gives t = 1.2 16^2 k.
 constexpr double kAperture = 16.0;
 constexpr double kShutterPerScale = 1.2 * kAperture * kAperture;
 constexpr double kIso = 100.0;
 
-Node FilamentFigures(const PresetLight& light) {
+Node FilamentFigures(const PresetLight& light, const FalloffRefit& refit) {
   const PunctualLight& p = light.punctual;
   if (light.form == LightForm::kDome) {
     return {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
@@ -39,22 +41,23 @@ Node FilamentFigures(const PresetLight& light) {
             {"intensity_lx", p.intensity},
             {"sun_angular_radius_deg", angle ? Node(*angle / 2.0) : Node()}};
   }
+  const double intensity = p.intensity * refit.intensity_factor;
   double solid_angle_sr = 4.0 * std::numbers::pi;
   Node figures = {{"type", "POINT"}};
   if (p.type == PunctualType::kSpot) {
     figures = {{"type", "FOCUSED_SPOT"}, {"inner_rad", p.cone.inner}, {"outer_rad", p.cone.outer}};
     solid_angle_sr = 2.0 * std::numbers::pi * (1.0 - std::cos(p.cone.outer.value()));
   }
-  figures.Put({{"intensity_candela", p.intensity},
-               {"intensity_lm", p.intensity * solid_angle_sr},
-               {"falloff_m", kFalloff_m}});
+  figures.Put({{"intensity_candela", intensity},
+               {"intensity_lm", intensity * solid_angle_sr},
+               {"falloff_m", refit.range}});
   return figures;
 }
 
-Node FilamentNode(const FittedLight& lamp, const PresetLight& light) {
+Node FilamentNode(const FittedLight& lamp, const PresetLight& light, const FalloffRefit& refit) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name}};
-  document.Put(FilamentFigures(light));
+  document.Put(FilamentFigures(light, refit));
   document.Put({{"color", NodeOf(p.color.max_normalised)},
                 {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                 {"direction", NodeOf(GltfFromZUp(p.aim))},
@@ -145,11 +148,16 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
   Preset preset;
   const auto forms = PresetLightsFrom(lights, kFilament, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
+  const auto refits =
+      RefitLights(lights, *forms,
+                  {.falloff = kFilamentFalloff, .far_range = kFarFalloff, .fixed = options.range},
+                  preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
-    list.items.push_back(FilamentNode(lights.lights[i], (*forms)[i]));
+    list.items.push_back(FilamentNode(lights.lights[i], (*forms)[i], refits[i]));
     preset.derived.push_back(DerivedFrom(list.items.back()));
+    NoteRefit(refits[i], preset.derived.back());
   }
   Node exposure = NodeOf(rig.exposure);
   exposure.Put({{"aperture", kAperture},

@@ -25,7 +25,7 @@ using preset_text::Quoted;
 
 constexpr double kTemperature = 6500.0;   // the engine's default, written out
 constexpr Metres kGodotFarRange{4096.0};  // rendered without loss in 4.6.3
-constexpr EngineForms kGodotForms = {.sphere = true, .dome = true};
+constexpr EngineForms kGodotForms = {.sphere = true, .dome = true, .cone = EngineConeLaw::kPower};
 constexpr EngineFalloff kGodotFalloff{[](Metres d, Metres r) { return GodotFalloff(d, r); }};
 
 // ---- colour ----
@@ -45,32 +45,6 @@ GodotColor ColorFor(const EmittedColor& color) {
   out.written = {ratio.r / largest, ratio.g / largest, ratio.b / largest};
   out.luminance = color.luminance / largest;
   return out;
-}
-
-// ---- spot profile ----
-
-// The engine's 1 - u^p, u = (1 - cos)/(1 - cos outer), p = 1/spot_angle_attenuation, that strays
-// least from the squared-linear profile.
-struct SpotFit {
-  double power = 1.0;
-  double worst = 1.0;  // of the axial intensity
-};
-
-SpotFit FitSpot(const SpotCone& cone) {
-  const double outer = 1.0 - std::cos(cone.outer.value());
-  const double inner = (1.0 - std::cos(cone.inner.value())) / outer;
-  constexpr int kAngles = 200;
-  SpotFit best;
-  for (double power = 0.25; power < 20.0; power *= 1.01) {
-    double worst = 0.0;
-    for (int i = 0; i <= kAngles; ++i) {
-      const double u = static_cast<double>(i) / kAngles;
-      const double t = std::clamp((1.0 - u) / (1.0 - inner), 0.0, 1.0);
-      worst = std::max(worst, std::abs(1.0 - std::pow(u, power) - t * t));
-    }
-    if (worst < best.worst) best = {power, worst};
-  }
-  return best;
 }
 
 // ---- lights ----
@@ -108,17 +82,12 @@ DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, do
     return out;
   }
   if (light.form == LightForm::kSpot) {
-    const SpotFit fit = FitSpot(light.punctual.cone);
     out.type = "SpotLight3D";
     out.Put("light_intensity_lumens", std::numbers::pi * light.candela * per_luminance);
     out.Put("spot_range", RangeOf(refit));
     out.Put("spot_attenuation", 2.0);
-    out.Put("spot_angle", DegreesFromRadians(light.punctual.cone.outer));
-    out.Put("spot_angle_attenuation", 1.0 / fit.power);
-    warnings.push_back({"cone_profile", light.name(),
-                        "Godot's spot has no flat top: right on the axis, within " +
-                            RoundedText(100.0 * fit.worst, 2) +
-                            " % of the axial intensity off it"});
+    out.Put("spot_angle", DegreesFromRadians(light.cone.cone.outer));
+    out.Put("spot_angle_attenuation", 1.0 / light.cone.power);
     return out;
   }
   out.type = "OmniLight3D";
@@ -317,10 +286,16 @@ Emission EmittedInGodot(const DerivedLight& light, LightKind /*kind*/, double /*
     return {.lux = NumberIn(light, "light_intensity_lux") * luminance};
   }
   const bool spot = light.type == "SpotLight3D";
-  return {.candela = NumberIn(light, "light_intensity_lumens") * luminance /
-                     (spot ? std::numbers::pi : 4.0 * std::numbers::pi),
-          .falloff = kGodotFalloff,
-          .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
+  Emission out{.candela = NumberIn(light, "light_intensity_lumens") * luminance /
+                          (spot ? std::numbers::pi : 4.0 * std::numbers::pi),
+               .falloff = kGodotFalloff,
+               .range_m = NumberIn(light, spot ? "spot_range" : "omni_range")};
+  if (spot) {
+    out.cone = ConeOfLaw{.law = ConeLaw::kPower,
+                         .outer_rad = RadiansFromDegrees(NumberIn(light, "spot_angle")).value(),
+                         .power = 1.0 / NumberIn(light, "spot_angle_attenuation")};
+  }
+  return out;
 }
 
 }  // namespace lightcal

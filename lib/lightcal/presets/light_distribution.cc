@@ -43,13 +43,22 @@ Result<IntensityTable> SpotTable(double intensity_cd, double inner_deg, double o
   const SpotCone cone{RadiansFromDegrees(std::min(inner_deg, outer_deg)),
                       RadiansFromDegrees(outer_deg)};
   constexpr double kStepDeg = 0.5;
-  std::vector<double> gamma = {0.0};
-  if (inner_deg > 0.0 && inner_deg < outer_deg) gamma.push_back(inner_deg);
-  const double first = gamma.back();
-  const int steps = std::max(1, static_cast<int>(std::ceil((outer_deg - first) / kStepDeg)));
-  for (int i = 1; i <= steps; ++i) gamma.push_back(first + (outer_deg - first) * i / steps);
-  // A hard edge still needs room to fall in.
+  constexpr int kLeastSteps = 8;
   const bool hard = inner_deg >= outer_deg;
+  const double first = hard ? 0.0 : inner_deg;
+  const int steps =
+      std::max(kLeastSteps, static_cast<int>(std::ceil((outer_deg - first) / kStepDeg)));
+  const double step = (outer_deg - first) / steps;
+  std::vector<double> gamma = {0.0};
+  // Two more nodes on either side of the penumbra: Cycles draws cubics through four neighbours.
+  for (const int i : {-2, -1, 0}) {
+    if (const double at = first + i * step; at > 0.0) gamma.push_back(at);
+  }
+  for (int i = 1; i <= steps; ++i) gamma.push_back(first + step * i);
+  for (const int i : {1, 2}) {
+    if (const double at = outer_deg + i * step; !hard && at < 180.0) gamma.push_back(at);
+  }
+  // A hard edge still needs room to fall in.
   if (hard && outer_deg + kJumpDeg < 180.0) gamma.push_back(outer_deg + kJumpDeg);
   if (gamma.back() < 180.0) gamma.push_back(180.0);
   return Sampled({0.0}, std::move(gamma), intensity_cd, [&](double, double g) {

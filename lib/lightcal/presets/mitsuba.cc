@@ -14,8 +14,12 @@ namespace {
 using preset_text::Numbers;
 using preset_text::XmlEscaped;
 
-constexpr EngineForms kMitsubaForms = {
-    .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
+constexpr EngineForms kMitsubaForms = {.sphere = true,
+                                       .disk = true,
+                                       .rect = true,
+                                       .tube = true,
+                                       .dome = true,
+                                       .cone = EngineConeLaw::kLinearInAngle};
 
 // R, G, B of that luminance.
 std::vector<double> Scaled(const PresetLight& light, double photometric) {
@@ -24,7 +28,7 @@ std::vector<double> Scaled(const PresetLight& light, double photometric) {
   return {m.r * k, m.g * k, m.b * k};
 }
 
-DerivedLight DeriveMitsuba(const PresetLight& light, double exposure, Warnings& warnings) {
+DerivedLight DeriveMitsuba(const PresetLight& light, double exposure) {
   DerivedLight out;
   out.substitution = light.substitution;
   out.Put("pre_exposure", exposure);
@@ -36,11 +40,8 @@ DerivedLight DeriveMitsuba(const PresetLight& light, double exposure, Warnings& 
     case LightForm::kSpot:
       out.type = "spot";
       out.Put("intensity", Scaled(light, light.candela * exposure));
-      out.Put("cutoff_angle", DegreesFromRadians(light.punctual.cone.outer));
-      out.Put("beam_width", DegreesFromRadians(light.punctual.cone.inner));
-      warnings.push_back({"cone_profile", light.name(),
-                          "Mitsuba's spot falls linearly with the angle: right within the inner "
-                          "cone, beyond it within 25 % of the axial intensity"});
+      out.Put("cutoff_angle", DegreesFromRadians(light.cone.cone.outer));
+      out.Put("beam_width", DegreesFromRadians(light.cone.cone.inner));
       break;
     case LightForm::kDirectional:
       out.type = "directional";
@@ -178,7 +179,7 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
       " -->\n<scene version=\"3.0.0\">\n  <integrator type=\"path\">"
       "<integer name=\"max_depth\" value=\"2\"/></integrator>\n";
   for (const PresetLight& light : *forms) {
-    preset.derived.push_back(DeriveMitsuba(light, exposure, preset.warnings));
+    preset.derived.push_back(DeriveMitsuba(light, exposure));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
     std::string comment = XmlEscaped(light.name());
@@ -202,8 +203,14 @@ Emission EmittedInMitsuba(const DerivedLight& light, LightKind kind, double /*ax
       emitted = LuminanceIn(light, name) / NumberIn(light, "pre_exposure");
     }
   }
-  return EmittedByPathTracer(light, kind, emitted,
-                             {.directional = "directional", .dome = "constant", .area = "area"});
+  Emission out = EmittedByPathTracer(
+      light, kind, emitted, {.directional = "directional", .dome = "constant", .area = "area"});
+  if (light.type == "spot") {
+    out.cone = ConeOfLaw{.law = ConeLaw::kLinearInAngle,
+                         .inner_rad = RadiansFromDegrees(NumberIn(light, "beam_width")).value(),
+                         .outer_rad = RadiansFromDegrees(NumberIn(light, "cutoff_angle")).value()};
+  }
+  return out;
 }
 
 }  // namespace lightcal

@@ -16,8 +16,12 @@ namespace {
 using preset_text::Numbers;
 using preset_text::Quoted;
 
-constexpr EngineForms kPbrtForms = {
-    .sphere = true, .disk = true, .rect = true, .tube = true, .dome = true};
+constexpr EngineForms kPbrtForms = {.sphere = true,
+                                    .disk = true,
+                                    .rect = true,
+                                    .tube = true,
+                                    .dome = true,
+                                    .cone = EngineConeLaw::kSmooth};
 
 DerivedLight DerivePbrt(const PresetLight& light) {
   DerivedLight out;
@@ -33,9 +37,8 @@ DerivedLight DerivePbrt(const PresetLight& light) {
     case LightForm::kSpot:
       out.type = "spot";
       out.Put("scale", light.candela);
-      out.Put("coneangle", DegreesFromRadians(light.punctual.cone.outer));
-      out.Put("conedeltaangle",
-              DegreesFromRadians(light.punctual.cone.outer - light.punctual.cone.inner));
+      out.Put("coneangle", DegreesFromRadians(light.cone.cone.outer));
+      out.Put("conedeltaangle", DegreesFromRadians(light.cone.cone.outer - light.cone.cone.inner));
       break;
     case LightForm::kDirectional:
       out.type = "distant";
@@ -205,8 +208,17 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
 
 Emission EmittedInPbrt(const DerivedLight& light, LightKind kind, double /*axial_part*/) {
   const double scale = NumberIn(light, light.Find("scale") != nullptr ? "scale" : "illuminance");
-  return EmittedByPathTracer(light, kind, scale * LuminanceIn(light, "rgb"),
-                             {.directional = "distant", .dome = "infinite", .area = "diffuse"});
+  Emission out =
+      EmittedByPathTracer(light, kind, scale * LuminanceIn(light, "rgb"),
+                          {.directional = "distant", .dome = "infinite", .area = "diffuse"});
+  if (light.type == "spot") {
+    const double outer = RadiansFromDegrees(NumberIn(light, "coneangle")).value();
+    out.cone = ConeOfLaw{
+        .law = ConeLaw::kSmooth,
+        .inner_rad = outer - RadiansFromDegrees(NumberIn(light, "conedeltaangle")).value(),
+        .outer_rad = outer};
+  }
+  return out;
 }
 
 }  // namespace lightcal

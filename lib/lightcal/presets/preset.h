@@ -2,6 +2,7 @@
 // What an exporter gets and what it gives: a pure function from fitted lights to the text of files.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,11 +16,20 @@
 
 namespace lightcal {
 
+// How spots and measured beams are written where the engine has more than a cone.
+enum class SpotForm : std::uint8_t {
+  kAuto,  // its IES light or a projected profile where its own cone strays over kConeGoodEnough
+  kIes,   // always that, where the engine has it
+  kCone,  // never
+};
+inline constexpr double kConeGoodEnough = 0.03;  // of the axial intensity
+
 struct PresetOptions {
   bool bare = false;    // the lights alone: no cards, no camera
   ColorTarget color{};  // the space the engine works in, and what its pipeline calls white
   // The range the person wants (their engine culls lights by it); absent = so far that it is none.
   std::optional<Metres> range{};
+  SpotForm spots = SpotForm::kAuto;
 };
 
 struct PresetFile {

@@ -41,6 +41,7 @@ bool TakeNativeForm(const FittedLight& lamp, const EngineForms& forms, PresetLig
       light.length_m = *lamp.length_m;
       light.radius_m = *lamp.radius_m;
       return true;
+    case LightKind::kSpot:
     case LightKind::kPhotometric:
       if (!forms.table || !lamp.distribution) return false;
       light.form = LightForm::kTable;
@@ -50,7 +51,6 @@ bool TakeNativeForm(const FittedLight& lamp, const EngineForms& forms, PresetLig
       light.form = LightForm::kDome;
       return true;
     case LightKind::kPoint:
-    case LightKind::kSpot:
     case LightKind::kDirectional:
       break;
   }
@@ -82,9 +82,33 @@ bool TakeSquareForDisk(const FittedLight& lamp, const EngineForms& forms, Preset
   return true;
 }
 
-void ChooseForm(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
-  if (TakeNativeForm(lamp, forms, light) || TakeSquareForDisk(lamp, forms, light)) return;
+// The engine's own cone for what its spot stands for; says what is left.
+void RefitSpot(const FittedLight& lamp, EngineConeLaw law, PresetLight& light) {
+  light.beam = lamp.distribution ? ProfileOf(lamp.distribution->table)
+                                 : std::optional(ProfileOf(light.punctual.cone));
+  if (!light.beam) return;
+  light.cone = RefitCone(law, *light.beam);
+  const std::string error = ConeErrorText(light.cone);
+  if (error.empty() || law == EngineConeLaw::kSquared) return;
+  light.substitution =
+      std::string(lamp.distribution ? "a measured distribution, round about its aim"
+                                    : "a spot of squared-linear falloff") +
+      " as the engine's own cone, refitted: right on the axis, " + error;
+}
+
+void ChooseForm(const FittedLight& lamp, const EngineForms& forms, SpotForm spots,
+                PresetLight& light) {
+  EngineForms permitted = forms;
+  permitted.table = forms.table && spots != SpotForm::kCone;
+  if (TakeNativeForm(lamp, permitted, light) || TakeSquareForDisk(lamp, forms, light)) return;
   TakePunctualForm(light.punctual, light);
+  if (light.form != LightForm::kSpot) return;
+  RefitSpot(lamp, forms.cone, light);
+  const bool strays = forms.spots_by_table && light.cone.worst > kConeGoodEnough;
+  if (lamp.kind == LightKind::kSpot && permitted.table && (spots == SpotForm::kIes || strays)) {
+    light.form = LightForm::kTable;
+    light.substitution.clear();
+  }
 }
 
 // ---- how bright ----
@@ -203,12 +227,14 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     // A tube without aim hangs as its axis says, shining to its side.
     if (lamp.axis && !lamp.aim) light.punctual.aim = AxesOfAim(along, light.punctual.aim).c0;
     light.axes = AxesOfAim(light.punctual.aim, along);
-    ChooseForm(file.lights[i], forms, light);
-    if (auto measured = Measure(file.lights[i], light); !measured) {
+    ChooseForm(lamp, forms, options.spots, light);
+    if (auto measured = Measure(lamp, light); !measured) {
       return Propagate(std::move(measured));
     }
     if (!light.substitution.empty()) {
-      warnings.push_back({"substituted", light.name(), light.substitution});
+      const bool shape_only = lamp.kind == LightKind::kSpot && light.form == LightForm::kSpot;
+      warnings.push_back(
+          {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});
     }
     lights.push_back(std::move(light));
   }

@@ -12,6 +12,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/light/intensity_table.h"
 #include "lightcal/light/lamp_axes.h"
+#include "lightcal/presets/engine_cone.h"
 #include "lightcal/presets/preset.h"
 #include "lightcal/presets/punctual_light.h"
 
@@ -30,9 +31,11 @@ enum class LightForm : std::uint8_t {
   kDome,   // one luminance from every direction
 };
 
-// The forms an engine has beside point, spot and directional light.
+// The forms an engine has beside point, spot and directional light, and how its spots fall off.
 struct EngineForms {
   bool sphere = false, disk = false, rect = false, tube = false, table = false, dome = false;
+  EngineConeLaw cone = EngineConeLaw::kSquared;
+  bool spots_by_table = false;  // its tables are absolute wherever it runs: SpotForm::kAuto may
 };
 
 // All photometric values are those the engine must emit, before the division by color.luminance
@@ -55,6 +58,9 @@ struct PresetLight {
   double width_m = 0.0, height_m = 0.0, radius_m = 0.0, length_m = 0.0;
   std::optional<double> angular_diameter_deg;  // directional
   std::optional<IntensityTable> table;         // form kTable; absolute candela
+  // Of a spot or a measured beam: what is to be shown, and the engine's own cone nearest to it.
+  std::optional<BeamProfile> beam;
+  EngineCone cone;
 
   [[nodiscard]] const std::string& name() const { return punctual.name; }
   [[nodiscard]] const EmittedColor& color() const { return punctual.color; }
@@ -64,7 +70,8 @@ struct PresetLight {
 
 // The lamps of a file, in order. A kind the engine has no form for, or whose size nobody stated,
 // becomes a disk -> square of its area, else what PunctualLightsFrom makes of it; either way with
-// the warning `substituted`.   Refuses and fails as PunctualLightsFrom.
+// the warning `substituted`. Of a spot whose engine has another cone law the angles are refitted
+// (engine_cone.h) and the rest is warned (cone_profile).   Refuses and fails as PunctualLightsFrom.
 [[nodiscard]] Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file,
                                                                 const EngineForms& forms,
                                                                 const PresetOptions& options,

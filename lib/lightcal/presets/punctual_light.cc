@@ -84,7 +84,11 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
     case LightKind::kPoint:
       break;
     case LightKind::kSpot:
-      FromCone(lamp, light, warnings);
+      if (lamp.distribution) {
+        FromDistribution(lamp, light, warnings);
+      } else {
+        FromCone(lamp, light, warnings);
+      }
       break;
     case LightKind::kDirectional:
       light.type = PunctualType::kDirectional;

@@ -16,8 +16,8 @@ struct TableSubstitute {
   double flux = 1.0;   // the substitute's over the table's
 };
 
-// The cone of least squares over the sphere, to a degree; a point where that is nearer.   Absent:
-// a table that is dark along its aim.
+// The cone that RefitCone finds; a point where that strays less in worst error and flux together.
+// Absent: a table that is dark along its aim.
 [[nodiscard]] std::optional<TableSubstitute> SubstituteForTable(const IntensityTable& table);
 
 }  // namespace lightcal

@@ -2,13 +2,15 @@
 // <stem>.three.js: one ES module for three.js and Babylon.js. With I the axial intensity, E an
 // illuminance, L a luminance, Y the luminance of the max-normalised colour:
 //   point, spot, measured  I/Y [cd]   directional  E/Y [lx]   rect, disk, dome  L/Y [cd/m2]
-// three's spot falls smoothly (smoothstep in the cosine) from angle (1 - penumbra) to angle, so
-// penumbra = 1 - inner/outer; Babylon's as glTF. A disk becomes the square of its area.
-// Sources: three.js 0.187, Babylon.js 9.34, rendered (tests/engines/render).
+// three's spot falls smoothly (smoothstep in the cosine) from angle (1 - penumbra) to angle,
+// Babylon's as glTF: a spot holds a cone for each, and where three's strays too far its profile,
+// which three projects (SpotLight.map). A disk becomes the square of its area. Sources: three.js
+// 0.187, Babylon.js 9.34, rendered (tests/engines/render).
 #include <cmath>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
+#include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_document.h"
@@ -19,18 +21,64 @@ namespace lightcal {
 namespace {
 
 using records::Node;
-constexpr EngineForms kThree{.rect = true, .table = true, .dome = true};
+constexpr EngineForms kThree{
+    .rect = true, .table = true, .dome = true, .cone = EngineConeLaw::kSmooth};
+
+constexpr EngineFalloff kThreeFalloff{[](Metres d, Metres r) { return ThreeJsFalloff(d, r); }};
+constexpr EngineFalloff kBabylonFalloff{&GltfFalloff, WindowPower::kPlain};
+
+// The range a person fixed, in which three's window is the square of Babylon's.
+struct ThreeRange {
+  double range_m = 0.0;               // 0 = none
+  double three = 1.0, babylon = 1.0;  // factors on the intensity
+
+  void PutInto(Node& document) const {
+    if (!(range_m > 0.0)) return;
+    document.Put({{"range_m", range_m}, {"babylon_intensity_factor", babylon / three}});
+  }
+};
+
+std::vector<ThreeRange> RangesOf(const LightFile& lights, const std::vector<PresetLight>& forms,
+                                 const PresetOptions& options, Warnings& warnings) {
+  std::vector<ThreeRange> ranges(forms.size());
+  if (!options.range) return ranges;
+  Warnings same_again;
+  const auto three =
+      RefitLights(lights, forms, {.falloff = kThreeFalloff, .fixed = options.range}, warnings);
+  const auto babylon =
+      RefitLights(lights, forms, {.falloff = kBabylonFalloff, .fixed = options.range}, same_again);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    if (!(three[i].range.value() > 0.0)) continue;
+    ranges[i] = {three[i].range.value(), three[i].intensity_factor, babylon[i].intensity_factor};
+  }
+  return ranges;
+}
+
+// What three's own cone makes of it.
+Node ConeNode(const EngineCone& fit) {
+  return {{"inner_rad", fit.cone.inner},
+          {"outer_rad", fit.cone.outer},
+          {"worst_of_axial", fit.worst},
+          {"flux_factor", fit.flux}};
+}
 
 // Also what a light of another form is where the engine has no such kind.
-Node Punctual(const PunctualLight& light) {
+Node Punctual(const PresetLight& preset, const ThreeRange& range) {
+  const PunctualLight& light = preset.punctual;
   const bool spot = light.type == PunctualType::kSpot;
   const bool directional = light.type == PunctualType::kDirectional;
-  Node document = {{"intensity", light.intensity},
+  Node document = {{"intensity", light.intensity * range.three},
                    {"type", spot          ? "spot"
                             : directional ? "directional"
                                           : "point"},
                    {"unit", directional ? "lx" : "cd"}};
-  if (spot) document.Put({{"inner_rad", light.cone.inner}, {"outer_rad", light.cone.outer}});
+  range.PutInto(document);
+  if (!spot) return document;
+  document.Put({{"inner_rad", light.cone.inner}, {"outer_rad", light.cone.outer}});
+  const std::optional<BeamProfile> beam = preset.beam    ? preset.beam
+                                          : preset.table ? ProfileOf(*preset.table)
+                                                         : std::nullopt;
+  if (beam) document.Put("three", ConeNode(RefitCone(EngineConeLaw::kSmooth, *beam)));
   return document;
 }
 
@@ -43,12 +91,14 @@ Node Rectangle(const PresetLight& light) {
           {"width_m", light.width_m},
           {"height_m", light.height_m},
           {"axes", Node::List(axes, [](const Vec3& v) { return NodeOf(v); })},
-          {"fallback", Punctual(light.punctual)}};
+          {"fallback", Punctual(light, {})}};
 }
+
+constexpr int kSteps = 720;
+constexpr double kStepsPerUnit = 1e6;
 
 // The mean of all C planes over the peak, at the middle of each of 720 steps of gamma.
 Node RoundProfile(const IntensityTable& table) {
-  constexpr int kSteps = 720;
   constexpr int kTurn = 72;
   Node profile = Node::Array();
   for (int i = 0; i < kSteps; ++i) {
@@ -57,21 +107,47 @@ Node RoundProfile(const IntensityTable& table) {
     for (int c = 0; c < kTurn; ++c) {
       sum += table.At(Radians(2.0 * std::numbers::pi * c / kTurn), gamma).value();
     }
-    profile.items.push_back(std::round(1e6 * sum / kTurn / table.peak().intensity.value()) / 1e6);
+    profile.items.push_back(
+        std::round(kStepsPerUnit * sum / kTurn / table.peak().intensity.value()) / kStepsPerUnit);
   }
   return profile;
 }
 
-Node Measured(const PresetLight& light, const std::string& ies) {
-  return {{"type", "ies"},
-          {"intensity", light.candela / light.color().luminance},
-          {"unit", "cd"},
-          {"ies", ies},
-          {"profile", RoundProfile(*light.table)},
-          {"fallback", Punctual(light.punctual)}};
+// Of a spot of the squared-linear law.
+Node SpotProfile(const SpotCone& cone) {
+  Node profile = Node::Array();
+  for (int i = 0; i < kSteps; ++i) {
+    const Radians gamma((i + 0.5) * std::numbers::pi / kSteps);
+    const double part = SpotAttenuation(gamma, cone, SpotFalloff::kSquaredLinear);
+    profile.items.push_back(std::round(kStepsPerUnit * part) / kStepsPerUnit);
+  }
+  return profile;
 }
 
-Node ThreeFigures(const PresetLight& light, const std::string& ies) {
+// three projects what its cone cannot show. "": its cone is what is asked for, or good enough.
+Node ProjectedSpot(const PresetLight& light, SpotForm spots, const ThreeRange& range) {
+  Node document = Punctual(light, range);
+  const bool cone_is_theirs = !light.beam || !light.beam->squared;
+  if (spots == SpotForm::kCone || cone_is_theirs || light.cone.worst <= kConeGoodEnough) {
+    return document;
+  }
+  document.Put("profile", SpotProfile(*light.beam->squared));
+  return document;
+}
+
+Node Measured(const PresetLight& light, const std::string& ies, const ThreeRange& range) {
+  Node document = {{"type", "ies"},
+                   {"intensity", range.three * light.candela / light.color().luminance},
+                   {"unit", "cd"},
+                   {"ies", ies},
+                   {"profile", RoundProfile(*light.table)},
+                   {"fallback", Punctual(light, range)}};
+  range.PutInto(document);
+  return document;
+}
+
+Node ThreeFigures(const PresetLight& light, const std::string& ies, SpotForm spots,
+                  const ThreeRange& range) {
   switch (light.form) {
     case LightForm::kRect:
       return Rectangle(light);
@@ -79,19 +155,22 @@ Node ThreeFigures(const PresetLight& light, const std::string& ies) {
       return {
           {"type", "dome"}, {"intensity", light.nits / light.color().luminance}, {"unit", "cd/m2"}};
     case LightForm::kTable:
-      return Measured(light, ies);
+      return Measured(light, ies, range);
+    case LightForm::kSpot:
+      return ProjectedSpot(light, spots, range);
     default:
-      return Punctual(light.punctual);
+      return Punctual(light, range);
   }
 }
 
-Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies) {
+Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies,
+               SpotForm spots, const ThreeRange& range) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name},
                    {"color", NodeOf(p.color.max_normalised)},
                    {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                    {"direction", NodeOf(GltfFromZUp(p.aim))}};
-  document.Put(ThreeFigures(light, ies));
+  document.Put(ThreeFigures(light, ies, spots, range));
   document.Put("measured", MeasuredNode(lamp, light));
   return document;
 }
@@ -105,11 +184,12 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   if (!forms) return tl::unexpected(forms.error());
   const auto ies = IesFiles(lights, stem);
   if (!ies) return tl::unexpected(ies.error());
+  const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
-    list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table));
+    list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table, options.spots, ranges[i]));
     preset.derived.push_back(DerivedFrom(list.items.back()));
   }
   auto text = JsonText({{"name", stem},

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // <stem>.unity.json and LightcalImporter.cs, an editor script that reads it, for Unity 2022 and 6.
 // Left-handed, Y up, metres, lights along +Z; cone angles are full angles. HDRP gets physical
-// units; URP and the built-in pipeline, whose Lambert surfaces lack the 1/pi, get cd and lx times
-// exposure/pi.   Sources: Unity Graphics LightUnitUtils.cs, HDAdditionalLightData, URP
-// Lighting.hlsl.
+// units; URP, whose Lambert surfaces lack the 1/pi, gets cd and lx times
+// exposure/pi. HDRP takes the inner cone in percent of the outer angle; the built-in pipeline,
+// which has no inverse-square falloff, is refused by the importer.   Sources: Unity Graphics
+// LightUnitUtils.cs, HDAdditionalLightData, URP Lighting.hlsl.
 #include <cmath>
 #include <numbers>
 
@@ -25,8 +26,10 @@ constexpr double kWidestSpot_deg = 179.0;  // full angle
 void PutUnityCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
   const double outer = 2.0 * DegreesFromRadians(light.punctual.cone.outer);
   out.Put("spot_angle_deg", std::min(outer, kWidestSpot_deg));
-  out.Put("inner_spot_angle_deg",
-          std::min(2.0 * DegreesFromRadians(light.punctual.cone.inner), kWidestSpot_deg));
+  const double inner =
+      std::min(2.0 * DegreesFromRadians(light.punctual.cone.inner), kWidestSpot_deg);
+  out.Put("inner_spot_angle_deg", inner);
+  out.Put("inner_spot_percent", 100.0 * inner / std::min(outer, kWidestSpot_deg));
   if (outer > kWidestSpot_deg) {
     warnings.push_back({"cone_clipped", light.name(),
                         "Unity's spots end at 179 degrees full angle: exported with that"});
@@ -146,6 +149,11 @@ Emission EmittedInUnity(const DerivedLight& light, LightKind /*kind*/, double /*
   const double emitted = NumberIn(light, "intensity") * LuminanceIn(light, "color");
   if (light.type == "Directional") return {.lux = emitted};
   Emission out{.candela = emitted, .falloff = kUnityFalloff, .range_m = NumberIn(light, "range_m")};
+  if (light.type == "Spot") {
+    const double outer = RadiansFromDegrees(NumberIn(light, "spot_angle_deg")).value() / 2.0;
+    out.cone = ConeOfLaw{.inner_rad = outer * NumberIn(light, "inner_spot_percent") / 100.0,
+                         .outer_rad = outer};
+  }
   if (light.type == "Rectangle") {
     const double width = NumberIn(light, "area_width_m");
     const double height = NumberIn(light, "area_height_m");

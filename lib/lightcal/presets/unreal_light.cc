@@ -90,6 +90,7 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
   derived.type = light.form == LightForm::kSpot ? "SpotLight" : "PointLight";
   derived.Put("source_radius", light.radius_m * kCentimetres);
   if (light.form == LightForm::kSpot) PutUnrealCone(light, derived, warnings);
+  if (light.form == LightForm::kTable) derived.elsewhere.push_back({"ies", {1.0}});
   return out;
 }
 
@@ -104,6 +105,12 @@ Emission EmittedInUnreal(const DerivedLight& light, LightKind /*kind*/, double a
   Emission out{.candela = emitted * axial_part,
                .falloff = kUnrealFalloff,
                .range_m = NumberIn(light, "attenuation_radius") / kCentimetres};
+  out.table = light.Find("ies") != nullptr;
+  if (light.type == "SpotLight") {
+    out.cone =
+        ConeOfLaw{.inner_rad = RadiansFromDegrees(NumberIn(light, "inner_cone_angle")).value(),
+                  .outer_rad = RadiansFromDegrees(NumberIn(light, "outer_cone_angle")).value()};
+  }
   if (light.type == "RectLight") {
     out.shape = {AxialShape::Outline::kRect, 0.5 * NumberIn(light, "source_width") / kCentimetres,
                  0.5 * NumberIn(light, "source_height") / kCentimetres};

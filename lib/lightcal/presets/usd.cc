@@ -22,8 +22,13 @@ using preset_text::Numbers;
 using preset_text::Quoted;
 
 constexpr double kPointRadius_m = 0.005;  // no light may have no size
-constexpr EngineForms kUsdForms = {
-    .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
+constexpr EngineForms kUsdForms = {.sphere = true,
+                                   .disk = true,
+                                   .rect = true,
+                                   .tube = true,
+                                   .table = true,
+                                   .dome = true,
+                                   .cone = EngineConeLaw::kSmoothInAngle};
 
 // ---- numbers ----
 
@@ -49,7 +54,7 @@ DerivedLight DeriveUsd(const PresetLight& light) {
     case LightForm::kPoint:
     case LightForm::kSpot:
       PutSphere(light, kPointRadius_m, light.candela, out);
-      if (light.form == LightForm::kSpot) PutUsdCone(light.punctual.cone, out);
+      if (light.form == LightForm::kSpot) PutUsdCone(light.cone.cone, out);
       break;
     case LightForm::kTable:  // the file's candela multiply the luminance: 1 cd by itself
       PutSphere(light, kPointRadius_m, 1.0, out);

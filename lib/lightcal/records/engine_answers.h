@@ -2,6 +2,7 @@
 // What engines make of measured lights: the figures to type in, and the lux they would show.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct ParityRow {
   std::string law;           // "1/d², range 164 m"
   std::string executed;      // how its exporter was checked: "rendered in Cycles 3.4: ..."
   bool rendered = false;     // whether that ran the engine itself
+  // Of a beam: the largest difference in any direction to 5 degrees beyond its edge, over the axial
+  // intensity, and where.
+  std::optional<double> off_axis;
+  double off_axis_deg = 0.0;
 };
 
 struct EngineAnswers {

@@ -112,15 +112,22 @@ std::string ReadingTable(const std::vector<ResidualRow>& rows) {
 std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows) {
   std::string body;
   const ParityRow* any = nullptr;
+  const bool beam = std::ranges::any_of(
+      rows, [&](const ParityRow& row) { return row.light == light && row.off_axis.has_value(); });
   for (const ParityRow& row : rows) {
     if (row.light != light) continue;
     any = &row;
+    const std::string off_axis =
+        row.off_axis ? "within " + Percent(*row.off_axis) +
+                           (*row.off_axis > 0.0 ? " (" + Figure(row.off_axis_deg) + "°)" : "")
+                     : "—";
     body += "<tr><th scope=\"row\">" + Escaped(row.engine) +
             "</th><td class=\"n\" data-label=\"gives \">" + Illuminance(row.engine_lx) +
             "\u00A0lx</td><td class=\"n\" data-label=\"off by \">" +
-            Residual(row.engine_lx / row.expected_lx - 1.0) + "</td><td data-label=\"law \">" +
-            Escaped(row.law) + "</td><td class=\"note\"><span " + "class=\"" +
-            (row.rendered ? "ran" : "notran") + "\">" + Escaped(row.executed) +
+            Residual(row.engine_lx / row.expected_lx - 1.0) + "</td>" +
+            (beam ? "<td class=\"n\" data-label=\"off the axis \">" + off_axis + "</td>" : "") +
+            "<td data-label=\"law \">" + Escaped(row.law) + "</td><td class=\"note\"><span " +
+            "class=\"" + (row.rendered ? "ran" : "notran") + "\">" + Escaped(row.executed) +
             "</span></td></tr>\n";
   }
   if (any == nullptr) return "";
@@ -131,7 +138,8 @@ std::string ParityTable(std::string_view light, const std::vector<ParityRow>& ro
          where + Illuminance(any->expected_lx) +
          "\u00A0lx without ambient light. What the numbers above give there by each engine’s own "
          "law:</p><table class=\"stack parity\"><thead><tr><th scope=\"col\">engine</th>"
-         "<th class=\"n\" scope=\"col\">gives</th><th class=\"n\" scope=\"col\">off by</th>"
+         "<th class=\"n\" scope=\"col\">gives</th><th class=\"n\" scope=\"col\">off by</th>" +
+         (beam ? "<th class=\"n\" scope=\"col\">off the axis, of the axial value</th>" : "") +
          "<th scope=\"col\">its falloff</th><th scope=\"col\">how its exporter was "
          "checked</th></tr></thead><tbody>\n" +
          body + "</tbody></table></div>\n";

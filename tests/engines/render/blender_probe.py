@@ -16,7 +16,7 @@ jobs_path, out_path = sys.argv[sys.argv.index('--') + 1:]
 jobs = json.load(open(jobs_path))
 
 
-def look(scene, point, normal, size):
+def look(scene, point, normal, size, samples=256):
     normal = Vector(normal)
     side = normal.orthogonal().normalized()
     matrix = Matrix.Identity(4)
@@ -49,7 +49,7 @@ def look(scene, point, normal, size):
     scene.collection.objects.link(eye)
     scene.camera = eye
     scene.render.resolution_x = scene.render.resolution_y = 8
-    scene.cycles.samples = 256
+    scene.cycles.samples = samples
     path = os.path.join(os.path.dirname(out_path), 'probe.exr')
     settings = scene.render.image_settings
     settings.file_format, settings.color_depth = 'OPEN_EXR', '32'
@@ -91,7 +91,7 @@ for job in jobs:
     scene.render.resolution_percentage = 100
     for thing in scene.objects:
         thing.hide_render = thing.type == 'MESH'
-    results.append({'lux': [look(scene, p['point'], p['normal'], 0.02) for p in job['probes']]})
+    results.append({'lux': [look(scene, p['point'], p['normal'], 0.02, job.get('probe_samples', 256)) for p in job['probes']]})
     for other in list(bpy.data.scenes):
         if other.name.startswith('lightcal') and len(bpy.data.scenes) > 1:
             bpy.data.scenes.remove(other)

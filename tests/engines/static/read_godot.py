@@ -93,7 +93,8 @@ def read(text, nearest_window=0.995):
             per_candela = math.pi if short == "spot" else 4 * math.pi
             seen.candela = float(values["light_intensity_lumens"]) / per_candela * luminance(rgb)
             if short == "spot":
-                seen.outer = float(values["spot_angle"])
+                seen.outer, seen.law = float(values["spot_angle"]), "power"
+                seen.power = 1.0 / float(values["spot_angle_attenuation"])
             else:
                 seen.aim = None
         lights[head["name"]] = seen

@@ -64,5 +64,6 @@ def read(text):
             seen.at = [(a + b) / 2 for a, b in zip(*ends)]
         if kind == "spot":
             seen.outer, seen.inner = value(node, "cutoff_angle")[0], value(node, "beam_width")[0]
+            seen.law = "linear"
         lights[names[len(lights)]] = seen
     return lights, Rig(scale, cards) if cards else None

@@ -104,5 +104,6 @@ def read(text):
         if plain[0] == "spot":
             seen.outer = number["coneangle"][0]
             seen.inner = seen.outer - number["conedeltaangle"][0]
+            seen.law = "smooth"
         lights[comment] = seen
     return lights, Rig(k, cards) if cards else None

@@ -47,6 +47,7 @@ def blender(text):
             if at[first + 2].split()[1] != "1":
                 raise GateError("blender: reserved factor, which Cycles multiplies by")
             values = [float(v) for v in " ".join(at[first + 3:]).split()]
+            seen.law = "table"
             seen.candela = (watts * 683.0 / 177.83 *
                             max(values[int(counts[3]) + int(counts[4]):]))
         else:
@@ -55,6 +56,7 @@ def blender(text):
                 seen.outer = math.degrees(light["spot_size_rad"]) / 2
                 edge = math.cos(light["spot_size_rad"] / 2)
                 seen.inner = math.degrees(math.acos(edge + light["spot_blend"] * (1 - edge)))
+                seen.law = "smooth"
             else:
                 seen.aim = None
         lights[light["name"]] = seen
@@ -84,7 +86,9 @@ def three(text):
             if any(abs(a + b) > 1e-9 for a, b in zip(across, seen.aim)):
                 raise GateError("three: the rectangle faces elsewhere")
         if kind == "spot":
-            seen.outer, seen.inner = (math.degrees(light[k]) for k in ("outer_rad", "inner_rad"))
+            cone_of = light["three"]  # three's own; Babylon's is beside it
+            seen.outer, seen.inner = (math.degrees(cone_of[k]) for k in ("outer_rad", "inner_rad"))
+            seen.law = "smooth"
         if kind in ("point", "dome"):
             seen.aim = None
         lights[light["name"]] = seen

@@ -75,6 +75,7 @@ def read(text, folder):
                 seen.aim = [-v for v in m[8:11]]
                 seen.outer = float(a["inputs:shaping:cone:angle"])
                 seen.inner = seen.outer * (1 - float(a["inputs:shaping:cone:softness"]))
+                seen.law = "smooth_angle"
         elif kind == "DistantLight":
             seen.lux = value
         else:

@@ -2,6 +2,7 @@
 // Stand-ins of the documented Unity types that LightcalImporter.cs names; members it may not use are
 // not here. Source: Unity 2022.3 and Unity 6 scripting reference.
 using System;
+using System.Collections.Generic;
 
 namespace UnityEngine
 {
@@ -15,7 +16,7 @@ namespace UnityEngine
     }
     public class ScriptableObject : Object
     {
-        public static ScriptableObject CreateInstance(Type type) { return null; }
+        public static ScriptableObject CreateInstance(Type type) { return (ScriptableObject)Activator.CreateInstance(type); }
     }
     public struct Vector2 { public float x, y; public Vector2(float x, float y) { this.x = x; this.y = y; } }
     public struct Vector3
@@ -25,7 +26,8 @@ namespace UnityEngine
     }
     public struct Quaternion
     {
-        public static Quaternion LookRotation(Vector3 forward, Vector3 upwards) { return new Quaternion(); }
+        public Vector3 forward, up;
+        public static Quaternion LookRotation(Vector3 forward, Vector3 upwards) { return new Quaternion { forward = forward, up = upwards }; }
     }
     public struct Color
     {
@@ -53,14 +55,26 @@ namespace UnityEngine
     public enum PrimitiveType { Sphere, Capsule, Cylinder, Cube, Plane, Quad }
     public class GameObject : Object
     {
-        public GameObject() { }
-        public GameObject(string name) { }
-        public Transform transform { get { return null; } }
-        public T AddComponent<T>() where T : Component { return null; }
-        public Component AddComponent(Type type) { return null; }
-        public T GetComponent<T>() { return default(T); }
-        public Component GetComponent(Type type) { return null; }
-        public static GameObject CreatePrimitive(PrimitiveType type) { return null; }
+        public static readonly List<GameObject> All = new List<GameObject>();
+        readonly List<Component> parts = new List<Component>();
+        public GameObject() { All.Add(this); transform = new Transform(); }
+        public GameObject(string name) : this() { this.name = name; }
+        public Transform transform { get; private set; }
+        public T AddComponent<T>() where T : Component { return (T)AddComponent(typeof(T)); }
+        public Component AddComponent(Type type)
+        {
+            Component part = (Component)Activator.CreateInstance(type);
+            parts.Add(part);
+            return part;
+        }
+        public T GetComponent<T>() where T : Component { return (T)GetComponent(typeof(T)); }
+        public Component GetComponent(Type type) { return parts.Find(part => type.IsInstanceOfType(part)); }
+        public static GameObject CreatePrimitive(PrimitiveType type)
+        {
+            GameObject thing = new GameObject();
+            thing.AddComponent<Renderer>();
+            return thing;
+        }
     }
     public enum LightType { Spot, Directional, Point, Area = 3, Rectangle = 3, Disc }
     public enum LightShadows { None, Hard, Soft }
@@ -75,11 +89,12 @@ namespace UnityEngine
         public float innerSpotAngle { get; set; }
         public Vector2 areaSize { get; set; }
         public LightShadows shadows { get; set; }
+        public Light() { range = 10; spotAngle = 30; innerSpotAngle = 21.80208f; intensity = 1; }
 #if UNITY_6000_0_OR_NEWER
         public Rendering.LightUnit lightUnit { get; set; }
 #endif
     }
-    public class Shader : Object { public static Shader Find(string name) { return null; } }
+    public class Shader : Object { public static Shader Find(string name) { return new Shader { name = name }; } }
     public class Material : Object
     {
         public Material(Shader shader) { }
@@ -88,11 +103,69 @@ namespace UnityEngine
         public void SetColor(string name, Color value) { }
         public void SetFloat(string name, float value) { }
     }
-    public static class JsonUtility { public static T FromJson<T>(string json) { return default(T); } }
+    public static class JsonUtility { public static T FromJson<T>(string json)
+        {
+            int at = 0;
+            return (T)Read(json, ref at, typeof(T));
+        }
+        // Public fields by their names, as Unity has it; what no field is for is passed over.
+        static object Read(string s, ref int at, Type type)
+        {
+            char c = Next(s, ref at);
+            if (c == '{')
+            {
+                object made = type == null ? null : Activator.CreateInstance(type);
+                for (at++; Next(s, ref at) != '}';)
+                {
+                    if (s[at] == ',') { at++; continue; }
+                    string name = Text(s, ref at);
+                    Next(s, ref at);
+                    at++;
+                    var field = type == null ? null : type.GetField(name);
+                    object value = Read(s, ref at, field == null ? null : field.FieldType);
+                    if (field != null) field.SetValue(made, value);
+                }
+                at++;
+                return made;
+            }
+            if (c == '[')
+            {
+                Type item = type == null ? null : type.GetElementType();
+                var list = new List<object>();
+                for (at++; Next(s, ref at) != ']';)
+                {
+                    if (s[at] == ',') at++;
+                    else list.Add(Read(s, ref at, item));
+                }
+                at++;
+                if (item == null) return null;
+                Array array = Array.CreateInstance(item, list.Count);
+                for (int i = 0; i < list.Count; i++) array.SetValue(list[i], i);
+                return array;
+            }
+            if (c == '"') return Text(s, ref at);
+            int from = at;
+            while (at < s.Length && ",]} \n\r\t".IndexOf(s[at]) < 0) at++;
+            string word = s.Substring(from, at - from);
+            if (type == typeof(bool)) return word == "true";
+            return type == typeof(float) ? (object)float.Parse(word, System.Globalization.CultureInfo.InvariantCulture) : null;
+        }
+        static char Next(string s, ref int at)
+        {
+            while (char.IsWhiteSpace(s[at])) at++;
+            return s[at];
+        }
+        static string Text(string s, ref int at)
+        {
+            int from = ++at;
+            while (s[at] != '"') at += s[at] == '\\' ? 2 : 1;
+            return s.Substring(from, at++ - from);
+        } }
     public static class Debug
     {
-        public static void LogError(object message) { }
-        public static void LogWarning(object message) { }
+        public static readonly List<string> Said = new List<string>();
+        public static void LogError(object message) { Said.Add("error: " + message); }
+        public static void LogWarning(object message) { Said.Add("warning: " + message); }
     }
     public static class Application { public static string dataPath { get { return ""; } } }
 }
@@ -102,7 +175,7 @@ namespace UnityEngine.Rendering
     public class RenderPipelineAsset : ScriptableObject { }
     public static class GraphicsSettings
     {
-        public static RenderPipelineAsset currentRenderPipeline { get { return null; } }
+        public static RenderPipelineAsset currentRenderPipeline { get; set; }
     }
 #if UNITY_6000_0_OR_NEWER
     public enum LightUnit { Lumen, Candela, Lux, Nits, Ev100 }

@@ -12,19 +12,19 @@ double Clamp01(double v) { return std::clamp(v, 0.0, 1.0); }
 
 double SmoothStep(double t) { return t * t * (3.0 - 2.0 * t); }
 
+double ProfileValue(const std::vector<double>& profile, double cosine) {
+  const double at = std::acos(std::clamp(cosine, -1.0, 1.0)) / std::numbers::pi *
+                        static_cast<double>(profile.size()) -
+                    0.5;
+  const double last = static_cast<double>(profile.size() - 1);
+  const double low = std::floor(std::clamp(at, 0.0, last - 1.0));
+  const auto i = static_cast<std::size_t>(low);
+  return profile[i] + (profile[i + 1] - profile[i]) * Clamp01(at - low);
+}
+
 double Cone(const EngineLight& light, double cosine) {
-  if (light.law == ConeLaw::kSmoothInAngle) {
-    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double edge = std::max(1e-9, light.outer_rad - light.inner_rad);
-    return SmoothStep(Clamp01((light.outer_rad - angle) / edge));
-  }
-  if (light.law == ConeLaw::kPower) {
-    const double rim = (1.0 - cosine) / std::max(1e-9, 1.0 - std::cos(light.outer_rad));
-    return rim < 1.0 ? 1.0 - std::pow(std::max(rim, 1e-4), light.cone_power) : 0.0;
-  }
-  const double outer = std::cos(light.outer_rad);
-  const double t = Clamp01((cosine - outer) / std::max(1e-9, std::cos(light.inner_rad) - outer));
-  return light.law == ConeLaw::kSquared ? t * t : SmoothStep(t);
+  if (light.profile.size() > 1) return ProfileValue(light.profile, cosine);
+  return ConeAt({light.law, light.inner_rad, light.outer_rad, light.cone_power}, cosine);
 }
 
 double Window(const EngineLight& light, double d) {
@@ -77,6 +77,22 @@ double TubeLux(const EngineLight& light, const Vec3& point, const Vec3& normal) 
 }
 
 }  // namespace
+
+double ConeAt(const ConeOfLaw& cone, double cosine) {
+  const double outer = std::cos(cone.outer_rad);
+  if (cone.law == ConeLaw::kSmoothInAngle || cone.law == ConeLaw::kLinearInAngle) {
+    const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
+    const double edge = std::max(1e-9, cone.outer_rad - cone.inner_rad);
+    const double s = Clamp01((cone.outer_rad - angle) / edge);
+    return cone.law == ConeLaw::kLinearInAngle ? s : SmoothStep(s);
+  }
+  if (cone.law == ConeLaw::kPower) {
+    const double rim = (1.0 - cosine) / std::max(1e-9, 1.0 - outer);
+    return rim < 1.0 ? 1.0 - std::pow(std::max(rim, 1e-4), cone.power) : 0.0;
+  }
+  const double t = Clamp01((cosine - outer) / std::max(1e-9, std::cos(cone.inner_rad) - outer));
+  return cone.law == ConeLaw::kSquared ? t * t : SmoothStep(t);
+}
 
 double LuxAt(const EngineLight& light, const Vec3& point, const Vec3& normal) {
   if (light.kind == EngineLightKind::kDome) return std::numbers::pi * light.emitted;

@@ -15,9 +15,16 @@
 namespace lightcal {
 
 enum class EngineLightKind : std::uint8_t { kPoint, kSpot, kSun, kFlat, kTube, kDome, kTable };
-// Over the cosine from outer to inner: squared, smoothstep; over the angle: smoothstep; 1 - u^power
-// with u = (1 - cos)/(1 - cos outer).
-enum class ConeLaw : std::uint8_t { kSquared, kSmooth, kSmoothInAngle, kPower };
+// Over the cosine from outer to inner: squared, smoothstep; over the angle: smoothstep, linear;
+// 1 - u^power with u = (1 - cos)/(1 - cos outer).
+enum class ConeLaw : std::uint8_t { kSquared, kSmooth, kSmoothInAngle, kLinearInAngle, kPower };
+struct ConeOfLaw {
+  ConeLaw law = ConeLaw::kSquared;
+  double inner_rad = 0.0, outer_rad = 0.0;
+  double power = 1.0;
+};
+// Of the intensity on the axis, at an angle whose cosine that is.
+[[nodiscard]] double ConeAt(const ConeOfLaw& cone, double cosine);
 
 // Z up, metres. emitted has the colour's luminance in it: cd of a point or spot, lx of a sun, cd/m2
 // of a flat source (round: a disk), a tube or a dome, a factor on a table's candela.
@@ -34,6 +41,9 @@ struct EngineLight {
   double range_m = 0.0;                  // of the window (1 - (d/range)^4)^2, clamped; 0 = none
   double width_m = 0.0, height_m = 0.0;  // a tube: its length and its diameter
   bool round = false;
+  // Instead of a cone: intensity over that on the axis, at the middles of even steps of half a
+  // turn.
+  std::vector<double> profile{};
   std::optional<IntensityTable> table;
   double offset_m = 0.0;  // from where distances were measured to the light, of lamps without aim
   bool placed = true;     // false: the file holds neither place nor aim

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -93,6 +94,86 @@ std::optional<Lit> LitBy(const EngineLight& light, const ParityPlace& place) {
   }
 }
 
+// ---- off the axis ----
+
+// A beam as it was measured, and directions in it.
+struct Beam {
+  PresetLight light;
+  double end_rad = 0.0;
+};
+
+std::optional<Beam> BeamOf(const FittedLight& lamp) {
+  if (lamp.kind != LightKind::kSpot && lamp.kind != LightKind::kPhotometric) return std::nullopt;
+  LightFile alone;
+  alone.lights = {lamp};
+  Warnings said_by_export;
+  auto lights = PresetLightsFrom(alone, {.table = true}, {}, said_by_export);
+  if (!lights) return std::nullopt;
+  const PresetLight& light = lights->front();
+  const auto beam = light.table ? ProfileOf(*light.table) : light.beam;
+  if (!beam) return std::nullopt;
+  constexpr double kDark = 1e-3;
+  double end = 0.0;
+  for (std::size_t i = 0; i < beam->angle_rad.size(); ++i) {
+    if (beam->most[i] > kDark) end = beam->angle_rad[i];
+  }
+  return Beam{std::move(lights->front()),
+              std::min(std::numbers::pi, end + RadiansFromDegrees(5.0).value())};
+}
+
+struct OffAxis {
+  double worst = 0.0, at_rad = 0.0;
+};
+
+// `engine(point, normal, cosine)`: lux there.
+template <class Engine>
+OffAxis WorstOffAxis(const Beam& beam, double separation_m, const Engine& engine) {
+  constexpr int kAngles = 120, kTurns = 8;
+  const LampAxes& axes = beam.light.axes;
+  const auto at = [&](const Vec3& towards) {
+    return beam.light.position_m() + towards * separation_m;
+  };
+  const double axial = IlluminanceAt(beam.light, at(axes.aim), axes.aim * -1.0).value();
+  OffAxis out;
+  if (!(axial > 0.0)) return out;
+  for (int i = 0; i <= kAngles; ++i) {
+    const double angle = beam.end_rad * i / kAngles;
+    for (int j = 0; j < kTurns; ++j) {
+      const double c = 2.0 * std::numbers::pi * j / kTurns;
+      const Vec3 aside = axes.c0 * std::cos(c) + axes.c90 * std::sin(c);
+      const Vec3 towards = axes.aim * std::cos(angle) + aside * std::sin(angle);
+      const Vec3 point = at(towards);
+      const Vec3 normal = towards * -1.0;
+      const double off = std::abs(engine(point, normal, std::cos(angle)) -
+                                  IlluminanceAt(beam.light, point, normal).value()) /
+                         axial;
+      if (off > out.worst) out = {off, angle};
+    }
+  }
+  return out;
+}
+
+// Absent: lights that are no beam, and files that hold no place.
+std::optional<OffAxis> OffAxisIn(const EngineExport& exported, std::size_t index,
+                                 const FittedLight& lamp, const ParityPlace& place, double axial_lx,
+                                 const std::optional<Beam>& beam) {
+  if (!beam) return std::nullopt;
+  if (EmissionLaw* emission = exported.engine->emission) {
+    const Emission made = emission(exported.derived[index], lamp.kind, place.axial_part);
+    if (made.table) return OffAxis{};
+    return WorstOffAxis(*beam, place.separation_m,
+                        [&](const Vec3& /*point*/, const Vec3& /*normal*/, double cosine) {
+                          return axial_lx * (made.cone ? ConeAt(*made.cone, cosine) : 1.0);
+                        });
+  }
+  const auto read = std::ranges::find(exported.read_back, lamp.name, &EngineLight::name);
+  if (read == exported.read_back.end() || !read->placed) return std::nullopt;
+  return WorstOffAxis(*beam, place.separation_m,
+                      [&](const Vec3& point, const Vec3& normal, double /*cosine*/) {
+                        return LuxAt(*read, point, normal);
+                      });
+}
+
 std::optional<Lit> LitIn(const EngineExport& exported, std::size_t index, const FittedLight& lamp,
                          const ParityPlace& place) {
   if (EmissionLaw* emission = exported.engine->emission) {
@@ -111,17 +192,22 @@ std::vector<ParityRow> ParityOf(const LightFile& lights, const std::vector<Engin
     const FittedLight& lamp = lights.lights[i];
     const auto place = PlaceOf(lamp);
     if (!place) continue;
+    const auto beam = BeamOf(lamp);
     for (const EngineExport& exported : exports) {
       const auto lit = LitIn(exported, i, lamp, *place);
       if (!lit || !std::isfinite(lit->lux)) continue;
-      rows.push_back({.light = lamp.name,
-                      .engine = std::string(exported.engine->title),
-                      .distance_m = place->distance_m,
-                      .expected_lx = place->lux,
-                      .engine_lx = lit->lux,
-                      .law = lit->law,
-                      .executed = std::string(exported.engine->verified),
-                      .rendered = exported.engine->verified.starts_with("rendered")});
+      const auto off_axis = OffAxisIn(exported, i, lamp, *place, lit->lux, beam);
+      rows.push_back(
+          {.light = lamp.name,
+           .engine = std::string(exported.engine->title),
+           .distance_m = place->distance_m,
+           .expected_lx = place->lux,
+           .engine_lx = lit->lux,
+           .law = lit->law,
+           .executed = std::string(exported.engine->verified),
+           .rendered = exported.engine->verified.starts_with("rendered"),
+           .off_axis = off_axis ? std::optional(off_axis->worst) : std::nullopt,
+           .off_axis_deg = off_axis ? DegreesFromRadians(Radians(off_axis->at_rad)) : 0.0});
     }
   }
   return rows;

@@ -18,13 +18,16 @@ EngineLight FromThree(const Json& json) {
   light.position_m = FromYUp(VecFrom(json.at("position_m")));
   light.aim = FromYUp(VecFrom(json.at("direction")));
   light.offset_m = OffsetIn(json.value("measured", Json()));
+  light.range_m = json.value("range_m", 0.0);
   if (type == "directional") light.kind = EngineLightKind::kSun;
   if (type == "dome") light.kind = EngineLightKind::kDome;
   if (type == "spot") {
     light.kind = EngineLightKind::kSpot;
     light.law = ConeLaw::kSmooth;
-    light.inner_rad = json.at("inner_rad").get<double>();
-    light.outer_rad = json.at("outer_rad").get<double>();
+    const Json& cone = json.contains("three") ? json.at("three") : json;
+    light.inner_rad = cone.at("inner_rad").get<double>();
+    light.outer_rad = cone.at("outer_rad").get<double>();
+    if (json.contains("profile")) light.profile = json.at("profile").get<std::vector<double>>();
   }
   if (type == "rect") {
     light.kind = EngineLightKind::kFlat;

@@ -13,6 +13,7 @@ namespace Lightcal
     {
         public string type;
         public float intensity, range_m, radius_m, spot_angle_deg, inner_spot_angle_deg;
+        public float inner_spot_percent;
         public float area_width_m, area_height_m, angular_diameter_deg;
     }
     [Serializable] public class Place { public string name; public float[] position, forward, up; }
@@ -47,8 +48,15 @@ namespace Lightcal
                 Debug.LogError("lightcal: " + path + " is no lightcal.unity/1 file");
                 return;
             }
+            if (GraphicsSettings.currentRenderPipeline == null)
+            {
+                Debug.LogError("lightcal: nothing imported: lights of the built-in render pipeline do " +
+                               "not fall off with the square of the distance; open a project of HDRP " +
+                               "or URP (Project Settings > Graphics)");
+                return;
+            }
             Type hdLight = Find("UnityEngine.Rendering.HighDefinition.HDAdditionalLightData");
-            bool hdrp = hdLight != null && GraphicsSettings.currentRenderPipeline != null &&
+            bool hdrp = hdLight != null &&
                 GraphicsSettings.currentRenderPipeline.GetType().Name.StartsWith("HD");
             GameObject root = new GameObject("lightcal " + preset.name);
             foreach (Lamp lamp in preset.lights) AddLight(root, lamp, hdrp, hdLight);
@@ -106,6 +114,12 @@ namespace Lightcal
             if (data == null) data = thing.AddComponent(hdLight);
             Set(data, "angularDiameter", e.angular_diameter_deg);
             if (e.radius_m > 0) Set(data, "shapeRadius", e.radius_m);
+            // HDRP's own inner cone, in percent of the outer angle, 0 by default: Light.innerSpotAngle
+            // counts from the version on that has this no more.
+            if (light.type == LightType.Spot && hdLight.GetProperty("innerSpotPercent") != null)
+            {
+                Set(data, "innerSpotPercent", e.inner_spot_percent);
+            }
 #if UNITY_6000_0_OR_NEWER
             light.lightUnit = (LightUnit)Enum.Parse(typeof(LightUnit), UnitOf(light.type));
             light.intensity = e.intensity;

@@ -60,8 +60,10 @@ def add_light(scene, light):
     else:
         lamp.shadow_soft_size = light['radius_m']
     if kind == 'SPOT':
-        lamp.spot_size = light['spot_size_rad']
-        lamp.spot_blend = light['spot_blend']
+        # Before 4.0 a spot is a disc, which its own cosine dims.
+        cone = light['before_4_0'] if bpy.app.version < (4, 0) else light
+        lamp.spot_size = cone['spot_size_rad']
+        lamp.spot_blend = cone['spot_blend']
     lamp.energy = energy
     if hasattr(lamp, 'exposure'):
         lamp.exposure = 0.0

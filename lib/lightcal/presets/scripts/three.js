@@ -3,8 +3,8 @@
 //   import { buildThree, exposeThree } from './THIS_FILE';
 //   const { scene, camera } = buildThree(THREE);     exposeThree(THREE, renderer);
 //   renderer.render(scene, camera);
-// Rectangles need RectAreaLightUniformsLib.init() first; measured distributions need the WebGPU
-// build and { IESLoader }; without it they are the best point or spot. Right-handed, Y up, metres;
+// Rectangles need RectAreaLightUniformsLib.init() first; measured distributions take { IESLoader }
+// and the WebGPU build, else their mean round the aim is projected. Right-handed, Y up, metres;
 // cd, lx and cd/m2 divided by the luminance of the colour; exposure turns cd/m2 into pixels.
 export const preset = @DATA@;
 
@@ -17,16 +17,59 @@ function frame(THREE, object, light) {
   object.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, z));
 }
 
+// A beam's own profile, projected: three's cone is a smoothstep and nothing else. Beams wider than
+// 80 degrees keep the cone.
+const widestProjected = 80 * Math.PI / 180;
+
+function beamEnd(profile) {
+  let last = 0;
+  profile.forEach((v, i) => { if (v > 1e-3) last = i; });
+  return ((last + 1.5) * Math.PI) / profile.length;
+}
+
+function profileAt(profile, angle) {
+  const at = Math.max(0, (angle / Math.PI) * profile.length - 0.5);
+  const i = Math.min(Math.floor(at), profile.length - 2);
+  return profile[i] + (profile[i + 1] - profile[i]) * Math.min(1, at - i);
+}
+
+function threeProjected(THREE, color, light) {
+  const size = 1024;
+  const end = Math.min(widestProjected, beamEnd(light.profile));
+  const angle = Math.min(end * 1.03 + 0.005, widestProjected + 0.02);
+  const texels = new Uint16Array(size * size * 4);
+  const half = THREE.DataUtils.toHalfFloat;
+  const one = half(1);
+  for (let y = 0, t = 0; y < size; ++y) {
+    for (let x = 0; x < size; ++x, t += 4) {
+      const r = Math.hypot(2 * (x + 0.5) / size - 1, 2 * (y + 0.5) / size - 1);
+      const v = half(profileAt(light.profile, Math.atan(r * Math.tan(angle))));
+      texels[t] = texels[t + 1] = texels[t + 2] = v;
+      texels[t + 3] = one;
+    }
+  }
+  const map = new THREE.DataTexture(texels, size, size, THREE.RGBAFormat, THREE.HalfFloatType);
+  map.minFilter = map.magFilter = THREE.LinearFilter;
+  map.needsUpdate = true;
+  const lamp = new THREE.SpotLight(color, light.intensity, light.range_m ?? 0, angle, 0.01, 2);
+  lamp.map = map;
+  lamp.shadow.camera.near = 0.01;  // outside of the shadow camera the map is ignored
+  lamp.shadow.camera.far = 1000;
+  return lamp;
+}
+
 function threeLight(THREE, light, options) {
   const color = new THREE.Color().setRGB(...light.color, THREE.LinearSRGBColorSpace);
   let lamp;
-  if (light.type === 'point') lamp = new THREE.PointLight(color, light.intensity, 0, 2);
-  if (light.type === 'spot') {
-    lamp = new THREE.SpotLight(color, light.intensity, 0, light.outer_rad,
-      1 - light.inner_rad / light.outer_rad, 2);
+  if (light.type === 'point') lamp = new THREE.PointLight(color, light.intensity, light.range_m ?? 0, 2);
+  if (light.type === 'spot' && light.profile) lamp = threeProjected(THREE, color, light);
+  else if (light.type === 'spot') {
+    const cone = light.three ?? light;
+    lamp = new THREE.SpotLight(color, light.intensity, light.range_m ?? 0, cone.outer_rad,
+      1 - cone.inner_rad / cone.outer_rad, 2);
   }
   if (light.type === 'ies') {
-    lamp = new THREE.IESSpotLight(color, light.intensity, 0, Math.PI / 2, 0, 2);
+    lamp = new THREE.IESSpotLight(color, light.intensity, light.range_m ?? 0, Math.PI / 2, 0, 2);
     lamp.iesMap = new options.IESLoader().parse(light.ies);
   }
   if (light.type === 'directional') lamp = new THREE.DirectionalLight(color, light.intensity);
@@ -80,12 +123,15 @@ function threeCamera(THREE, rig) {
 
 /** The lights (and cards and camera) as a new scene, in cd/m2 before exposure. */
 export function buildThree(THREE, options = {}) {
+  // Without the WebGPU build's IES lights a measured beam is projected, if it is no wider than that.
+  const projected = (light) => (beamEnd(light.profile) > widestProjected ? light
+    : { ...light, type: 'spot', fallback: undefined });
   const able = (light) => light.type !== 'ies' || (THREE.IESSpotLight && options.IESLoader);
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0, 0, 0);
   const lights = [];
   for (const given of preset.lights) {
-    const light = of(given, able);
+    const light = of(able(given) ? given : projected(given), able);
     if (light.type === 'dome') {
       threeDome(THREE, scene, light);
       continue;
@@ -143,11 +189,11 @@ function babylonLight(BABYLON, scene, light) {
     lamp.falloffType = BABYLON.Light.FALLOFF_GLTF;
     lamp.intensityMode = isDirectional ? BABYLON.Light.INTENSITYMODE_ILLUMINANCE
       : BABYLON.Light.INTENSITYMODE_LUMINOUSINTENSITY;
-    if (!isDirectional) lamp.range = 10000;
+    if (!isDirectional) lamp.range = light.range_m ?? 10000;
   }
   lamp.diffuse = new BABYLON.Color3(...light.color);
   lamp.specular = lamp.diffuse;
-  lamp.intensity = light.intensity * preset.exposure.exposure;
+  lamp.intensity = light.intensity * (light.babylon_intensity_factor ?? 1) * preset.exposure.exposure;
   lamp.metadata = { lightcal: light.measured };
   return lamp;
 }
