@@ -107,9 +107,9 @@ std::string EffectTable(const FittedLight& light) {
   for (const EffectReport& effect : light.effects) {
     rows.push_back({effect.name, kStateNames[static_cast<int>(effect.state)],
                     RoundedText(effect.bound * 100.0, 2) + " %", PercentOrNone(effect.contribution),
-                    RoundedText(effect.cost_ns, 3) + " ns", effect.reason});
+                    RoundedText(effect.cost_ns, 3) + " ns", effect.key, effect.reason});
   }
-  return TextTable({"effect", "state", "bound", "found", "cost", "why"}, rows);
+  return TextTable({"effect", "state", "bound", "found", "cost", "stated by", "why"}, rows);
 }
 
 std::string BudgetTable(const FittedLight& light) {

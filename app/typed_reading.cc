@@ -95,7 +95,7 @@ Result<void> SetRoom(const std::string& text, Session& session) {
       "a room is written LENGTH,WIDTH,HEIGHT in metres, for example 5,4,2.6 (and ,0.7 for its "
       "reflectance), or dark, or outdoors";
   if (text == "dark" || text == "outdoors") {
-    session.no_walls = true;
+    session.surroundings = text == "dark" ? Surroundings::kDark : Surroundings::kOutdoors;
     return {};
   }
   const std::vector<std::string> parts = SplitAtCommas(text);

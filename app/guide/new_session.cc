@@ -58,6 +58,8 @@ std::string LightText(const LightDescription& light) {
   std::string text = "[[light]]\n" + TomlLine("name", TomlText(light.name), "readings name it so") +
                      TomlLine("kind", TomlText(std::string(LightKindName(light.kind))),
                               "directional point spot sphere disk rect tube photometric dome");
+  text += TomlLine("# lamp_class", "\"white_led\"", "or tungsten: a filament follows the mains") +
+          TomlLine("# minutes_on", "30", "before the first reading: what warming up leaves");
   text += LineIf("diameter_m", light.diameter, "");
   if (light.width && light.height) {
     text += TomlLine(

@@ -221,7 +221,7 @@ TEST(TradeoffSynthetic, IntervalsHoldTheTruthOfTheTwinAndFewerReadingsAreFurther
   const TempDir dir;
   std::string toml =
       "lightcal = 1\nname = \"twin\"\n[room]\ndark = true\n[[light]]\nname = \"key\"\n"
-      "kind = \"point\"\n[[meter]]\n"
+      "kind = \"point\"\nlamp_class = \"white_led\"\nminutes_on = 120\n[[meter]]\n"
       "name = \"m\"\nsigma_relative = 0.02\ncalibration_relative = 0.0\n";
   for (const double d : {0.5, 0.5, 1.0, 1.0, 2.0, 2.0}) {
     toml += "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +

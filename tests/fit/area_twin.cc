@@ -135,9 +135,11 @@ double TrueLux(const AreaTwin& twin, const Vec3& meter, const Vec3& normal) {
 Session ReadAt(const AreaTwin& twin, const std::vector<Pose>& poses, double sigma,
                std::mt19937_64& random) {
   Session session;
-  session.no_walls = true;
+  session.surroundings = Surroundings::kDark;
   session.name = "twin";
   session.lights = {twin.light};
+  session.lights.back().lamp_class = LampClass::kWhiteLed;
+  session.lights.back().in_time.minutes_on = 120.0;
   std::normal_distribution<double> normal;
   for (const Pose& pose : poses) {
     SessionReading row;

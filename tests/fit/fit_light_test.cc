@@ -201,7 +201,7 @@ TEST(FitLight, ANearDiskIsFittedInItsExactForm) {
 TEST(FitLight, AKnownRoomLowersTheIntensityByItsBounce) {
   Session session = TypedSession({{1.0, 100.0}});
   const FittedLight open = FitOk(session);
-  session.no_walls = false;
+  session.surroundings = Surroundings::kIndoors;
   session.room = Room{{5.0, 4.0, 2.6}, 0.5};
   const FittedLight inside = FitOk(session);
   const EffectReport& bounce = Effect(inside, "room_bounce");
@@ -302,7 +302,7 @@ TEST(NextStep, AsksForAnotherDistanceThenForAShadowCard) {
   const Session one = TypedSession({{0.5, 192.0}});
   EXPECT_THAT(NextStep(one, FitOk(one)), HasSubstr("read again at 1.4 m"));
   Session three = TypedSession({{0.5, 206.0}, {1, 61}, {2, 22}}, 0.02);
-  three.no_walls = false;  // a bulb of 48 cd in an ordinary room
+  three.surroundings = Surroundings::kIndoors;  // a bulb of 48 cd in an ordinary room
   EXPECT_THAT(NextStep(three, FitOk(three)), AllOf(HasSubstr("shadow-card"), HasSubstr(" → ± ")));
 }
 

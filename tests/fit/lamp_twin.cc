@@ -15,7 +15,9 @@ TwinSession::TwinSession(const LampTruth& truth, double sigma, std::uint64_t see
   session_.name = "twin";
   session_.lights.emplace_back();
   session_.lights.back().name = "lamp";
-  session_.no_walls = true;  // a twin shines in the open
+  session_.lights.back().lamp_class = LampClass::kWhiteLed;
+  session_.lights.back().in_time.minutes_on = 120.0;
+  session_.surroundings = Surroundings::kDark;  // a twin shines in the open
 }
 
 Reading& TwinSession::Add(double illuminance_lx) {
@@ -56,7 +58,9 @@ Session TypedSession(const std::vector<TypedReading>& readings, double sigma) {
   session.lights.emplace_back();
   session.lights.back().name = "lamp";
   session.lights.back().fixture = Fixture::kBulb;
-  session.no_walls = true;
+  session.lights.back().lamp_class = LampClass::kWhiteLed;
+  session.lights.back().in_time.minutes_on = 120.0;
+  session.surroundings = Surroundings::kDark;
   for (const TypedReading& typed : readings) {
     SessionReading row;
     row.reading.light = "lamp";

@@ -403,7 +403,7 @@ TEST(Locate, AShadowCardCountsAtItsOwnPlaceOnly) {
 TEST(Locate, AFlatLampIsFoundFromItsAim) {
   const Vec3 truth{0.4, -0.3, 1.7};
   Session session;
-  session.no_walls = true;
+  session.surroundings = Surroundings::kDark;
   session.lights.emplace_back();
   session.lights.back().name = "panel";
   session.lights.back().kind = LightKind::kRect;

@@ -34,7 +34,9 @@ LocatedTwin::LocatedTwin(const PlacedLamp& lamp, double sigma, std::uint64_t see
   session_.name = "located twin";
   session_.lights.emplace_back();
   session_.lights.back().name = "lamp";
-  session_.no_walls = true;
+  session_.lights.back().lamp_class = LampClass::kWhiteLed;
+  session_.lights.back().in_time.minutes_on = 120.0;
+  session_.surroundings = Surroundings::kDark;
 }
 
 Reading& LocatedTwin::Add(double lux) {

@@ -34,7 +34,7 @@ std::vector<LuxTable> LoadLuxTables() {
 
 Session SessionOf(const LuxTable& table, const std::string& meter, std::size_t count) {
   Session session;
-  session.no_walls = true;
+  session.surroundings = Surroundings::kDark;
   session.lights.emplace_back();
   session.lights.back().name = "lamp";
   for (std::size_t i = 0; i < std::min(count, table.distances_m.size()); ++i) {

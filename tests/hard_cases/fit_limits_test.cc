@@ -268,7 +268,7 @@ bool DriftIsToldOfSteadyLamp(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> place(0.5, 4.0);
   Session session;
-  session.no_walls = true;
+  session.surroundings = Surroundings::kDark;
   session.lights.emplace_back().name = "key";
   const int count = 4 + static_cast<int>(random() % 6);
   for (int i = 0; i < count; ++i) {

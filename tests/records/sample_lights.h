@@ -45,7 +45,7 @@ inline LightFile FullLightFile() {
   light.effects = {
       {"cosine", EffectState::kOn, 0.03, 0.011, 2.5, "the meter was tilted"},
       {"bounce", EffectState::kOff, 0.004, std::nullopt, 1700.0, "below the tolerance"},
-      {"source_size", EffectState::kFitted, 0.2, -0.1, 108.0, "near readings"}};
+      {"source_size", EffectState::kFitted, 0.2, -0.1, 108.0, "near readings", "light.size_m"}};
   light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true},
                      {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};
   light.covariance_lnI_d0_E0 = {0.1, 0.2, 0.3, 0.2, 0.5, 0.6, 0.3, 0.6, 1.0 / 7.0};

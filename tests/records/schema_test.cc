@@ -38,10 +38,15 @@ name = "all"
 size_m = [5.0, 4.0, 2.6]
 reflectance = 0.4
 reflectance_u95 = 0.1
+haze_per_m = 0.01
 [[light]]
 name = "key"
 kind = "spot"
 fixture = "fresnel"
+lamp_class = "white_led"
+minutes_on = 20
+flicker_hz = 100
+flicker_depth = 0.2
 position_m = [0, 0, 1.2]
 aim = [0, 0, -2]
 diameter_m = 0.06
@@ -56,6 +61,7 @@ beam_deg = 36
 field_deg = 60
 [[light]]
 name = "strip"
+pwm_duty = 0.5
 kind = "tube"
 axis = [1, 0, 0]
 [[light]]
@@ -69,12 +75,15 @@ calibration_relative = 0.02
 cosine_f2 = 0.02
 spectral_f1 = 0.06
 head_radius_m = 0.01
+window_s = 0.5
 [[capture]]
 light = "key"
 frames = "captures/*.dng"
 camera = "camera.json"
 nd = "nd3"
 use = "card"
+rows_s = 0.01
+lens_glare = 0.01
 reflectance = 0.18
 reflectance_sigma_relative = 0.02
 distance_m = 0.8

@@ -31,7 +31,8 @@ inline FittedLight WarmPoint() {
   light.fit.condition = 12.0;
   light.fit.learned = {"intensity", "distance_offset"};
   light.fit.prior = {"ambient"};
-  light.effects = {{"distance_offset", EffectState::kFitted, 0.3, 0.12, 1.0, "E d^2 varies"},
+  light.effects = {{"distance_offset", EffectState::kFitted, 0.3, 0.12, 1.0, "E d^2 varies",
+                    "light.fixture"},
                    {"room_bounce", EffectState::kOff, 0.002, std::nullopt, 9.0, "below 1 %"}};
   const double distances[] = {0.5, 1.0, 1.5, 2.0, 3.0};
   const double relative[] = {0.01, -0.015, 0.35, 0.012, -0.006};

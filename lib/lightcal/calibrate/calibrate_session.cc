@@ -134,6 +134,7 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   auto captured = ReadCaptures(session, sources, evidence);
   if (!captured) return Propagate(std::move(captured));
   session.lights = std::move(captured->lights);
+  session.captures = std::move(captured->captures);
   std::ranges::move(captured->readings, std::back_inserter(session.readings));
   AddSpectraOfCaptures(session, sources, evidence);
   Lap(settings, tradeoff::Stage::kPictures);

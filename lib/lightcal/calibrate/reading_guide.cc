@@ -33,7 +33,8 @@ ReadingGuide::ReadingGuide(const Session& session, const std::string& light, dou
                            bool shadow_cards)
     : until_relative_(until_relative) {
   session_.room = session.room;
-  session_.no_walls = session.no_walls;
+  session_.surroundings = session.surroundings;
+  session_.haze_per_metre = session.haze_per_metre;
   session_.meters = session.meters;
   session_.lights = {*FindLight(session, light)};
   for (const SessionReading& row : session.readings) {

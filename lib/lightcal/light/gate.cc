@@ -22,11 +22,9 @@ std::string_view TreatmentText(Treatment treatment) {
     case Treatment::kWidens:
       return "it widens the interval";
     case Treatment::kInsideSigma:
-      return "it stays inside the meter's sigma";
-    case Treatment::kUnknown:
       break;
   }
-  return "not simulated";
+  return "it stays inside the meter's sigma";
 }
 
 void SwitchOn(GatedEffect& effect) {
@@ -35,7 +33,6 @@ void SwitchOn(GatedEffect& effect) {
   effect.state = treatment == Treatment::kFitted ? GateState::kFitted : GateState::kOn;
   effect.reason = "up to " + PercentText(effect.finding.bound) + ", " +
                   std::string(TreatmentText(treatment)) + ": " + effect.finding.reason;
-  if (treatment == Treatment::kUnknown) effect.state = GateState::kOff;
 }
 
 void SwitchOff(GatedEffect& effect, std::string why) {
@@ -63,8 +60,7 @@ void Decide(std::vector<GatedEffect>& effects, const std::vector<double>& slack,
     const double bound = effect.finding.bound;
     if (!effect.finding.applies) {
       SwitchOff(effect, "not applicable: " + effect.finding.reason);
-    } else if (effect.finding.treatment != Treatment::kUnknown &&
-               Compounded(kept * (1.0 - std::min(1.0, key(i)))) <= tolerance) {
+    } else if (Compounded(kept * (1.0 - std::min(1.0, key(i)))) <= tolerance) {
       kept *= 1.0 - bound;
       effect.ignored = true;
       SwitchOff(effect, "at most " + PercentText(bound) + ", and all effects left off together " +
@@ -120,6 +116,7 @@ Result<std::vector<GatedEffect>> Gate(const Scene& scene, double tolerance,
     GatedEffect gated;
     gated.name = effect.name;
     gated.cost_ns = effect.cost_ns;
+    gated.key = effect.key;
     gated.finding = effect.find(scene);
     const bool was_on = before != nullptr && IsOn((*before)[effects.size()]);
     slack.push_back(was_on ? 1.0 / kHysteresis : 1.0);

@@ -19,7 +19,8 @@ struct GatedEffect {
   EffectFinding finding;
   GateState state = GateState::kOff;
   bool forced = false;   // the person named it
-  bool ignored = false;  // off because its bound fits the tolerance, not because it is unknown
+  bool ignored = false;  // off because its bound fits the tolerance
+  std::string_view key;  // of the session: what states it
   std::string reason;    // a sentence for people
 };
 
@@ -30,8 +31,8 @@ inline constexpr double kHysteresis = 0.7;
 // Finds every effect's bound for the scene, sorts by it, and leaves effects off while what is left
 // off together stays within `tolerance`: the worst case, compounded as 1/((1 - b1)(1 - b2)...) - 1,
 // which the bounds' sum never exceeds and which bounds |model/truth - 1| whatever their signs. The
-// others are on when modelled, fitted when a parameter takes them up; one that nothing here can
-// bound is off and says so. `overrides`: "auto", "all", "none", or "+a,-b" on top of auto. In the
+// others are on when modelled or when they widen the interval, fitted when a parameter takes them
+// up. `overrides`: "auto", "all", "none", or "+a,-b" on top of auto. In the
 // order of the table.
 // Fails: usage (an unknown name; the nearest known one is given).
 [[nodiscard]] Result<std::vector<GatedEffect>> GateEffects(const Scene& scene, double tolerance,

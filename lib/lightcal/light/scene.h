@@ -50,13 +50,10 @@ struct SceneTime {
 // Readings that come out of pictures.
 struct ScenePicture {
   std::optional<double> exposure_s;
-  std::optional<double> rows_s;     // from the first to the last row averaged; 0 = global shutter
-  std::optional<double> field_rad;  // of the patch off the lens's axis
-  bool flat_field = false;          // divided by the lens's own map
-  std::optional<double> glare;      // of the lens: part of the picture's mean on every pixel
+  std::optional<double> rows_s;  // from the first to the last row averaged; 0 = global shutter
+  bool flat_field = false;       // divided by the lens's own map
+  std::optional<double> glare;   // of the lens: part of the picture's mean on every pixel
   std::optional<double> mean_over_patch;  // the picture's mean luminance over the patch's
-  std::optional<double> electrons;        // gathered by the whole patch
-  int significant_bits = 24;              // of a stored sample: 11 half, 9 RGBE, 24 float
 };
 
 // A distribution as a table of directions.
@@ -64,23 +61,6 @@ struct SceneTable {
   double step_rad = 0.0;           // the largest between two nodes of a plane
   double second_difference = 0.0;  // the largest along a plane, over the peak
   double least_part = 1.0;         // intensity over the peak, where a reading saw least
-};
-
-// An environment as spherical harmonics of order 2.
-struct SceneProbe {
-  double small_lights = 0.0;  // int L dw of its sun and lamps over the illuminance
-};
-
-// An engine's range around a punctual light.
-struct SceneWindow {
-  double range_m = 0.0;
-  bool squared = true;
-};
-
-// Illuminance as a sum over a spectrum.
-struct SceneSpectrum {
-  double step_nm = 5.0;
-  std::optional<double> narrowest_nm;  // full width at half maximum of its narrowest line
 };
 
 struct Scene {
@@ -95,6 +75,7 @@ struct Scene {
   std::optional<double> ambient_ratio;  // lamp-off illuminance over the dimmest reading
   std::optional<RoomBox> room;
   bool no_walls = false;              // outdoors, or draped in black
+  bool dark = false;                  // draped in black, and nothing else shines
   std::vector<WallHypothesis> walls;  // what a fit knows of their light; empty: no fit asks
   std::vector<OffsetPart> offsets;    // where such a lamp's light starts; empty: 15 % of d
   std::optional<double> spectral_f1;  // of the worst meter that states it, fraction
@@ -103,9 +84,6 @@ struct Scene {
   SceneTime time;
   std::optional<ScenePicture> picture;
   std::optional<SceneTable> table;
-  std::optional<SceneProbe> probe;
-  std::optional<SceneWindow> window;
-  std::optional<SceneSpectrum> spectrum;
 };
 
 // The table's largest step and second difference along its planes, as its file has them.

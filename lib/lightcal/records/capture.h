@@ -38,6 +38,13 @@ inline constexpr std::array<std::string_view, 5> kCaptureUseWords = {"card", "so
 // Cards and their printed reflectance agree within about this, 1 sigma.
 inline constexpr double kSigmaReflectance = 0.03;
 
+// What opening a capture's pictures told of them.
+struct PictureFacts {
+  bool flat_field = false;                // the lens's own map was divided out
+  std::optional<double> shortest_s;       // exposure of the shortest frame used
+  std::optional<double> mean_over_patch;  // the picture's mean luminance over the patch's
+};
+
 // card: a matt card of known reflectance that faces the lamp (or is tilted from it), photographed
 // in its light: E = pi L / reflectance.
 // source: the lamp itself, seen from distance_m.  dome: one panorama or fisheye picture of what
@@ -64,6 +71,10 @@ struct CaptureDescription {
   std::optional<BallDescription> ball;   // [capture.ball]
   std::optional<Projection> projection;  // source, dome, ball; absent: rect, of a dome latlong
   std::optional<Radians> field_of_view;  // full angle across the width, or a fisheye's circle
+  std::optional<double> rows_s;          // from the first to the last row averaged; 0 = global
+                                         // shutter
+  std::optional<double> lens_glare;      // part of the picture's mean on every pixel
+  PictureFacts found{};                  // by whoever opened its pictures; no key
   PictureChoice work{};                  // how much of its pictures to use; a profile's, no key
   std::string where;                     // "session.toml [[capture]] 1"
 };

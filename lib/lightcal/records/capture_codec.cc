@@ -109,6 +109,8 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Text("meter", capture.meter);
   reader.Word("lamp_class", capture.lamp_class, kLampClassWords);
   reader.Text("spectrum", capture.spectrum_file);
+  reader.Number("rows_s", capture.rows_s, kNotNegative);
+  reader.Number("lens_glare", capture.lens_glare, kErrorFractionRule);
   reader.Object("wall", capture.wall, ReadWall);
   reader.Object("ball", capture.ball, ReadBall);
   ReadProjection(reader, capture);

@@ -27,6 +27,11 @@ inline constexpr NumberRule kSigmaRule{[](double v) { return v > 0.0 && v < 1.0;
                                        "must lie between 0 and 1: 0.05 means 5 %, 1 sigma"};
 inline constexpr NumberRule kErrorFractionRule{[](double v) { return v >= 0.0 && v < 1.0; },
                                                "must be a fraction from 0 to below 1: 0.03 is 3 %"};
+inline constexpr NumberRule kDepthRule{
+    [](double v) { return v >= 0.0 && v <= 1.0; },
+    "must lie between 0 and 1: (largest - least)/(largest + least) light of a period"};
+inline constexpr NumberRule kDutyRule{[](double v) { return v > 0.0 && v <= 1.0; },
+                                      "must be above 0, up to 1: the lit part of a period"};
 inline constexpr NumberRule kReflectanceRule{[](double v) { return v >= 0.0 && v < 1.0; },
                                              "must be a fraction from 0 to below 1"};
 inline constexpr NumberRule kCardRule{[](double v) { return v > 0.0 && v <= 1.0; },

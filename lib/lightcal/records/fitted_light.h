@@ -44,6 +44,7 @@ struct EffectReport {
   std::optional<double> contribution;  // found
   double cost_ns = 0.0;                // declared price of one evaluation
   std::string reason;
+  std::string key{};  // of the session: what states it, or makes it smaller
 };
 
 // One cause of a light's uncertainty.
@@ -91,14 +92,14 @@ struct FittedLight {
   std::optional<Uncertain> luminance_nits;  // sphere, disk, rect, tube
   std::optional<Uncertain> distance_offset_m;
   std::optional<Uncertain> ambient_lx;
-  std::optional<double> inner_deg, outer_deg;  // half angles
+  std::optional<double> inner_deg, outer_deg;                       // half angles
   std::optional<double> inner_u95_deg, outer_u95_deg, aim_u95_deg;  // where the readings told them
   std::optional<double> diameter_m, width_m, height_m, length_m, radius_m;
   std::optional<double> angular_diameter_deg;  // directional: full angle of the disc it shines from
   std::optional<Vec3> position_m;
   std::optional<Vec3> position_u95_m;  // of each coordinate; where the readings told the position
   std::optional<Vec3> aim;
-  std::optional<Vec3> axis{};  // of a tube's length or a rect's width
+  std::optional<Vec3> axis{};                        // of a tube's length or a rect's width
   std::optional<MeasuredDistribution> distribution;  // photometric
   FittedColor color;
   FitDiagnostics fit;
@@ -116,7 +117,7 @@ struct InputFile {
 struct Provenance {
   std::string generator;  // "lightcal 0.1.0"
   std::vector<InputFile> inputs;
-  std::string time;  // newest time found in the inputs, "" = none
+  std::string time;                    // newest time found in the inputs, "" = none
   std::vector<std::string> devices{};  // that read them, "driver:serial", each once
 };
 

@@ -76,6 +76,7 @@ constexpr auto kVisitEffect = [](auto& archive, auto& effect) {
   archive.Number("contribution", effect.contribution);
   archive.Number("cost_ns", effect.cost_ns, kNotNegative);
   archive.Text("reason", effect.reason);
+  archive.Text("key", effect.key);
   archive.Require({"name", "state", "bound", "cost_ns"});
 };
 

@@ -2,6 +2,7 @@
 // A calibration session: lamps, meters, the room, and the readings in the order they count.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,11 +26,28 @@ struct Room {
   std::optional<double> reflectance_u95{};  // of it, absolute; absent: a fifth of it
 };
 
+// What surrounds lamp and meter.
+enum class Surroundings : std::uint8_t {
+  kIndoors,   // walls send the lamp's light back; `room` says which, where it is known
+  kOutdoors,  // no walls
+  kDark,      // walls draped in black, and nothing else shines
+};
+
+// How a lamp behaves in time; what is absent keeps its usual size in the interval.
+struct LampInTime {
+  std::optional<double> minutes_on{};     // before the first reading
+  std::optional<double> flicker_hz{};     // twice the mains frequency, or the dimmer's
+  std::optional<double> flicker_depth{};  // (max - min)/(max + min) of a smooth ripple
+  std::optional<double> pwm_duty{};       // lit part of a period
+};
+
 // What the person says of a lamp; everything absent is fitted, defaulted or a prior, and marked so.
 struct LightDescription {
   std::string name;
   LightKind kind = LightKind::kPoint;
   std::optional<Fixture> fixture{};
+  LampClass lamp_class = LampClass::kUnknown;
+  LampInTime in_time{};
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;               // unit length after loading
   std::optional<Vec3> axis;              // of a tube's length or a rect's width, unit length
@@ -59,6 +77,7 @@ struct MeterDescription {
   std::optional<double> cosine_f2;
   std::optional<double> spectral_f1;
   std::optional<Metres> head_radius;
+  std::optional<double> window_s{};  // how long one reading gathers its light
 };
 
 // A reading with the place it was written, for messages and for `rejected`.
@@ -85,7 +104,8 @@ struct Session {
   std::string directory;  // base of relative paths
   std::string stem;       // the directory's name (or the .toml's stem)
   std::optional<Room> room;
-  bool no_walls = false;  // [room] outdoors or dark: nothing throws the lamp's light back
+  Surroundings surroundings = Surroundings::kIndoors;
+  std::optional<double> haze_per_metre{};  // extinction of the air
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;
   std::vector<SessionReading> readings;  // session.toml's first, then the journal's, then lit ones

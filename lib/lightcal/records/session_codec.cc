@@ -70,8 +70,8 @@ class SessionReader {
     Session& session = out_.session;
     reader.Text("name", session.name);
     reader.Object("room", session.room,
-                  [&](FieldReader& r, Room& room) { ReadRoom(r, room, session.no_walls); });
-    if (session.no_walls) session.room.reset();
+                  [&](FieldReader& r, Room& room) { ReadRoom(r, room, session); });
+    if (session.room && !(session.room->size_m[0] > 0.0)) session.room.reset();
     reader.List("light", session.lights, [this](FieldReader& r, LightDescription& light) {
       ReadLight(r, light);
       CheckName(r, out_.session.lights, "light");
@@ -106,7 +106,7 @@ class SessionReader {
     }
   }
 
-  static void ReadRoom(FieldReader& reader, Room& room, bool& no_walls) {
+  static void ReadRoom(FieldReader& reader, Room& room, Session& session) {
     bool outdoors = false;
     bool dark = false;
     reader.Truth("outdoors", outdoors);
@@ -114,8 +114,14 @@ class SessionReader {
     reader.Array("size_m", room.size_m, kPositive);
     reader.Number("reflectance", room.reflectance, kReflectanceRule);
     reader.Number("reflectance_u95", room.reflectance_u95, kPositive);
-    no_walls = outdoors || dark;
-    if (!no_walls) return reader.Require({"size_m"});
+    reader.Number("haze_per_m", session.haze_per_metre, kNotNegative);
+    if (outdoors) session.surroundings = Surroundings::kOutdoors;
+    if (dark) session.surroundings = Surroundings::kDark;
+    if (!outdoors && !dark) {
+      const bool hazy_only =
+          session.haze_per_metre && !reader.Has("reflectance") && !reader.Has("reflectance_u95");
+      return hazy_only ? void() : reader.Require({"size_m"});
+    }
     for (const std::string_view key : {"size_m", "reflectance", "reflectance_u95"}) {
       if (!reader.Has(key)) continue;
       reader.Fail(key, std::string(key) + " describes walls, and " + (dark ? "dark" : "outdoors") +
@@ -127,6 +133,8 @@ class SessionReader {
     reader.Text("name", light.name);
     reader.Word("kind", light.kind, kLightKindNames);
     reader.Word("fixture", light.fixture, kFixtureNames);
+    reader.Word("lamp_class", light.lamp_class, kLampClassWords);
+    ReadInTime(reader, light.in_time);
     reader.Array("position_m", light.position_m);
     reader.Array("aim", light.aim);
     light.aim = UnitVector(reader, "aim", light.aim);
@@ -164,6 +172,17 @@ class SessionReader {
     }
   }
 
+  static void ReadInTime(FieldReader& reader, LampInTime& lamp) {
+    reader.Number("minutes_on", lamp.minutes_on, kNotNegative);
+    reader.Number("flicker_hz", lamp.flicker_hz, kPositive);
+    reader.Number("flicker_depth", lamp.flicker_depth, kDepthRule);
+    reader.Number("pwm_duty", lamp.pwm_duty, kDutyRule);
+    if (lamp.flicker_depth && lamp.pwm_duty) {
+      reader.Fail("pwm_duty",
+                  "pwm_duty describes pulses and flicker_depth a smooth ripple; keep one");
+    }
+  }
+
   static void ReadMeter(FieldReader& reader, MeterDescription& meter) {
     reader.Text("name", meter.name);
     reader.Number("sigma_relative", meter.sigma_relative, kSigmaRule);
@@ -171,6 +190,7 @@ class SessionReader {
     reader.Number("cosine_f2", meter.cosine_f2, kErrorFractionRule);
     reader.Number("spectral_f1", meter.spectral_f1, kErrorFractionRule);
     reader.Number("head_radius_m", meter.head_radius, kPositive);
+    reader.Number("window_s", meter.window_s, kPositive);
     reader.Require({"name"});
     reader.Finish();
     if (meter.calibration_relative && *meter.calibration_relative > meter.sigma_relative) {

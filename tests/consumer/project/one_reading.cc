@@ -6,7 +6,7 @@
 
 int main() {
   lightcal::Session session;
-  session.no_walls = true;
+  session.surroundings = lightcal::Surroundings::kDark;
   session.lights.push_back({.name = "key", .fixture = lightcal::Fixture::kBulb});
   lightcal::Reading reading;
   reading.light = "key";

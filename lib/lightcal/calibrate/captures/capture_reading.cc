@@ -150,6 +150,28 @@ void AddCapture(const Session& session, const CaptureDescription& capture,
            " %; one lux reading of this light, or anchor_illuminance_lx, makes it sure"});
 }
 
+namespace {
+
+// `patch`: the patch's luminance in the merge's own unit; 0 = unknown.
+PictureFacts FactsOf(const MergedBracket& merged, double patch) {
+  PictureFacts facts;
+  facts.flat_field = merged.corrections.flat().has_value();
+  for (const MergedFrame& frame : merged.frames) {
+    const auto& time = frame.info.exposure.time;
+    if (!frame.used || !time) continue;
+    facts.shortest_s = std::min(facts.shortest_s.value_or(time->value()), time->value());
+  }
+  if (patch > 0.0) {
+    const std::vector<float> nits = LuminanceOf(merged, 1.0);
+    double sum = 0.0;
+    for (const float one : nits) sum += double{one};
+    facts.mean_over_patch = sum / static_cast<double>(nits.size()) / patch;
+  }
+  return facts;
+}
+
+}  // namespace
+
 CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription& capture,
                                 const CapturePicture& picture, const LampLuminance& lamp,
                                 const PictureFindings& findings) {
@@ -173,6 +195,7 @@ CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription
                                                                         : kCameraDevicePrefix) +
                    (info.camera.empty() ? info.format : info.camera);
   reading.time = info.time;
+  out.found = FactsOf(picture.merged, findings.patch_unit);
   return out;
 }
 

@@ -29,6 +29,7 @@ struct CaptureReading {
   double shared_sd = 0.0;       // relative: with other captures of this light by this camera
   // The light with sizes that its picture gave; absent where pictures tell none.
   std::optional<LightDescription> sized{};
+  PictureFacts found{};
 };
 
 // A capture's bracket as one picture, and what is known of the camera.
@@ -52,6 +53,7 @@ struct PictureFindings {
   Lux illuminance;              // as the camera has it
   double independent_sd = 0.0;  // relative
   double method_sd = 0.0;       // relative, beside scale and colour: shared by all its captures
+  double patch_unit = 0.0;      // the patch's luminance in the merge's unit; 0 = unknown
 };
 
 // The same error, saying which capture it is of, and what a person can add there.

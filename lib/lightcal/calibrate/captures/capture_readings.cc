@@ -44,18 +44,21 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
   std::vector<Read> all;
   std::map<std::pair<std::string, std::string>, int> sharing;  // captures by light and camera
   Session sized = session;
-  for (const CaptureDescription& capture : session.captures) {
+  CaptureReadings out;
+  out.captures = session.captures;
+  for (std::size_t i = 0; i < session.captures.size(); ++i) {
+    const CaptureDescription& capture = session.captures[i];
     auto read = ReadCapture(sized, capture, sources, evidence);
     if (!read) return AtCapture(capture, std::move(read).error());
     if (!*read) continue;
     CaptureReading& one = **read;
+    out.captures[i].found = one.found;
     if (one.sized) {
       *std::ranges::find(sized.lights, one.sized->name, &LightDescription::name) = *one.sized;
     }
     if (!one.anchored) ++sharing[{one.reading.light, one.camera}];
     all.push_back({std::move(one), capture.where});
   }
-  CaptureReadings out;
   out.lights = std::move(sized.lights);
   for (auto& [one, where] : all) {
     const int others = one.anchored ? 1 : sharing[{one.reading.light, one.camera}];

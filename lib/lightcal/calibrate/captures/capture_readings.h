@@ -17,7 +17,8 @@ inline constexpr const char* kCameraScalePrior = "camera_scale";
 
 struct CaptureReadings {
   std::vector<SessionReading> readings;
-  std::vector<LightDescription> lights;  // the session's, with sizes that pictures gave
+  std::vector<LightDescription> lights;      // the session's, with sizes that pictures gave
+  std::vector<CaptureDescription> captures;  // the session's, with what their pictures told
 };
 
 // One reading for each [[capture]] of use card, source or dome, as its use reads it. Its

@@ -92,7 +92,8 @@ Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription
       ReadingOfPicture(session, capture, *picture, *lamp,
                        {.illuminance = Lux(std::numbers::pi * lamp->nits / capture.reflectance),
                         .independent_sd = std::hypot(patch->noise_sd, patch->uneven_sd),
-                        .method_sd = capture.reflectance_sigma});
+                        .method_sd = capture.reflectance_sigma,
+                        .patch_unit = patch->color.Y});
   out.reading.tilt = capture.tilt;
   return out;
 }

@@ -45,11 +45,10 @@ class Draws {
     influence_.resize(drawn_.rows.size() * input.considered.size());
     for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
       const ReadingRow& row = drawn_.rows[i];
-      const bool lit = row.form == ReadingRow::Form::kLog && row.direct_gain > 0.0;
+      const bool log = row.form == ReadingRow::Form::kLog;
       for (std::size_t c = 0; c < input.considered.size(); ++c) {
-        const Consider& one = input.considered[c];
         influence_[i * input.considered.size() + c] =
-            lit ? one.relative * std::pow(row.distance, one.distance_power) : 0.0;
+            log ? InfluenceOn(row, input.considered[c]) : 0.0;
       }
     }
   }

@@ -59,7 +59,8 @@ double InnerRadius(const LightDescription& light) {
 
 // Whether the light from the walls is in a reading.
 bool SeesWalls(const Session& session, const LightDescription& light, const Reading& reading) {
-  if (session.no_walls || reading.meter == kDataSheetMeter || !HasDistanceLaw(light.kind)) {
+  if (session.surroundings != Surroundings::kIndoors || reading.meter == kDataSheetMeter ||
+      !HasDistanceLaw(light.kind)) {
     return false;
   }
   const auto of_its_luminance = [&](const CaptureDescription& capture) {

@@ -65,6 +65,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.own_sigma = row.sigma;
   row.calibration = observation.calibration;
   row.instrument = observation.instrument;
+  row.data_sheet = observation.data_sheet;
   if (!observation.lit) {
     row.direct_gain = 0.0;
     return row;
@@ -121,6 +122,28 @@ void AddCardRows(const Observations& observations, Prepared& out) {
   }
 }
 
+// Beside figures of a data sheet, which have none of it, what is in a person's readings alone
+// counts in their weight: a reading more never widens.
+void WidenBesideDataSheet(const Observations& observations, const ForwardModel& model,
+                          Prepared& out) {
+  const auto printed = [](const Observation& o) { return o.lit && o.data_sheet; };
+  if (std::ranges::none_of(observations.rows, printed)) return;
+  for (std::size_t n = 0; n < out.estimation.rows.size(); ++n) {
+    ReadingRow& row = out.estimation.rows[n];
+    if (row.data_sheet || row.form == RowForm::kCensored) continue;
+    const Observation& observation =
+        observations.rows[static_cast<std::size_t>(out.observation[n])];
+    double variance = 0.0;
+    for (const Consider& one : model.considered) {
+      if (!one.own_lamp || !observation.lit) continue;
+      const double sd = one.relative * std::pow(observation.distance_m, one.distance_power);
+      variance += sd * sd;
+    }
+    const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;
+    row.sigma = row.own_sigma = std::hypot(row.sigma, std::sqrt(variance) * unit);
+  }
+}
+
 }  // namespace
 
 Prepared Prepare(const Observations& observations, const ForwardModel& model) {
@@ -162,6 +185,7 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
     // Ambient light cannot exceed the dimmest reading.
     rules[kAmbient] = {true, 0.0, dimmest};
   }
+  WidenBesideDataSheet(observations, model, out);
   out.own_rows = static_cast<int>(out.estimation.rows.size());
   if (!model.walls.empty()) AddCardRows(observations, out);
   return out;

@@ -67,6 +67,7 @@ struct ReadingRow {
   double own_sigma = 1.0;    // of it, what is not scatter of the walls' light
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
   int instrument = 0;
+  bool data_sheet = false;  // what the manufacturer prints
 };
 
 // Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off

@@ -57,10 +57,7 @@ void AddShared(const UncertaintyInput& input, const At& at, const Matrix3& covar
 void AddConsidered(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
                    Matrix3& total) {
   for (const Consider& influence : input.considered) {
-    const auto relative = [&influence](const ReadingRow& row) {
-      const bool counts = row.form != ReadingRow::Form::kCensored && row.direct_gain > 0.0;
-      return counts ? influence.relative * std::pow(row.distance, influence.distance_power) : 0.0;
-    };
+    const auto relative = [&](const ReadingRow& row) { return InfluenceOn(row, influence); };
     AddShared(input, at, covariance, relative, total);
   }
 }

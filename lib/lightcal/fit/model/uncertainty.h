@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -20,8 +21,17 @@ using Covariance = std::array<double, std::size_t{kParameters} * kParameters>;
 struct Consider {
   double relative = 0.0;
   double distance_power = 0.0;
-  std::string name{};  // the effect it stands for
+  std::string name{};     // the effect it stands for
+  bool own_lamp = false;  // a data sheet's rows have none of it
 };
+
+// 1 sigma of what the influence does to ln E of a row.
+template <class Row>
+[[nodiscard]] double InfluenceOn(const Row& row, const Consider& influence) {
+  const bool counts = row.form != RowForm::kCensored && row.direct_gain > 0.0 &&
+                      !(influence.own_lamp && row.data_sheet);
+  return counts ? influence.relative * std::pow(row.distance, influence.distance_power) : 0.0;
+}
 
 struct UncertaintyInput {
   const Estimation* estimation = nullptr;

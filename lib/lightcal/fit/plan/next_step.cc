@@ -123,7 +123,7 @@ std::string NextStep(const Session& session, const FittedLight& light) {
     return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,
                        "the distance offset is still a prior");
   }
-  if (!taken.shadow && !session.no_walls) {
+  if (!taken.shadow && session.surroundings == Surroundings::kIndoors) {
     return "add a shadow-card reading at " + RoundedText(farthest, 2) +
            " m (block only the direct beam): it takes ambient light and the room's bounce out";
   }

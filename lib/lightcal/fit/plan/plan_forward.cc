@@ -33,6 +33,9 @@ void AddMeters(const Session& session, const LightDescription& light, Scene& sce
     KeepLargest(scene.spectral_f1, meter.spectral_f1);
     KeepLargest(scene.cosine_f2, meter.cosine_f2);
     KeepLargest(scene.head_radius, meter.head_radius);
+    if (meter.window_s && (!scene.time.window_s || *meter.window_s < *scene.time.window_s)) {
+      scene.time.window_s = meter.window_s;
+    }
   }
 }
 
@@ -72,38 +75,6 @@ double EmissionOf(const LightDescription& light, const Observation& row) {
   return std::atan2(Length(Cross(*light.aim, away)), Dot(*light.aim, away));
 }
 
-// Who read, with what: a person's meter, a manufacturer, a camera.
-void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
-  scene.time.own_lamp = false;
-  bool pictures = false;
-  for (const SessionReading& row : session.readings) {
-    if (row.reading.light != light.name || !row.reading.illuminance) continue;
-    scene.time.own_lamp = scene.time.own_lamp || row.reading.meter != kDataSheetMeter;
-    pictures = pictures || row.reading.quality == MeterQuality::kDerived;
-  }
-  if (!pictures) return;
-  for (const CaptureDescription& capture : session.captures) {
-    if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
-    if (capture.anchor_illuminance) continue;  // a meter gives the level, the picture the colour
-    if (!scene.picture) scene.picture.emplace();
-    if (capture.exposure_s.empty()) continue;
-    scene.picture->exposure_s =
-        *std::min_element(capture.exposure_s.begin(), capture.exposure_s.end());
-  }
-}
-
-// Flux over axial intensity, where a cone or a table tells it.
-std::optional<double> FluxOverIntensity(const LightDescription& light) {
-  if (light.distribution) {
-    const IntensityTable& table = *light.distribution;
-    const double peak = table.peak().intensity.value();
-    return peak > 0.0 ? std::optional(table.Flux().value() / peak) : std::nullopt;
-  }
-  if (light.kind != LightKind::kSpot || !light.outer || light.beam) return std::nullopt;
-  const SpotCone cone{light.inner.value_or(Radians(0.0)), *light.outer};
-  return SolidAngleOfSpot(cone, SpotFalloff::kSquaredLinear).value();
-}
-
 // What the light is built like, where its kind says it.
 std::optional<Fixture> FixtureOf(const LightDescription& light) {
   if (light.fixture) return light.fixture;
@@ -119,6 +90,76 @@ std::optional<Fixture> FixtureOf(const LightDescription& light) {
     default:
       return std::nullopt;
   }
+}
+
+// Whether the lamp glows; absent where nobody says. A chip on a board and a panel do not.
+std::optional<bool> BurnsFilament(const Session& session, const LightDescription& light) {
+  LampClass lamp = light.lamp_class;
+  for (const CaptureDescription& capture : session.captures) {
+    if (lamp == LampClass::kUnknown && capture.light == light.name) lamp = capture.lamp_class;
+  }
+  if (lamp != LampClass::kUnknown) return lamp == LampClass::kTungsten;
+  const std::optional<Fixture> fixture = FixtureOf(light);
+  if (fixture == Fixture::kCobBare || fixture == Fixture::kPanel) return false;
+  return std::nullopt;
+}
+
+// The worst of the light's pictures.
+void AddPicture(const CaptureDescription& capture, std::optional<ScenePicture>& kept) {
+  ScenePicture one;
+  one.rows_s = capture.rows_s;
+  one.glare = capture.lens_glare;
+  one.flat_field = capture.found.flat_field;
+  one.mean_over_patch = capture.found.mean_over_patch;
+  one.exposure_s = capture.found.shortest_s;
+  if (!capture.exposure_s.empty()) one.exposure_s = std::ranges::min(capture.exposure_s);
+  if (!kept) {
+    kept = one;
+    return;
+  }
+  KeepLargest(kept->mean_over_patch, one.mean_over_patch);
+  KeepLargest(kept->glare, one.glare);
+  kept->flat_field = kept->flat_field && one.flat_field;
+  const auto keep_least = [](std::optional<double>& least, const std::optional<double>& next) {
+    if (next && (!least || *next < *least)) least = next;
+  };
+  keep_least(kept->exposure_s, one.exposure_s);
+  keep_least(kept->rows_s, one.rows_s);
+}
+
+// Who read, with what: a person's meter, a manufacturer, a camera.
+void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
+  scene.time.own_lamp = false;
+  scene.time.filament = BurnsFilament(session, light);
+  if (light.in_time.minutes_on) scene.time.on_for_s = 60.0 * *light.in_time.minutes_on;
+  scene.time.flicker_hz = light.in_time.flicker_hz;
+  scene.time.ripple = light.in_time.flicker_depth;
+  scene.time.duty = light.in_time.pwm_duty;
+  scene.time.haze_per_metre = session.haze_per_metre;
+  bool pictures = false;
+  for (const SessionReading& row : session.readings) {
+    if (row.reading.light != light.name || !row.reading.illuminance) continue;
+    scene.time.own_lamp = scene.time.own_lamp || row.reading.meter != kDataSheetMeter;
+    pictures = pictures || row.reading.quality == MeterQuality::kDerived;
+  }
+  if (!pictures) return;
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
+    if (capture.anchor_illuminance) continue;  // a meter gives the level, the picture the colour
+    AddPicture(capture, scene.picture);
+  }
+}
+
+// Flux over axial intensity, where a cone or a table tells it.
+std::optional<double> FluxOverIntensity(const LightDescription& light) {
+  if (light.distribution) {
+    const IntensityTable& table = *light.distribution;
+    const double peak = table.peak().intensity.value();
+    return peak > 0.0 ? std::optional(table.Flux().value() / peak) : std::nullopt;
+  }
+  if (light.kind != LightKind::kSpot || !light.outer || light.beam) return std::nullopt;
+  const SpotCone cone{light.inner.value_or(Radians(0.0)), *light.outer};
+  return SolidAngleOfSpot(cone, SpotFalloff::kSquaredLinear).value();
 }
 
 // What is known beforehand of the walls' light and of where the lamp's starts.
@@ -174,6 +215,7 @@ Scene SceneOf(const Session& session, const LightDescription& light,
     scene.table = SceneTableOf(*light.distribution);
     scene.table->least_part = least_part;
   }
+  scene.dark = session.surroundings == Surroundings::kDark;
   AddPriors(session, light, observations, scene);
   AddMeters(session, light, scene);
   AddTime(session, light, scene);
@@ -188,7 +230,8 @@ EffectState StateOf(GateState state) {
 // An influence of relative size sd at the farthest reading.
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
-  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name)};
+  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name),
+          effect.finding.own_lamp};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
@@ -235,9 +278,7 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
   if (effect.name == "room_bounce" && (effect.state == GateState::kFitted || bound == 0.0)) {
     model.walls = scene.walls;
   }
-  if (effect.name == "ambient" && effect.state == GateState::kOff) {
-    model.fit_ambient = treatment == Treatment::kUnknown && !effect.forced;
-  }
+  if (effect.name == "ambient" && effect.state == GateState::kOff) model.fit_ambient = false;
   if (effect.state == GateState::kOff) {
     // A rectangular distribution of half width `bound`.
     if (effect.ignored && bound > 0.0) {
@@ -246,7 +287,7 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
     return;
   }
   if (treatment == Treatment::kWidens) {
-    model.considered.push_back(Widening(scene, effect, 0.5 * bound));
+    model.considered.push_back(Widening(scene, effect, effect.finding.sd.value_or(0.5 * bound)));
   }
   if (treatment == Treatment::kModelled && bound > 0.0) {
     ModelEffect(scene, light, observations, effect.name, model);
@@ -332,7 +373,7 @@ void Follow(const LightDescription& light, const Observations& observations,
     }
     if (!effect.finding.applies) continue;
     plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
-                            std::nullopt, effect.cost_ns, effect.reason});
+                            std::nullopt, effect.cost_ns, effect.reason, std::string(effect.key)});
   }
 }
 

@@ -355,7 +355,8 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
   if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
   Session alone;
   alone.room = session.room;
-  alone.no_walls = session.no_walls;
+  alone.surroundings = session.surroundings;
+  alone.haze_per_metre = session.haze_per_metre;
   alone.meters = session.meters;
   alone.lights = {*found};
   for (const SessionReading& row : session.readings) {

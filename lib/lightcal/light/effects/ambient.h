@@ -8,7 +8,8 @@
 
 namespace lightcal::effects {
 
-// Of the dimmest reading, where nothing tells it: what curtains and standby lamps leave.
+// Of the dimmest reading, where nothing tells it: what curtains and standby lamps leave. Any part
+// of it is as likely as another, so that half of it is about its root mean square.
 inline constexpr double kAmbientDefault = 0.05;
 
 //   E = E_lamp + E0,   bound = E0/E at the dimmest reading.
@@ -22,12 +23,20 @@ inline constexpr double kAmbientDefault = 0.05;
     return {std::max(0.0, *scene.ambient_ratio), Treatment::kFitted, 0.0,
             "measured by lamp-off readings"};
   }
-  if (scene.distances >= 4) {
+  // A constant and light from walls that grows with distance are one to a handful of readings.
+  if (scene.distances >= 4 && scene.walls.empty()) {
     return {1.0, Treatment::kFitted, 0.0,
             "fitted: four distances tell it from the lamp; it cannot exceed the dimmest reading"};
   }
-  return {kAmbientDefault, Treatment::kUnknown, 2.0,
-          "no lamp-off or shadow-card reading; taken as 0 (5 % of the dimmest reading is common)"};
+  if (scene.dark) return NotApplicable("[room] says dark: nothing else shines");
+  if (!scene.time.own_lamp) return NotApplicable("a data sheet's lamp was measured in the dark");
+  return {kAmbientDefault,
+          Treatment::kWidens,
+          2.0,
+          "no lamp-off or shadow-card reading; up to 5 % of the dimmest reading is common",
+          true,
+          {},
+          true};
 }
 
 }  // namespace lightcal::effects

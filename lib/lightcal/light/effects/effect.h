@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,9 +16,8 @@ namespace lightcal {
 enum class Treatment : std::uint8_t {
   kModelled,     // its parameters are known: the forward model holds it
   kFitted,       // a fitted parameter takes it up
-  kWidens,       // a nuisance of known size: the interval carries half the bound as 1 sigma
+  kWidens,       // a nuisance of known or usual size: the interval carries it
   kInsideSigma,  // the meter's stated sigma already holds it
-  kUnknown,      // nothing here can bound or remove it: named, and left out
 };
 
 struct EffectFinding {
@@ -26,15 +26,18 @@ struct EffectFinding {
   double distance_power = 0.0;  // how it grows with distance: 0 common gain, 1, 2
   std::string reason;           // a sentence on where the bound comes from
   bool applies = true;          // false: this scene has no such thing, and the bound is 0
+  std::optional<double> sd{};   // 1 sigma of one that widens; absent: half the bound
+  bool own_lamp = false;        // widens a person's readings; a data sheet's lamp is warm, ...
 };
 
 [[nodiscard]] inline EffectFinding NotApplicable(std::string why) {
-  return {0.0, Treatment::kModelled, 0.0, std::move(why), false};
+  return {0.0, Treatment::kModelled, 0.0, std::move(why), false, {}, false};
 }
 
 struct Effect {
   std::string_view name;
   double cost_ns = 0.0;  // declared price of one evaluation
+  std::string_view key;  // of the session: what states it, or what makes it smaller
   EffectFinding (*find)(const Scene& scene);
 };
 

@@ -34,11 +34,20 @@ inline constexpr double kMeterWindow_s = 0.5;
   if (!scene.time.own_lamp) return NotApplicable("a data sheet's lamp does not flicker");
   if (scene.kind == LightKind::kDome) return NotApplicable("an environment does not flicker");
   double window = scene.time.window_s.value_or(kMeterWindow_s);
-  if (scene.picture) window = scene.picture->exposure_s.value_or(1.0 / 60.0);
+  if (scene.picture) {
+    // What a shutter that rolls sees of it is an effect of its own.
+    if (scene.picture->rows_s != 0.0) return NotApplicable("the pictures' rows roll over it");
+    window = scene.picture->exposure_s.value_or(1.0 / 60.0);
+  }
   const bool stated = scene.time.duty || scene.time.ripple;
-  return {FlickerBound(scene.time, window), Treatment::kWidens, 0.0,
+  return {FlickerBound(scene.time, window),
+          Treatment::kWidens,
+          0.0,
           stated ? "the stated flicker against the time of one reading"
-                 : "no flicker stated; half the light rippling at 100 Hz is assumed"};
+                 : "no flicker stated; half the light rippling at 100 Hz is assumed",
+          true,
+          {},
+          true};
 }
 
 }  // namespace lightcal::effects

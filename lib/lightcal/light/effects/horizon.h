@@ -23,7 +23,7 @@ namespace lightcal::effects {
   }
   if (!cut) return {0.0, Treatment::kModelled, 0.0, "the whole source is above every horizon"};
   if (placed) return {1.0, Treatment::kModelled, 0.0, "the exact source is clipped there"};
-  return {1.0, Treatment::kUnknown, 0.0,
+  return {1.0, Treatment::kWidens, 0.0,
           "part of the source lies behind the meter: give position_m and normal, or turn it"};
 }
 

@@ -56,7 +56,7 @@ inline constexpr double kBounceDefault = 0.25;
   }
   if (!scene.room) {
     return {
-        kBounceDefault, Treatment::kUnknown, 2.0,
+        kBounceDefault, Treatment::kWidens, 2.0,
         "no [room] given; indoors the walls add 25 % in the median; a shadow-card reading cancels "
         "it"};
   }

@@ -21,8 +21,8 @@ inline constexpr double kLargestStep_rad = 0.0873;  // 5 degrees
   const double bound =
       2.2 * scene.table->second_difference / (8.0 * std::max(1e-6, scene.table->least_part));
   if (scene.table->step_rad > kLargestStep_rad * 1.001) {
-    return {bound, Treatment::kUnknown, 0.0,
-            "its nodes lie more than 5 degrees apart: what is between them nothing bounds"};
+    return {bound, Treatment::kWidens, 0.0,
+            "its nodes lie more than 5 degrees apart: a lobe may hide between them"};
   }
   return {bound, Treatment::kWidens, 0.0, "second differences of the table"};
 }

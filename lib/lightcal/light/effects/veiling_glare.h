@@ -17,7 +17,7 @@ inline constexpr double kGlareDefault = 0.03;
   if (scene.picture->glare) {
     return {bound, Treatment::kWidens, 0.0, "the lens's stated glare"};
   }
-  return {bound, Treatment::kUnknown, 0.0,
+  return {bound, Treatment::kWidens, 0.0,
           "no glare of the lens is stated (0.5 to 3 %): keep bright things out of the picture"};
 }
 

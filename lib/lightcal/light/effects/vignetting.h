@@ -13,11 +13,8 @@ inline constexpr double kFieldDefault_rad = 0.2;
 [[nodiscard]] inline EffectFinding FindVignetting(const Scene& scene) {
   if (!scene.picture) return NotApplicable("no picture");
   if (scene.picture->flat_field) return NotApplicable("the flat field takes it out");
-  const double t = scene.picture->field_rad.value_or(kFieldDefault_rad);
-  if (scene.picture->field_rad) {
-    return {2.0 * t * t, Treatment::kModelled, 0.0, "natural vignetting where the patch stands"};
-  }
-  return {2.0 * t * t, Treatment::kUnknown, 0.0,
+  const double t = kFieldDefault_rad;
+  return {2.0 * t * t, Treatment::kWidens, 0.0,
           "no flat field: a patch off the picture's middle reads low by up to this"};
 }
 

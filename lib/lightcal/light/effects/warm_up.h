@@ -22,11 +22,15 @@ inline constexpr double kOnForDefault_s = 1800.0;
   }
   const double on_for = scene.time.on_for_s.value_or(kOnForDefault_s);
   const double bound = kWarmUpPart * std::exp(-on_for / kWarmUpTime_s);
-  if (scene.time.on_for_s) {
-    return {bound, Treatment::kWidens, 0.0, "the stated time since it was switched on"};
-  }
-  return {bound, Treatment::kUnknown, 0.0,
-          "nobody says how long the lamp had been on; after half an hour this much may be left"};
+  return {bound,
+          Treatment::kWidens,
+          0.0,
+          scene.time.on_for_s ? "the stated time since it was switched on"
+                              : "nobody says how long the lamp had been on; after half an hour "
+                                "this much may be left",
+          true,
+          {},
+          true};
 }
 
 }  // namespace lightcal::effects
