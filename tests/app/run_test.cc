@@ -296,6 +296,24 @@ TEST(Explain, OverridesAreObeyed) {
   EXPECT_EQ(RunLightcal({"explain", session, "--effects", "+hase"}).exit_code, 2);
 }
 
+// Bounded below the tolerance, simulated, fitted under a prior, or in the interval: no fifth state.
+TEST(Explain, LeavesNothingOffAboveTheToleranceInAnySampleSession) {
+  int sessions = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SampleData("sessions"))) {
+    if (!std::filesystem::exists(entry.path() / "session.toml")) continue;
+    ++sessions;
+    const json answer = LightcalJson("explain", {entry.path().string(), "--tol", "1%"});
+    for (const json& light : answer["lights"]) {
+      for (const json& effect : light["effects"]) {
+        EXPECT_NE(effect.value("key", ""), "") << entry.path() << " " << effect["name"];
+        if (effect["state"] != "off") continue;
+        EXPECT_LE(double(effect["bound"]), 0.01) << entry.path() << " " << effect["name"];
+      }
+    }
+  }
+  EXPECT_GE(sessions, 11);
+}
+
 TEST(Explain, DrawsWhatTheGateSaves) {
   const TempDir out;
   const std::string svg = out.path() + "/gate.svg";

@@ -86,6 +86,7 @@ void ReportCalibration(const fit::Observations& observations, std::vector<Effect
   report.state = EffectState::kOn;
   report.bound = kZ95 * calibration;
   report.cost_ns = 1.0;
+  report.key = "meter.sigma_relative";
   report.reason = "the meter's own scale, within " + PercentText(report.bound) +
                   ", widens the interval: repeating does not lower it, and it cancels in the "
                   "ratio of two lamps read with one meter";
@@ -177,7 +178,9 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
     return Propagate(std::move(known));
   }
   Append(warnings, std::move(location->estimate.warnings));
-  AddCalibration(LargestCalibration(seen), location->estimate);
+  const double calibration = LargestCalibration(seen);
+  AddCalibration(calibration, location->estimate);
+  location->estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
   if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }

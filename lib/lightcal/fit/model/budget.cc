@@ -13,8 +13,9 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kCures = {{
-    {"readings", "four times as many readings, or a meter twice as sure"},
+constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kCures = {{
+    {"readings", "four times as many readings"},
+    {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
     {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
     {"ambient", "a lamp-off or shadow-card reading at each distance"},
@@ -31,10 +32,10 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> kCures =
     {"cosine_response", "face the lamp, or a meter of half the f2"},
     {"haze", "stand half as far away, or clear the air"},
     {"narrow_beam", "stand 1.4 times as far away, or state diameter_m"},
-    {"mains", "a regulated supply"},
+    {"mains", "state lamp_class; of a filament, a regulated supply"},
     {"flicker", "readings that gather light for twice as long"},
     {"rolling_shutter", "an exposure twice as long"},
-    {"warm_up", "let the lamp warm up ten minutes longer"},
+    {"warm_up", "state minutes_on, or let the lamp warm up ten minutes longer"},
     {"table_interpolation", "a table with nodes 0.7 times as far apart"},
     {"vignetting", "move the patch 0.7 times as far from the picture's middle, or a flat field"},
     {"veiling_glare", "a darker surround, or a shade on the lens"},
@@ -76,6 +77,9 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   estimation.rules[kAmbient] = {};
   estimation.rules[kLnWalls] = estimation.rules[kWallsSlope] = {};
   const double readings = IntensityVariance(some);
+  for (ReadingRow& row : estimation.rows) row.calibration = 0.0;
+  const double repeated = IntensityVariance(some);
+  estimation.rows = input.estimation->rows;
   estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
   const double with_offset = IntensityVariance(some);
   estimation.rules[kLnWalls] = rules[kLnWalls];
@@ -87,7 +91,7 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
         some.considered = considered;
         return IntensityVariance(some);
       });
-  if (parts.empty() || !(readings >= 0.0) || !(with_offset >= 0.0)) return {};
+  if (parts.empty() || !(repeated >= 0.0) || !(with_offset >= 0.0)) return {};
   // Cutting E0 at zero may take from what the offset alone makes.
   const double whole = parts.front().variance;
   const double first = std::min(readings, whole);
@@ -96,7 +100,9 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   parts.front().variance = whole - first - second - third;
   parts.push_back({"distance_offset", second});
   if (third > 0.0) parts.push_back({"room_bounce", third});
-  parts.push_back({"readings", first});
+  const double calibration = std::clamp(readings - repeated, 0.0, first);
+  if (calibration > 0.0) parts.push_back({"meter_calibration", calibration});
+  parts.push_back({"readings", first - calibration});
   return parts;
 }
 

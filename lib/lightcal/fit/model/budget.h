@@ -17,9 +17,10 @@ struct VariancePart {
   double variance = 0.0;
 };
 
-// What the readings, the distance offset, the ambient light and each considered influence add to
-// the variance of ln I of EstimateCovariance: each is what the variance gains when it is let in, in
-// that order. The parts add up to the whole. Empty where the readings determine nothing.
+// What the readings, the instruments' calibrations, the distance offset, the ambient light and each
+// considered influence add to the variance of ln I of EstimateCovariance: each is what the variance
+// gains when it is let in, in that order. The parts add up to the whole. Empty where the readings
+// determine nothing.
 [[nodiscard]] std::vector<VariancePart> VarianceParts(const UncertaintyInput& input);
 
 // The same of any estimate of which only the variance of ln I with given influences is known.
