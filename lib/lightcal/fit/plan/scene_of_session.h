@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a session says of one lamp and its readings, as the gate asks for it.
+#pragma once
+
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/light/scene.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// Poses of the lit readings, the worst of the meters and pictures that took them, and the priors of
+// walls (light/wall_prior.h) and distance offset (light/fixture.h). `patches`: along each side of a
+// stated room's walls. No poses: nothing lit was read.
+[[nodiscard]] Scene SceneOfSession(const Session& session, const LightDescription& light,
+                                   const Observations& observations, int patches);
+
+}  // namespace lightcal::fit
