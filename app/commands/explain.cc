@@ -18,7 +18,7 @@ namespace {
 struct ExplainOptions {
   CalibrationOptions calibration;
   std::string plot;
-  bool force = false;
+  bool force = false, timing = false;
 };
 
 Result<void> WritePlot(const ExplainOptions& options, const LightFile& lights) {
@@ -30,7 +30,10 @@ Result<void> WritePlot(const ExplainOptions& options, const LightFile& lights) {
 }
 
 Result<void> RunExplain(const ExplainOptions& options, Console& console) {
-  auto calibrated = Calibrate(options.calibration, console);
+  auto settings = SettingsAsked(options.calibration);
+  if (!settings) return Propagate(std::move(settings));
+  settings->time_effects = options.timing;
+  auto calibrated = CalibrateAloud(options.calibration.session, *std::move(settings), console);
   if (!calibrated) return Propagate(std::move(calibrated));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (const auto json = LightFileToJson(calibrated->lights); !json) {
@@ -57,6 +60,8 @@ Run BuildExplain(CLI::App& parser) {
       .add_option("--plot", options->plot,
                   "Write what the gate saves: cost and error of these lights beside other scenes")
       ->type_name("FILE.svg|png");
+  parser.add_flag("--timing", options->timing,
+                  "Measure what each effect costs here and now [as declared: the same bytes]");
   parser.add_flag("--force", options->force,
                   "Replace an existing file that lightcal did not write");
   return [options](Console& console) { return RunExplain(*options, console); };

@@ -35,6 +35,7 @@ struct CalibrationSettings {
   bool full_angles = false;     // inner_deg and outer_deg are full angles, as some data sheets have
   std::string time{};           // of provenance, ISO 8601; "" = the newest among the readings
   StageClock* clock = nullptr;  // counts, where given
+  bool time_effects = false;    // effects' cost_ns measured here and now, not as declared
 };
 
 // What the person should know of an answer, in the order it was found.

@@ -20,6 +20,7 @@ struct FitSettings {
   bool monte_carlo = false;          // intervals by sampling (monte_carlo.h) instead of covariance
   EstimatorChoice estimator{};
   CctMethod cct_method = CctMethod::kExact;
+  bool time_effects = false;  // effects' cost_ns measured here and now, not as declared
 };
 
 struct FittedSession {

@@ -115,9 +115,9 @@ Result<std::vector<GatedEffect>> Gate(const Scene& scene, double tolerance,
   for (const Effect& effect : kEffects) {
     GatedEffect gated;
     gated.name = effect.name;
-    gated.cost_ns = effect.cost_ns;
     gated.key = effect.key;
     gated.finding = effect.find(scene);
+    gated.cost_ns = gated.finding.cost_ns.value_or(effect.cost_ns);
     const bool was_on = before != nullptr && IsOn((*before)[effects.size()]);
     slack.push_back(was_on ? 1.0 / kHysteresis : 1.0);
     effects.push_back(std::move(gated));

@@ -4,12 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lightcal/light/axial_shape.h"
-#include "lightcal/light/effects/detector_size.h"
-#include "lightcal/light/effects/haze.h"
-#include "lightcal/light/effects/narrow_beam.h"
+#include "lightcal/light/effect_cost.h"
 #include "lightcal/light/gate.h"
-#include "lightcal/light/room_bounce.h"
 
 namespace lightcal {
 namespace {
@@ -60,24 +56,6 @@ Scene Panel(const Vec3& room, double reflectance, double distance, double width,
   return scene;
 }
 
-double DirectFactor(const Scene& scene, const std::string& effect) {
-  const ScenePose& pose = scene.poses.front();
-  const double d = pose.distance_m;
-  if (effect == "finite_source") return AxialShapeFactor(AxialShapeOf(scene.kind, scene.size), d);
-  if (effect == "meter_tilt") return std::cos(pose.tilt_rad);
-  if (effect == "detector_size" && scene.head_radius) {
-    return effects::DetectorFactor(scene.head_radius->value(), d);
-  }
-  if (effect == "haze") {
-    return std::exp(-scene.time.haze_per_metre.value_or(effects::kClearAirPerMetre) * d);
-  }
-  if (effect == "narrow_beam" && scene.beam && scene.kind == LightKind::kSpot) {
-    const double ratio = SourceRadius(scene).value_or(effects::kRadiusDefault) / d;
-    return effects::BeamFactor(effects::BeamExponent(0.5 * scene.beam->value()), ratio * ratio);
-  }
-  return 1.0;
-}
-
 }  // namespace
 
 std::vector<NamedScene> LadderScenes() {
@@ -110,16 +88,17 @@ std::vector<NamedScene> LadderScenes() {
 
 double GatedIlluminance(const Scene& scene, const std::vector<std::string>& on) {
   const ScenePose& pose = scene.poses.front();
-  double direct = 1.0 / (pose.distance_m * pose.distance_m);
+  double direct = 1.0;
   double rest = 0.0;
   for (const std::string& effect : on) {
-    direct *= DirectFactor(scene, effect);
-    if (effect == "room_bounce" && scene.room) rest += BounceAt(scene, pose).Estimate();
-    if (effect == "ambient") {
-      rest += scene.ambient_ratio.value_or(0.0) / (pose.distance_m * pose.distance_m);
+    const double factor = FactorOfEffect(effect, scene, pose);
+    if (effect == "room_bounce" || effect == "ambient") {
+      rest += factor - 1.0;
+    } else if (effect != "distance_error") {  // an error, not a part of the scene
+      direct *= factor;
     }
   }
-  return direct + rest;
+  return (direct + rest) / (pose.distance_m * pose.distance_m);
 }
 
 GateStep StepOf(const NamedScene& named, double tolerance) {

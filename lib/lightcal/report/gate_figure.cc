@@ -143,15 +143,16 @@ std::string GateFigure(const std::vector<FittedLight>& lights, double tolerance,
     if (!light.effects.empty()) rows.push_back(RowOf(light));
   }
   const double bottom = kBarsTop + kRow * static_cast<double>(rows.size());
-  const Axis cost{AxisScale::kLog, 1.0, 4000.0, kBarsLeft, kFirstRight};
+  const Axis cost{AxisScale::kLog, 1.0, 20000.0, kBarsLeft, kFirstRight};
   const Axis error{AxisScale::kLog, kLeastError, kMost, kSecondLeft, kSecondRight};
   Canvas canvas;
   DrawLegend(canvas);
   canvas.Text("head", kBarsLeft, kBarsTop - 18.0, "start", "Cost of one evaluation");
   canvas.Text("head", kSecondLeft, kBarsTop - 18.0, "start", "Error against every effect");
-  for (const double ns : {1.0, 10.0, 100.0, 1000.0}) {
+  for (const double ns : {1.0, 10.0, 100.0, 1000.0, 10000.0}) {
     canvas.Line("grid", cost.At(ns), kBarsTop, cost.At(ns), bottom);
-    canvas.Text("tick", cost.At(ns), bottom + 18.0, "middle", Figure(ns) + " ns");
+    canvas.Text("tick", cost.At(ns), bottom + 18.0, "middle",
+                ns < 1e3 ? Figure(ns) + " ns" : Figure(1e-3 * ns) + " µs");
   }
   for (const double relative : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
     canvas.Line("grid", error.At(relative), kBarsTop, error.At(relative), bottom);

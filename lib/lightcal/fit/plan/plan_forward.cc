@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "lightcal/fit/plan/scene_of_session.h"
+#include "lightcal/light/effect_cost.h"
 #include "lightcal/light/effects/detector_size.h"
 #include "lightcal/light/gate.h"
 #include "lightcal/light/room_bounce.h"
@@ -144,7 +145,8 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
 
 // The model and the report of what the gate decided.
 void Follow(const LightDescription& light, const Observations& observations,
-            const EstimatorChoice& choice, ForwardPlan& plan) {
+            const FitSettings& settings, ForwardPlan& plan) {
+  const EstimatorChoice& choice = settings.estimator;
   plan.model = {};
   plan.model.choice = choice;
   plan.model.distance_law = HasDistanceLaw(light.kind);
@@ -165,8 +167,10 @@ void Follow(const LightDescription& light, const Observations& observations,
           {1.0, plan.scene.offsets.front().mean_m, plan.scene.offsets.front().sd_m}};
     }
     if (!effect.finding.applies) continue;
+    const double cost_ns =
+        settings.time_effects ? MeasuredCost_ns(effect.name, plan.scene) : effect.cost_ns;
     plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
-                            std::nullopt, effect.cost_ns, effect.reason, std::string(effect.key)});
+                            std::nullopt, cost_ns, effect.reason, std::string(effect.key)});
   }
 }
 
@@ -183,7 +187,7 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
       GateEffects(plan.scene, settings.tolerance_relative, settings.effects);
   if (!effects) return Propagate(std::move(effects));
   plan.gated = *std::move(effects);
-  Follow(light, observations, settings.estimator, plan);
+  Follow(light, observations, settings, plan);
   return plan;
 }
 
@@ -210,7 +214,7 @@ Result<std::optional<ForwardPlan>> PlanAfterFit(const ForwardPlan& plan,
   }
   // Poses stay as read: the model adds the offset itself.
   next.scene.poses = plan.scene.poses;
-  Follow(light, observations, settings.estimator, next);
+  Follow(light, observations, settings, next);
   return next;
 }
 

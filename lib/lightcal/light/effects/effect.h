@@ -23,20 +23,21 @@ enum class Treatment : std::uint8_t {
 struct EffectFinding {
   double bound = 0.0;  // |relative contribution to E| it cannot exceed, or its class default
   Treatment treatment = Treatment::kModelled;
-  double distance_power = 0.0;  // how it grows with distance: 0 common gain, 1, 2
-  std::string reason;           // a sentence on where the bound comes from
-  bool applies = true;          // false: this scene has no such thing, and the bound is 0
-  std::optional<double> sd{};   // 1 sigma of one that widens; absent: half the bound
-  bool own_lamp = false;        // widens a person's readings; a data sheet's lamp is warm, ...
+  double distance_power = 0.0;      // how it grows with distance: 0 common gain, 1, 2
+  std::string reason;               // a sentence on where the bound comes from
+  bool applies = true;              // false: this scene has no such thing, and the bound is 0
+  std::optional<double> sd{};       // 1 sigma of one that widens; absent: half the bound
+  bool own_lamp = false;            // widens a person's readings; a data sheet's lamp is warm, ...
+  std::optional<double> cost_ns{};  // of what is done here, where that is not the declared price
 };
 
 [[nodiscard]] inline EffectFinding NotApplicable(std::string why) {
-  return {0.0, Treatment::kModelled, 0.0, std::move(why), false, {}, false};
+  return {0.0, Treatment::kModelled, 0.0, std::move(why), false, {}, false, {}};
 }
 
 struct Effect {
   std::string_view name;
-  double cost_ns = 0.0;  // declared price of one evaluation
+  double cost_ns = 0.0;  // declared price of its own code for one reading; tests/bench/effect_costs
   std::string_view key;  // of the session: what states it, or what makes it smaller
   EffectFinding (*find)(const Scene& scene);
 };

@@ -15,6 +15,9 @@ namespace lightcal::effects {
 // Median of indirect over direct in 500 random boxes (reflectance 0.1-0.85, 0.3-3 m).
 inline constexpr double kBounceDefault = 0.25;
 
+// Price of the walls' light as a fitted parameter, for one reading.
+inline constexpr double kFittedWalls_ns = 16.0;
+
 // What the walls add per candela in 19 of 20 rooms.
 [[nodiscard]] inline double MostWallLight(const std::vector<WallHypothesis>& walls,
                                           double distance_m) {
@@ -49,10 +52,16 @@ inline constexpr double kBounceDefault = 0.25;
       bound = std::max(bound, MostWallLight(scene.walls, pose.distance_m) * pose.distance_m *
                                   pose.distance_m / std::cos(pose.tilt_rad));
     }
-    return {bound, Treatment::kFitted, 2.0,
+    return {bound,
+            Treatment::kFitted,
+            2.0,
             std::string(scene.room ? "what the [room] given adds" : "what an ordinary room adds") +
                 " at the worst reading, in 19 of 20; fitted under its prior, and a shadow-card "
-                "reading measures it"};
+                "reading measures it",
+            true,
+            {},
+            false,
+            kFittedWalls_ns};
   }
   if (!scene.room) {
     return {
