@@ -114,6 +114,10 @@ constexpr CommandRow kCommands[] = {
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"
      "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
+    {"match", "Gels and dimming that bring one lamp to another, as eye and camera see it",
+     "  lightcal match illuminant:LED-B3 --to 3200K\n"
+     "  lightcal match \"sample_data/spectra/uprtek_cv600/Yuji 5000K.xls\" --to illuminant:A --camera \"5d mark iv\"\n"
+     "  lightcal match lamp.xls --to illuminant:D55 --gels gels.csv --camera all --json", BuildMatch},
     {"photometric", "Flux, peak, beam and field of an IES or EULUMDAT file; conversion, polar plot",
      "  lightcal photometric sample_data/photometric/sample2.ldt\n"
      "  lightcal photometric lamp.ldt --to ies -o lamp.ies\n"

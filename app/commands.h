@@ -17,6 +17,7 @@ Run BuildPlan(CLI::App& parser);
 Run BuildShoot(CLI::App& parser);
 Run BuildImport(CLI::App& parser);
 Run BuildCamera(CLI::App& parser);
+Run BuildMatch(CLI::App& parser);
 Run BuildMerge(CLI::App& parser);
 Run BuildDome(CLI::App& parser);
 Run BuildInspect(CLI::App& parser);

@@ -31,6 +31,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
     {"import.column", "--column"},
+    {"match.reach", "--reach"},
     {"merge.align", "--align"},
     {"merge.anchor", "--anchor"},
     {"merge.exposures", "--exposures"},

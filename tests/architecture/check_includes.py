@@ -18,7 +18,7 @@ BELOW = {
     "light": {"core", "photometry", "colorimetry"},
     "records": {"core", *LAWS},
 }
-VERBS = ["fit", "presets", "report", "imaging", "tradeoff"]
+VERBS = ["fit", "presets", "report", "imaging", "tradeoff", "match"]
 for verb in VERBS:
     BELOW[verb] = {"core", *LAWS, "records"}
 BELOW["calibrate"] = {"core", *LAWS, "records", *VERBS}

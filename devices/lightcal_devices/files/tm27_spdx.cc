@@ -77,7 +77,8 @@ bool IsTm27Spdx(std::string_view text) {
   return beginning.starts_with('<') && beginning.find(kRoot) != std::string_view::npos;
 }
 
-Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name) {
+Result<std::vector<Tm27Distribution>> Tm27Distributions(std::string_view text,
+                                                        std::string_view name) {
   pugi::xml_document document;
   const auto parsed =
       document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
@@ -87,21 +88,34 @@ Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name) 
                    std::string("is no whole TM-27 document: ") +
                        (parsed ? "another root element" : parsed.description()));
   }
-  std::vector<FoundSpectrum> all;
-  Warnings warnings;
+  std::vector<Tm27Distribution> all;
   for (const pugi::xml_node& distribution : root.children()) {
     if (LocalName(distribution) != "SpectralDistribution") continue;
-    FoundSpectrum found;
-    found.where = name;
-    found.imported.name = TextOf(Child(root, "Header"), "Description");
-    auto warning = TakeQuantity(found, TextOf(distribution, "SpectralQuantity"));
-    if (!warning) return Propagate(std::move(warning));
-    if (*warning) warnings.push_back(std::move(**warning));
-    if (auto taken = TakeSamples(found, distribution); !taken) return Propagate(std::move(taken));
-    all.push_back(std::move(found));
+    Tm27Distribution one;
+    one.found.where = name;
+    one.found.imported.name = TextOf(Child(root, "Header"), "Description");
+    one.quantity = TextOf(distribution, "SpectralQuantity");
+    if (auto taken = TakeSamples(one.found, distribution); !taken) {
+      return Propagate(std::move(taken));
+    }
+    all.push_back(std::move(one));
   }
   if (all.empty()) {
     return Refused("bad_spectrum", std::string(name), "holds no SpectralDistribution");
+  }
+  return all;
+}
+
+Result<ImportedFile> ReadTm27Spdx(std::string_view text, std::string_view name) {
+  auto distributions = Tm27Distributions(text, name);
+  if (!distributions) return Propagate(std::move(distributions));
+  std::vector<FoundSpectrum> all;
+  Warnings warnings;
+  for (Tm27Distribution& one : *distributions) {
+    auto warning = TakeQuantity(one.found, one.quantity);
+    if (!warning) return Propagate(std::move(warning));
+    if (*warning) warnings.push_back(std::move(**warning));
+    all.push_back(std::move(one.found));
   }
   return ImportedFromSpectra("tm27_spdx", std::move(all), std::move(warnings));
 }

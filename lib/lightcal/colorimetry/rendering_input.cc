@@ -120,6 +120,19 @@ void ScaleToLargest(NanometrePowers& powers) {
 
 }  // namespace
 
+Result<NanometrePowers> NanometrePowersOf(const Spectrum& spectrum) {
+  if (const auto xyz = XyzFromSpectrum(spectrum); !xyz) return tl::unexpected(xyz.error());
+  const bool equal_steps = HasEqualSteps(spectrum);
+  if (auto checked = CheckGrid(spectrum, equal_steps); !checked) {
+    return Propagate(std::move(checked));
+  }
+  NanometrePowers powers = equal_steps ? SharedOut(spectrum.wavelengths_nm, spectrum.values)
+                                       : SharedOutLinearly(spectrum);
+  ScaleToLargest(powers);
+  if (auto checked = CheckNoise(powers); !checked) return Propagate(std::move(checked));
+  return powers;
+}
+
 Result<RenderingInput> PrepareRendering(const Spectrum& spectrum) {
   const auto xyz = XyzFromSpectrum(spectrum);
   if (!xyz) return tl::unexpected(xyz.error());
@@ -134,15 +147,11 @@ Result<RenderingInput> PrepareRendering(const Spectrum& spectrum) {
                    "its colour has no temperature between 1000 and 25000 K, so there is no "
                    "reference light to compare it with");
   }
-  if (equal_steps) {
-    input.powers = SharedOut(spectrum.wavelengths_nm, spectrum.values);
-    input.reference_nm = WithinReach(spectrum.wavelengths_nm);
-  } else {
-    input.powers = SharedOutLinearly(spectrum);
-    input.reference_nm = WholeNanometresInside(spectrum);
-  }
-  ScaleToLargest(input.powers);
-  if (auto checked = CheckNoise(input.powers); !checked) return Propagate(std::move(checked));
+  input.reference_nm =
+      equal_steps ? WithinReach(spectrum.wavelengths_nm) : WholeNanometresInside(spectrum);
+  auto powers = NanometrePowersOf(spectrum);
+  if (!powers) return Propagate(std::move(powers));
+  input.powers = *powers;
   return input;
 }
 

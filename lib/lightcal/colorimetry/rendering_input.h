@@ -41,6 +41,9 @@ struct RenderingInput {
 // negative samples take back more than a tenth of the light (10-degree Y).
 [[nodiscard]] Result<RenderingInput> PrepareRendering(const Spectrum& spectrum);
 
+// The powers of a light of any colour. Refused as PrepareRendering, but for no_reference.
+[[nodiscard]] Result<NanometrePowers> NanometrePowersOf(const Spectrum& spectrum);
+
 // Power of a reference light given at input.reference_nm, shared out like the light's own.
 [[nodiscard]] NanometrePowers ReferencePowers(const RenderingInput& input,
                                               std::span<const double> values);

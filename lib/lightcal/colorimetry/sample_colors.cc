@@ -119,6 +119,10 @@ SampleSet::SampleSet(std::span<const double> rows, int first_nm, std::size_t cou
   }
 }
 
+double SampleSet::Reflectance(std::size_t sample, std::size_t nanometre) const {
+  return reflectance_[sample / kLanes * kRenderingCount + nanometre][sample % kLanes];
+}
+
 std::array<SampleColors, 2> SampleSet::Under(const NanometrePowers& test,
                                              const NanometrePowers& reference,
                                              const std::array<CmfRow, kCmfCount>& cmf) const {

@@ -36,6 +36,9 @@ class SampleSet {
                                                   const NanometrePowers& reference,
                                                   const std::array<CmfRow, kCmfCount>& cmf) const;
 
+  // Of one sample, at so many nanometres from 380.
+  [[nodiscard]] double Reflectance(std::size_t sample, std::size_t nanometre) const;
+
  private:
   std::size_t count_;
   std::vector<Lanes> reflectance_;  // [block of four samples][nanometre]

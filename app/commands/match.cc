@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal match: the gels and the dimming that bring one lamp to another, as eye and camera see
+// it.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "calibration_options.h"
+#include "commands.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/match/match_lights.h"
+#include "match/match_answer.h"
+#include "match/match_source.h"
+#include "typed_reading.h"
+
+namespace lightcal::app {
+namespace {
+
+struct MatchOptions {
+  MatchLightWords lamp, target;
+  std::string gels, camera = "observer", meter, gel_spread = "2%";
+  std::string observer = "2";
+  int most_gels = 2;
+  int count = 5;
+  bool air_gaps = false;
+  double reach = 0.02;
+  bool force = false;
+};
+
+Result<match::MatchRequest> RequestOf(const MatchOptions& o, const MatchLight& lamp,
+                                      const MatchLight& target) {
+  match::MatchRequest request;
+  request.lamp = lamp.spectrum;
+  request.target = target.spectrum;
+  request.lamp_measured = lamp.measured;
+  request.target_measured = target.measured;
+  auto cameras = ReadCameras(o.camera);
+  if (!cameras) return Propagate(std::move(cameras));
+  request.cameras = *std::move(cameras);
+  request.observer = o.observer == "10" ? ObserverAngle::kTenDegrees : ObserverAngle::kTwoDegrees;
+  request.most_gels = o.most_gels;
+  request.gap = o.air_gaps ? SheetGap::kAir : SheetGap::kNone;
+  request.count = o.count;
+  request.reach = o.reach;
+  const auto spread = ParseTolerance(o.gel_spread);
+  if (!spread) return tl::unexpected(spread.error());
+  request.spread.gel_points = *spread;
+  if (!o.meter.empty()) {
+    const auto sigma = SigmaOfMeter(o.meter);
+    if (!sigma) return tl::unexpected(sigma.error());
+    request.spread.spectral *= *sigma / request.spread.level;
+    request.spread.level = *sigma;
+  }
+  return request;
+}
+
+Node LightNode(const std::string& title, Xy xy, const CctResult& cct) {
+  Node node = {{"name", title}, {"xy", {xy.x, xy.y}}};
+  if (cct.valid()) {
+    node.Put("cct_K", cct.temperature.value());
+    node.Put("duv", cct.duv);
+  }
+  return node;
+}
+
+void WarnIfTooWeak(const match::Match& best, Console& console) {
+  if (!best.dimmer_stops || *best.dimmer_stops >= 0.0) return;
+  console.Warn({"lamp_too_weak", "lamp",
+                "behind " + std::string(best.gels.empty() ? "no gel" : "these gels") + " it is " +
+                    RoundedText(-*best.dimmer_stops, 2) +
+                    " stops below the target where both were read; move it nearer or dim the "
+                    "target"});
+}
+
+Result<void> RunMatch(const MatchOptions& o, Console& console) {
+  const auto lamp = ReadMatchLight(o.lamp, console);
+  if (!lamp) return tl::unexpected(lamp.error());
+  const auto target = ReadMatchLight(o.target, console);
+  if (!target) return tl::unexpected(target.error());
+  const auto set = ReadGels(o.gels, console);
+  if (!set) return tl::unexpected(set.error());
+  const auto request = RequestOf(o, *lamp, *target);
+  if (!request) return tl::unexpected(request.error());
+  auto answer = match::MatchLights(*request, set->gels);
+  if (!answer) return Propagate(std::move(answer));
+  WarnIfTooWeak(answer->matches.front(), console);
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  console.Print(lamp->title + " to " + target->title + ", " + std::to_string(answer->stacks) +
+                " stacks of " + std::to_string(set->gels.size()) + " gels (" + set->source +
+                ")\n\n" + MatchTable(answer->matches, answer->unfiltered, *set));
+  Node document = {
+      {"lamp", LightNode(lamp->title, answer->unfiltered.xy, answer->unfiltered.cct)},
+      {"target", LightNode(target->title, answer->target_xy, answer->target_cct)},
+      {"gels_from", set->source},
+      {"demonstration", set->demonstration},
+      {"stacks", answer->stacks},
+      {"cameras", request->cameras.size()},
+      {"matches", Node::List(answer->matches,
+                             [&](const match::Match& each) { return MatchNode(each, *set); })},
+      {"unfiltered", MatchNode(answer->unfiltered, *set)}};
+  console.PrintDocument(std::move(document));
+  return {};
+}
+
+}  // namespace
+
+Run BuildMatch(CLI::App& parser) {
+  auto o = std::make_shared<MatchOptions>();
+  o->target.may_assume = true;
+  parser
+      .add_option("lamp", o->lamp.source,
+                  "The lamp to be gelled: a spectrometer's export, a session, a light.json with "
+                  "--spectrum, illuminant:FL4 or 3200K")
+      ->required();
+  parser
+      .add_option("--to", o->target.source,
+                  "What it is to look like: the same, a light.json's colour too")
+      ->required();
+  parser
+      .add_option("--gels", o->gels,
+                  "Transmittances of a maker's filters [demonstration filters by formula]")
+      ->type_name("FILE.csv");
+  parser
+      .add_option("--camera", o->camera,
+                  "Whose colours decide: a camera's name (52 ship), all, a file or folder of "
+                  "sensitivities, or observer")
+      ->type_name("NAME|all|FILE|observer")
+      ->capture_default_str();
+  parser.add_option("--observer", o->observer, "The standard observer's field in degrees")
+      ->check(CLI::IsMember({"2", "10"}))
+      ->capture_default_str();
+  parser.add_option("-n,--count", o->count, "How many matches")
+      ->check(CLI::Range(1, 200))
+      ->capture_default_str();
+  parser.add_option("--most-gels", o->most_gels, "In one stack")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
+  parser.add_flag("--air-gaps", o->air_gaps,
+                  "Count the light thrown to and fro between two sheets that do not touch");
+  parser
+      .add_option("--gel-spread", o->gel_spread,
+                  "What a batch of gel varies by: 95 %, points of transmittance")
+      ->capture_default_str();
+  parser.add_option("--meter", o->meter,
+                    "phone, hobby or lab, or what its maker says of the meter, e.g. 3% [hobby]");
+  parser
+      .add_option("--reach", o->reach,
+                  "The largest distance in u'v' that is still called a match; 1 shows the nearest")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  parser.add_option("--column", o->lamp.column, "Which spectrum of the lamp's file")
+      ->type_name("NAME|N");
+  parser.add_option("--to-column", o->target.column, "Which spectrum of the target's file")
+      ->type_name("NAME|N");
+  parser.add_option("--light", o->lamp.light, "Which light of the lamp's session or light.json");
+  parser.add_option("--to-light", o->target.light, "Which light of the target's");
+  parser.add_option("--spectrum", o->lamp.spectrum, "The spectrum of a lamp that is a light.json")
+      ->type_name("FILE");
+  parser.add_flag("--force", o->force, "Replace files that lightcal did not write");
+  return [o](Console& console) { return RunMatch(*o, console); };
+}
+
+}  // namespace lightcal::app

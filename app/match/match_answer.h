@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Matches as people and machines read them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "lightcal/match/match_lights.h"
+#include "lightcal/records/gel.h"
+
+namespace lightcal::app {
+
+[[nodiscard]] Node MatchNode(const match::Match& match, const GelSet& set);
+// A row a match, then the lamp without gels.
+[[nodiscard]] std::string MatchTable(const std::vector<match::Match>& matches,
+                                     const match::Match& unfiltered, const GelSet& set);
+// "L204 Full C.T. Orange + L247 LEE Minus Green", "no gel".
+[[nodiscard]] std::string StackTitle(const std::vector<std::size_t>& gels, const GelSet& set);
+
+}  // namespace lightcal::app

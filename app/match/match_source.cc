@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "match/match_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "calibration_options.h"
+#include "commands/color_source.h"
+#include "light_input.h"
+#include "lightcal/colorimetry/illuminants.h"
+#include "lightcal/colorimetry/ssi.h"
+#include "lightcal/core/did_you_mean.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/match/demonstration_gels.h"
+#include "lightcal/records/known_cameras.h"
+#include "lightcal_devices/files/gel_file.h"
+#include "output_files.h"
+#include "report_html.h"
+
+namespace lightcal::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+bool IsFile(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+// "5600K": digits and a K.
+bool IsTemperature(const std::string& text) {
+  return text.size() > 1 && (text.back() == 'K' || text.back() == 'k') &&
+         std::all_of(text.begin(), text.end() - 1,
+                     [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
+}
+
+Result<MatchLight> SmoothLight(Kelvin temperature, std::string title) {
+  auto spectrum = SimilarityReference(temperature);
+  if (!spectrum) return Propagate(std::move(spectrum));
+  return MatchLight{std::move(title), *std::move(spectrum), false, {}, {}};
+}
+
+Result<MatchLight> OneSpectrum(const std::string& source, const std::string& column,
+                               Console& console) {
+  auto file = ReadSpectrumSource(source);
+  if (!file && file.error().code == "not_found" && IlluminantSpectrum(source)) {
+    return Failed("not_found", source,
+                  "there is no such file; the illuminant is illuminant:" + source);
+  }
+  if (!file) return Propagate(std::move(file));
+  auto chosen = ChosenSpectra(*file, source, column);
+  if (!chosen) return Propagate(std::move(chosen));
+  if (chosen->size() > 1) {
+    return Refused("several_spectra", source,
+                   "holds " + std::to_string(chosen->size()) +
+                       " spectra; choose one with --column (the lamp's) or --to-column");
+  }
+  console.Warn(file->warnings);
+  ImportedSpectrum& one = chosen->front();
+  if (!CoversVisibleRange(one.spectrum)) {
+    const auto& l = one.spectrum.wavelengths_nm;
+    console.Warn({"spectrum_truncated", source,
+                  "covers " + ShortestText(l.front()) + " to " + ShortestText(l.back()) +
+                      " nm only; what it lacks of 380 to 780 nm is taken as dark"});
+  }
+  MatchLight light;
+  light.measured = !NamesIlluminant(source);
+  light.title = one.name.empty() ? fs::path(source).stem().string() : one.name;
+  light.spectrum = std::move(one.spectrum);
+  return light;
+}
+
+Result<const FittedLight*> OneLight(const LightFile& file, const MatchLightWords& words) {
+  std::vector<std::string> names;
+  for (const FittedLight& light : file.lights) {
+    if (light.name == words.light || (words.light.empty() && file.lights.size() == 1)) {
+      return &light;
+    }
+    names.push_back(light.name);
+  }
+  if (words.light.empty()) {
+    return Refused("several_lights", words.source,
+                   "holds " + Joined(names) + "; choose one with --light");
+  }
+  return WrongUsage("--light", "there is no light \"" + words.light + "\"" +
+                                   DidYouMean(words.light, file.lights));
+}
+
+// A light.json knows a colour, not the spectrum it came from.
+Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& words,
+                              const std::vector<LightSpectrum>& spectra, Console& console) {
+  const auto light = OneLight(file, words);
+  if (!light) return tl::unexpected(light.error());
+  MatchLight made;
+  const auto own = std::ranges::find(spectra, (*light)->name, &LightSpectrum::light);
+  if (!words.spectrum.empty()) {
+    auto one = OneSpectrum(words.spectrum, words.column, console);
+    if (!one) return one;
+    made = *std::move(one);
+  } else if (own != spectra.end()) {
+    made.spectrum = own->spectrum;
+    // What its lamp gave at one meter's place is no measure of the lamp.
+    made.spectrum.quantity = SpectralQuantity::kRelative;
+  } else {
+    const auto& cct = (*light)->color.cct_K;
+    constexpr double kNearLocus = 0.006;
+    const double duv = (*light)->color.duv ? (*light)->color.duv->value : 0.0;
+    if (!words.may_assume || !cct || std::abs(duv) > kNearLocus) {
+      return Refused("no_spectrum", words.source,
+                     "\"" + (*light)->name +
+                         "\" was measured without a spectrum, and a colour alone does not say what "
+                         "a gel makes of a lamp; give its spectrum with --spectrum");
+    }
+    auto smooth = SmoothLight(Kelvin(cct->value), {});
+    if (!smooth) return smooth;
+    made = *std::move(smooth);
+    console.Warn({"spectrum_assumed", words.source,
+                  "\"" + (*light)->name + "\" has a colour and no spectrum: " +
+                      (cct->value < 4000.0 ? "a black body" : "daylight") + " of " +
+                      RoundedText(cct->value, 4) +
+                      " K stands for it; what a camera sees of the lamp itself may differ"});
+  }
+  made.title = (*light)->name;
+  made.light = **light;
+  made.inputs = file.provenance.inputs;
+  return made;
+}
+
+}  // namespace
+
+Result<MatchLight> ReadMatchLight(const MatchLightWords& words, Console& console) {
+  const std::string& source = words.source;
+  if (IsTemperature(source) && !IsFile(source)) {
+    const auto temperature = ParseTemperature(source);
+    if (!temperature) return tl::unexpected(temperature.error());
+    return SmoothLight(*temperature, source);
+  }
+  if (IsFolder(source) || fs::path(source).extension() == ".toml") {
+    auto calibrated = CalibrateAloud(source, {}, console);
+    if (!calibrated) return Propagate(std::move(calibrated));
+    return FromLights(calibrated->lights, words, ExtrasOf(*calibrated).spectra, console);
+  }
+  if (fs::path(source).extension() == ".json") {
+    auto lights = LightsIn(source);
+    if (!lights) return Propagate(std::move(lights));
+    return FromLights(*lights, words, {}, console);
+  }
+  return OneSpectrum(source, words.column, console);
+}
+
+Result<GelSet> ReadGels(const std::string& file, Console& console) {
+  if (!file.empty()) return devices::ReadGelFile(file);
+  console.Warn({"demonstration_gels", "gels",
+                "no gel file is named: these are 22 filters by formula that nobody makes; give "
+                "your maker's figures with --gels FILE.csv"});
+  return match::DemonstrationGels();
+}
+
+Result<GelChoice> ReadGelChoice(const std::string& text, const std::string& file,
+                                Console& console) {
+  std::string path = file;
+  std::string names = text;
+  const std::size_t colon = text.find(':');
+  if (IsFile(text)) {
+    path = text;
+    names.clear();
+  } else if (colon != std::string::npos && !text.starts_with("demo:")) {
+    path = text.substr(0, colon);
+    names = text.substr(colon + 1);
+  }
+  auto set = ReadGels(path, console);
+  if (!set) return Propagate(std::move(set));
+  GelChoice choice;
+  choice.set = *std::move(set);
+  if (names.empty()) {
+    for (std::size_t i = 0; i < choice.set.gels.size(); ++i) choice.stacks.push_back({i});
+    return choice;
+  }
+  std::vector<std::size_t> stack;
+  for (std::size_t from = 0; from <= names.size();) {
+    const std::size_t plus = std::min(names.find('+', from), names.size());
+    auto gel = FindGel(choice.set, names.substr(from, plus - from));
+    if (!gel) return Propagate(std::move(gel));
+    stack.push_back(*gel);
+    from = plus + 1;
+  }
+  choice.stacks.push_back(std::move(stack));
+  return choice;
+}
+
+Result<std::vector<CameraSensitivities>> ReadCameras(const std::string& words) {
+  if (words.empty() || words == "observer") return std::vector<CameraSensitivities>{};
+  if (words == "all") return KnownCameras();
+  std::vector<std::string> files;
+  if (IsFile(words)) files.push_back(words);
+  if (IsFolder(words)) {
+    for (const auto& entry : fs::directory_iterator(words)) {
+      if (entry.path().extension() == ".json") files.push_back(entry.path().string());
+    }
+    std::ranges::sort(files);
+    if (files.empty()) {
+      return Refused("no_cameras", words, "holds no .json file of a camera's sensitivities");
+    }
+  }
+  std::vector<CameraSensitivities> cameras;
+  for (const std::string& file : files) {
+    const auto text = ReadWholeFile(file);
+    if (!text) return tl::unexpected(text.error());
+    auto camera = CameraSensitivitiesFromJson(*text, file);
+    if (!camera) return Propagate(std::move(camera));
+    cameras.push_back(*std::move(camera));
+  }
+  if (!cameras.empty()) return cameras;
+  auto known = KnownCamera(words);
+  if (!known) return Propagate(std::move(known));
+  return std::vector<CameraSensitivities>{*std::move(known)};
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What `lightcal match` says at the ends of its world: the same lamp, lamps that cannot be brought
+there, a target that is brighter, gel files of every form, names as people type them, refusals.
+
+    match_command.py LIGHTCAL
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
+SPECTRA = ROOT / "sample_data/spectra/uprtek_cv600"
+YUJI, NICHIA = SPECTRA / "Yuji 5000K.xls", SPECTRA / "Nichia 80 CRI.xls"
+HOME = pathlib.Path(tempfile.mkdtemp())
+
+
+def run(*words, code=0):
+    done = subprocess.run([LIGHTCAL, *map(str, words)], capture_output=True, text=True, cwd=HOME,
+                          check=False)
+    assert done.returncode == code, f"{words}: exit {done.returncode}, not {code}: {done.stderr}"
+    return done
+
+
+def answer(*words):
+    return json.loads(run(*words, "--json").stdout)
+
+
+def refused(code, *words, says):
+    error = json.loads(run(*words, "--json", code=3).stdout)["error"]
+    assert error["code"] == code, error
+    assert re.search(says, error["message"]), error
+    return error
+
+
+def gel_file(name, text):
+    (HOME / name).write_text(text, encoding="utf-8")
+    return name
+
+
+def the_same_lamp_needs_no_gel():
+    best = answer("match", YUJI, "--to", YUJI)["matches"][0]
+    assert best["gels"] == [] and best["delta_uv"] == 0 and best["stops_lost"] == 0, best
+    assert best["delta_e"]["observer"] < 1e-9 and abs(best["ssi"] - 100) < 1e-9
+    # Two readings by meters are never surely the same.
+    assert 0.2 < best["high95"]["delta_e"]["observer"] < 5
+    assert best["dimmer_stops"] == 0 and 0.05 < best["u95"]["dimmer_stops"] < 0.2
+
+
+def what_gels_cannot_do_is_refused_with_the_nearest():
+    magenta = "wavelength_nm,relative\n" + "".join(
+        f"{nm},{0.05 + (nm < 480) + (nm > 600)}\n" for nm in range(380, 781, 5))
+    error = refused("unreachable", "match", "gaussian:530:12", "--to",
+                    gel_file("magenta.csv", magenta), says=r"nearest is .* leaves 0\.\d+")
+    assert "light away" in error["message"]
+    assert answer("match", "gaussian:530:12", "--to", "magenta.csv", "--reach", "1")["matches"]
+
+
+def a_target_brighter_than_the_lamp_costs_negative_stops():
+    dim = NICHIA.read_bytes().decode("latin-1")
+    lines = []
+    for line in dim.splitlines():
+        cells = line.split("\t")
+        if re.fullmatch(r"\d+nm", cells[0]) or cells[0] in ("LUX", "fc", "X", "Y", "Z"):
+            cells[1] = f"{float(cells[1]) / 4:.6f}"
+        lines.append("\t".join(cells))
+    (HOME / "dim.xls").write_text("\r\n".join(lines), encoding="latin-1")
+    document = answer("match", HOME / "dim.xls", "--to", NICHIA)
+    assert abs(document["matches"][0]["dimmer_stops"] + 2) < 1e-3, document["matches"][0]
+    assert [w["code"] for w in document["warnings"]].count("lamp_too_weak") == 1
+
+
+def gels_as_makers_write_them():
+    nm = list(range(400, 701, 10))
+    values = [round(.9 * (0.3 + 0.7 * (n - 400) / 300), 4) for n in nm]
+    row = gel_file("row.csv", "filter,name," + ",".join(f"{n}nm" for n in nm) + "\nL204,Full C.T. "
+                   "Orange," + ",".join(map(str, values)) + "\n")
+    percent = gel_file("percent.csv", "wavelength_nm;L204 transmittance_percent\n" +
+                       "".join(f"{n};{100 * v}\n" for n, v in zip(nm, values)))
+    spdx = gel_file("gel.spdx", '<?xml version="1.0"?><IESTM2714><Header><Description>L204'
+                    "</Description></Header><SpectralDistribution><SpectralQuantity>transmittance"
+                    "</SpectralQuantity>" + "".join(
+                        f'<SpectralData wavelength="{n}">{v}</SpectralData>'
+                        for n, v in zip(nm, values)) + "</SpectralDistribution></IESTM2714>")
+    figures = [answer("match", "illuminant:D55", "--to", "illuminant:D40", "--gels", file, "--reach",
+                      1, "-n", 200)["matches"] for file in (row, percent, spdx)]
+    assert len(figures[0]) >= 2
+    for other in figures[1:]:
+        for a, b in zip(figures[0], other):
+            assert a["gels"] == b["gels"] and abs(a["cct_K"] - b["cct_K"]) < 1e-6, (a, b)
+    refused("units_ambiguous", "match", "3200K", "--to", "5600K", "--gels",
+            gel_file("unit.csv", (HOME / percent).read_text().replace("_percent", "")),
+            says="percent")
+    refused("bad_gels", "match", "3200K", "--to", "5600K", "--gels",
+            gel_file("narrow.csv", "filter,500nm,510nm\nX1,.5,.5\n"), says="450 to 650")
+    refused("bad_gels", "match", "3200K", "--to", "5600K", "--gels",
+            gel_file("negative.csv", "filter,400nm,700nm\nX1,-.5,.5\n"), says="between 0 and 1")
+    refused("bad_gels", "match", "3200K", "--to", "5600K", "--gels",
+            gel_file("twice.csv", "filter,400nm,700nm\nX1,.5,.5\nX1,.5,.5\n"), says="twice")
+
+
+def an_unknown_range_widens_the_interval():
+    nm = list(range(380, 781, 5))
+    def write(name, first, last):
+        kept = [n for n in nm if first <= n <= last]
+        return gel_file(name, "filter," + ",".join(f"{n}nm" for n in kept) + "\nX1," +
+                        ",".join(f"{.15 + .7 * (n - 380) / 400:.3f}" for n in kept) + "\n")
+    def u95(file):
+        words = ["match", "illuminant:D65", "--to", "3200K", "--gels", file, "-n", 9, "--reach", 1,
+                 "--gel-spread", "0.01%"]
+        return next(m for m in answer(*words)["matches"] if m["gels"] == ["X1"])["u95"]
+    whole, cut = u95(write("whole.csv", 380, 780)), u95(write("cut.csv", 430, 660))
+    assert whole["cct_K"] < 3 and cut["cct_K"] > 20 * whole["cct_K"], (whole, cut)
+
+
+def cameras_are_found_and_their_matrix_stays_with_the_target():
+    refused("unknown_camera", "match", "3200K", "--to", "5600K", "--camera", "Nikkon D850",
+            says="Nikon D850")
+    refused("ambiguous_camera", "match", "3200K", "--to", "5600K", "--camera", "canon 5d",
+            says="Mark IV")
+    run("match", "3200K", "--to", "5600K", "--camera", "nowhere.json", code=3)
+    document = answer("match", NICHIA, "--to", "illuminant:A", "--camera", "all", "--reach", 1)
+    assert document["cameras"] >= 51
+    # A camera that was balanced anew on each lamp would see little of 2000 K.
+    assert document["unfiltered"]["delta_e"]["camera"] > 15
+    best = document["matches"][0]
+    assert best["low95"]["delta_e"]["camera"] <= best["delta_e"]["camera"]
+    assert best["delta_e"]["camera"] <= best["delta_e"]["camera_worst"]
+
+
+def the_answer_repeats_itself():
+    words = ("match", NICHIA, "--to", "illuminant:A", "--camera", "Nikon D850", "--json")
+    assert run(*words).stdout == run(*words).stdout
+
+
+def what_is_not_there_is_said():
+    run("match", "nothing.xls", "--to", "3200K", code=1)
+    run("match", "3200K", code=2)
+    assert "illuminant:D55" in run("match", "3200K", "--to", "D55", code=1).stderr
+    demo = answer("match", "3200K", "--to", "5600K")
+    assert demo["demonstration"] and demo["warnings"][0]["code"] == "demonstration_gels"
+    run("match", "3200K", "--to", "5600K", "--strict", code=3)
+
+
+if __name__ == "__main__":
+    TESTS = [test for name, test in list(globals().items())
+             if callable(test) and getattr(test, "__module__", "") == "__main__"
+             and name not in ("run", "answer", "refused", "gel_file")]
+    for test in TESTS:
+        test()
+    print(f"{len(TESTS)} tests")
+    assert len(TESTS) >= 8
