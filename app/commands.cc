@@ -12,6 +12,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick 203lx@0.5m 58lx@1m 20lx@2m,card=8lx --fixture bulb --meter hobby\n"
      "  lightcal quick 192lx@0.5m 48lx@1m --room dark --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
+     "  lightcal quick 192lx@0.5m --cct 3200K --gel \"half ctb\"\n"
      "  lightcal quick --plan --reach 3m --minutes move=5\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
     {"new", "Begin a session: asks about the lamp and the meter, writes session.toml",
@@ -113,11 +114,14 @@ constexpr CommandRow kCommands[] = {
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
      "  lightcal color --xy 0.4476 0.4074\n"
      "  lightcal color --cct 3200K --duv -0.003 --json\n"
-     "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"", BuildColor},
+     "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"\n"
+     "  lightcal color --spectrum illuminant:A --through \"full ctb\"", BuildColor},
     {"match", "Gels and dimming that bring one lamp to another, as eye and camera see it",
      "  lightcal match illuminant:LED-B3 --to 3200K\n"
      "  lightcal match \"sample_data/spectra/uprtek_cv600/Yuji 5000K.xls\" --to illuminant:A --camera \"5d mark iv\"\n"
-     "  lightcal match lamp.xls --to illuminant:D55 --gels gels.csv --camera all --json", BuildMatch},
+     "  lightcal match lamp.xls --to illuminant:D55 --gels gels.csv -n 3 --plot sheet.png --json\n"
+     "  lightcal match lamp.xls --with \"sample_data/spectra/uprtek_cv600/Philips Warm Glow 2200K.xls\" --to 4000K",
+     BuildMatch},
     {"photometric", "Flux, peak, beam and field of an IES or EULUMDAT file; conversion, polar plot",
      "  lightcal photometric sample_data/photometric/sample2.ldt\n"
      "  lightcal photometric lamp.ldt --to ies -o lamp.ies\n"

@@ -26,6 +26,7 @@
 #include "lightcal/report/chromaticity_plot.h"
 #include "lightcal/report/color_vector_graphic.h"
 #include "lightcal_devices/files/import_file.h"
+#include "match/behind_gels.h"
 #include "output_files.h"
 #include "picture_file.h"
 
@@ -38,6 +39,7 @@ struct ColorOptions {
   std::string spectrum, column, vector_graphic;
   bool force = false;
   std::string batch;
+  std::string through, gels;
   ColorExtraOptions extra;
 };
 
@@ -230,15 +232,40 @@ Result<std::vector<OutputFile>> PicturesOf(const ColorOptions& options,
   return pictures;
 }
 
+// The one spectrum chosen, behind each stack of gels asked for.
+Result<std::vector<BehindGels>> GelsAsked(const ColorOptions& options,
+                                          std::vector<ImportedSpectrum>& chosen, Console& console) {
+  if (chosen.size() > 1) {
+    return WrongUsage("--through", "goes with one spectrum; choose it with --column");
+  }
+  const bool measured = !NamesIlluminant(options.spectrum);
+  auto behind =
+      PutBehindGels(chosen.front().spectrum, measured, options.through, options.gels, console);
+  if (!behind) return behind;
+  std::vector<ImportedSpectrum> gelled;
+  for (const BehindGels& one : *behind) {
+    gelled.push_back({one.title, one.spectrum, {}, chosen.front().where});
+  }
+  chosen = std::move(gelled);
+  return behind;
+}
+
 Result<void> RunSpectrum(const ColorOptions& options, const ColorExtras& extras, Console& console) {
   auto file = ReadSpectrumSource(options.spectrum);
   if (!file) return Propagate(std::move(file));
-  const auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
-  if (!chosen) return tl::unexpected(chosen.error());
+  auto chosen = ChosenSpectra(*file, options.spectrum, options.column);
+  if (!chosen) return Propagate(std::move(chosen));
   console.Warn(file->warnings);
+  std::vector<BehindGels> behind;
+  if (!options.through.empty()) {
+    auto gels = GelsAsked(options, *chosen, console);
+    if (!gels) return Propagate(std::move(gels));
+    behind = *std::move(gels);
+  }
   std::vector<ColorAnswer> answers;
   std::vector<Node> spectra;
-  for (const ImportedSpectrum& imported : *chosen) {
+  for (std::size_t i = 0; i < chosen->size(); ++i) {
+    const ImportedSpectrum& imported = (*chosen)[i];
     const std::string subject =
         imported.name.empty() ? options.spectrum : options.spectrum + ": " + imported.name;
     auto answer = AnswerFor(imported, subject, extras);
@@ -263,6 +290,7 @@ Result<void> RunSpectrum(const ColorOptions& options, const ColorExtras& extras,
         SpectralErrorFound(imported.spectrum, file->format, extras, subject, warnings)};
     console.Warn(warnings);
     spectra.push_back(ToJson(*answer));
+    if (!behind.empty()) spectra.back().Put("through", ThroughNode(behind[i]));
     answers.push_back(std::move(*answer));
   }
   if (auto allowed = console.RefuseIfStrict(); !allowed) return allowed;
@@ -270,6 +298,7 @@ Result<void> RunSpectrum(const ColorOptions& options, const ColorExtras& extras,
   if (!pictures) return tl::unexpected(pictures.error());
   if (auto written = WriteOutputs(*pictures, options.force); !written) return written;
   if (chosen->size() == 1) {
+    if (!behind.empty()) console.Print(ThroughText(behind.front()) + "\n\n");
     console.Print(TableOfOne(answers.front()));
     console.PrintDocument(spectra.front());
   } else {
@@ -292,6 +321,9 @@ Result<void> CheckColor(const ColorOptions& o) {
   }
   if (o.spectrum.empty() && !(o.column.empty() && o.vector_graphic.empty())) {
     return WrongUsage("color", "--column and --vector-graphic go with --spectrum");
+  }
+  if (o.spectrum.empty() && !(o.through.empty() && o.gels.empty())) {
+    return WrongUsage("color", "--through and --gels go with --spectrum");
   }
   if (o.force && o.vector_graphic.empty() && o.extra.plot.empty()) {
     return WrongUsage("--force", "goes with --plot and --vector-graphic");
@@ -332,6 +364,15 @@ Run BuildColor(CLI::App& parser) {
       .add_option("--column", o->column,
                   "Which spectrum of the file: its name, or its number from 1")
       ->type_name("NAME|N");
+  parser
+      .add_option("--through", o->through,
+                  "Put the lamp behind gels: gels.csv:L204, gels.csv:L204+L298, \"half cto\" of "
+                  "--gels; gels.csv alone lists each of its gels")
+      ->type_name("FILE:GEL");
+  parser
+      .add_option("--gels", o->gels,
+                  "The gels that --through names [demonstration filters by formula]")
+      ->type_name("FILE.csv");
   parser
       .add_option("--vector-graphic", o->vector_graphic,
                   "Write the TM-30 colour vector graphic of the spectrum")

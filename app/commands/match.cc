@@ -3,13 +3,22 @@
 // it.
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "calibration_options.h"
 #include "commands.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/match/gelled_light.h"
 #include "lightcal/match/match_lights.h"
+#include "lightcal/match/mix_lights.h"
+#include "lightcal/records/light_codec.h"
+#include "lightcal/report/match_sheet.h"
 #include "match/match_answer.h"
 #include "match/match_source.h"
+#include "output_files.h"
+#include "picture_file.h"
 #include "typed_reading.h"
 
 namespace lightcal::app {
@@ -23,6 +32,8 @@ struct MatchOptions {
   int count = 5;
   bool air_gaps = false;
   double reach = 0.02;
+  std::string plot, output, with, with_column;
+  int take = 1;
   bool force = false;
 };
 
@@ -71,11 +82,125 @@ void WarnIfTooWeak(const match::Match& best, Console& console) {
                     "target"});
 }
 
+// ---- what is written ----
+
+Result<OutputFile> SheetFile(const MatchOptions& o, const match::MatchRequest& request,
+                             const match::Match& match, const std::string& gels,
+                             const MatchLight& lamp, const MatchLight& target) {
+  const auto seen = match::ViewMatch(request, match);
+  if (!seen) return tl::unexpected(seen.error());
+  report::MatchSheet sheet;
+  sheet.title = lamp.title + " to " + target.title;
+  sheet.viewer = seen->viewer;
+  sheet.lamp = {lamp.title, seen->lamp.samples, seen->lamp.difference, lamp.spectrum};
+  sheet.target = {target.title, seen->target, {}, target.spectrum};
+  sheet.gelled = {gels, seen->gelled.samples, seen->gelled.difference,
+                  SpectrumBehind(lamp.spectrum, match.transmittance)};
+  sheet.transmittance = match.transmittance;
+  sheet.has_gels = !match.gels.empty();
+  return PictureFile(o.plot, report::MatchSheetSvg(sheet));
+}
+
+Result<OutputFile> GelledLightFile(const MatchOptions& o, const match::MatchRequest& request,
+                                   const match::Match& match, const MatchLight& lamp) {
+  LightFile file;
+  if (lamp.light) {
+    file.lights.push_back(match::LightBehind(*lamp.light, match));
+  } else {
+    auto light = match::LightAtMeter(request, match, lamp.title);
+    if (!light) return Propagate(std::move(light));
+    file.lights.push_back(*std::move(light));
+  }
+  file.provenance.generator = GeneratorName();
+  file.provenance.inputs = lamp.inputs;
+  auto text = LightFileToJson(file);
+  if (!text) return Propagate(std::move(text));
+  return OutputFile{o.output, *std::move(text)};
+}
+
+Result<std::vector<OutputFile>> FilesAsked(const MatchOptions& o,
+                                           const match::MatchRequest& request,
+                                           const match::MatchAnswer& answer, const GelSet& set,
+                                           const MatchLight& lamp, const MatchLight& target) {
+  std::vector<OutputFile> files;
+  if (o.plot.empty() && o.output.empty()) return files;
+  const auto taken = static_cast<std::size_t>(o.take);
+  if (taken > answer.matches.size()) {
+    return WrongUsage("--take", "there are " + std::to_string(answer.matches.size()) + " matches");
+  }
+  const match::Match& match = taken == 0 ? answer.unfiltered : answer.matches[taken - 1];
+  if (!o.plot.empty()) {
+    auto sheet = SheetFile(o, request, match, StackTitle(match.gels, set), lamp, target);
+    if (!sheet) return Propagate(std::move(sheet));
+    files.push_back(*std::move(sheet));
+  }
+  if (!o.output.empty()) {
+    auto light = GelledLightFile(o, request, match, lamp);
+    if (!light) return Propagate(std::move(light));
+    files.push_back(*std::move(light));
+  }
+  return files;
+}
+
+// ---- two lamps ----
+
+Node DimmerNode(const Uncertain& dimmer) {
+  return {
+      {"value", dimmer.value}, {"u95", dimmer.u95}, {"low95", dimmer.low}, {"high95", dimmer.high}};
+}
+
+Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLight& target,
+                    Console& console) {
+  MatchLightWords words;
+  words.source = o.with;
+  words.column = o.with_column;
+  const auto with = ReadMatchLight(words, console);
+  if (!with) return tl::unexpected(with.error());
+  const auto request = RequestOf(o, lamp, target);
+  if (!request) return tl::unexpected(request.error());
+  const auto mix = match::MixLights(*request, with->spectrum, with->measured);
+  if (!mix) return tl::unexpected(mix.error());
+  for (const auto& [light, dimmer] :
+       {std::pair{&lamp, &mix->dimmer_lamp}, {&*with, &mix->dimmer_with}}) {
+    if (!*dimmer || (*dimmer)->value <= 1.0 + 1e-9) continue;
+    console.Warn({"lamp_too_weak", light->title,
+                  "would have to give " + PercentText((*dimmer)->value, 3) +
+                      " of what was read; move it nearer, or dim the target"});
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  const auto row = [](const std::string& title, double share, double u95,
+                      const std::optional<Uncertain>& dimmer) {
+    return std::vector<std::string>{
+        title, PercentText(share, 3) + " ± " + PercentText(u95),
+        dimmer ? PercentText(dimmer->value, 3) + " ± " + PercentText(dimmer->u95) : kNone};
+  };
+  const GelSet none;
+  const double share = mix->share.value;
+  console.Print(TextTable({"lamp", "of the light", "dimmer"},
+                          {row(lamp.title, share, mix->share.u95, mix->dimmer_lamp),
+                           row(with->title, 1.0 - share, mix->share.u95, mix->dimmer_with)}) +
+                "\n" + MatchTable({}, mix->mixed, none));
+  Node dimmers = Node::Table();
+  if (mix->dimmer_lamp) dimmers.Put("lamp", DimmerNode(*mix->dimmer_lamp));
+  if (mix->dimmer_with) dimmers.Put("with", DimmerNode(*mix->dimmer_with));
+  console.PrintDocument({{"lamp", lamp.title},
+                         {"with", with->title},
+                         {"target", target.title},
+                         {"share", DimmerNode(mix->share)},
+                         {"dimmer", Node::UnlessEmpty(std::move(dimmers))},
+                         {"mixed", MatchNode(mix->mixed, none)}});
+  return {};
+}
+
 Result<void> RunMatch(const MatchOptions& o, Console& console) {
+  if (!o.plot.empty()) {
+    if (auto named = CheckPictureName("--plot", o.plot); !named) return named;
+  }
   const auto lamp = ReadMatchLight(o.lamp, console);
   if (!lamp) return tl::unexpected(lamp.error());
   const auto target = ReadMatchLight(o.target, console);
   if (!target) return tl::unexpected(target.error());
+  if (!o.with.empty()) return RunMix(o, *lamp, *target, console);
   const auto set = ReadGels(o.gels, console);
   if (!set) return tl::unexpected(set.error());
   const auto request = RequestOf(o, *lamp, *target);
@@ -83,7 +208,10 @@ Result<void> RunMatch(const MatchOptions& o, Console& console) {
   auto answer = match::MatchLights(*request, set->gels);
   if (!answer) return Propagate(std::move(answer));
   WarnIfTooWeak(answer->matches.front(), console);
+  const auto files = FilesAsked(o, *request, *answer, *set, *lamp, *target);
+  if (!files) return tl::unexpected(files.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (auto written = WriteOutputs(*files, o.force); !written) return written;
   console.Print(lamp->title + " to " + target->title + ", " + std::to_string(answer->stacks) +
                 " stacks of " + std::to_string(set->gels.size()) + " gels (" + set->source +
                 ")\n\n" + MatchTable(answer->matches, answer->unfiltered, *set));
@@ -97,7 +225,9 @@ Result<void> RunMatch(const MatchOptions& o, Console& console) {
       {"matches", Node::List(answer->matches,
                              [&](const match::Match& each) { return MatchNode(each, *set); })},
       {"unfiltered", MatchNode(answer->unfiltered, *set)}};
+  if (!files->empty()) document.Put("files", PathsOf(*files));
   console.PrintDocument(std::move(document));
+  for (const OutputFile& file : *files) console.Note("wrote " + file.path);
   return {};
 }
 
@@ -155,6 +285,27 @@ Run BuildMatch(CLI::App& parser) {
   parser.add_option("--to-light", o->target.light, "Which light of the target's");
   parser.add_option("--spectrum", o->lamp.spectrum, "The spectrum of a lamp that is a light.json")
       ->type_name("FILE");
+  CLI::Option* const with = parser.add_option(
+      "--with", o->with, "A second lamp: the two dimmers whose mix is nearest, without gels");
+  parser.add_option("--with-column", o->with_column, "Which spectrum of its file")
+      ->type_name("NAME|N")
+      ->needs(with);
+  parser
+      .add_option("--plot", o->plot,
+                  "A sheet of patches under the lamp, the target and the lamp behind the gels, as "
+                  "the camera sees them, and the spectra")
+      ->type_name("FILE.svg|png")
+      ->excludes(with);
+  parser
+      .add_option("-o,--output", o->output,
+                  "The lamp behind the gels as a light.json, for lightcal export")
+      ->type_name("light.json")
+      ->excludes(with);
+  parser
+      .add_option("--take", o->take,
+                  "Which match --plot and --output are of, from 1; 0 is the lamp as it is")
+      ->check(CLI::Range(0, 200))
+      ->capture_default_str();
   parser.add_flag("--force", o->force, "Replace files that lightcal did not write");
   return [o](Console& console) { return RunMatch(*o, console); };
 }

@@ -68,6 +68,9 @@ def prepare(home):
     shutil.copy(home / "sky/dome.exr", home / "sky.exr")
 
     shutil.copy(SAMPLES / "spectra/uprtek_cv600/Nichia 80 CRI.xls", home / "lamp.xls")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    gels = re.search(r"```text\n(filter,.*?)```", readme, re.S).group(1)
+    (home / "gels.csv").write_text(gels, encoding="utf-8")
     (home / "tape_measure.csv").write_text("distance_m,illuminance_lx\n1.5,23.5\n", encoding="utf-8")
     shutil.copy(SAMPLES / "spectra/jeti/spectral_Jeti_50pct.csv", home / "sweep.csv")
     shutil.copy(SAMPLES / "photometric/sample2.ldt", home / "lamp.ldt")

@@ -77,6 +77,8 @@ def main():
         shutil.copytree(ROOT / "sample_data/sessions", samples / "sessions",
                         ignore=shutil.ignore_patterns("out"))
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
+        gels = re.search(r"```text\n(filter,.*?)```", text, re.S).group(1)
+        (home / "gels.csv").write_text(gels, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}",
                                     "XDG_DATA_HOME": f"{home}/data"}
         lines = list(command_lines(text))

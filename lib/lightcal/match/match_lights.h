@@ -101,4 +101,12 @@ struct MatchAnswer {
 [[nodiscard]] Result<Match> MatchOfStack(const MatchRequest& request, std::span<const Gel> gels,
                                          const std::vector<std::size_t>& stack);
 
+// What the camera sees (of many the one nearest their median, of none the observer).
+struct ViewedMatch {
+  std::string viewer;
+  std::vector<Xyz> target;
+  LightView::Seen lamp, gelled;
+};
+[[nodiscard]] Result<ViewedMatch> ViewMatch(const MatchRequest& request, const Match& match);
+
 }  // namespace lightcal::match
