@@ -13,6 +13,10 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/tools"))
+import match_world as world  # noqa: E402
+import numpy as np  # noqa: E402
+
 LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
 SPECTRA = ROOT / "sample_data/spectra/uprtek_cv600"
 YUJI, NICHIA = SPECTRA / "Yuji 5000K.xls", SPECTRA / "Nichia 80 CRI.xls"
@@ -132,6 +136,94 @@ def cameras_are_found_and_their_matrix_stays_with_the_target():
     assert best["delta_e"]["camera"] <= best["delta_e"]["camera_worst"]
 
 
+def a_lamp_behind_a_gel_in_color_and_quick():
+    nm = list(range(400, 701, 10))
+    values = [round(.2 + .6 * (n - 400) / 300, 4) for n in nm]
+    file = gel_file("warm.csv", "filter,name," + ",".join(f"{n}nm" for n in nm) + "\nL204,Full C.T. "
+                    "Orange," + ",".join(map(str, values)) + "\n")
+    through = world.fine(world.at_nodes(nm, values))
+    light = world.uprtek(NICHIA)
+    passed = world.xyz(light * through)[1] / world.xyz(light)[1]
+    x, y, _ = world.xyz(light * through) / world.xyz(light * through).sum()
+    one = answer("color", "--spectrum", NICHIA, "--through", f"{file}:full cto")
+    assert one["through"]["gels"] == ["L204"]
+    assert abs(one["through"]["Y_percent"]["value"] / 100 - passed) < 1e-5
+    assert abs(one["xy"][0] - x) < 1e-5 and abs(one["xy"][1] - y) < 1e-5
+    assert 0.3 < one["through"]["Y_percent"]["u95"] < 3
+    plain = answer("color", "--spectrum", NICHIA)
+    assert abs(one["illuminance_lx"] / plain["illuminance_lx"] - passed) < 1e-5
+    twice = answer("color", "--spectrum", NICHIA, "--gels", file, "--through", "204+L204")
+    assert twice["through"]["gels"] == ["L204", "L204"]
+    refused("unknown_gel", "color", "--spectrum", NICHIA, "--through", f"{file}:L205", says="L204")
+    # The lamp of quick: its candela and its presets behind the gel.
+    reading = ("quick", "192lx@0.5m", "48lx@1m", "--room", "dark", "--cct", "4900K")
+    bare = answer(*reading)["lights"][0]
+    gelled = answer(*reading, "--gel", "L204", "--gels", file, "--spectrum", NICHIA, "--to", "gltf",
+                    "-o", "presets")
+    behind = gelled["lights"][0]
+    assert abs(behind["intensity_cd"]["value"] / bare["intensity_cd"]["value"] - passed) < 1e-5
+    assert behind["intensity_cd"]["u95"] / behind["intensity_cd"]["value"] > \
+        bare["intensity_cd"]["u95"] / bare["intensity_cd"]["value"]
+    assert abs(behind["color"]["xy"][0] - x) < 1e-5
+    lamp = json.loads((HOME / "presets/light.gltf").read_text())
+    shown = lamp["extensions"]["KHR_lights_punctual"]["lights"][0]["color"]
+    assert shown[0] > shown[2], shown
+    assert [w["code"] for w in answer(*reading, "--gel", "half cto")["warnings"]] == [
+        "spectrum_assumed", "demonstration_gels"]
+
+
+def two_dimmers_mix_to_the_target():
+    warm = SPECTRA / "Philips Warm Glow 2200K.xls"
+    mix = answer("match", NICHIA, "--with", warm, "--to", "3200K", "--reach", 1)
+    a, b = world.uprtek(NICHIA), world.uprtek(warm)
+    target = world.black_body(3200)
+    def left(share):
+        light = share * a / world.xyz(a)[1] + (1 - share) * b / world.xyz(b)[1]
+        return world.observer(target).difference(light), light
+    share = mix["share"]["value"]
+    assert abs(left(share)[0] - mix["mixed"]["delta_e"]["observer"]) < 1e-6
+    shares = np.linspace(0, 1, 201)
+    best = shares[int(np.argmin([left(s)[0] for s in shares]))]
+    assert abs(best - share) < 0.01, (best, share)
+    # Both dimmers: the mix's shares in lux, one of them full.
+    ea, eb = (683.002 * world.xyz(light)[1] for light in (a, b))
+    da, db = mix["dimmer"]["lamp"]["value"], mix["dimmer"]["with"]["value"]
+    assert abs(da * ea / (da * ea + db * eb) - share) < 1e-3 and abs(max(da, db) - 1) < 1e-9
+    assert mix["share"]["low95"] < share < mix["share"]["high95"]
+    refused("unreachable", "match", NICHIA, "--with", YUJI, "--to", "2500K", says="beside the line")
+
+
+def the_gelled_lamp_and_the_sheet_are_written():
+    words = ("match", NICHIA, "--to", "3200K", "--camera", "Nikon D850")
+    document = answer(*words, "-o", "gelled.json", "--take", 2, "--plot", "sheet.svg")
+    taken = document["matches"][1]
+    light = json.loads((HOME / "gelled.json").read_text())["lights"][0]
+    lux = answer("color", "--spectrum", NICHIA)["illuminance_lx"]
+    assert abs(light["illuminance_lx"]["value"] / lux - 2**-taken["stops_lost"]) < 1e-9
+    assert abs(light["color"]["cct_K"]["value"] - taken["cct_K"]) < 1e-6
+    run("export", "gelled.json", "--to", "gltf,blender,json", "-o", "gelled")
+    # The same behind a lamp whose candela are known.
+    lamp = ROOT / "sample_data/lights/desk_lamp_june.json"
+    run("match", lamp, "--to", "3200K", code=3)
+    bare = json.loads(lamp.read_text())["lights"][0]
+    answer("match", lamp, "--light", bare["name"], "--spectrum", NICHIA, "--to", "3200K", "-o",
+           "desk.json")
+    session = ROOT / "sample_data/sessions/three_real_lights"
+    panel = answer("match", session, "--light", "led_panel_5000K", "--to", "3200K")
+    assert 4900 < panel["unfiltered"]["cct_K"] < 5100, panel["unfiltered"]
+    own = json.loads((HOME / "desk.json").read_text())["lights"][0]
+    first = answer("match", NICHIA, "--to", "3200K")["matches"][0]
+    assert abs(own["intensity_cd"]["value"] / bare["intensity_cd"]["value"] -
+               2**-first["stops_lost"]) < 1e-9
+    sheet = (HOME / "sheet.svg").read_text()
+    # 40 patches of three stripes and an edge; a matched white shows as the screen's.
+    assert len(re.findall(r'fill="#[0-9a-f]{6}"/>', sheet)) == 120 and "Nikon D850" in sheet
+    fills = re.findall(r'<rect x="[^"]*" y="[^"]*" width="[^"]*" height="[^"]*" fill="(#\w+)"', sheet)
+    assert fills[1] == "#ffffff" and fills[0] != "#ffffff", fills[:3]
+    run(*words, "--plot", "sheet.jpg", code=2)
+    run(*words, "-o", "x.json", "--take", 99, code=2)
+
+
 def the_answer_repeats_itself():
     words = ("match", NICHIA, "--to", "illuminant:A", "--camera", "Nikon D850", "--json")
     assert run(*words).stdout == run(*words).stdout
@@ -153,4 +245,4 @@ if __name__ == "__main__":
     for test in TESTS:
         test()
     print(f"{len(TESTS)} tests")
-    assert len(TESTS) >= 8
+    assert len(TESTS) >= 11

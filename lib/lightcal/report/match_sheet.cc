@@ -30,7 +30,10 @@ constexpr Xy kScreenWhite = {0.312720, 0.329031};  // D65, CIE 15:2018 table 11.
 std::vector<std::size_t> ShownSamples() {
   std::vector<std::size_t> shown = {0, 15, 18, 100, 101};
   const std::size_t rest = kPatchRows * kPatchColumns - shown.size();
-  for (std::size_t i = 0; i < rest; ++i) shown.push_back(2 + i * 98 / rest);
+  for (std::size_t i = 0; i < rest; ++i) {
+    const std::size_t sample = 2 + i * 98 / rest;
+    shown.push_back(sample == 15 || sample == 18 ? sample + 1 : sample);
+  }
   return shown;
 }
 
