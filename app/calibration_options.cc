@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clock.h"
+#include "input_files.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
@@ -48,7 +49,7 @@ namespace {
 Result<AccuracyProfile> ProfileAsked(const CalibrationOptions& options) {
   AccuracyProfile profile;
   if (!options.profile.empty()) {
-    const auto text = ReadWholeFile(options.profile);
+    const auto text = ReadInputFile(options.profile);
     if (!text) return tl::unexpected(text.error());
     auto read = AccuracyProfileFromJson(*text, options.profile);
     if (!read) return Propagate(std::move(read));
@@ -99,13 +100,13 @@ Result<T> Told(Calibrated<T>&& answer, Console& console) {
 
 Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationSettings& settings,
                                      Console& console) {
-  return Told(MeasureSession(path, devices::DiskSources(), settings), console);
+  return Told(MeasureSession(path, InputSources(), settings), console);
 }
 
 Result<CalibratedSession> CalibrateAloud(const std::string& path, CalibrationSettings settings,
                                          Console& console) {
   settings.time = SourceDateIso8601().value_or("");
-  return Told(CalibrateSession(path, devices::DiskSources(), settings), console);
+  return Told(CalibrateSession(path, InputSources(), settings), console);
 }
 
 std::string DefaultOutputDirectory(const Session& session) {

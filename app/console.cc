@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/records/json_codec.h"
 #include "option_words.h"
 
@@ -14,7 +15,7 @@ namespace lightcal::app {
 namespace {
 
 void Write(std::FILE* stream, std::string_view text) {
-  const std::string words = InOptionWords(text);
+  const std::string words = Printable(InOptionWords(text));
   std::fwrite(words.data(), 1, words.size(), stream);
 }
 

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "input_files.h"
 #include "lightcal/calibrate/distributions.h"
+#include "lightcal/core/file_stem.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal_devices/disk_sources.h"
 #include "session_names.h"
@@ -30,6 +32,7 @@ Result<PlannedDistribution> PlanDistribution(const Session& session, const std::
                    "into its [[light]] first");
   }
   const Sources disk = devices::DiskSources();
+  NoteInput(path);
   auto read = disk.read_photometric(path);
   if (!read) return Propagate(std::move(read));
   plan.flux_lm = read->file.table.Flux().value();
@@ -38,7 +41,7 @@ Result<PlannedDistribution> PlanDistribution(const Session& session, const std::
   auto bytes = disk.read_text(path);
   if (!bytes) return Propagate(std::move(bytes));
   const char* extension = read->file.header.format == PhotometricFormat::kIes ? ".ies" : ".ldt";
-  const std::string target = PathInSession(session, "captures/" + plan.light + extension);
+  const std::string target = PathInSession(session, "captures/" + FileStem(plan.light) + extension);
   for (const std::string& held : DistributionFilesOf(session, plan.light, disk)) {
     if (held != target) return SeveralDistributions(plan.light, target, held);
     const auto there = disk.read_text(held);

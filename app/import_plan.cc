@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/files/import_file.h"
@@ -20,7 +21,8 @@ namespace fs = std::filesystem;
 // A spectrum as a file our own importer reads back.
 std::string SpectrumCsv(const ImportedSpectrum& one, const std::string& source, bool color_only) {
   const bool absolute = one.spectrum.quantity == SpectralQuantity::kIrradiance && !color_only;
-  std::string text = "# " + GeneratorName() + ": spectrum " + one.name + " of " + source + "\n";
+  std::string text =
+      "# written by " + GeneratorName() + ": spectrum " + one.name + " of " + source + "\n";
   text += absolute ? "wavelength_nm,irradiance_W_m2_nm\n" : "wavelength_nm,relative\n";
   for (std::size_t i = 0; i < one.spectrum.values.size(); ++i) {
     text += ShortestText(one.spectrum.wavelengths_nm[i]) + "," +
@@ -63,7 +65,7 @@ class Captures {
       const bool taken_here = planned != files_.end() && planned->contents != contents;
       if (taken_here) continue;
       if (planned != files_.end()) return relative;
-      const auto there = ReadWholeFile(path);
+      const auto there = ReadOutput(path);
       if (there && *there == contents) return relative;
       if (there && candidate != marked) continue;
       files_.push_back({path, contents});
@@ -103,6 +105,7 @@ class Planner {
       : session_(session), settings_(settings), captures_(session), held_(session) {}
 
   Result<void> Add(const std::string& path) {
+    NoteInput(path);
     auto imported = devices::ImportFile(path);
     if (!imported) return Propagate(std::move(imported));
     auto readings = ReadingsOf(path, *imported);
@@ -180,7 +183,7 @@ class Planner {
       return captures_.Add(name, SpectrumCsv(one, source.filename().string(), strip));
     }
     if (std::string inside = captures_.InSession(path); !inside.empty()) return inside;
-    const auto bytes = ReadWholeFile(path);
+    const auto bytes = ReadInputFile(path);
     if (!bytes) return tl::unexpected(bytes.error());
     return captures_.Add(source.filename().string(), *bytes);
   }

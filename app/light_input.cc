@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "guide/shell_word.h"
+#include "input_files.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
@@ -20,8 +22,9 @@ Result<std::string> LightFileBelow(const std::string& path) {
     std::error_code error;
     if (fs::is_regular_file(candidate, error)) return candidate.string();
   }
-  return Refused("no_light_file", path,
-                 "holds no light.json, nor does its out; fit it first: lightcal run " + path);
+  return Refused(
+      "no_light_file", path,
+      "holds no light.json, nor does its out; fit it first: lightcal run " + ShellWord(path));
 }
 
 }  // namespace
@@ -34,7 +37,7 @@ Result<LightFile> LightsIn(const std::string& path) {
     if (!found) return Propagate(std::move(found));
     file = *std::move(found);
   }
-  const auto text = ReadWholeFile(file);
+  const auto text = ReadInputFile(file);
   if (!text) return tl::unexpected(text.error());
   return LightFileOrPresetFromJson(*text, file);
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "clock.h"
+#include "input_files.h"
 #include "interrupt.h"
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/tape_codec.h"
@@ -63,7 +64,7 @@ Result<void> MeterSession::OpenDevice() {
 }
 
 Result<void> MeterSession::OpenTape() {
-  const auto text = ReadWholeFile(request_.replay_file);
+  const auto text = ReadInputFile(request_.replay_file);
   if (!text) return tl::unexpected(text.error());
   auto tape = devices::TapeFromText(*text, request_.replay_file);
   if (!tape) return tl::unexpected(tape.error());

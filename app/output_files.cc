@@ -3,10 +3,14 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/random.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -17,25 +21,13 @@
 #include <system_error>
 #include <utility>
 
+#include "input_files.h"
+#include "provenance_mark.h"
+
 namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kProvenanceWindowBytes = 4096;
-
-bool CarriesOurProvenance(const std::string& path) {
-  std::string window(kProvenanceWindowBytes, '\0');
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(window.data(), static_cast<std::streamsize>(window.size()));
-  window.resize(static_cast<std::size_t>(stream.gcount()));
-  if (window.starts_with("{") || window.starts_with("%PDF")) {
-    auto contents = ReadWholeFile(path);
-    if (!contents) return false;
-    window = std::move(*contents);
-  }
-  return window.find("lightcal") != std::string::npos;
-}
 
 tl::unexpected<Error> Unwritable(const std::string& path, int error_number) {
   return Failed("unwritable", path,
@@ -44,7 +36,7 @@ tl::unexpected<Error> Unwritable(const std::string& path, int error_number) {
 }
 
 Result<void> WriteWhole(const std::string& path, const std::string& contents) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int fd = ::open(path.c_str(), O_WRONLY | O_TRUNC | O_NOFOLLOW | O_CLOEXEC);
   if (fd < 0) return Unwritable(path, errno);
   std::size_t written = 0;
   while (written < contents.size()) {
@@ -61,23 +53,54 @@ Result<void> WriteWhole(const std::string& path, const std::string& contents) {
   return {};
 }
 
-std::string TemporaryName(const std::string& path) {
-  const fs::path p(path);
-  return (p.parent_path() /
-          ("." + p.filename().string() + "." + std::to_string(::getpid()) + ".tmp"))
-      .string();
+// An empty file of its own beside `path`: never one that is there, never through a link.
+Result<std::string> MakeTemporary(const std::string& path) {
+  constexpr int kTries = 16;
+  const fs::path target(path);
+  for (int i = 0; i < kTries; ++i) {
+    std::uint64_t random = 0;
+    if (::getrandom(&random, sizeof random, 0) != sizeof random) return Unwritable(path, errno);
+    std::array<char, 2 * sizeof random> digits{};
+    const char* const end =
+        std::to_chars(digits.data(), digits.data() + digits.size(), random, 16).ptr;
+    const std::string name =
+        "." + target.filename().string() + "." + std::to_string(::getpid()) + "-" +
+        std::string(digits.data(), static_cast<std::size_t>(end - digits.data())) + ".tmp";
+    std::string temporary = (target.parent_path() / name).string();
+    const int fd =
+        ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
+    if (fd >= 0) {
+      ::close(fd);
+      return temporary;
+    }
+    if (errno != EEXIST) return Unwritable(path, errno);
+  }
+  return Unwritable(path, EEXIST);
 }
 
-// Of a temporary's name: the process that writes it; absent for every other name.
-std::optional<int> WriterOfTemporary(const std::string& name) {
+struct Temporary {
+  int process = 0;     // that writes it
+  std::string target;  // the file's name that it would take
+};
+
+// What a temporary's name (.TARGET.PROCESS-RANDOM.tmp, once without RANDOM) says; absent for every
+// other name.
+std::optional<Temporary> TemporaryNamed(const std::string& name) {
   constexpr std::string_view kEnding = ".tmp";
   if (!name.starts_with('.') || !name.ends_with(kEnding)) return std::nullopt;
-  const std::string_view stem = std::string_view(name).substr(0, name.size() - kEnding.size());
-  const std::string_view digits = stem.substr(stem.rfind('.') + 1);
+  const std::string stem = name.substr(1, name.size() - 1 - kEnding.size());
+  const std::size_t dot = stem.rfind('.');
+  if (dot == std::string::npos) return std::nullopt;
+  const std::string_view tail = std::string_view(stem).substr(dot + 1);
+  const std::string_view digits = tail.substr(0, tail.find('-'));
+  const std::string_view random = tail.substr(std::min(digits.size() + 1, tail.size()));
   int process = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), process);
   const bool whole = error == std::errc() && end == digits.data() + digits.size() && process > 0;
-  return whole ? std::optional(process) : std::nullopt;
+  if (!whole || random.find_first_not_of("0123456789abcdef") != std::string::npos) {
+    return std::nullopt;
+  }
+  return Temporary{process, stem.substr(0, dot)};
 }
 
 // Whether a process writes no more: it is not there, its end was not fetched yet (Z), or SIGKILL
@@ -105,10 +128,9 @@ void RemoveTemporaries(const fs::path& directory, const Wanted& wanted) {
   std::vector<fs::path> leftovers;
   for (const auto& entry : fs::directory_iterator(directory, ignored)) {
     const std::string name = entry.path().filename().string();
-    const auto process = WriterOfTemporary(name);
-    if (!process || !IsOver(*process)) continue;
-    const std::size_t ending = ("." + std::to_string(*process) + ".tmp").size();
-    if (wanted(name.substr(1, name.size() - 1 - ending))) leftovers.push_back(entry.path());
+    const auto temporary = TemporaryNamed(name);
+    if (!temporary || !IsOver(temporary->process)) continue;
+    if (wanted(temporary->target)) leftovers.push_back(entry.path());
   }
   for (const fs::path& leftover : leftovers) fs::remove(leftover, ignored);
 }
@@ -129,7 +151,7 @@ void RemoveLeftoversOf(const std::vector<OutputWriter>& files) {
 
 // Forces to the disk what another writer left at `path`.
 Result<void> Sync(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int fd = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (fd < 0) return Unwritable(path, errno);
   const int synced = ::fsync(fd);
   const int error_number = errno;
@@ -138,16 +160,48 @@ Result<void> Sync(const std::string& path) {
   return {};
 }
 
-Result<void> CheckTargets(const std::vector<OutputWriter>& files, bool force) {
-  for (const OutputWriter& file : files) {
+Result<void> CheckTarget(const std::string& path, std::string_view format, bool format_known,
+                         bool force) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return Failed("exists", path, "is a directory; name a file");
+  if (IsInput(path)) {
+    return Refused("is_input", path,
+                   "is read by this very command, and nothing that is read is overwritten; choose "
+                   "another name to write to");
+  }
+  if (format_known) {
+    if (auto fits = CheckEnding(path, format); !fits) return fits;
+  }
+  if (force || !fs::exists(path, error)) return {};
+  const std::string there = OwnFormatOfFile(path);
+  if (there.empty() || (format_known && there != format)) {
+    return Failed("exists", path,
+                  std::string("exists and ") +
+                      (there.empty() ? "was not written by lightcal"
+                                     : "is another kind of file (" + there + ")") +
+                      "; choose another name, or pass --force to replace it");
+  }
+  return {};
+}
+
+Result<void> CheckDistinct(const std::vector<std::string>& paths) {
+  std::set<fs::path> names;
+  for (const std::string& path : paths) {
     std::error_code error;
-    if (fs::is_directory(file.path, error)) {
-      return Failed("exists", file.path, "is a directory; name a file");
+    if (!names.insert(fs::weakly_canonical(path, error)).second) {
+      return Refused("same_output", path,
+                     "would be written twice by one command; give each file a name of its own");
     }
-    if (!force && fs::exists(file.path, error) && !CarriesOurProvenance(file.path)) {
-      return Failed("exists", file.path,
-                    "exists and was not written by lightcal; pass --force to replace it");
-    }
+  }
+  return {};
+}
+
+Result<void> CheckTargets(const std::vector<OutputWriter>& files, bool force) {
+  std::vector<std::string> paths;
+  for (const OutputWriter& file : files) paths.push_back(file.path);
+  if (auto distinct = CheckDistinct(paths); !distinct) return distinct;
+  for (const OutputWriter& file : files) {
+    if (auto free = CheckTarget(file.path, file.format, true, force); !free) return free;
   }
   return {};
 }
@@ -156,7 +210,9 @@ Result<void> CheckTargets(const std::vector<OutputWriter>& files, bool force) {
 
 OutputWriter WriterOf(OutputFile file) {
   std::string path = file.path;
-  return {std::move(path), [file = std::move(file)](const std::string& temporary) {
+  std::string format = OwnFormatOf(file.contents);
+  return {std::move(path), std::move(format),
+          [file = std::move(file)](const std::string& temporary) {
             return WriteWhole(temporary, file.contents);
           }};
 }
@@ -166,6 +222,18 @@ Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
   writers.reserve(files.size());
   for (const OutputFile& file : files) writers.push_back(WriterOf(file));
   return WriteOutputsWith(writers, force);
+}
+
+Result<void> CheckOutputs(const std::vector<PlannedOutput>& files, bool force) {
+  std::vector<std::string> paths;
+  for (const PlannedOutput& file : files) paths.push_back(file.path);
+  if (auto distinct = CheckDistinct(paths); !distinct) return distinct;
+  for (const PlannedOutput& file : files) {
+    if (auto free = CheckTarget(file.path, file.format, !file.format.empty(), force); !free) {
+      return free;
+    }
+  }
+  return {};
 }
 
 Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force) {
@@ -183,7 +251,12 @@ Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force
       discard();
       return Unwritable(directory.string(), error.value());
     }
-    temporaries.push_back(TemporaryName(file.path));
+    auto temporary = MakeTemporary(file.path);
+    if (!temporary) {
+      discard();
+      return Propagate(std::move(temporary));
+    }
+    temporaries.push_back(*std::move(temporary));
     auto written = file.write(temporaries.back());
     if (written) written = Sync(temporaries.back());
     if (!written) {
@@ -217,7 +290,7 @@ void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files) {
   for (OutputFile& file : files) file.path = (fs::path(directory) / file.path).string();
 }
 
-Result<std::string> ReadWholeFile(const std::string& path) {
+Result<std::string> ReadOutput(const std::string& path) {
   return devices::DiskSources().read_text(path);
 }
 

@@ -17,16 +17,27 @@ struct OutputFile {
   std::string contents;
 };
 
-// Fails with "exists" (exit 1) before writing anything when a target exists, does not carry
-// lightcal's own provenance (the word "lightcal" in its first 4 KiB or anywhere in a JSON or PDF
-// file) and force is off; with "unwritable" when a directory or file cannot be written. Creates
-// directories. On any failure no target has changed. Temporaries of the same targets that a killed
-// run left are removed.
+// Before anything is written: fails with "exists" when a target is there, is not of the very format
+// that would replace it as lightcal writes it (provenance_mark.h) and force is off. Refused, with
+// force too: is_input, where this run reads it; wrong_ending; same_output, where two files would
+// take one name. Fails with "unwritable" when a directory or file cannot be written. Creates
+// directories. On any failure no target has changed. Temporaries have names nobody can foresee and
+// are made anew (never through a link); those that a killed run left beside the same targets are
+// removed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
+
+// The same questions of names alone, before long work. `formats` as of OwnFormatOf, empty = not
+// known yet: then any file of ours may be replaced.
+struct PlannedOutput {
+  std::string path;
+  std::string format;
+};
+[[nodiscard]] Result<void> CheckOutputs(const std::vector<PlannedOutput>& files, bool force);
 
 // A file whose writer fills the temporary name it is given: for pictures too large to hold twice.
 struct OutputWriter {
   std::string path;
+  std::string format;  // as of OwnFormatOf; empty: nothing of ours, so that none is replaced
   std::function<Result<void>(const std::string& temporary)> write;
 };
 [[nodiscard]] OutputWriter WriterOf(OutputFile file);
@@ -42,8 +53,9 @@ void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);
 
 [[nodiscard]] std::vector<std::string> PathsOf(const std::vector<OutputFile>& files);
 
-// Whole file as bytes. Fails: not_found, unreadable.
-[[nodiscard]] Result<std::string> ReadWholeFile(const std::string& path);
+// Whole file as bytes: one of our own outputs, which may be written again. What a person gives is
+// read by ReadInputFile (input_files.h). Fails: not_found, unreadable.
+[[nodiscard]] Result<std::string> ReadOutput(const std::string& path);
 
 // "lightcal 0.1.0"
 [[nodiscard]] std::string GeneratorName();

@@ -3,13 +3,14 @@
 
 #include <filesystem>
 
+#include "input_files.h"
 #include "output_files.h"
 
 namespace lightcal::app {
 
 FileBeside FilesBeside(const std::string& path) {
   return [folder = std::filesystem::path(path).parent_path()](const std::string& name) {
-    return ReadWholeFile((folder / name).string());
+    return ReadInputFile((folder / name).string());
   };
 }
 

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "clock.h"
+#include "input_files.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/session_codec.h"
@@ -58,7 +60,7 @@ Result<devices::Summary> AskedSummary() {
     }
     auto summary = TypedSummary(*typed);
     if (summary) return summary;
-    std::fprintf(stderr, "  %s\n", InOptionWords(summary.error().message).c_str());
+    std::fprintf(stderr, "  %s\n", Printable(InOptionWords(summary.error().message)).c_str());
   }
 }
 
@@ -124,7 +126,7 @@ Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_typ
                                           Console& console) {
   ReadingSource source;
   auto calibrations =
-      MeterCalibrations::Load(DirectoriesOfMeters(settings.session), devices::DiskSources());
+      MeterCalibrations::Load(DirectoriesOfMeters(settings.session), InputSources());
   if (!calibrations) return Propagate(std::move(calibrations));
   source.calibrations_ = *std::move(calibrations);
   if (settings.typed) return source;

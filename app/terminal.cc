@@ -11,6 +11,7 @@
 
 #include "interrupt.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 
 namespace lightcal::app {
 namespace {
@@ -39,7 +40,8 @@ bool WaitForLine() {
 bool CanAsk() { return ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1; }
 
 std::optional<std::string> Ask(const std::string& prompt) {
-  std::fwrite(prompt.data(), 1, prompt.size(), stderr);
+  const std::string shown = Printable(prompt);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
   if (::isatty(STDIN_FILENO) == 1 && !WaitForLine()) return std::nullopt;
   std::string line;
   if (!std::getline(std::cin, line)) return std::nullopt;

@@ -28,8 +28,28 @@ std::vector<std::string> SplitAtCommas(const std::string& text) {
   }
 }
 
+// "192,5lx@1m": a decimal comma, which here begins the next part.
+tl::unexpected<Error> DecimalComma(const std::string& before, const std::string& after) {
+  return WrongUsage(before + "," + after,
+                    "decimals have a point here: " + before + "." + after +
+                        " (a comma begins the next part of a reading, such as card=5lx)");
+}
+bool BeginsWithDigit(const std::string& text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0;
+}
+bool EndsWithDigit(const std::string& text) {
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
+}
+
+// No lamp gives more; a thousand times what the sun's own surface does.
+constexpr double kMostLux = 1e12;
+constexpr double kFarthestMetres = 1e6;
+
 Result<Lux> NotNegative(const std::string& text) {
   Result<Lux> lux = ParseIlluminance(text);
+  if (lux && !(lux->value() <= kMostLux)) {
+    return Refused("bad_reading", text, "no lamp gives so many lux; look at the number and unit");
+  }
   if (lux && lux->value() < 0.0) {
     return Refused("bad_reading", text, "an illuminance cannot be negative");
   }
@@ -70,6 +90,12 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
 Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const std::string& light) {
   const std::vector<std::string> parts = SplitAtCommas(text);
   const std::string& first = parts.front();
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const bool color = parts[i].ends_with('K') || parts[i].ends_with('k');
+    if (EndsWithDigit(parts[i - 1]) && BeginsWithDigit(parts[i]) && !color) {
+      return DecimalComma(parts[i - 1], parts[i]);
+    }
+  }
   const auto at = first.find('@');
   if (at == std::string::npos) return WrongUsage(text, kForm);
   const Result<Lux> illuminance = NotNegative(first.substr(0, at));
@@ -83,6 +109,9 @@ Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const st
   const Reading lit = out.front();
   for (std::size_t i = 1; i < parts.size(); ++i) {
     if (auto added = AddPart(parts[i], lit, out); !added) return Propagate(std::move(added));
+  }
+  if (distance->value() > kFarthestMetres) {
+    return Refused("bad_reading", text, "no meter stands so far away; look at the distance's unit");
   }
   if (distance->value() <= 0.0) {
     return Refused("bad_reading", text, "the distance must be above zero");

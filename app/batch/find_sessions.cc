@@ -24,8 +24,10 @@ bool IsSession(const fs::path& path) {
          (path.extension() == ".toml" && fs::is_regular_file(path, error));
 }
 
+constexpr int kAnyDepth = 1000;
+
 // Below a session no other session is looked for: its captures and outputs lie there.
-void CollectBelow(const fs::path& directory, std::vector<std::string>& sessions) {
+void CollectBelow(const fs::path& directory, int levels, std::vector<std::string>& sessions) {
   std::error_code error;
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
@@ -36,24 +38,43 @@ void CollectBelow(const fs::path& directory, std::vector<std::string>& sessions)
   for (const fs::path& entry : entries) {
     if (IsSession(entry)) {
       sessions.push_back(entry.string());
-    } else {
-      CollectBelow(entry, sessions);
+    } else if (levels > 1) {
+      CollectBelow(entry, levels - 1, sessions);
     }
   }
 }
 
-std::vector<std::string> SessionsOf(const std::string& path) {
-  if (IsSession(path)) return {path};
+// What lies deeper is not run unasked: a path typed wrong (a whole disk) must not be worked
+// through.
+Result<std::vector<std::string>> SessionsOf(const std::string& path, bool recursive) {
+  if (IsSession(path)) return std::vector<std::string>{path};
   std::vector<std::string> sessions;
-  CollectBelow(path, sessions);
-  return sessions;
+  CollectBelow(path, recursive ? kAnyDepth : 1, sessions);
+  if (recursive) return sessions;
+  std::vector<std::string> deeper;
+  CollectBelow(path, 2, deeper);
+  std::erase_if(deeper, [&](const std::string& one) {
+    return std::ranges::find(sessions, one) != sessions.end();
+  });
+  if (deeper.empty()) return sessions;
+  constexpr std::size_t kShown = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(deeper.size(), kShown); ++i) {
+    list += (list.empty() ? "" : ", ") + deeper[i];
+  }
+  if (deeper.size() > kShown) list += " and " + std::to_string(deeper.size() - kShown) + " more";
+  return Refused("sessions_deeper", path,
+                 "has sessions more than one folder below it (" + list +
+                     "); name their folder, or pass --recursive to run every one there is");
 }
 
-Result<std::vector<std::string>> MatchesOf(const std::string& pattern) {
+Result<std::vector<std::string>> MatchesOf(const std::string& pattern, bool recursive) {
   const auto matches = devices::ExpandFiles(std::span(&pattern, 1));
   std::vector<std::string> sessions;
   for (const std::string& match : matches.value_or(std::vector<std::string>{})) {
-    std::ranges::move(SessionsOf(match), std::back_inserter(sessions));
+    auto found = SessionsOf(match, recursive);
+    if (!found) return found;
+    std::ranges::move(*found, std::back_inserter(sessions));
   }
   if (sessions.empty()) {
     return Refused("no_sessions", pattern,
@@ -74,13 +95,14 @@ void DropRepeated(std::vector<std::string>& sessions) {
 
 }  // namespace
 
-Result<std::vector<std::string>> FindSessions(const std::vector<std::string>& given) {
+Result<std::vector<std::string>> FindSessions(const std::vector<std::string>& given,
+                                              bool recursive) {
   std::vector<std::string> sessions;
   for (const std::string& path : given) {
     std::error_code error;
     const bool wildcard =
         path.find_first_of("*?[") != std::string::npos && !fs::exists(path, error);
-    auto found = wildcard ? MatchesOf(path) : SessionsOf(path);
+    auto found = wildcard ? MatchesOf(path, recursive) : SessionsOf(path, recursive);
     if (!found) return found;
     if (found->empty()) found->push_back(path);
     std::ranges::move(*found, std::back_inserter(sessions));

@@ -14,11 +14,13 @@
 #include <thread>
 
 #include "batch/run_jobs.h"
+#include "input_files.h"
 #include "interrupt.h"
 #include "light_input.h"
 #include "light_summary.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
@@ -217,8 +219,9 @@ Console Warned(const BatchRequest& request, const std::vector<Outcome>& outcomes
     }
     if (in_full || outcomes[i].warnings.empty()) continue;
     shortened = true;
-    std::fputs(("lightcal: " + WarningCounts(session, outcomes[i].warnings) + "\n").c_str(),
-               stderr);
+    std::fputs(
+        Printable("lightcal: " + WarningCounts(session, outcomes[i].warnings) + "\n").c_str(),
+        stderr);
   }
   if (shortened) std::fputs("lightcal: --verbose says the warnings in full\n", stderr);
   return answer;
@@ -301,6 +304,11 @@ Result<std::vector<BatchItem>> BatchItems(const std::vector<std::string>& sessio
 }
 
 Result<void> RunBatch(const BatchRequest& request, const Console& console) {
+  for (const BatchItem& item : request.items) {  // each is read by a process of its own
+    NoteInput(item.session);
+    NoteInput((fs::path(item.session) / "session.toml").string());
+    NoteInput(JournalPath(item.session));
+  }
   // Before the work: the place can be written, and who looks meanwhile is told the truth.
   if (auto written = WriteSummary(request, std::vector<Outcome>(request.items.size())); !written) {
     return written;

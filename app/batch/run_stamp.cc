@@ -6,9 +6,11 @@
 #include <iterator>
 #include <span>
 
+#include "input_files.h"
 #include "lightcal/calibrate/session_files.h"
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "output_files.h"
 
@@ -31,7 +33,7 @@ std::vector<InputFile> FilesAt(const Node& document, std::string_view key) {
 
 bool StillTheSame(const fs::path& directory, const std::vector<InputFile>& files) {
   return std::ranges::all_of(files, [&](const InputFile& file) {
-    const auto bytes = ReadWholeFile((directory / file.path).string());
+    const auto bytes = ReadOutput((directory / file.path).string());
     return bytes && devices::Sha256Hex(*bytes) == file.sha256;
   });
 }
@@ -89,14 +91,14 @@ Result<RunStamp> RunStampFromJson(std::string_view text, std::string_view where)
 }
 
 Result<std::string> NamedFilesHash(const std::string& session_path) {
-  const auto loaded = LoadSession(session_path);
+  const auto loaded = LoadSession(session_path, InputSources().read_text);
   if (!loaded) return tl::unexpected(loaded.error());
   const Session& session = loaded->session;
   std::vector<std::string> files = session.input_files;
   std::ranges::move(MatchedFrames(session), std::back_inserter(files));
   std::string list;
   for (const std::string& file : files) {
-    auto bytes = ReadWholeFile(file);
+    auto bytes = ReadInputFile(file);
     if (!bytes) return Propagate(std::move(bytes));
     const fs::path relative = fs::path(file).lexically_proximate(session.directory);
     list += relative.generic_string() + '\n' + devices::Sha256Hex(*bytes) + '\n';
@@ -107,7 +109,7 @@ Result<std::string> NamedFilesHash(const std::string& session_path) {
 bool IsUpToDate(const std::string& directory, const std::string& session_directory,
                 const std::string& settings, const std::string& session_hash) {
   const std::string path = (fs::path(directory) / kRunStampFile).string();
-  const auto text = ReadWholeFile(path);
+  const auto text = ReadOutput(path);
   if (!text) return false;
   const auto stamp = RunStampFromJson(*text, path);
   return stamp && stamp->generator == GeneratorName() && stamp->settings == settings &&

@@ -28,7 +28,7 @@ struct RunStamp {
 [[nodiscard]] Result<RunStamp> RunStampFromJson(std::string_view text, std::string_view where);
 
 // SHA-256 over the names and contents of the files a session itself names: its toml, its journal,
-// its shoots and every frame its wildcards match now.   Fails: as LoadSession and ReadWholeFile.
+// its shoots and every frame its wildcards match now.   Fails: as LoadSession and ReadInputFile.
 [[nodiscard]] Result<std::string> NamedFilesHash(const std::string& session_path);
 
 // Whether `directory` holds, byte for byte, what this program would write there again: a stamp of

@@ -7,11 +7,13 @@
 #include "calibration_options.h"
 #include "clock.h"
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/calibrate/camera/calibrate_camera.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/records/camera_profile.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
 
@@ -80,15 +82,19 @@ std::string Table(const CameraProfile& profile) {
 }
 
 Result<void> RunCamera(const CameraOptions& options, Console& console) {
-  auto loaded = LoadSession(options.session);
+  auto loaded = LoadSession(options.session, InputSources().read_text);
   if (!loaded) return Propagate(std::move(loaded));
   console.Warn(loaded->warnings);
   Session& session = loaded->session;
   Warnings warnings;
-  auto profile = CalibrateCamera(session, devices::DiskSources(), warnings);
+  if (!options.output.empty()) {
+    const PlannedOutput planned{options.output, "lightcal.camera"};
+    if (auto free = CheckOutputs({planned}, options.force); !free) return free;
+  }
+  auto profile = CalibrateCamera(session, InputSources(), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
-  auto provenance = ProvenanceOf(session, devices::DiskSources(), SourceDateIso8601().value_or(""));
+  auto provenance = ProvenanceOf(session, InputSources(), SourceDateIso8601().value_or(""));
   if (!provenance) return Propagate(std::move(provenance));
   profile->provenance = std::move(*provenance);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;

@@ -10,6 +10,9 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "input_files.h"
+#include "lightcal/calibrate/wall_part.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/card_picture.h"
 #include "lightcal/presets/check/compare_readings.h"
@@ -25,7 +28,7 @@ namespace lightcal::app {
 namespace {
 
 struct CheckOptions {
-  std::string preset, session, render, rig, engine;
+  std::string preset, session, render, rig, engine, max_error = "5%";
 };
 
 // ---- a picture ----
@@ -64,10 +67,11 @@ Result<void> CheckRender(const CheckOptions& options, Console& console) {
   if (options.rig.empty()) {
     return WrongUsage("--rig", "is missing: the STEM.preset.json that was exported with the rig");
   }
-  const auto text = ReadWholeFile(options.rig);
+  const auto text = ReadInputFile(options.rig);
   if (!text) return tl::unexpected(text.error());
   const auto rig = RigFromPreset(*text, options.rig);
   if (!rig) return tl::unexpected(rig.error());
+  NoteInput(options.render);
   const auto picture = devices::ReadPicture(options.render);
   if (!picture) return tl::unexpected(picture.error());
   const bool linear = picture->info.meaning == SampleMeaning::kLinear;
@@ -107,15 +111,41 @@ Result<void> CheckRender(const CheckOptions& options, Console& console) {
 
 // ---- a preset ----
 
+// What the preset lacks, where that is more than it may.
+std::optional<Error> Judged(const CheckOptions& options, const std::vector<ComparedReading>& rows,
+                            const std::vector<std::string>& missing, double rms, double max_error) {
+  if (!missing.empty()) {
+    return Error{ErrorKind::kFailed, "missing_lights", options.preset,
+                 "has no light for " + Joined(missing) + "; export it from this session"};
+  }
+  if (rms <= max_error) return std::nullopt;
+  const auto worst = std::ranges::max_element(rows, {}, [](const ComparedReading& row) {
+    return row.used ? std::abs(row.Error().value_or(0.0)) : 0.0;
+  });
+  return Error{ErrorKind::kFailed, "preset_off", options.preset,
+               "is " + PercentText(rms) + " (rms) off what the meter showed, more than " +
+                   PercentText(max_error) + "; most at a reading of " + worst->light + ": " +
+                   RoundedText(worst->predicted_lx, 4) + " lx instead of " +
+                   RoundedText(worst->measured_lx, 4) +
+                   " lx. Export it again, or undo what was edited in it; --max-error allows more"};
+}
+
 Result<void> CheckPreset(const CheckOptions& options, Console& console) {
-  const auto text = ReadWholeFile(options.preset);
+  const auto max_error = ParseTolerance(options.max_error);
+  if (!max_error) return tl::unexpected(max_error.error());
+  const auto text = ReadInputFile(options.preset);
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.preset, *text, FilesBeside(options.preset));
   if (!lights) return tl::unexpected(lights.error());
   const auto calibrated = CalibrateAloud(options.session, {}, console);
   if (!calibrated) return tl::unexpected(calibrated.error());
-  const auto rows = CompareWithReadings(calibrated->session, calibrated->lights, *lights);
-  if (rows.empty()) {
+  const auto rows = CompareWithReadings(calibrated->session, calibrated->lights, *lights,
+                                        [&](const FittedLight& lamp, const ResidualRow& row) {
+                                          return WallPartOf(calibrated->session, lamp, row);
+                                        });
+  const auto missing = LampsMissing(calibrated->session, calibrated->lights, *lights);
+  const auto rms = RmsOf(rows);
+  if (!rms) {
     return Refused("no_readings", options.session, "has no reading to check against");
   }
   if (std::ranges::any_of(
@@ -130,22 +160,30 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
     readings.push_back({{"light", row.light},
                         {"index", row.index},
                         {"measured_lx", row.measured_lx},
+                        {"walls_lx", row.walls_lx},
                         {"predicted_lx", row.predicted_lx},
                         {"used", row.used},
                         {"distance_m", row.distance_m}});
-    std::string error = "-";
-    if (row.measured_lx > 0.0) {
-      readings.back().Put("error", row.predicted_lx / row.measured_lx - 1.0);
-      error = PercentText(row.predicted_lx / row.measured_lx - 1.0);
+    std::string error = kNone;
+    if (const auto relative = row.Error()) {
+      readings.back().Put("error", *relative);
+      error = PercentText(*relative);
     }
-    table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : "-",
-                     RoundedText(row.measured_lx, 4) + " lx",
-                     RoundedText(row.predicted_lx, 4) + " lx",
+    table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : kNone,
+                     RoundedText(row.measured_lx + row.walls_lx, 4) + " lx",
+                     RoundedText(row.walls_lx, 3) + " lx", RoundedText(row.predicted_lx, 4) + " lx",
                      error + (row.used ? "" : " (rejected)")});
   }
-  console.Print(TextTable({"light", "distance", "meter", "preset", "error"}, table));
-  console.Print("\nrms " + PercentText(RmsOf(rows)) + "\n");
-  console.PrintDocument({{"readings", readings}, {"rms_relative", RmsOf(rows)}});
+  console.Print(TextTable({"light", "distance", "meter", "of it walls", "preset", "error"}, table));
+  console.Print("\nrms " + PercentText(*rms) + " of what the meter showed\n");
+  Node document = {{"readings", readings},
+                   {"rms_relative", *rms},
+                   {"max_error", *max_error},
+                   {"missing", Node::UnlessEmpty(Node(missing))}};
+  if (const auto fault = Judged(options, rows, missing, *rms, *max_error)) {
+    return EndWithError(console, std::move(document), *fault);
+  }
+  console.PrintDocument(std::move(document));
   return {};
 }
 
@@ -164,6 +202,10 @@ Run BuildCheck(CLI::App& parser) {
   auto options = std::make_shared<CheckOptions>();
   parser.add_option("preset", options->preset, "An exported file: " + ReadableEndings(" "));
   parser.add_option("--session", options->session, "The readings it is checked against");
+  parser
+      .add_option("--max-error", options->max_error,
+                  "Exit 1 where the rms over the readings is beyond this")
+      ->default_str(options->max_error);
   parser.add_option("--render", options->render, "A picture an engine rendered of the rig");
   parser.add_option("--rig", options->rig, "The STEM.preset.json of that rig");
   parser

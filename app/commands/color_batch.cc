@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "input_files.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/cct_batch.h"
 #include "lightcal/core/numbers_text.h"
@@ -228,6 +229,7 @@ tl::unexpected<Error> NotAChromaticity(const std::string& subject) {
 Result<void> RunColorBatch(const std::string& path, Console& console) {
   if (path == "-") return WriteRows(std::cin, "standard input", console);
   if (auto checked = CheckFile(path); !checked) return checked;
+  NoteInput(path);
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return Failed("unreadable", path, "cannot be read; check its permissions");
   if (std::filesystem::is_regular_file(path)) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "input_files.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/light_models.h"
 #include "lightcal/core/numbers_text.h"
@@ -55,7 +56,10 @@ bool NamesIlluminant(const std::string& source) {
 }
 
 Result<ImportedFile> ReadSpectrumSource(const std::string& source) {
-  if (!NamesIlluminant(source)) return devices::ImportFile(source);
+  if (!NamesIlluminant(source)) {
+    NoteInput(source);
+    return devices::ImportFile(source);
+  }
   auto spectrum = NamedSpectrum(source);
   if (!spectrum) return Propagate(std::move(spectrum));
   ImportedFile file;

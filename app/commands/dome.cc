@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "dome/dome_options.h"
 #include "dome/dome_outputs.h"
+#include "input_files.h"
 #include "lightcal/calibrate/dome/make_dome.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
@@ -178,7 +179,7 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
 Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
   const auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
-  const Sources sources = devices::DiskSources();
+  const Sources sources = InputSources();
   auto measured = MeasureDome(plan->request, sources);
   if (!measured) return Propagate(std::move(measured));
   console.Warn(measured->warnings);

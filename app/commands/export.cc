@@ -7,6 +7,8 @@
 
 #include "color_words.h"
 #include "commands.h"
+#include "input_files.h"
+#include "light_input.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
@@ -69,11 +71,16 @@ Result<PresetOptions> OptionsOf(const ExportOptions& options) {
 
 Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOptions& options,
                                        const PresetOptions& preset) {
-  const auto text = ReadWholeFile(input);
-  if (!text) return tl::unexpected(text.error());
-  const auto lights = LightFileFromJson(*text, input);
+  const auto lights = LightsIn(input);
   if (!lights) return tl::unexpected(lights.error());
-  return ExportPresets(*lights, options.targets, fs::path(input).stem().string(), preset);
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(input, error);
+  const bool folder = fs::is_directory(whole, error);
+  const bool of_folder = !folder && whole.filename() == "session.toml";
+  const fs::path named = of_folder ? whole.parent_path().filename()
+                         : folder  ? whole.filename()
+                                   : fs::path(input).stem();
+  return ExportPresets(*lights, options.targets, named.string(), preset);
 }
 
 std::string WithDirectory(std::string line, const std::string& directory) {

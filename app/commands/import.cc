@@ -7,10 +7,12 @@
 #include "commands.h"
 #include "distribution_plan.h"
 #include "import_plan.h"
+#include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 
 namespace lightcal::app {
 namespace {
@@ -123,7 +125,7 @@ Result<std::vector<PlannedDistribution>> PlanDistributions(const Session& sessio
 Result<void> RunImport(const ImportOptions& options, Console& console) {
   const auto settings = SettingsOf(options);
   if (!settings) return tl::unexpected(settings.error());
-  const auto loaded = LoadSession(options.session);
+  const auto loaded = LoadSession(options.session, InputSources().read_text);
   if (!loaded) return tl::unexpected(loaded.error());
   console.Warn(loaded->warnings);
   const auto distributions = PlanDistributions(loaded->session, options, console);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/cct.h"
@@ -73,7 +74,7 @@ Result<InspectedPicture> Inspect(const InspectOptions& options, Console& console
   if (!convention) return tl::unexpected(convention.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
-  auto inspected = InspectPicture(options.image, devices::DiskSources(), *overrides, *convention);
+  auto inspected = InspectPicture(options.image, InputSources(), *overrides, *convention);
   if (inspected) console.Warn(inspected->warnings);
   return inspected;
 }

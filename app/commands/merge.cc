@@ -7,6 +7,7 @@
 
 #include "color_words.h"
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/calibrate/camera/read_camera_profile.h"
 #include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/numbers_text.h"
@@ -191,7 +192,7 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
 
 OutputWriter PictureWriter(const MergeOptions& options, const BracketMergeRequest& request,
                            const MergedBracket& merged) {
-  return {options.output, [&options, &request, &merged](const std::string& temporary) {
+  return {options.output, "exr", [&options, &request, &merged](const std::string& temporary) {
             devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.picture.data(), merged.width, merged.height,
                                               merged.channels);
@@ -208,7 +209,7 @@ OutputWriter PictureWriter(const MergeOptions& options, const BracketMergeReques
 }
 
 OutputWriter SigmaWriter(const MergeOptions& options, const MergedBracket& merged) {
-  return {options.sigma, [&options, &merged](const std::string& temporary) {
+  return {options.sigma, "exr", [&options, &merged](const std::string& temporary) {
             devices::ExrPicture exr;
             exr.samples = View2d<const float>(merged.sigma.data(), merged.width, merged.height);
             exr.channel_names = {"Y"};
@@ -304,7 +305,7 @@ std::string Table(const MergedBracket& merged) {
 }
 
 Result<void> RunMerge(const MergeOptions& options, Console& console) {
-  const Sources sources = devices::DiskSources();
+  const Sources sources = InputSources();
   const auto request = RequestOf(options, sources);
   if (!request) return tl::unexpected(request.error());
   const auto overrides = OverridesOf(options);
@@ -314,6 +315,9 @@ Result<void> RunMerge(const MergeOptions& options, Console& console) {
   const auto bracket = sources.open_bracket(options.frames, *overrides);
   if (!bracket) return tl::unexpected(bracket.error());
   if (auto safe = RefuseHopelessShutter(bracket->frames, *lamps); !safe) return safe;
+  std::vector<PlannedOutput> planned = {{options.output, "exr"}};
+  if (request->want_sigma) planned.push_back({options.sigma, "exr"});
+  if (auto free = CheckOutputs(planned, options.force); !free) return free;
   const auto merged = MergeBracket(*bracket, sources, *request);
   if (!merged) return tl::unexpected(merged.error());
   console.Warn(merged->warnings);

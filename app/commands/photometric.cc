@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/photometric_type_c.h"
 #include "lightcal/report/polar_plot.h"
@@ -159,6 +160,7 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
 
 Result<void> RunPhotometric(const PhotometricOptions& options, Console& console) {
   if (auto ok = CheckPhotometric(options); !ok) return ok;
+  NoteInput(options.file);
   const auto read = devices::ReadPhotometricFile(options.file);
   if (!read) return tl::unexpected(read.error());
   console.Warn(read->warnings);

@@ -11,7 +11,9 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "light_table.h"
+#include "lightcal/core/file_stem.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/reading_candidates.h"
@@ -159,11 +161,14 @@ Result<Session> SessionFromOptions(const QuickOptions& options) {
   if (options.readings.empty() && options.lumens.empty() && !options.plan) {
     return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
   }
+  if (options.name.empty() || !IsPrintable(options.name)) {
+    return WrongUsage("--name", "\"" + options.name + "\" is no name: letters that show, please");
+  }
   auto light = DescribeLight(options);
   if (!light) return Propagate(std::move(light));
   Session session;
   session.name = options.name;
-  session.stem = options.name;
+  session.stem = FileStem(options.name);
   session.directory = ".";
   session.lights.push_back(std::move(*light));
   if (!options.room.empty()) {

@@ -8,8 +8,10 @@
 
 #include "commands.h"
 #include "guide/guided_reading.h"
+#include "input_files.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "read_options.h"
 #include "reading_source.h"
 #include "session_names.h"
@@ -67,7 +69,7 @@ class ReadRun {
  private:
   Result<void> LoadTheSession() {
     if (options_.session.empty()) return {};
-    auto loaded = LoadSession(options_.session);
+    auto loaded = LoadSession(options_.session, InputSources().read_text);
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);

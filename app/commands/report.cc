@@ -8,6 +8,7 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
@@ -117,7 +118,7 @@ Result<void> CheckDistinct(const std::vector<OutputFile>& files) {
 // ---- the input ----
 
 Result<Source> FromLightFile(const std::string& path) {
-  const auto text = ReadWholeFile(path);
+  const auto text = ReadInputFile(path);
   if (!text) return tl::unexpected(text.error());
   auto lights = LightFileFromJson(*text, path);
   if (!lights) return Propagate(std::move(lights));

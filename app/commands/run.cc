@@ -12,6 +12,7 @@
 #include "calibration_options.h"
 #include "clock.h"
 #include "commands.h"
+#include "input_files.h"
 #include "light_table.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/presets/export_presets.h"
@@ -36,7 +37,7 @@ struct RunOptions {
   bool force = false;
   // Of a batch.
   int jobs = 0;
-  bool resume = false;
+  bool resume = false, recursive = false;
   std::string summary;
   // Given by main to every command; a batch hands them to each session's console.
   bool strict = false, quiet = false;
@@ -108,7 +109,7 @@ Result<std::string> SettingsHash(const RunOptions& options) {
     text += flag ? '1' : '0';
   }
   if (!asked.profile.empty()) {
-    auto profile = ReadWholeFile(asked.profile);
+    auto profile = ReadInputFile(asked.profile);
     if (!profile) return profile;
     text += '\n' + devices::Sha256Hex(*profile);
   }
@@ -133,7 +134,7 @@ Result<void> RunOfBatch(const RunOptions& options, const std::string& settings,
 }
 
 Result<void> RunRun(const RunOptions& options, Console& console) {
-  const auto sessions = FindSessions(options.sessions);
+  const auto sessions = FindSessions(options.sessions, options.recursive);
   if (!sessions) return tl::unexpected(sessions.error());
   const bool one_named = *sessions == options.sessions && sessions->size() == 1;
   const bool accounted = options.resume || options.jobs > 0 || !options.summary.empty();
@@ -179,6 +180,8 @@ Run BuildRun(CLI::App& parser) {
       .add_option("--jobs", options->jobs,
                   "Sessions at once, each in a process of its own [processors]")
       ->check(CLI::Range(1, 1024));
+  parser.add_flag("--recursive", options->recursive,
+                  "Of a folder, every session at any depth below it, not only those in it");
   parser.add_flag("--resume", options->resume,
                   "Leave sessions alone whose inputs, settings and outputs are as a former batch "
                   "left them");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "guide/shell_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "one_of.h"
@@ -161,8 +162,9 @@ Result<void> RunShoot(const ShootOptions& options, Console& console) {
   console.Print(FramesTable(outcome->shoot));
   if (!request->dry_run) {
     if (!outcome->shoot.capture) console.Print(BlockToPaste(*outcome));
-    console.Note(outcome->shoot.capture ? "The session holds it: lightcal run " + request->session
-                                        : "The frames are in " + outcome->folder);
+    console.Note(outcome->shoot.capture
+                     ? "The session holds it: lightcal run " + ShellWord(request->session)
+                     : "The frames are in " + outcome->folder);
   }
   console.PrintDocument(ToJson(*outcome, request->dry_run));
   return {};

@@ -8,6 +8,7 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "input_files.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/light_codec.h"
@@ -41,7 +42,7 @@ struct Input {
 
 Result<Input> ReadInput(const SimulateOptions& options, double tolerance, Console& console) {
   if (fs::path(options.input).extension() == ".json") {
-    const auto text = ReadWholeFile(options.input);
+    const auto text = ReadInputFile(options.input);
     if (!text) return tl::unexpected(text.error());
     auto lights = LightFileFromJson(*text, options.input);
     if (!lights) return Propagate(std::move(lights));

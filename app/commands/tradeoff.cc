@@ -12,6 +12,8 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "guide/shell_word.h"
+#include "input_files.h"
 #include "interrupt.h"
 #include "lightcal/calibrate/session_twin.h"
 #include "lightcal/core/units_text.h"
@@ -83,7 +85,7 @@ Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Q
   out.tolerance_relative = question.tolerance_relative;
   SessionTwin twin;
   if (options.synthetic) {
-    auto made = TwinOf(options.session, devices::DiskSources(), question.tolerance_relative);
+    auto made = TwinOf(options.session, InputSources(), question.tolerance_relative);
     if (!made) return Propagate(std::move(made));
     twin = *std::move(made);
   }
@@ -95,8 +97,8 @@ Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Q
   out.study = *std::move(study);
   if (!options.synthetic) return out;
   const std::vector<tradeoff::Named> settings = SettingsForTruth(out.study);
-  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, devices::DiskSources()), twin.truth,
-                                          settings, {}, watch);
+  auto truth = tradeoff::CompareWithTruth(TwinReplicas(twin, InputSources()), twin.truth, settings,
+                                          {}, watch);
   if (!truth) return Propagate(std::move(truth));
   out.truth = *std::move(truth);
   if (question.budget_s) return out;
@@ -146,8 +148,8 @@ Result<void> RunTradeoff(const TradeoffOptions& options, Console& console) {
   console.Print(TradeoffTable(*answer) + "\n");
   for (const std::string& sentence : TradeoffSentences(*answer)) console.Print(sentence + "\n");
   if (!options.output.empty() && answer->study.saved_share > 0.0) {
-    console.Print("next: lightcal run " + options.session + " --profile " + options.output +
-                  "/profile.json\n");
+    console.Print("next: lightcal run " + ShellWord(options.session) + " --profile " +
+                  ShellWord(options.output) + "/profile.json\n");
   }
   console.PrintDocument(TradeoffNode(*answer));
   return {};

@@ -14,7 +14,6 @@
 namespace lightcal::app {
 namespace {
 
-
 Node VerdictNode(const FileVerdict& verdict) {
   return {{"file", verdict.path},
           {"ok", !verdict.error},
@@ -57,7 +56,7 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
     std::error_code error;
     const bool folder = std::filesystem::is_directory(path, error);
     const auto files =
-        folder ? FindSessions({path}) : Result<std::vector<std::string>>{std::vector{path}};
+        folder ? FindSessions({path}, true) : Result<std::vector<std::string>>{std::vector{path}};
     if (!files) return tl::unexpected(files.error());
     for (const std::string& file : *files) verdicts.push_back(ValidateFile(file));
   }

@@ -17,7 +17,7 @@ std::string PlateText(const CameraSettings& plate) {
 }  // namespace
 
 OutputWriter DomeExr(const std::string& path, const MadeDome& made, const DomeSettings& settings) {
-  return {path, [&made, settings](const std::string& temporary) {
+  return {path, "exr", [&made, settings](const std::string& temporary) {
             const MeasuredDome& measured = made.measured;
             const Dome& dome = measured.input.dome;
             devices::ExrPicture exr;

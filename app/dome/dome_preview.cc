@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "dome/dome_outputs.h"
+#include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/base64.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/panorama/turn_north.h"
 #include "picture_file.h"
 #include "raster_png.h"
-#include "lightcal/colorimetry/srgb_encoding.h"
-#include "lightcal/core/base64.h"
 
 namespace lightcal::app {
 namespace {
@@ -95,7 +95,7 @@ Result<OutputFile> DomePreview(const std::string& path, const MadeDome& made) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" "
       "xmlns:xlink=\"http://www.w3.org/1999/xlink\"" +
       size + "\" viewBox=\"0 0 " + std::to_string(small.width) + " " +
-      std::to_string(small.height) + "\">\n<image" + size +
+      std::to_string(small.height) + "\">\n<!-- written by lightcal -->\n<image" + size +
       "\" xlink:href=\"data:image/png;base64," + Base64(PictureOf(small)) + "\"/>\n";
   for (std::size_t i = 0; i < made.names.size(); ++i) {
     const DomeLight& light = measured.lights[i];

@@ -15,6 +15,7 @@
 #include "light_table.h"
 #include "lightcal/calibrate/reading_guide.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "option_words.h"
@@ -93,8 +94,7 @@ class Walk {
   void Introduce(const Session& session) const {
     const LightDescription& light = *FindLight(session, frame_.light);
     console_.Note("Lamp " + light.name + " (" + std::string(LightKindName(light.kind)) +
-                  "), until it is known within " + Within(options_.until_relative) +
-                  " (95 %).");
+                  "), until it is known within " + Within(options_.until_relative) + " (95 %).");
     if (light.kind != LightKind::kDirectional && light.kind != LightKind::kDome) {
       console_.Note("Measure distances from one point of the lamp that you can find again.");
     }
@@ -216,7 +216,7 @@ class Walk {
 
   void Explain(const Error& error) const {
     const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-    std::fprintf(stderr, "   %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
+    std::fprintf(stderr, "   %s\n", Printable(subject + InOptionWords(error.message)).c_str());
   }
 
   // Into the journal, unless it looks wrong and the person takes it back. False: measure again.

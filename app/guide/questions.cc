@@ -8,6 +8,7 @@
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "option_words.h"
 #include "terminal.h"
 
@@ -40,7 +41,7 @@ Result<std::string> Questions::Next(const Question& question) const {
 
 void Questions::Explain(const Error& error) {
   const std::string subject = error.subject.empty() ? "" : error.subject + ": ";
-  std::fprintf(stderr, "  %s%s\n", subject.c_str(), InOptionWords(error.message).c_str());
+  std::fprintf(stderr, "  %s\n", Printable(subject + InOptionWords(error.message)).c_str());
 }
 
 std::string MenuText(const std::vector<Choice>& choices) {

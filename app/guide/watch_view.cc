@@ -13,6 +13,7 @@
 
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "measuring.h"
 
 namespace lightcal::app {
@@ -117,7 +118,7 @@ std::size_t DrawnOver::Columns() {
 void DrawnOver::Draw(const std::vector<std::string>& lines) {
   std::string text;
   if (drawn_ > 0) text += "\x1b[" + std::to_string(drawn_) + "A";
-  for (const std::string& line : lines) text += "\r" + line + "\x1b[K\n";
+  for (const std::string& line : lines) text += "\r" + Printable(line) + "\x1b[K\n";
   drawn_ = lines.size();
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);

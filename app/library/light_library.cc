@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "input_files.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 
@@ -80,7 +81,7 @@ Result<std::vector<LibraryLight>> LightsInFolder(const std::string& folder, Warn
   std::ranges::sort(paths);
   std::vector<LibraryLight> lights;
   for (const std::string& path : paths) {
-    const auto text = ReadWholeFile(path);
+    const auto text = ReadInputFile(path);
     if (!text || !LooksLikeLights(*text)) continue;
     auto file = LightFileFromJson(*text, path);
     if (!file) {

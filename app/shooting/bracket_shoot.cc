@@ -12,9 +12,12 @@
 #include <vector>
 
 #include "clock.h"
+#include "guide/shell_word.h"
+#include "input_files.h"
 #include "interrupt.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "lightcal_devices/captures/camera_settings.h"
 #include "lightcal_devices/captures/tether.h"
@@ -57,7 +60,7 @@ class BracketShoot {
 
  private:
   Result<void> OpenSession() {
-    auto loaded = LoadSession(request_.session);
+    auto loaded = LoadSession(request_.session, InputSources().read_text);
     if (!loaded) return Propagate(std::move(loaded));
     session_directory_ = loaded->session.directory;
     if (!request_.resume) return CheckNames(loaded->session, request_.light, "");
@@ -293,7 +296,7 @@ class BracketShoot {
         shoot_.frames, [&](const ShotFrame& frame) { return folder_->Has(frame); });
     error.message += ". " + std::to_string(here) + " of " + std::to_string(shoot_.frames.size()) +
                      " frames are in " + folder_->path() + "; go on with: lightcal shoot -s " +
-                     request_.session + " --resume";
+                     ShellWord(request_.session) + " --resume";
     return error;
   }
 

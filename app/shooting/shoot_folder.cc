@@ -43,7 +43,7 @@ Result<std::pair<ShootFolder, TetheredShoot>> ShootFolder::Unfinished(const std:
     ShootFolder folder(entry.path().string());
     const std::string record = folder.PathOf(std::string(kTetheredShootFile));
     if (!fs::exists(record, ignored)) continue;
-    const auto text = ReadWholeFile(record);
+    const auto text = ReadOutput(record);
     if (!text) return tl::unexpected(text.error());
     auto shoot = TetheredShootFromJson(*text, record);
     if (!shoot) return Propagate(std::move(shoot));
@@ -79,7 +79,7 @@ Result<std::string> ShootFolder::Fetch(devices::TetheredCamera& camera,
   const std::string name = "frame_" + TwoDigits(number) +
                            (extension.empty() ? "" : "." + PlainName(extension.substr(1)));
   const auto fetch = [&](const std::string& temporary) { return camera.Download(file, temporary); };
-  if (auto written = WriteOutputsWith({{PathOf(name), fetch}}, true); !written) {
+  if (auto written = WriteOutputsWith({{PathOf(name), "", fetch}}, true); !written) {
     return Propagate(std::move(written));
   }
   return name;

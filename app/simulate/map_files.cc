@@ -128,7 +128,7 @@ Result<std::vector<OutputWriter>> MapWriters(const Simulated& simulated,
   std::vector<OutputWriter> out;
   for (const std::string& name : names) {
     if (EndsWith(name, ".exr")) {
-      out.push_back({name, [&simulated](const std::string& temporary) {
+      out.push_back({name, "exr", [&simulated](const std::string& temporary) {
                        return WriteMapExr(simulated, temporary);
                      }});
     } else if (EndsWith(name, ".csv")) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "batch/run_stamp.h"
+#include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/check/rig_file.h"
@@ -273,7 +274,7 @@ FileVerdict ValidateFile(const std::string& path) {
                           "is larger than 256 MiB, which no file lightcal validates is"};
     return verdict;
   }
-  const auto text = ReadWholeFile(path);
+  const auto text = ReadInputFile(path);
   if (text) {
     ValidateText(*text, verdict);
   } else {

@@ -8,8 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "input_files.h"
 #include "lightcal/calibrate/session_files.h"
 #include "lightcal/records/session_codec.h"
+#include "lightcal/records/session_reader.h"
 #include "lightcal_devices/captures/bracket.h"
 
 namespace lightcal::app {
@@ -114,7 +116,7 @@ std::string Counted(std::size_t count, const std::string& noun) {
 
 void ValidateSession(FileVerdict& verdict) {
   verdict.format = "session";
-  auto loaded = LoadSession(verdict.path);
+  auto loaded = LoadSession(verdict.path, InputSources().read_text);
   if (!loaded) {
     verdict.error = std::move(loaded).error();
     return;
@@ -134,7 +136,7 @@ void ValidateJournal(std::string_view text, FileVerdict& verdict) {
     ValidateAlone(text, verdict);
     return;
   }
-  auto loaded = LoadSession(session);
+  auto loaded = LoadSession(session, InputSources().read_text);
   if (!loaded) {
     verdict.error = std::move(loaded).error();
     return;

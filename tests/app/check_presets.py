@@ -105,10 +105,14 @@ def lightcal(*arguments):
     return subprocess.run([LIGHTCAL, *map(str, arguments)], capture_output=True, text=True, check=False)
 
 
-def check(preset, session):
+def check(preset, session, wrong=False):
+    """Exit 1 where the preset is off by more than 5 %, and then an error beside the whole answer."""
     done = lightcal("check", preset, "--session", session, "--json")
-    assert done.returncode == 0, f"{preset}: {done.stdout} {done.stderr}"
-    return json.loads(done.stdout)["readings"]
+    answer = json.loads(done.stdout)
+    assert done.returncode == (1 if wrong else 0), f"{preset}: {done.stdout} {done.stderr}"
+    assert ("error" in answer) == wrong, answer
+    assert (answer["rms_relative"] > 0.05) == wrong, answer
+    return answer["readings"]
 
 
 def read(path):
@@ -155,7 +159,7 @@ def doubles_where_the_file_is_doubled(session, name):
         assert len(rows) == len(readings), (preset, rows)
         for row in rows:
             assert abs(row["error"]) < bar, (preset, row)
-        twice = check(edited(preset, FIGURE[ending], 2.0), session)
+        twice = check(edited(preset, FIGURE[ending], 2.0), session, wrong=True)
         for row, before in zip(twice, rows):
             ratio = row["predicted_lx"] / before["predicted_lx"]
             assert abs(ratio - 2) < 1e-9, (preset, ratio)
@@ -166,11 +170,12 @@ def other_faults_show(session):
     temperature of 2700 K has the luminance .517 of its largest component (Krystek's locus)."""
     scene = file_of(session, "tscn")
     before = check(scene, session)
-    for row, was in zip(check(edited(scene, r"(omni_attenuation = )(2)", 0.5), session), before):
+    for row, was in zip(check(edited(scene, r"(omni_attenuation = )(2)", 0.5), session,
+                              wrong=True), before):
         # By its distance, but for the fit's offset.
         assert abs(row["predicted_lx"] / was["predicted_lx"] / row["distance_m"] - 1) < 0.02, row
-    for row, was in zip(check(edited(scene, r"(light_temperature = )(6500)", 2700 / 6500), session),
-                        before):
+    for row, was in zip(check(edited(scene, r"(light_temperature = )(6500)", 2700 / 6500), session,
+                              wrong=True), before):
         # The lamp's own 2700 K twice over.
         assert 0.5 < row["predicted_lx"] / was["predicted_lx"] < 0.75, row
     short = scene.parent / "short.tscn"
@@ -195,7 +200,7 @@ def spoilt_files_are_answered(session, name):
             spoilt = session / f"spoilt.{ending}"
             spoilt.write_text("\n".join(lines))
             done = lightcal("check", spoilt, "--session", session, "--json")
-            assert done.returncode in (0, 3), (name, done.returncode, done.stderr, "\n".join(lines))
+            assert done.returncode in (0, 1, 3), (name, done.returncode, done.stderr, "\n".join(lines))
             assert "null" not in done.stdout and "nan" not in done.stdout, (done.stdout, lines)
 
 

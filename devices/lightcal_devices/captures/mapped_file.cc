@@ -75,7 +75,7 @@ Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject
 }
 
 Result<MappedFile> MapFile(const std::string& path) {
-  const Scratch fd(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Scratch fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
   struct stat about {};
   if (fd.get() < 0 || fstat(fd.get(), &about) != 0) {
     return Failed(errno == ENOENT ? "not_found" : "unreadable", path, std::strerror(errno));

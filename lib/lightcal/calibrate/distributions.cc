@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "lightcal/core/file_stem.h"
 #include "lightcal/light/thin_table.h"
 #include "lightcal/records/photometric_type_c.h"
 
@@ -12,7 +13,7 @@ std::vector<std::string> DistributionFilesOf(const Session& session, const std::
                                              const Sources& sources) {
   std::vector<std::string> found;
   for (const char* extension : {".ies", ".ldt"}) {
-    const std::string path = PathInSession(session, "captures/" + light + extension);
+    const std::string path = PathInSession(session, "captures/" + FileStem(light) + extension);
     if (sources.exists(path)) found.push_back(path);
   }
   return found;

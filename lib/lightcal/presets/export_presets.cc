@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "lightcal/core/file_stem.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/presets/preset_table.h"
 
 namespace lightcal {
@@ -62,6 +64,9 @@ Result<ExportedPresets> ExportPresets(const LightFile& lights,
                                       const std::string& stem, const PresetOptions& options) {
   const auto chosen = ChosenTargets(targets);
   if (!chosen) return tl::unexpected(chosen.error());
+  if (stem != FileStem(stem) || !IsPrintable(stem)) {
+    return Refused("bad_name", stem, "is no stem of file names: a path, hidden, or unprintable");
+  }
   ExportedPresets all;
   for (const PresetTarget& target : *chosen) {
     auto preset = target.exporter(lights, stem, options);

@@ -8,13 +8,12 @@
 
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 
 namespace lightcal::records {
 namespace {
 
 constexpr std::size_t kLongestShown = 60;
-
-bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 std::string NumberText(double value) {
   if (std::isnan(value)) return "nan";
@@ -32,8 +31,9 @@ std::string FaultOfNumber(std::string_view key, double value, const NumberRule& 
 }
 
 std::string FaultOfText(std::string_view key, std::string_view value) {
-  if (std::ranges::none_of(value, IsControl)) return "";
-  return std::string(key) + " = " + Quoted(value) + " holds a control character";
+  if (IsPrintable(value)) return "";
+  return std::string(key) + " = " + Quoted(value) +
+         " holds a control character, or one that turns the direction of writing";
 }
 
 std::string FaultOfChromaticity(std::string_view key, Xy xy) {
@@ -43,8 +43,7 @@ std::string FaultOfChromaticity(std::string_view key, Xy xy) {
 }
 
 std::string Quoted(std::string_view text) {
-  std::string shown = "\"";
-  for (const char c : text.substr(0, kLongestShown)) shown += IsControl(c) ? '?' : c;
+  std::string shown = "\"" + Printable(text.substr(0, kLongestShown));
   if (text.size() > kLongestShown) shown += "...";
   return shown + "\"";
 }

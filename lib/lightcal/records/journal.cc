@@ -69,7 +69,7 @@ tl::unexpected<Error> WriteFailure(const std::string& path, int error) {
 }
 
 off_t SizeOf(const File& file) {
-  struct stat status{};
+  struct stat status {};
   return ::fstat(file.get(), &status) == 0 ? status.st_size : -1;
 }
 
@@ -140,10 +140,15 @@ Result<void> AppendToJournal(const std::string& journal_path, std::span<const Re
     lines += *line + "\n";
   }
   constexpr mode_t kMode = 0666;
-  const File file(::open(journal_path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, kMode));
+  const File file(
+      ::open(journal_path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode));
+  if (file.get() < 0 && errno == ELOOP) {
+    return Failed("journal_write", journal_path,
+                  "is a link to another file, which is not written to; put the file itself there");
+  }
   if (file.get() < 0) return WriteFailure(journal_path, errno);
   if (auto locked = Lock(file, journal_path); !locked) return locked;
-  struct stat status{};
+  struct stat status {};
   if (::fstat(file.get(), &status) != 0) return WriteFailure(journal_path, errno);
   if (!S_ISREG(status.st_mode)) return WriteFailure(journal_path, EINVAL);
   const std::string bytes = (EndsInsideLine(file.get(), status.st_size) ? "\n" : "") + lines;

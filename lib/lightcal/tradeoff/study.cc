@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/tradeoff/combine.h"
@@ -52,8 +53,9 @@ Result<std::vector<bool>> KnobsToMove(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) {
-      return WrongUsage("{study.knobs} " + name, "is no knob; did you mean \"" +
-                                                     std::string(NearestWord(name, known)) + "\"?");
+      return WrongUsage(
+          "{study.knobs} " + name,
+          "is no knob" + DidYouMean(name, std::vector<Knob>(Knobs().begin(), Knobs().end())));
     }
     moved[static_cast<std::size_t>(found - known.begin())] = true;
   }

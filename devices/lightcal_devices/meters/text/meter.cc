@@ -66,7 +66,11 @@ Result<TextReading> TextMeter::NextReading(const Cancellation& cancellation, int
     if (cancellation.Requested()) return Interrupted(DeviceName());
     const auto bytes = transport_.Read(kLongestLineBytes, setup_.timing.reply);
     if (!bytes && cancellation.Requested()) return Interrupted(DeviceName());
-    if (!bytes) return tl::unexpected(bytes.error());
+    if (!bytes) {
+      Error error = bytes.error();
+      if (bad_lines > 0) error.message += "; it printed " + last.subject + ": " + last.message;
+      return tl::unexpected(std::move(error));
+    }
     std::string line;
     for (const std::byte byte : *bytes) line.push_back(static_cast<char>(byte));
     auto reading = DecodeLine(line);

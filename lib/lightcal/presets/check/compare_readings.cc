@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/check/compare_readings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -75,15 +76,53 @@ double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp
   return sum;
 }
 
-}  // namespace
-
-std::vector<ComparedReading> CompareWithReadings(const Session& session, const LightFile& lamps,
-                                                 std::vector<EngineLight> lights) {
+// Lights that stand for no lamp by name stand for all: photometric files of any make.
+void FreeForeignNames(const Session& session, std::vector<EngineLight>& lights) {
   for (EngineLight& light : lights) {
     if (!light.placed && FindLight(session, light.name) == nullptr) light.name.clear();
   }
+}
+
+bool StandsFor(const EngineLight& light, const FittedLight& lamp) {
+  if (light.name.empty()) return !light.placed || lamp.kind == LightKind::kDome;
+  return light.name == lamp.name;
+}
+
+// A photometric file is of one lamp, and says nothing of the others.
+bool IsOfAnother(const std::vector<EngineLight>& lights, const FittedLight& lamp) {
+  return !lights.empty() && std::ranges::all_of(lights, [&](const EngineLight& light) {
+    return !light.placed && !light.name.empty() && light.name != lamp.name;
+  });
+}
+
+}  // namespace
+
+std::optional<double> ComparedReading::Error() const {
+  const double shown = measured_lx + walls_lx;
+  if (!(shown > 0.0)) return std::nullopt;
+  return (predicted_lx - measured_lx) / shown;
+}
+
+std::vector<std::string> LampsMissing(const Session& session, const LightFile& lamps,
+                                      std::vector<EngineLight> lights) {
+  FreeForeignNames(session, lights);
+  std::vector<std::string> missing;
+  for (const FittedLight& lamp : lamps.lights) {
+    if (IsOfAnother(lights, lamp)) continue;
+    const bool there = std::ranges::any_of(
+        lights, [&](const EngineLight& light) { return StandsFor(light, lamp); });
+    if (!there) missing.push_back(lamp.name);
+  }
+  return missing;
+}
+
+std::vector<ComparedReading> CompareWithReadings(const Session& session, const LightFile& lamps,
+                                                 std::vector<EngineLight> lights,
+                                                 const WallPart& walls_of) {
+  FreeForeignNames(session, lights);
   std::vector<ComparedReading> rows;
   for (const FittedLight& lamp : lamps.lights) {
+    if (IsOfAnother(lights, lamp)) continue;
     const auto readings = ReadingsOf(session, lamp.name);
     const LightDescription* description = FindLight(session, lamp.name);
     for (const ResidualRow& row : lamp.residuals) {
@@ -92,23 +131,25 @@ std::vector<ComparedReading> CompareWithReadings(const Session& session, const L
         continue;
       }
       const Reading& reading = *readings[static_cast<std::size_t>(row.index)];
-      rows.push_back({lamp.name, row.index, row.distance_m,
-                      row.measured_lx - (lamp.ambient_lx ? lamp.ambient_lx->value : 0.0),
+      const double others = lamp.ambient_lx ? lamp.ambient_lx->value : 0.0;
+      const double walls = walls_of(lamp, row);
+      rows.push_back({lamp.name, row.index, row.distance_m, row.measured_lx - others - walls, walls,
                       Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used});
     }
   }
   return rows;
 }
 
-double RmsOf(const std::vector<ComparedReading>& rows) {
+std::optional<double> RmsOf(const std::vector<ComparedReading>& rows) {
   double sum = 0.0;
   int count = 0;
   for (const ComparedReading& row : rows) {
-    if (!row.used || !(row.predicted_lx > 0.0)) continue;
-    sum += std::pow(row.measured_lx / row.predicted_lx - 1.0, 2);
+    const auto error = row.Error();
+    if (!row.used || !error) continue;
+    sum += *error * *error;
     ++count;
   }
-  return count > 0 ? std::sqrt(sum / count) : 0.0;
+  return count > 0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
 }
 
 }  // namespace lightcal

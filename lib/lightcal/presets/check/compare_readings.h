@@ -2,6 +2,7 @@
 // A preset's lights against the readings they were made from.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,18 +17,31 @@ struct ComparedReading {
   std::string light;
   int index = 0;  // among the readings of that light
   std::optional<double> distance_m;
-  double measured_lx = 0.0, predicted_lx = 0.0;  // without the ambient light
+  // measured: what the lamp itself gave, without the ambient light and, as the fit has it, the
+  // walls'; predicted: what the file's lights give.
+  double measured_lx = 0.0, walls_lx = 0.0, predicted_lx = 0.0;
   bool used = true;
+
+  // Of what the meter showed, the ambient light aside; absent where it showed nothing.
+  [[nodiscard]] std::optional<double> Error() const;
 };
+
+// Of a row of the fit, the lux off the walls: no lamp in an engine gives them.
+using WallPart = std::function<double(const FittedLight& lamp, const ResidualRow& row)>;
 
 // One row a reading, in the order of the lamps' residuals. `lamps` is what was fitted to `session`:
 // it says where lamps that the file does not place stand. A photometric file may be of any make: it
-// stands for every lamp, unless it names one.
+// stands for every lamp, unless it names one: then that one alone is compared.
 [[nodiscard]] std::vector<ComparedReading> CompareWithReadings(const Session& session,
                                                                const LightFile& lamps,
-                                                               std::vector<EngineLight> lights);
+                                                               std::vector<EngineLight> lights,
+                                                               const WallPart& walls_of);
 
-// Root mean square of measured/predicted - 1 over the used readings; 0 without any.
-[[nodiscard]] double RmsOf(const std::vector<ComparedReading>& rows);
+// Fitted lamps that no light of the file stands for, by name.
+[[nodiscard]] std::vector<std::string> LampsMissing(const Session& session, const LightFile& lamps,
+                                                    std::vector<EngineLight> lights);
+
+// Root mean square of the used readings' errors; absent without any.
+[[nodiscard]] std::optional<double> RmsOf(const std::vector<ComparedReading>& rows);
 
 }  // namespace lightcal

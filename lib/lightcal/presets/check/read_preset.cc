@@ -25,6 +25,15 @@ FileText OwnDirectory(const FileBeside& beside) {
   };
 }
 
+// A reader's own words: "[json.exception.out_of_range.403] key 'nodes' not found" from there on.
+std::string WithoutOrigin(std::string_view message) {
+  const std::size_t end = message.find("] ");
+  if (message.starts_with("[json.exception.") && end != std::string_view::npos) {
+    message.remove_prefix(end + 2);
+  }
+  return std::string(message);
+}
+
 }  // namespace
 
 Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const std::string& text,
@@ -38,7 +47,7 @@ Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const s
     return lights;
   } catch (const std::exception& error) {
     return Refused("bad_preset", path,
-                   std::string("is not as lightcal writes it: ") + error.what());
+                   "is not as lightcal writes it: " + WithoutOrigin(error.what()));
   }
 }
 
