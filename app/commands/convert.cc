@@ -148,6 +148,11 @@ Result<LumensPerWatt> ParseEfficacy(const std::string& text) {
   const auto number = ParseInUnit(text, "lm/w");
   if (!number) return tl::unexpected(number.error());
   if (!(*number > 0.0)) return Refused("not_positive", "--efficacy", "must be above zero");
+  if (*number > kMaximumEfficacy.value()) {
+    return Refused("above_efficacy", "--efficacy",
+                   "no light gives more than 683 lm/W, and that is green of 555 nm; white light "
+                   "ends near 350 lm/W");
+  }
   return LumensPerWatt(*number);
 }
 

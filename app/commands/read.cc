@@ -57,7 +57,12 @@ class ReadRun {
         ReadingSource::Open({options_.session, typed, options_.request}, AsksQuestions(), console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
-    auto done = TakeSeries(options_.frame);
+    Reading frame = options_.frame;
+    const bool by_hand = source_.meter() == nullptr || !options_.lux.empty();
+    if (by_hand && session_ && frame.meter.empty() && session_->meters.size() == 1) {
+      frame.meter = session_->meters.front().name;  // whose accuracy the session states
+    }
+    auto done = TakeSeries(frame);
     const auto finished = source_.Finish(console_);
     if (done && !finished) return finished;
     if (!done) return done;

@@ -8,6 +8,7 @@
 
 #include "calibration_options.h"
 #include "commands/color_source.h"
+#include "input_files.h"
 #include "light_input.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/ssi.h"
@@ -17,7 +18,6 @@
 #include "lightcal/match/demonstration_gels.h"
 #include "lightcal/records/known_cameras.h"
 #include "lightcal_devices/files/gel_file.h"
-#include "output_files.h"
 #include "report_html.h"
 
 namespace lightcal::app {
@@ -157,7 +157,10 @@ Result<MatchLight> ReadMatchLight(const MatchLightWords& words, Console& console
 }
 
 Result<GelSet> ReadGels(const std::string& file, Console& console) {
-  if (!file.empty()) return devices::ReadGelFile(file);
+  if (!file.empty()) {
+    NoteInput(file);
+    return devices::ReadGelFile(file);
+  }
   console.Warn({"demonstration_gels", "gels",
                 "no gel file is named: these are 22 filters by formula that nobody makes; give "
                 "your maker's figures with --gels FILE.csv"});
@@ -212,7 +215,7 @@ Result<std::vector<CameraSensitivities>> ReadCameras(const std::string& words) {
   }
   std::vector<CameraSensitivities> cameras;
   for (const std::string& file : files) {
-    const auto text = ReadWholeFile(file);
+    const auto text = ReadInputFile(file);
     if (!text) return tl::unexpected(text.error());
     auto camera = CameraSensitivitiesFromJson(*text, file);
     if (!camera) return Propagate(std::move(camera));

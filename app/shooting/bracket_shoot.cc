@@ -13,11 +13,9 @@
 
 #include "clock.h"
 #include "guide/shell_word.h"
-#include "input_files.h"
 #include "interrupt.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/session_codec.h"
-#include "lightcal/records/session_reader.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "lightcal_devices/captures/camera_settings.h"
 #include "lightcal_devices/captures/tether.h"
@@ -60,7 +58,8 @@ class BracketShoot {
 
  private:
   Result<void> OpenSession() {
-    auto loaded = LoadSession(request_.session, InputSources().read_text);
+    // Not noted as read: its capture.json is written anew, frame by frame.
+    auto loaded = LoadSession(request_.session);
     if (!loaded) return Propagate(std::move(loaded));
     session_directory_ = loaded->session.directory;
     if (!request_.resume) return CheckNames(loaded->session, request_.light, "");

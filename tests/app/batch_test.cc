@@ -55,7 +55,7 @@ std::map<std::string, std::string> Contents(const fs::path& folder) {
 // Which file it is and when it was written: any new writing changes it.
 using Writing = std::tuple<ino_t, time_t, long>;
 Writing WritingOf(const fs::path& path) {
-  struct stat status{};
+  struct stat status {};
   EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
   return {status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
@@ -202,8 +202,15 @@ TEST_F(Batch, WhateverDecidesTheOutputsIsRunAgain) {
   EXPECT_EQ(up_to_date(), 1) << "a changed session";
   fs::remove(lamps + "/b/out/light.json");
   EXPECT_EQ(up_to_date(), 1) << "a lost output";
-  folder.Write("lamps/b/out/report.html", "lightcal, edited by hand");
+  const std::string page = ReadFile(lamps + "/b/out/report.html");
+  folder.Write("lamps/b/out/report.html", page + "<!-- edited by hand -->");
   EXPECT_EQ(up_to_date(), 1) << "a changed output";
+  folder.Write("lamps/b/out/report.html", "notes about lightcal, none of its own");
+  EXPECT_EQ(RunLightcal({"run", lamps + "/b", "--resume", "--to", "gltf"}).exit_code, 1)
+      << "a person's file in its place";
+  EXPECT_EQ(ReadFile(lamps + "/b/out/report.html"), "notes about lightcal, none of its own");
+  folder.Write("lamps/b/out/report.html", page);
+  EXPECT_GE(up_to_date(), 1);
   EXPECT_EQ(up_to_date(), 2);
 }
 

@@ -190,6 +190,21 @@ TEST_F(StrangersFiles, SlipsAreNamed) {
   EXPECT_THAT(printed.err, HasSubstr("hello\""));
 }
 
+TEST_F(StrangersFiles, WhatNoLightIsIsRefused) {
+  EXPECT_THAT(Answer({"convert", "60W", "--efficacy", "900lm/W", "--kind", "point"}, 3).err,
+              HasSubstr("683"));
+  Answer({"convert", "60W", "--efficacy", "200lm/W", "--kind", "point"}, 0);
+  EXPECT_THAT(Answer({"color", "--xy", "44.76", "40.74"}, 3).err, HasSubstr("parts of one"));
+}
+
+TEST_F(StrangersFiles, TheAccuracyThatNewWasToldIsThatOfATypedReading) {
+  const std::string session = folder_.path() + "/lamp";
+  ASSERT_EQ(RunLightcal({"new", session, "--meter", "none", "--accuracy", "3%", "--yes"}).exit_code,
+            0);
+  Answer({"read", "-s", session, "--light", "key", "--distance", "1m", "--lux", "100"}, 0);
+  EXPECT_EQ(json::parse(ReadFile(session + "/readings.jsonl")).value("meter", ""), "my_meter");
+}
+
 TEST_F(StrangersFiles, APipeThatNobodyWritesToIsGivenUp) {
   const std::string pipe = folder_.path() + "/pipe.csv";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
