@@ -7,10 +7,12 @@
 
 #include "color_words.h"
 #include "commands.h"
+#include "lightcal/calibrate/environments.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
 
@@ -73,7 +75,12 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightFileFromJson(*text, input);
   if (!lights) return tl::unexpected(lights.error());
-  return ExportPresets(*lights, options.targets, fs::path(input).stem().string(), preset);
+  PresetOptions with_pictures = preset;
+  auto pictures =
+      LoadEnvironments(*lights, fs::path(input).parent_path().string(), devices::DiskSources());
+  if (!pictures) return Propagate(std::move(pictures));
+  with_pictures.environments = *std::move(pictures);
+  return ExportPresets(*lights, options.targets, fs::path(input).stem().string(), with_pictures);
 }
 
 std::string WithDirectory(std::string line, const std::string& directory) {
