@@ -189,17 +189,15 @@ Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
 
   std::vector<OutputFile> texts;
-  if (made->light_file) {
-    auto json = LightFileToJson(*made->light_file);
-    if (!json) return Propagate(std::move(json));
-    texts.push_back({"light.json", std::move(*json)});
-  }
+  auto json = LightFileToJson(made->light_file);
+  if (!json) return Propagate(std::move(json));
+  texts.push_back({"light.json", std::move(*json)});
   auto preview = DomePreview("dome.png", *made);
   if (!preview) return Propagate(std::move(preview));
   texts.push_back(std::move(*preview));
   PlaceUnder(options.output, texts);
   std::vector<OutputWriter> writers = {
-      DomeExr(options.output + "/dome.exr", *made, plan->settings)};
+      DomeExr(options.output + "/" + kDomePicture, *made, plan->settings)};
   for (const OutputFile& file : texts) writers.push_back(WriterOf(file));
   if (auto written = WriteOutputsWith(writers, options.force); !written) return written;
   std::vector<std::string> paths;

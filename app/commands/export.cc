@@ -9,10 +9,12 @@
 #include "commands.h"
 #include "input_files.h"
 #include "light_input.h"
+#include "lightcal/calibrate/environments.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
 
@@ -80,7 +82,12 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   const fs::path named = of_folder ? whole.parent_path().filename()
                          : folder  ? whole.filename()
                                    : fs::path(input).stem();
-  return ExportPresets(*lights, options.targets, named.string(), preset);
+  PresetOptions with_pictures = preset;
+  const fs::path beside = folder ? fs::path(input) : fs::path(input).parent_path();
+  auto pictures = LoadEnvironments(*lights, beside.string(), devices::DiskSources());
+  if (!pictures) return Propagate(std::move(pictures));
+  with_pictures.environments = *std::move(pictures);
+  return ExportPresets(*lights, options.targets, named.string(), with_pictures);
 }
 
 std::string WithDirectory(std::string line, const std::string& directory) {

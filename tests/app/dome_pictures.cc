@@ -93,6 +93,7 @@ double LuxOfPicture(const SkyPicture& picture, const Ray& normal, double nits_pe
 double LuxOfLights(const json& light_file, const Ray& normal) {
   double lux = 0.0;
   for (const json& light : light_file["lights"]) {
+    if (light.at("kind") == "dome") continue;
     double cosine = 0.0;
     for (std::size_t c = 0; c < 3; ++c) cosine -= light.at("aim")[c].get<double>() * normal[c];
     lux += light.at("illuminance_lx").at("value").get<double>() * std::max(0.0, cosine);

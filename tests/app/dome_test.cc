@@ -245,7 +245,12 @@ TEST_F(DomeCommand, TheConventionIsAPersonsWord) {
   const json radiance = DomeJson(file, out_, {"--luminance-convention", "radiance"});
   EXPECT_FALSE(Warns(radiance, "relative_scale"));
   EXPECT_EQ(radiance["scale"]["source"], "radiance_179");
-  EXPECT_FALSE(fs::exists(out_ + "/light.json"));  // nothing was taken out
+  // Nothing was taken out: the dome alone.
+  const json lights = json::parse(ReadFile(out_ + "/light.json"))["lights"];
+  ASSERT_EQ(lights.size(), 1U);
+  EXPECT_EQ(lights[0]["environment"],
+            json({{"file", "dome.exr"}, {"projection", "latlong"}, {"nits_per_unit", 1.0}}));
+  EXPECT_EQ(lights[0]["illuminance_lx"]["value"], radiance["illuminance_lx"]["up"]["remaining"]);
 }
 
 TEST_F(DomeCommand, HostilePicturesAreNamed) {

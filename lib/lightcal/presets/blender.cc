@@ -9,13 +9,16 @@
 // Cycles' spot falls smoothly (smoothstep) in the cosine from spot_blend's edge to spot_size;
 // before 4.0, where a spot is a disc, another cosine dims it within. The script holds the cone for
 // both. Sources: Cycles 3.4 and 5.2, rendered (tests/engines/render).
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
+#include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
 
 namespace lightcal {
@@ -116,6 +119,10 @@ Node BlenderNode(const FittedLight& lamp, const PresetLight& light) {
                    {"color", NodeOf(p.color.max_normalised)}};
   if (light.form == LightForm::kDome) {
     document.Put("strength", light.nits / (kLumensPerWatt * p.color.luminance));
+    if (light.environment)
+      document.Put({{"strength", 1.0 / kLumensPerWatt},
+                    {"color", NodeOf(Rgb{1.0, 1.0, 1.0})},
+                    {"upward_lx", light.lux}});
   } else {
     document.Put({{"energy_W", WattsOf(light)},
                   {"axes", Axes(light)},
@@ -168,6 +175,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   Node list = Node::Array();
+  std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
     Node document = BlenderNode(lamp, (*forms)[i]);
@@ -176,6 +184,11 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
       auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);
       if (!ies) return Propagate(std::move(ies));
       document.Put("ies", *ies);
+    }
+    if ((*forms)[i].environment) {
+      pictures.push_back(preset_text::PictureFileOf(
+          (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      document.Put("picture", pictures.back().name);
     }
     list.items.push_back(std::move(document));
   }
@@ -189,6 +202,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   if (!text) return tl::unexpected(text.error());
   preset.files.push_back(
       {stem + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
+  std::ranges::move(pictures, std::back_inserter(preset.files));
   preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + stem + ".blender.py";
   return preset;
 }

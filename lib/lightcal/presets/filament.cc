@@ -30,10 +30,35 @@ constexpr double kAperture = 16.0;
 constexpr double kShutterPerScale = 1.2 * kAperture * kAperture;
 constexpr double kIso = 100.0;
 
+// Three bands, as its shader has them: E/pi is their sum over 1, y, z, x, xy, yz, 3 z^2 - 1, xz,
+// x^2 - y^2, the basis' own factors and the cosine's already in them.
+Node IrradianceForFilament(const EnvironmentPicture& picture) {
+  constexpr double kPi = std::numbers::pi;
+  const Harmonics radiance = RadianceHarmonics(picture, &GltfFromZUp);
+  const double basis[] = {0.5 * std::sqrt(1.0 / kPi), std::sqrt(3.0 / (4.0 * kPi)),
+                          std::sqrt(15.0 / (4.0 * kPi)), 0.25 * std::sqrt(5.0 / kPi)};
+  Node list = Node::Array();
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const double band = i == 0 ? 1.0 : i < 4 ? 2.0 / 3.0 : 0.25;  // the cosine's, over pi
+    const double factor = i == 0   ? basis[0]
+                          : i < 4  ? basis[1]
+                          : i == 6 ? basis[3]
+                          : i == 8 ? 0.5 * basis[2]
+                                   : basis[2];
+    list.items.push_back(NodeOf(radiance[i] * (band * factor)));
+  }
+  return list;
+}
+
 Node FilamentFigures(const PresetLight& light, const FalloffRefit& refit) {
   const PunctualLight& p = light.punctual;
   if (light.form == LightForm::kDome) {
-    return {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
+    Node figures = {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
+    if (light.environment) {
+      figures.Put({{"intensity", 1.0}, {"upward_lx", light.lux}});
+      figures.Put("irradiance", IrradianceForFilament(*light.environment));
+    }
+    return figures;
   }
   if (p.type == PunctualType::kDirectional) {
     const auto angle = light.angular_diameter_deg;
@@ -62,18 +87,19 @@ Node FilamentNode(const FittedLight& lamp, const PresetLight& light, const Fallo
                 {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                 {"direction", NodeOf(GltfFromZUp(p.aim))},
                 {"measured", MeasuredNode(lamp, light)}});
+  if (light.environment) document.Put("color", NodeOf(Rgb{1.0, 1.0, 1.0}));
   return document;
 }
 
 // ---- the snippet ----
 
-std::string Floats(const Node& light, const char* key) {
+std::string FloatsOf(const Node& list) {
   std::string out;
-  for (const Node& v : light.Find(key)->items) {
-    out += (out.empty() ? "" : ", ") + RoundedText(v.number, 9);
-  }
+  for (const Node& v : list.items) out += (out.empty() ? "" : ", ") + RoundedText(v.number, 9);
   return "{" + out + "}";
 }
+
+std::string Floats(const Node& light, const char* key) { return FloatsOf(*light.Find(key)); }
 
 std::string CommentOf(std::string name) {
   for (char& c : name) {
@@ -90,11 +116,17 @@ std::string SnippetOf(const Node& light) {
   const std::string type = light.TextAt("type");
   std::string out = "  // " + CommentOf(light.TextAt("name")) + "\n";
   if (type == "INDIRECT") {
-    return out + "  {\n    const filament::math::float3 irradiance[1] = {" +
-           Floats(light, "color") +
+    const Node* bands = light.Find("irradiance");
+    std::string values = bands == nullptr ? Floats(light, "color") : "";
+    for (std::size_t i = 0; bands != nullptr && i < bands->items.size(); ++i) {
+      values += (i == 0 ? "" : ", ") + FloatsOf(bands->items[i]);
+    }
+    const std::string count = bands == nullptr ? "1" : "9", order = bands == nullptr ? "1" : "3";
+    return out + "  {\n    const filament::math::float3 irradiance[" + count + "] = {" + values +
            "};\n    scene.setIndirectLight(filament::IndirectLight::Builder()\n"
-           "        .irradiance(1, irradiance)\n        .intensity(" +
-           Number(light, "intensity") + ")\n        .build(engine));\n  }\n";
+           "        .irradiance(" +
+           order + ", irradiance)\n        .intensity(" + Number(light, "intensity") +
+           ")\n        .build(engine));\n  }\n";
   }
   out +=
       "  {\n    const utils::Entity light = utils::EntityManager::get().create();\n"

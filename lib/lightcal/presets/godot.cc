@@ -59,6 +59,13 @@ DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, do
   const double per_luminance = refit.intensity_factor / color.luminance;
   const Rgb& c = color.written;
   const std::vector<double> encoded = {SrgbEncoded(c.r), SrgbEncoded(c.g), SrgbEncoded(c.b), 1.0};
+  if (light.environment) {
+    out.type = "Environment";
+    out.Put("background_energy_multiplier", 1.0);
+    out.Put("background_intensity", 1.0);  // texels are cd/m2
+    out.elsewhere.push_back({"upward_lx", {light.lux}});
+    return out;
+  }
   if (light.form == LightForm::kDome) {
     // Backgrounds know no temperature: the colour as it is. What they light knows neither intensity
     // nor exposure (rendered in 4.6.3), so the multiplier is the exposed luminance, and the
@@ -185,13 +192,20 @@ std::string Materials(const Rig& rig) {
 
 std::string EnvironmentText(const DerivedLight* dome) {
   std::string text =
-      "\n[sub_resource type=\"Environment\" id=\"surroundings\"]\nbackground_mode = 1\n";
+      std::string("\n[sub_resource type=\"Environment\" id=\"surroundings\"]\nbackground_mode = ") +
+      (dome != nullptr && dome->Find("upward_lx") != nullptr ? "2\n" : "1\n");
   if (!dome) {
     return text +
            "background_color = Color(0, 0, 0, 1)\nambient_light_source = 1\n"
            "reflected_light_source = 1\ntonemap_mode = 0\n";
   }
   for (const DerivedField& field : dome->fields) text += GodotField(field);
+  if (dome->Find("upward_lx") != nullptr) {
+    // Its middle looks along +Z: half a turn brings it to -Z, which is our +Y.
+    return text +
+           "sky = SubResource(\"sky\")\nsky_rotation = Vector3(0, 3.1415927, 0)\n"
+           "ambient_light_source = 3\nreflected_light_source = 2\ntonemap_mode = 0\n";
+  }
   return text + "ambient_light_source = 0\nreflected_light_source = 1\ntonemap_mode = 0\n";
 }
 
@@ -210,7 +224,8 @@ std::string RigNodes(const Rig& rig) {
 
 std::string GodotScene(const LightFile& file, const std::string& stem,
                        const std::vector<PresetLight>& lights,
-                       const std::vector<DerivedLight>& derived, const PresetOptions& options) {
+                       const std::vector<DerivedLight>& derived, const PresetOptions& options,
+                       const std::string& picture) {
   const Rig rig = BuildRig(file, lights);
   const DerivedLight* dome = nullptr;
   std::string nodes;
@@ -232,6 +247,12 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
                      "; In project.godot, or lumens and lux are ignored:\n"
                      ";   [rendering]\n;   lights_and_shadows/use_physical_light_units=true\n";
   const bool world = !options.bare || dome;
+  if (!picture.empty()) {
+    text += "\n[ext_resource type=\"Texture2D\" path=" + Quoted(picture) +
+            " id=\"panorama\"]\n\n[sub_resource type=\"PanoramaSkyMaterial\" id=\"panorama_sky\"]\n"
+            "panorama = ExtResource(\"panorama\")\n\n[sub_resource type=\"Sky\" id=\"sky\"]\n"
+            "sky_material = SubResource(\"panorama_sky\")\n";
+  }
   if (world) text += EnvironmentText(dome);
   if (!options.bare) text += CameraAttributes(rig) + Materials(rig);
   text += "\n[node name=" + Quoted(stem) + " type=\"Node3D\"]\n" +
@@ -264,8 +285,16 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
     auto finite = preset_text::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));
   }
-  preset.files.push_back(
-      {stem + ".tscn", GodotScene(lights, stem, *forms, preset.derived, options)});
+  std::string picture;
+  for (const PresetLight& light : *forms) {
+    if (!light.environment) continue;
+    preset.files.push_back(preset_text::PictureFileOf(
+        light, stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+    picture = preset.files.back().name;
+  }
+  preset.files.insert(
+      preset.files.begin(),
+      {stem + ".tscn", GodotScene(lights, stem, *forms, preset.derived, options, picture)});
   preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
                  ".tscn into a project with physical light units and open it";
   return preset;
@@ -273,6 +302,7 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
 
 Emission EmittedInGodot(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
   const bool dome = light.type == "Environment";
+  if (light.Find("upward_lx") != nullptr) return {.lux = NumberIn(light, "upward_lx")};
   const std::vector<double>& c = light.Find(dome ? "background_color" : "light_color")->values;
   const Rgb tint = dome ? Rgb{1.0, 1.0, 1.0}
                         : KrystekRgbAtUnitPeak(Kelvin(NumberIn(light, "light_temperature")));

@@ -88,9 +88,11 @@ struct Derivation {
 std::vector<Derivation> Derivations(const LightFile& file, const std::string& stem,
                                     const PresetOptions& options) {
   std::vector<Derivation> all;
+  PresetOptions figures = options;
+  figures.figures_only = true;
   for (const PresetTarget& target : PresetTargets()) {
     if (target.exporter == &ExportJson) continue;
-    auto preset = target.exporter(file, stem, options);
+    auto preset = target.exporter(file, stem, figures);
     if (!preset || preset->derived.size() != file.lights.size()) continue;
     all.push_back({target.name, std::move(preset->derived)});
   }

@@ -48,7 +48,12 @@ DerivedLight DeriveMitsuba(const PresetLight& light, double exposure) {
       out.Put("irradiance", Scaled(light, light.lux * exposure));
       break;
     case LightForm::kDome:
-      out.type = "constant";
+      out.type = light.environment ? "envmap" : "constant";
+      if (light.environment) {
+        out.Put("scale", exposure);
+        out.elsewhere.push_back({"upward_lx", {light.lux}});
+        break;
+      }
       out.Put("radiance", Scaled(light, light.nits * exposure));
       break;
     default:
@@ -113,7 +118,8 @@ std::string MitsubaShape(const PresetLight& light, const DerivedLight& derived) 
   }
 }
 
-std::string MitsubaLight(const PresetLight& light, const DerivedLight& derived) {
+std::string MitsubaLight(const PresetLight& light, const DerivedLight& derived,
+                         const std::string& picture) {
   if (derived.type == "area") return MitsubaShape(light, derived);
   std::string text = "<emitter type=\"" + derived.type + "\">";
   switch (light.form) {
@@ -124,6 +130,13 @@ std::string MitsubaLight(const PresetLight& light, const DerivedLight& derived) 
              RgbElement("irradiance", derived) + "</emitter>";
     }
     case LightForm::kDome:
+      // Its middle looks along the emitter's +z, its right side along -x, its upper edge +y.
+      if (light.environment) {
+        return text + "<string name=\"filename\" value=\"" + XmlEscaped(picture) + "\"/>" +
+               Float("scale", derived.Find("scale")->values[0]) +
+               ToWorld(Vec3{-1.0, 0.0, 0.0}, Vec3{0.0, 0.0, 1.0}, Vec3{0.0, 1.0, 0.0}, Vec3{}) +
+               "</emitter>";
+      }
       return text + RgbElement("radiance", derived) + "</emitter>";
     case LightForm::kSpot:
       return text + ToWorld(light, 1.0, 1.0) + RgbElement("intensity", derived) +
@@ -187,16 +200,24 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
     if (!note.empty()) comment += "; " + note;
     // "--" ends no comment well.
     for (std::size_t at = 0; (at = comment.find("--", at)) != std::string::npos;) comment[at] = '_';
-    text += "  <!-- " + comment + " -->\n  " + MitsubaLight(light, preset.derived.back()) + "\n";
+    std::string picture;
+    if (light.environment) {
+      preset.files.push_back(preset_text::PictureFileOf(
+          light, stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      picture = preset.files.back().name;
+    }
+    text += "  <!-- " + comment + " -->\n  " + MitsubaLight(light, preset.derived.back(), picture) +
+            "\n";
   }
   if (!options.bare) text += RigText(rig);
-  preset.files.push_back({stem + ".mitsuba.xml", text + "</scene>\n"});
+  preset.files.insert(preset.files.begin(), {stem + ".mitsuba.xml", text + "</scene>\n"});
   preset.paste =
       "mitsuba -m scalar_rgb " + std::string(kPasteDirectory) + "/" + stem + ".mitsuba.xml";
   return preset;
 }
 
 Emission EmittedInMitsuba(const DerivedLight& light, LightKind kind, double /*axial_part*/) {
+  if (light.type == "envmap") return {.lux = NumberIn(light, "upward_lx")};
   double emitted = 0.0;
   for (const char* name : {"intensity", "irradiance", "radiance"}) {
     if (light.Find(name) != nullptr) {

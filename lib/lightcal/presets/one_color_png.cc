@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/one_color_png.h"
 
+#include <vector>
+
 #include "lightcal/core/png.h"
 
 namespace lightcal {
@@ -28,13 +30,21 @@ std::string ZlibStored(const std::string& data) {
 
 }  // namespace
 
-std::string PngOfOneColor(int side, const std::array<std::uint8_t, 4>& rgba) {
+std::string PngOfTexels(int side, std::span<const std::array<std::uint8_t, 4>> rgba) {
   std::string rows;
   for (int y = 0; y < side; ++y) {
     rows += '\0';  // no filter
-    for (int x = 0; x < side; ++x) rows.append(rgba.begin(), rgba.end());
+    for (int x = 0; x < side; ++x) {
+      const auto& texel = rgba[static_cast<std::size_t>(y * side + x)];
+      rows.append(texel.begin(), texel.end());
+    }
   }
   return PngFile(side, side, PngColor::kRgba, ZlibStored(rows));
+}
+
+std::string PngOfOneColor(int side, const std::array<std::uint8_t, 4>& rgba) {
+  return PngOfTexels(
+      side, std::vector<std::array<std::uint8_t, 4>>(static_cast<std::size_t>(side * side), rgba));
 }
 
 }  // namespace lightcal

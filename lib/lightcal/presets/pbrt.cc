@@ -46,7 +46,8 @@ DerivedLight DerivePbrt(const PresetLight& light) {
       break;
     case LightForm::kDome:
       out.type = "infinite";
-      out.Put("scale", light.nits);
+      out.Put("scale", light.environment ? 1.0 : light.nits);
+      if (light.environment) out.elsewhere.push_back({"upward_lx", {light.lux}});
       break;
     default:
       out.type = "diffuse";
@@ -106,7 +107,8 @@ std::string PbrtShape(const PresetLight& light) {
   }
 }
 
-std::string PbrtLight(const PresetLight& light, const DerivedLight& derived) {
+std::string PbrtLight(const PresetLight& light, const DerivedLight& derived,
+                      const std::string& picture) {
   const auto& rgb = derived.Find("rgb")->values;
   if (derived.type == "diffuse") {
     return "AttributeBegin\n  AreaLightSource \"diffuse\"" + Parameter("rgb", "L", rgb) +
@@ -119,6 +121,9 @@ std::string PbrtLight(const PresetLight& light, const DerivedLight& derived) {
       return text + Parameter("rgb", "L", rgb) + Value(derived, "illuminance") +
              Parameter("point3", "from", Vec3{}) + Parameter("point3", "to", light.aim()) + "\n";
     case LightForm::kDome:
+      if (light.environment) {
+        return text + " \"string filename\" " + Quoted(picture) + Value(derived, "scale") + "\n";
+      }
       return text + Parameter("rgb", "L", rgb) + Value(derived, "scale") + "\n";
     case LightForm::kSpot:
       return text + Parameter("rgb", "I", rgb) + Value(derived, "scale") +
@@ -196,17 +201,27 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
     preset.derived.push_back(DerivePbrt(light));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
+    std::string picture;
+    if (light.environment) {
+      // A .pfm is taken as Rec. 709 whatever the scene's ColorSpace.
+      PresetOptions plain = options;
+      plain.color.space = RgbSpace::kSrgb;
+      preset.files.push_back(preset_text::PictureFileOf(
+          light, stem, plain, preset_text::PictureEncoding::kEqualAreaSquare, preset.warnings));
+      picture = preset.files.back().name;
+    }
     const std::string note = preset_text::SubstitutionNote(preset.derived.back());
     text += "# " + Quoted(light.name()) + (note.empty() ? "" : " " + note) + "\n" +
-            PbrtLight(light, preset.derived.back());
+            PbrtLight(light, preset.derived.back(), picture);
   }
   if (!options.bare) text += CardText(rig);
-  preset.files.push_back({stem + ".pbrt", std::move(text)});
+  preset.files.insert(preset.files.begin(), {stem + ".pbrt", std::move(text)});
   preset.paste = "pbrt " + std::string(kPasteDirectory) + "/" + stem + ".pbrt";
   return preset;
 }
 
 Emission EmittedInPbrt(const DerivedLight& light, LightKind kind, double /*axial_part*/) {
+  if (light.Find("upward_lx") != nullptr) return {.lux = NumberIn(light, "upward_lx")};
   const double scale = NumberIn(light, light.Find("scale") != nullptr ? "scale" : "illuminance");
   Emission out =
       EmittedByPathTracer(light, kind, scale * LuminanceIn(light, "rgb"),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/presets/derived_light.h"
+#include "lightcal/presets/environment_picture.h"
 #include "lightcal/presets/light_color.h"
 #include "lightcal/records/fitted_light.h"
 
@@ -30,6 +32,9 @@ struct PresetOptions {
   // The range the person wants (their engine culls lights by it); absent = so far that it is none.
   std::optional<Metres> range{};
   SpotForm spots = SpotForm::kAuto;
+  // The pictures that domes name, one a light (null = none), or none at all: then domes are even.
+  std::vector<std::shared_ptr<const EnvironmentPicture>> environments{};
+  bool figures_only = false;  // pictures are not encoded: their files stay empty
 };
 
 struct PresetFile {

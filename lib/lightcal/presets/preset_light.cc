@@ -228,6 +228,9 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     if (lamp.axis && !lamp.aim) light.punctual.aim = AxesOfAim(along, light.punctual.aim).c0;
     light.axes = AxesOfAim(light.punctual.aim, along);
     ChooseForm(lamp, forms, options.spots, light);
+    if (light.form == LightForm::kDome && i < options.environments.size()) {
+      light.environment = options.environments[i];
+    }
     if (auto measured = Measure(lamp, light); !measured) {
       return Propagate(std::move(measured));
     }
@@ -242,6 +245,10 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
 }
 
 Lux IlluminanceAt(const PresetLight& light, const Vec3& point, const Vec3& normal) {
+  if (light.form == LightForm::kDome && light.environment) {
+    const Vec3 rgb = IrradianceOn(*light.environment, normal);
+    return Lux(LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb));
+  }
   if (light.form == LightForm::kDome) return Lux(light.lux);
   const Vec3 to_point = point - light.position_m();
   if (light.form == LightForm::kTable) return Lux(TableLux(light, to_point, normal));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +29,7 @@ enum class LightForm : std::uint8_t {
   kRect,
   kTube,
   kTable,  // a photometric file
-  kDome,   // one luminance from every direction
+  kDome,   // one luminance from every direction, or a picture
 };
 
 // The forms an engine has beside point, spot and directional light, and how its spots fall off.
@@ -61,6 +62,7 @@ struct PresetLight {
   // Of a spot or a measured beam: what is to be shown, and the engine's own cone nearest to it.
   std::optional<BeamProfile> beam;
   EngineCone cone;
+  std::shared_ptr<const EnvironmentPicture> environment{};  // form kDome; null = an even one
 
   [[nodiscard]] const std::string& name() const { return punctual.name; }
   [[nodiscard]] const EmittedColor& color() const { return punctual.color; }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/preset_text.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
+#include "lightcal/core/file_name.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::preset_text {
@@ -88,6 +92,55 @@ PresetOptions InRec709(PresetOptions options, std::string_view engine, Warnings&
   warnings.push_back({"space_unsupported", std::string(engine),
                       "it does not know that space for its lights: written in Rec. 709"});
   return options;
+}
+
+PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
+                         const PresetOptions& options, PictureEncoding encoding,
+                         Warnings& warnings) {
+  constexpr double kNothing = 1e-3;
+  const bool square = encoding == PictureEncoding::kEqualAreaSquare;
+  const std::string space = options.color.space == RgbSpace::kSrgb
+                                ? ""
+                                : "-" + std::string(RgbSpaceWord(options.color.space));
+  PresetFile file{stem + "-" + FileNamePart(light.name()) + space + (square ? ".pfm" : ".hdr"), ""};
+  if (options.figures_only) return file;
+  EncodedPicture encoded = square ? EqualAreaSquare(*light.environment, options.color)
+                                  : RadianceFile(*light.environment, options.color);
+  if (encoded.cut_below > kNothing) {
+    warnings.push_back({"picture_cut", light.name(),
+                        RoundedText(100.0 * encoded.cut_below, 2) +
+                            " % of the picture's light is of colours that " +
+                            std::string(RgbSpaceWord(options.color.space)) +
+                            " has not; a wider {color.space} keeps them"});
+  }
+  file.contents = std::move(encoded.bytes);
+  return file;
+}
+
+void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warnings& warnings) {
+  constexpr double kMost = 65504.0;
+  double beyond = 0.0, whole = 0.0;
+  const EnvironmentPicture& picture = *light.environment;
+  for (int y = 0; y < picture.height; ++y) {
+    const double zenith = std::numbers::pi * (y + 0.5) / picture.height;
+    for (int x = 0; x < picture.width; ++x) {
+      const float* p = picture.rgb.data() +
+                       3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(x));
+      const double top = std::max({p[0], p[1], p[2]});
+      whole += std::sin(zenith) * top;
+      beyond += std::sin(zenith) * std::max(0.0, top - kMost);
+    }
+  }
+  if (!(beyond > 1e-4 * whole)) return;
+  warnings.push_back(
+      {"picture_cut", light.name(),
+       RoundedText(100.0 * beyond / whole, 2) +
+           " % of the picture's light is brighter "
+           "than the half floats of " +
+           std::string(engine) +
+           " hold (65504 cd/m2) and is cut there; take the lamps out of the dome, so "
+           "that they are lights"});
 }
 
 void PutSize(const PresetLight& light, DerivedLight& derived) {

@@ -2,6 +2,7 @@
 // Pieces of text that several exporters write.
 #pragma once
 
+#include <cstdint>
 #include <set>
 #include <span>
 #include <string>
@@ -34,6 +35,15 @@ namespace lightcal::preset_text {
 // space_unsupported when another was asked for.
 [[nodiscard]] PresetOptions InRec709(PresetOptions options, std::string_view engine,
                                      Warnings& warnings);
+
+// <stem>-<light>.hdr (or .pfm) of a dome's picture as an engine of that colour gets it, with a
+// warning of what had to be cut (picture_cut).
+enum class PictureEncoding : std::uint8_t { kRadiance, kEqualAreaSquare };
+[[nodiscard]] PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
+                                       const PresetOptions& options, PictureEncoding encoding,
+                                       Warnings& warnings);
+// Where engines take half floats: what is brighter than they hold is said (picture_cut).
+void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warnings& warnings);
 
 // width and height of a rectangle, else the radius, and the length of a tube, for audit.
 void PutSize(const PresetLight& light, DerivedLight& derived);

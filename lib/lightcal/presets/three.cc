@@ -6,7 +6,9 @@
 // Babylon's as glTF: a spot holds a cone for each, and where three's strays too far its profile,
 // which three projects (SpotLight.map). A disk becomes the square of its area. Sources: three.js
 // 0.187, Babylon.js 9.34, rendered (tests/engines/render).
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
@@ -15,6 +17,7 @@
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
+#include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
 
 namespace lightcal {
@@ -146,14 +149,33 @@ Node Measured(const PresetLight& light, const std::string& ies, const ThreeRange
   return document;
 }
 
+// A picture also as its harmonics (three's LightProbe) and, for Babylon.js, its two halves.
+Node DomeNode(const PresetLight& light) {
+  if (!light.environment) {
+    return {
+        {"type", "dome"}, {"intensity", light.nits / light.color().luminance}, {"unit", "cd/m2"}};
+  }
+  const Harmonics harmonics = RadianceHarmonics(*light.environment, &GltfFromZUp);
+  const auto halved = [&](double up) {
+    return IrradianceOn(*light.environment, {0.0, 0.0, up}) * (1.0 / std::numbers::pi);
+  };
+  return {{"type", "dome"},
+          {"intensity", 1.0},
+          {"unit", "cd/m2"},
+          {"color", NodeOf(Rgb{1.0, 1.0, 1.0})},
+          {"upward_lx", light.lux},
+          {"harmonics", Node::List(harmonics, [](const Vec3& v) { return NodeOf(v); })},
+          {"above", NodeOf(halved(1.0))},
+          {"below", NodeOf(halved(-1.0))}};
+}
+
 Node ThreeFigures(const PresetLight& light, const std::string& ies, SpotForm spots,
                   const ThreeRange& range) {
   switch (light.form) {
     case LightForm::kRect:
       return Rectangle(light);
     case LightForm::kDome:
-      return {
-          {"type", "dome"}, {"intensity", light.nits / light.color().luminance}, {"unit", "cd/m2"}};
+      return DomeNode(light);
     case LightForm::kTable:
       return Measured(light, ies, range);
     case LightForm::kSpot:
@@ -187,9 +209,16 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
   Node list = Node::Array();
+  std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
     list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table, options.spots, ranges[i]));
+    if ((*forms)[i].environment) {
+      pictures.push_back(preset_text::PictureFileOf(
+          (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      list.items.back().Put("picture", pictures.back().name);
+      preset_text::WarnOfHalfFloats((*forms)[i], "three.js", preset.warnings);
+    }
     preset.derived.push_back(DerivedFrom(list.items.back()));
   }
   auto text = JsonText({{"name", stem},
@@ -201,6 +230,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   if (!text) return Propagate(std::move(text));
   text->pop_back();
   preset.files.push_back({stem + ".three.js", ScriptWith("three.js", *text)});
+  std::ranges::move(pictures, std::back_inserter(preset.files));
   return preset;
 }
 

@@ -47,7 +47,7 @@ void PutUsdCone(const SpotCone& cone, DerivedLight& out) {
 DerivedLight DeriveUsd(const PresetLight& light) {
   DerivedLight out;
   out.substitution = light.substitution;
-  const Rgb& c = light.color().max_normalised;
+  const Rgb c = light.environment ? Rgb{1.0, 1.0, 1.0} : light.color().max_normalised;
   out.Put("color", {c.r, c.g, c.b});
   const double luminance = light.color().luminance;
   switch (light.form) {
@@ -86,7 +86,7 @@ DerivedLight DeriveUsd(const PresetLight& light) {
       break;
     case LightForm::kDome:
       out.type = "DomeLight";
-      out.Put("intensity", light.nits / luminance);
+      out.Put("intensity", light.environment ? 1.0 : light.nits / luminance);
       break;
   }
   return out;
@@ -109,7 +109,8 @@ std::string UsdField(const DerivedField& field) {
 }
 
 std::string LightPrim(const std::string& name, const FittedLight& lamp, const PresetLight& light,
-                      const DerivedLight& derived, const std::optional<PresetFile>& ies) {
+                      const DerivedLight& derived, const std::optional<PresetFile>& ies,
+                      const std::string& picture) {
   const bool table = light.form == LightForm::kTable && ies;
   const bool shaped = table || light.form == LightForm::kSpot;
   std::string text = "\n  def " + derived.type + " \"" + name + "\" (\n";
@@ -134,6 +135,12 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
   if (table) {
     text += "    asset inputs:shaping:ies:file = @./" + ies->name +
             "@\n    bool inputs:shaping:ies:normalize = 0\n";
+  }
+  if (!picture.empty()) {
+    // The middle of a lat-long picture looks along the dome's +Z, its right side along -X, +Y up.
+    const ObjectFrame frame = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}, {}};
+    return text + "    asset inputs:texture:file = @./" + picture +
+           "@\n    token inputs:texture:format = \"latlong\"\n" + Matrix(frame) + "  }\n";
   }
   return text + Matrix(FrameOfLight(EngineAxes::kZUp, light)) + "  }\n";
 }
@@ -208,8 +215,14 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
     preset.derived.push_back(DeriveUsd(light));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
     if (!finite) return Propagate(std::move(finite));
+    std::string picture;
+    if (light.environment) {
+      preset.files.push_back(preset_text::PictureFileOf(
+          light, stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      picture = preset.files.back().name;
+    }
     text += LightPrim(Identifier(light.name(), taken), lights.lights[i], light,
-                      preset.derived.back(), (*ies)[i]);
+                      preset.derived.back(), (*ies)[i], picture);
     if (light.form == LightForm::kTable) {
       preset.warnings.push_back({"ies_not_portable", light.name(),
                                  "renderers scale shaping:ies:file differently; the candela are "

@@ -80,6 +80,14 @@ struct MeasuredDistribution {
   std::vector<Part> budget{};
 };
 
+// The picture that a dome was measured as: linear, lat-long; its middle looks along +Y, its right
+// side to +X, its upper edge to +Z.
+struct EnvironmentFile {
+  std::string file;  // beside the light.json, or a whole path
+  std::string projection = "latlong";
+  double nits_per_unit = 1.0;  // cd/m^2 of a sample of luminance 1
+};
+
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
 // the model); flux integrates the model. d0 is positive when the effective source lies behind the
 // point the distance was measured from.
@@ -101,6 +109,7 @@ struct FittedLight {
   std::optional<Vec3> aim;
   std::optional<Vec3> axis{};                        // of a tube's length or a rect's width
   std::optional<MeasuredDistribution> distribution;  // photometric
+  std::optional<EnvironmentFile> environment{};      // dome; illuminance_lx is the upward one
   FittedColor color;
   FitDiagnostics fit;
   std::vector<EffectReport> effects;

@@ -69,6 +69,13 @@ void VisitFit(Archive& archive, SomeFit& fit) {
   archive.Require({"readings", "used", "rejected", "learned", "prior"});
 }
 
+constexpr auto kVisitEnvironment = [](auto& archive, auto& environment) {
+  archive.Text("file", environment.file);
+  archive.Text("projection", environment.projection);
+  archive.Number("nits_per_unit", environment.nits_per_unit, kNotNegative);
+  archive.Require({"file", "projection", "nits_per_unit"});
+};
+
 constexpr auto kVisitEffect = [](auto& archive, auto& effect) {
   archive.Text("name", effect.name);
   archive.Word("state", effect.state, kEffectStateWords);
@@ -147,6 +154,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitMeasures(archive, light);
   VisitGeometry(archive, light);
   VisitDistribution(archive, light.distribution);
+  archive.Object("environment", light.environment, kVisitEnvironment);
   archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
   archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
   VisitCauses(archive, light);

@@ -66,19 +66,22 @@ export async function babylon_gltf(job) {
   for (const light of gltf.extensions.EXT_lights_image_based.lights) {
     light.irradianceCoefficients = light.irradianceCoefficients.map((c) => c.map((v) => v * k));
   }
+  // A sun beside the dome, likewise; without one any light would be the dome's second.
+  gltf.extensions.KHR_lights_punctual.lights.forEach((light) => { light.intensity *= k; });
   const scene = new Scene(engine);
   scene.useRightHandedSystem = true;
   await AppendSceneAsync(`data:${JSON.stringify(gltf)}`, scene, { pluginExtension: '.gltf' });
-  if (scene.lights.length) throw new Error('the dome is lit twice');
-  [...scene.meshes].forEach((card) => card.dispose());
+  if (scene.lights.length > (job.suns ?? 0)) throw new Error('the dome is lit twice');
+  // Not the root, under which a sun hangs.
+  scene.meshes.filter((mesh) => mesh.getTotalVertices() > 0).forEach((card) => card.dispose(true));
   const lux = await luxAt(scene, job.probes, k);
   scene.dispose();
-  return { version: Engine.Version, lux };
+  return { version: Engine.Version, lux, rgb: lux.rgb };
 }
 
 async function luxAt(scene, probes, k) {
   scene.imageProcessingConfiguration.applyByPostProcess = true;
-  const lux = [];
+  const lux = [], all = [];
   for (const { point, normal } of probes) {
     const at = new Vector3(...yUp(point));
     const n = new Vector3(...yUp(normal));
@@ -108,13 +111,17 @@ async function luxAt(scene, probes, k) {
     target.render();
     const pixels = await target.readPixels();
     let sum = 0;
+    const rgb = [0, 0, 0];
     for (let i = 0; i < pixels.length; i += 4) {
+      for (let c = 0; c < 3; ++c) rgb[c] += pixels[i + c];
       sum += 0.212639 * pixels[i] + 0.715169 * pixels[i + 1] + 0.072192 * pixels[i + 2];
     }
     lux.push(Math.PI * sum / (pixels.length / 4) / k);
+    all.push(rgb);
     card.dispose();
     eye.dispose();
     target.dispose();
   }
+  lux.rgb = all;
   return lux;
 }

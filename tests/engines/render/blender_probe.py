@@ -62,7 +62,7 @@ def look(scene, point, normal, size, samples=256):
     for thing in (card, eye):
         bpy.data.objects.remove(thing)
     bpy.data.images.remove(image)
-    return math.pi * 683.0 * (0.212639 * mean[0] + 0.715169 * mean[1] + 0.072192 * mean[2])
+    return math.pi * 683.0 * (0.212639 * mean[0] + 0.715169 * mean[1] + 0.072192 * mean[2]), mean
 
 
 def render_rig(scene, path, job):
@@ -91,7 +91,8 @@ for job in jobs:
     scene.render.resolution_percentage = 100
     for thing in scene.objects:
         thing.hide_render = thing.type == 'MESH'
-    results.append({'lux': [look(scene, p['point'], p['normal'], 0.02, job.get('probe_samples', 256)) for p in job['probes']]})
+    seen = [look(scene, p['point'], p['normal'], 0.02, job.get('probe_samples', 256)) for p in job['probes']]
+    results.append({'lux': [lux for lux, _ in seen], 'rgb': [rgb for _, rgb in seen]})
     for other in list(bpy.data.scenes):
         if other.name.startswith('lightcal') and len(bpy.data.scenes) > 1:
             bpy.data.scenes.remove(other)

@@ -47,7 +47,7 @@ function squares(cards) {
 function addLights(F, engine, scene, preset) {
   for (const light of preset.lights) {
     if (light.type === 'INDIRECT') {
-      const ibl = F.IndirectLight.Builder().irradianceSh(1, light.color).intensity(light.intensity).build(engine);
+      const ibl = F.IndirectLight.Builder().irradianceSh(light.irradiance ? 3 : 1, light.irradiance ? light.irradiance.flat() : light.color).intensity(light.intensity).build(engine);
       scene.setIndirectLight(ibl);
       continue;
     }
@@ -115,7 +115,7 @@ export async function filament(job) {
     const { position_m, target_m, up, vertical_fov_deg } = rig.camera;
     png = (await picture(F, preset, cards, { position: position_m, target: target_m, up, fov: vertical_fov_deg }, job)).png;
   }
-  const lux = [];
+  const lux = [], rgb = [];
   for (const { point, normal } of job.probes) {
     const p = yUp(point), n = yUp(normal);
     const row = unit(cross(Math.abs(n[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0], n));
@@ -129,7 +129,8 @@ export async function filament(job) {
       for (let c = 0; c < 3; ++c) sum[c] += decode(data[i + c] / 255) / 100;
     }
     const pixel = 0.212639 * sum[0] + 0.715169 * sum[1] + 0.072192 * sum[2];
+    rgb.push(sum);
     lux.push(Math.PI * pixel / kProbe / preset.exposure.exposure);
   }
-  return { lux, png };
+  return { lux, rgb, png };
 }

@@ -63,6 +63,13 @@ export async function three(job) {
   renderer.toneMapping = THREE.NoToneMapping;
   built.cards?.forEach((card) => built.scene.remove(card));
   const target = new THREE.WebGLRenderTarget(8, 8, { type: THREE.FloatType });
+  if (job.environment) {
+    // What three's own blur makes of the panorama, instead of the light probe.
+    const { HDRLoader } = await import('three/addons/loaders/HDRLoader.js');
+    built.scene.children.filter((thing) => thing.isLightProbe).forEach((thing) => built.scene.remove(thing));
+    built.scene.environment = await module.panoramaOf(THREE, HDRLoader);
+  }
+  const rgb = [];
   const lux = job.probes.map((at) => {
     const { card, eye } = probe(THREE, built.scene, at);
     renderer.setRenderTarget(target);
@@ -71,9 +78,10 @@ export async function three(job) {
     renderer.readRenderTargetPixels(target, 0, 0, 8, 8, pixels);
     renderer.setRenderTarget(null);
     built.scene.remove(card);
+    rgb.push([0, 1, 2].map((c) => pixels.filter((_, i) => i % 4 === c).reduce((a, b) => a + b, 0)));
     return Math.PI * mean(pixels);
   });
-  return { revision: THREE.REVISION, lux, png: shown.png, exr };
+  return { revision: THREE.REVISION, lux, rgb, png: shown.png, exr };
 }
 
 let gpu;

@@ -130,9 +130,41 @@ Result<Provenance> ProvenanceOf(const std::vector<std::string>& files, const Sou
   return provenance;
 }
 
+// The chromaticity of what comes from above; absent in grey pictures.
+std::optional<Xy> ColorFromAbove(const Dome& dome) {
+  if (dome.channels != 3) return std::nullopt;
+  const LatLongGrid grid = dome.grid();
+  Column3 sum{};
+  for (int y = 0; y < dome.height / 2; ++y) {
+    for (int x = 0; x < dome.width; ++x) {
+      const double weight = grid.Flow(x, y)[2];
+      const std::size_t at = 3 * static_cast<std::size_t>(grid.Index(x, y));
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * double{dome.samples[at + c]};
+    }
+  }
+  const Column3 xyz = Times(dome.xyz_from_rgb, sum);
+  if (!(xyz[1] > 0.0)) return std::nullopt;
+  return XyFromXyz({xyz[0], xyz[1], xyz[2]});
+}
+
+FittedLight EnvironmentOf(const MadeDome& made) {
+  constexpr double kFileDigits = 1e-4;  // the picture's own rounding
+  FittedLight light;
+  light.name = "environment";
+  light.kind = LightKind::kDome;
+  const double lux = made.planes.front().remaining;
+  light.illuminance_lx =
+      Uncertain{lux, lux * made.measured.scale_u95_relative.value_or(kFileDigits), std::nullopt,
+                std::nullopt};
+  light.color.xy = ColorFromAbove(made.measured.input.dome);
+  light.environment = EnvironmentFile{kDomePicture, "latlong", made.white_luminance.value()};
+  return light;
+}
+
 Result<LightFile> LightsTakenOut(const MadeDome& made, const Sources& sources,
                                  const std::string& time, Warnings& warnings) {
-  auto lights = LightFileOfDome(made.measured, made.extracted, warnings);
+  Result<LightFile> lights = LightFile{};
+  if (made.extracted > 0) lights = LightFileOfDome(made.measured, made.extracted, warnings);
   if (!lights) return lights;
   auto provenance = ProvenanceOf(made.measured.input.files, sources, time);
   if (!provenance) return Propagate(std::move(provenance));
@@ -163,11 +195,9 @@ Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request, con
   }
   made.names = NamesOfLights(measured, std::max(made.extracted, kMostDomeLights));
   made.measured = std::move(measured);
-  if (made.extracted > 0) {
-    auto lights = LightsTakenOut(made, sources, settings.time, made.warnings);
-    if (!lights) return Propagate(std::move(lights));
-    made.light_file = *std::move(lights);
-  }
+  auto lights = LightsTakenOut(made, sources, settings.time, made.warnings);
+  if (!lights) return Propagate(std::move(lights));
+  made.light_file = *std::move(lights);
   made.preview = Reduced(made.measured.input.dome);
   TurnNorth(made.measured.north, made.preview);
   made.planes = PlanesOf(request);
@@ -175,6 +205,7 @@ Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request, con
   FinishDome(made.extracted, settings, made.measured);
   CountDome(made.measured, made.planes);
   if (settings.plate) made.white_luminance = Nits(1.0 / SamplesPerNit(settings.plate));
+  if (made.planes.front().remaining > 0.0) made.light_file.lights.push_back(EnvironmentOf(made));
   return made;
 }
 

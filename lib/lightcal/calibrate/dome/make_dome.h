@@ -21,6 +21,8 @@ inline constexpr std::size_t kEveryLight = std::numeric_limits<std::size_t>::max
 inline constexpr std::size_t kMostDomeLights = 32;  // named, and taken out as "every light"
 inline constexpr int kPreviewWidth = 1024;
 
+inline constexpr const char* kDomePicture = "dome.exr";  // what the made dome is saved as
+
 struct DomeSettings {
   std::size_t extract = 0;              // so many of the brightest lights leave the dome
   std::optional<RgbSpace> space;        // absent: the file's own primaries, else Rec. 709
@@ -43,7 +45,9 @@ struct MadeDome {
   MeasuredDome measured;
   std::vector<std::string> names;       // of its lights
   std::size_t extracted = 0;            // the first so many were taken out
-  std::optional<LightFile> light_file;  // these, with provenance; absent where there are none
+  // These, then the dome itself (kind dome, "environment", as kDomePicture) unless it is black from
+  // above; with provenance.
+  LightFile light_file;
   Dome preview;  // as it was read, turned north, at most about kPreviewWidth pixels wide
   std::vector<DomePlane> planes;
   Nits white_luminance{1.0};  // of a sample of 1

@@ -21,6 +21,10 @@ EngineLight FromBlender(const Json& json, double lumens_per_watt) {
   if (type == "WORLD") {
     light.kind = EngineLightKind::kDome;
     light.emitted = json.at("strength").get<double>() * lumens_per_watt * y;
+    // Of a picture, what it brings from above.
+    if (json.contains("picture")) {
+      light.emitted *= json.at("upward_lx").get<double>() / std::numbers::pi;
+    }
     return light;
   }
   const double watts = json.at("energy_W").get<double>() * y;

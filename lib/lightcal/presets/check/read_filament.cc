@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A <stem>.filament.json, by what Filament makes of its numbers.
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "lightcal/presets/check/json_reader_parts.h"
 #include "lightcal/presets/exporters.h"
@@ -19,6 +20,9 @@ EngineLight FromFilament(const Json& json) {
   if (type == "INDIRECT") {
     light.kind = EngineLightKind::kDome;
     light.emitted = json.at("intensity").get<double>() * y;
+    if (json.contains("irradiance")) {
+      light.emitted = json.at("upward_lx").get<double>() / std::numbers::pi;
+    }
     return light;
   }
   light.position_m = FromYUp(VecFrom(json.at("position_m")));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The preset inside a <stem>.three.js, by what three.js makes of its numbers.
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "lightcal/presets/check/json_reader_parts.h"
 #include "lightcal/presets/exporters.h"
@@ -20,7 +21,13 @@ EngineLight FromThree(const Json& json) {
   light.offset_m = OffsetIn(json.value("measured", Json()));
   light.range_m = json.value("range_m", 0.0);
   if (type == "directional") light.kind = EngineLightKind::kSun;
-  if (type == "dome") light.kind = EngineLightKind::kDome;
+  if (type == "dome") {
+    light.kind = EngineLightKind::kDome;
+    // Of a picture, what it brings from above.
+    if (json.contains("picture")) {
+      light.emitted = json.at("upward_lx").get<double>() / std::numbers::pi;
+    }
+  }
   if (type == "spot") {
     light.kind = EngineLightKind::kSpot;
     light.law = ConeLaw::kSmooth;

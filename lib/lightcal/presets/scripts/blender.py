@@ -77,17 +77,47 @@ def add_light(scene, light):
     placed(light['name'], lamp, scene, light['axes'], light['position_m'])
 
 
+def picture_node(tree, name):
+    """A lat-long picture in cd/m2: its middle looks along +Y; Cycles has it along +X."""
+    folder = os.path.dirname(os.path.abspath(globals().get('__file__', '')))
+    path = os.path.join(folder, name)
+    if not os.path.exists(path):
+        raise FileNotFoundError(name + ' belongs beside this script, in ' + folder)
+    coordinates = tree.nodes.new('ShaderNodeTexCoord')
+    turn = tree.nodes.new('ShaderNodeMapping')
+    turn.inputs['Rotation'].default_value = (0.0, 0.0, -math.pi / 2)
+    picture = tree.nodes.new('ShaderNodeTexEnvironment')
+    picture.image = bpy.data.images.load(path)
+    picture.image.colorspace_settings.name = 'Non-Color'  # linear, as it is
+    picture.image.pack()
+    tree.links.new(coordinates.outputs['Generated'], turn.inputs['Vector'])
+    tree.links.new(turn.outputs[0], picture.inputs['Vector'])
+    return picture
+
+
 def set_world(scene, domes):
     if not domes:
         return  # no world at all: black, and no samples spent on it
     world = bpy.data.worlds.new(scene.name)
     world.use_nodes = True
-    background = world.node_tree.nodes['Background']
-    total = [sum(d['strength'] * d['color'][i] for d in domes) for i in range(3)]
-    largest = max(total)
-    background.inputs['Color'].default_value = (
-        [v / largest for v in total] + [1.0] if largest > 0 else [0.0, 0.0, 0.0, 1.0])
-    background.inputs['Strength'].default_value = largest
+    tree = world.node_tree
+    tree.nodes.clear()
+    shader = None
+    for dome in domes:
+        background = tree.nodes.new('ShaderNodeBackground')
+        background.inputs['Strength'].default_value = dome['strength']
+        background.inputs['Color'].default_value = list(dome['color']) + [1.0]
+        if 'picture' in dome:
+            picture = picture_node(tree, dome['picture'])
+            tree.links.new(picture.outputs[0], background.inputs['Color'])
+        last = background
+        if shader:
+            last = tree.nodes.new('ShaderNodeAddShader')
+            tree.links.new(shader.outputs[0], last.inputs[0])
+            tree.links.new(background.outputs[0], last.inputs[1])
+        shader = last
+    output = tree.nodes.new('ShaderNodeOutputWorld')
+    tree.links.new(shader.outputs[0], output.inputs['Surface'])
     scene.world = world
 
 

@@ -86,7 +86,52 @@ function threeLight(THREE, light, options) {
   return lamp;
 }
 
+// What a matt surface gets of a panorama, to second order.
+function threeProbe(THREE, scene, light) {
+  const probe = new THREE.LightProbe(
+    new THREE.SphericalHarmonics3().set(light.harmonics.map((c) => new THREE.Vector3(...c))), 1);
+  probe.name = light.name;
+  probe.userData.lightcal = light.measured;
+  scene.add(probe);
+}
+
+/** The panorama seen, and in mirrors: await it after buildThree, with three's HDRLoader (RGBELoader
+ * before r180). Matt surfaces are lit by its light probe, which three's own blur is 2-6 % beside: so
+ * give it as background and as envMap of shiny materials, and not as scene.environment. */
+export async function panoramaOf(THREE, HDRLoader, base = import.meta.url) {
+  const light = preset.lights.find((one) => one.picture);
+  if (!light) return null;
+  const loader = new HDRLoader();
+  loader.setDataType(THREE.FloatType);
+  const sky = await loader.loadAsync(new URL(light.picture, base).href);
+  const { data, width, height } = sky.image;
+  // The picture's middle looks along -Z; three looks along +X there. And three counts rows from
+  // below, as its loader does.
+  const channels = data.length / width / height;
+  const quarter = width / 4;
+  const turned = new Uint16Array(data.length);
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const from = (y * width + (x + quarter) % width) * channels;
+      const to = (y * width + x) * channels;
+      for (let c = 0; c < channels; ++c) {
+        turned[to + c] = THREE.DataUtils.toHalfFloat(Math.min(65504, data[from + c]));
+      }
+    }
+  }
+  const map = new THREE.DataTexture(turned, width, height, THREE.RGBAFormat, THREE.HalfFloatType);
+  map.mapping = THREE.EquirectangularReflectionMapping;
+  map.minFilter = map.magFilter = THREE.LinearFilter;
+  map.flipY = sky.flipY;
+  map.needsUpdate = true;
+  return map;
+}
+
 function threeDome(THREE, scene, light) {
+  if (light.harmonics) {
+    threeProbe(THREE, scene, light);
+    return;
+  }
   const texels = new Float32Array(32 * 16 * 4);
   for (let i = 0; i < texels.length; i += 4) texels.set([...light.color, 1], i);
   const sky = new THREE.DataTexture(texels, 32, 16, THREE.RGBAFormat, THREE.FloatType);
@@ -182,7 +227,7 @@ function babylonLight(BABYLON, scene, light) {
   }
   if (light.type === 'dome') {
     lamp = new BABYLON.HemisphericLight(light.name, new BABYLON.Vector3(0, 1, 0), scene);
-    lamp.groundColor = new BABYLON.Color3(...light.color);
+    lamp.groundColor = new BABYLON.Color3(...(light.below ?? light.color));
   }
   const isDirectional = light.type === 'directional';
   if (light.type !== 'dome') {
@@ -191,7 +236,7 @@ function babylonLight(BABYLON, scene, light) {
       : BABYLON.Light.INTENSITYMODE_LUMINOUSINTENSITY;
     if (!isDirectional) lamp.range = light.range_m ?? 10000;
   }
-  lamp.diffuse = new BABYLON.Color3(...light.color);
+  lamp.diffuse = new BABYLON.Color3(...(light.above ?? light.color));
   lamp.specular = lamp.diffuse;
   lamp.intensity = light.intensity * (light.babylon_intensity_factor ?? 1) * preset.exposure.exposure;
   lamp.metadata = { lightcal: light.measured };

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures that domes of a light.json name, for exporters.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/presets/environment_picture.h"
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/records/sources.h"
+
+namespace lightcal {
+
+// One a light, null where it names none. `folder` is where the light.json lies.
+// Refused: bad_environment (no lat-long picture of 2:1, a projection nobody knows), bad_samples and
+// others as Sources::read_frame. Fails: not_found.
+[[nodiscard]] Result<std::vector<std::shared_ptr<const EnvironmentPicture>>> LoadEnvironments(
+    const LightFile& lights, const std::string& folder, const Sources& sources);
+
+}  // namespace lightcal

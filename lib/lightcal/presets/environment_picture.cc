@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/environment_picture.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "lightcal/core/matrix3.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// Of a row's pixels [sr].
+double PixelSolidAngle(int y, int width, int height) {
+  return 2.0 * kPi / width * (std::cos(kPi * y / height) - std::cos(kPi * (y + 1) / height));
+}
+
+Vec3 DirectionOfPixel(double x, double y, int width, int height) {
+  const double azimuth = 2.0 * kPi * (x / width - 0.5);
+  const double zenith = kPi * y / height;
+  return {std::sin(zenith) * std::sin(azimuth), std::sin(zenith) * std::cos(azimuth),
+          std::cos(zenith)};
+}
+
+// ---- colour ----
+
+Matrix3 FromRec709(const ColorTarget& color) {
+  const Matrix3 xyz = XyzFromRgbMatrix(RgbSpace::kSrgb);
+  const Matrix3 back = RgbFromXyzMatrix(color.space);
+  Matrix3 out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    Xyz column{xyz[0][c], xyz[1][c], xyz[2][c]};
+    if (color.white) {
+      const Xyz adapted = AdaptBradford(column, *color.white, PrimariesOf(color.space).white);
+      column = {adapted.X, column.Y, adapted.Z};
+    }
+    const Column3 rgb = Times(back, {column.X, column.Y, column.Z});
+    for (std::size_t row = 0; row < 3; ++row) out[row][c] = rgb[row];
+  }
+  return out;
+}
+
+// A sample as the engine gets it, and what was cut.
+class PictureColor {
+ public:
+  explicit PictureColor(const ColorTarget& color)
+      : matrix_(FromRec709(color)), weights_(XyzFromRgbMatrix(color.space)[1]) {}
+
+  [[nodiscard]] Column3 Of(const Column3& rec709, double weight) {
+    Column3 rgb = Times(matrix_, rec709);
+    for (std::size_t c = 0; c < 3; ++c) {
+      total_ += weight * weights_[c] * rgb[c];
+      if (rgb[c] >= 0.0) continue;
+      below_ -= weight * weights_[c] * rgb[c];
+      rgb[c] = 0.0;
+    }
+    most_ = std::max(most_, weights_[0] * rgb[0] + weights_[1] * rgb[1] + weights_[2] * rgb[2]);
+    return rgb;
+  }
+  void Report(EncodedPicture& out) const {
+    out.cut_below = total_ > 0.0 ? below_ / total_ : 0.0;
+    out.most_nits = most_;
+  }
+
+ private:
+  Matrix3 matrix_;
+  Column3 weights_;
+  double total_ = 0.0, below_ = 0.0, most_ = 0.0;
+};
+
+// ---- Radiance ----
+
+std::array<std::uint8_t, 4> RgbeOf(const Column3& rgb) {
+  const double largest = std::max({rgb[0], rgb[1], rgb[2]});
+  if (!(largest > 1e-32)) return {0, 0, 0, 0};
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  // A mantissa that rounds up to 256 belongs to the next exponent.
+  if (std::lround(std::ldexp(largest, 8 - exponent)) > 255) ++exponent;
+  std::array<std::uint8_t, 4> out{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    out[c] = static_cast<std::uint8_t>(std::lround(std::ldexp(rgb[c], 8 - exponent)));
+  }
+  out[3] = static_cast<std::uint8_t>(exponent + 128);
+  return out;
+}
+
+// One component of a row: runs of three and more, the rest as it is.
+void AppendRuns(const std::vector<std::uint8_t>& row, std::string& out) {
+  constexpr std::size_t kLongest = 127, kWorthARun = 3;
+  std::size_t at = 0;
+  const auto run_at = [&](std::size_t i) {
+    std::size_t end = i;
+    while (end < row.size() && row[end] == row[i] && end - i < kLongest) ++end;
+    return end - i;
+  };
+  while (at < row.size()) {
+    if (const std::size_t run = run_at(at); run >= kWorthARun) {
+      out += static_cast<char>(128 + run);
+      out += static_cast<char>(row[at]);
+      at += run;
+      continue;
+    }
+    std::size_t end = at;
+    while (end < row.size() && end - at < kLongest && run_at(end) < kWorthARun) ++end;
+    out += static_cast<char>(end - at);
+    out.append(row.begin() + static_cast<std::ptrdiff_t>(at),
+               row.begin() + static_cast<std::ptrdiff_t>(end));
+    at = end;
+  }
+}
+
+// ---- the octahedral square ----
+
+// What of our axes' +Z hemisphere lies inside the diamond.
+double SignOf(double v) { return std::signbit(v) ? -1.0 : 1.0; }
+
+void AppendFloat(std::string& bytes, double value) {
+  static_assert(std::endian::native == std::endian::little);
+  const auto narrow = static_cast<float>(value);
+  bytes.append(reinterpret_cast<const char*>(&narrow), sizeof(narrow));
+}
+
+// Bilinear, across the seam.
+Column3 PictureTowards(const EnvironmentPicture& picture, const Vec3& w) {
+  const double zenith = std::acos(std::clamp(w[2], -1.0, 1.0));
+  const double x = (std::atan2(w[0], w[1]) / (2.0 * kPi) + 0.5) * picture.width - 0.5;
+  const double y = std::clamp(zenith / kPi * picture.height - 0.5, 0.0, picture.height - 1.0);
+  const double left = std::floor(x), top = std::min(std::floor(y), picture.height - 2.0);
+  const auto at = [&](double column, double row) {
+    const int w0 = picture.width;
+    const int c = ((static_cast<int>(column) % w0) + w0) % w0;
+    return picture.rgb.data() +
+           3 * (static_cast<std::size_t>(std::max(0.0, row)) * static_cast<std::size_t>(w0) +
+                static_cast<std::size_t>(c));
+  };
+  Column3 out{};
+  const double fx = x - left, fy = y - std::max(0.0, top);
+  for (std::size_t c = 0; c < 3; ++c) {
+    out[c] =
+        (double{at(left, top)[c]} * (1.0 - fx) + double{at(left + 1.0, top)[c]} * fx) * (1.0 - fy) +
+        (double{at(left, top + 1.0)[c]} * (1.0 - fx) + double{at(left + 1.0, top + 1.0)[c]} * fx) *
+            fy;
+  }
+  return out;
+}
+
+}  // namespace
+
+void EnvironmentPicture::Reduce() {
+  const int step = std::max(1, width / kSmallWidth);
+  small_width = width / step;
+  small_height = height / step;
+  small.assign(3 * static_cast<std::size_t>(small_width) * static_cast<std::size_t>(small_height),
+               0.0);
+  std::vector<double> weight(static_cast<std::size_t>(small_height), 0.0);
+  for (int y = 0; y < small_height * step; ++y) {
+    const double omega = PixelSolidAngle(y, width, height);
+    weight[static_cast<std::size_t>(y / step)] += omega * step;
+    for (int x = 0; x < small_width * step; ++x) {
+      const std::size_t to =
+          3 * (static_cast<std::size_t>(y / step) * static_cast<std::size_t>(small_width) +
+               static_cast<std::size_t>(x / step));
+      const std::size_t from = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                    static_cast<std::size_t>(x));
+      for (std::size_t c = 0; c < 3; ++c) small[to + c] += omega * double{rgb[from + c]};
+    }
+  }
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    small[i] /= weight[i / 3 / static_cast<std::size_t>(small_width)];
+  }
+}
+
+Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal) {
+  Vec3 sum{};
+  const int w = picture.small_width, h = picture.small_height;
+  for (int y = 0; y < h; ++y) {
+    const double omega = PixelSolidAngle(y, w, h);
+    for (int x = 0; x < w; ++x) {
+      const double cosine = Dot(normal, DirectionOfPixel(x + 0.5, y + 0.5, w, h));
+      if (cosine <= 0.0) continue;
+      const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += omega * cosine * p[c];
+    }
+  }
+  return sum;
+}
+
+Harmonics RadianceHarmonics(const EnvironmentPicture& picture, Vec3 (*turn)(const Vec3&)) {
+  Harmonics out{};
+  const double k0 = 0.5 * std::sqrt(1.0 / kPi), k1 = std::sqrt(3.0 / (4.0 * kPi));
+  const double k2 = std::sqrt(15.0 / (4.0 * kPi)), k20 = 0.25 * std::sqrt(5.0 / kPi);
+  const int w = picture.small_width, h = picture.small_height;
+  for (int y = 0; y < h; ++y) {
+    const double omega = PixelSolidAngle(y, w, h);
+    for (int x = 0; x < w; ++x) {
+      const Vec3 d = turn(DirectionOfPixel(x + 0.5, y + 0.5, w, h));
+      const double basis[] = {k0,
+                              k1 * d[1],
+                              k1 * d[2],
+                              k1 * d[0],
+                              k2 * d[0] * d[1],
+                              k2 * d[1] * d[2],
+                              k20 * (3.0 * d[2] * d[2] - 1.0),
+                              k2 * d[0] * d[2],
+                              0.5 * k2 * (d[0] * d[0] - d[1] * d[1])};
+      const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) out[i][c] += omega * basis[i] * p[c];
+      }
+    }
+  }
+  return out;
+}
+
+EncodedPicture RadianceFile(const EnvironmentPicture& picture, const ColorTarget& color) {
+  EncodedPicture out;
+  PictureColor convert(color);
+  out.bytes = "#?RADIANCE\n# written by lightcal: cd/m2\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
+              std::to_string(picture.height) + " +X " + std::to_string(picture.width) + "\n";
+  constexpr int kLeastRuns = 8, kMostRuns = 32767;
+  const bool runs = picture.width >= kLeastRuns && picture.width <= kMostRuns;
+  std::array<std::vector<std::uint8_t>, 4> row;
+  for (auto& part : row) part.resize(static_cast<std::size_t>(picture.width));
+  const float* at = picture.rgb.data();
+  for (int y = 0; y < picture.height; ++y) {
+    const double omega = PixelSolidAngle(y, picture.width, picture.height);
+    for (int x = 0; x < picture.width; ++x, at += 3) {
+      const auto rgbe = RgbeOf(convert.Of({at[0], at[1], at[2]}, omega));
+      for (std::size_t c = 0; c < 4; ++c) row[c][static_cast<std::size_t>(x)] = rgbe[c];
+      if (!runs) out.bytes.append(rgbe.begin(), rgbe.end());
+    }
+    if (!runs) continue;
+    out.bytes += {'\2', '\2', static_cast<char>(picture.width >> 8),
+                  static_cast<char>(picture.width & 0xFF)};
+    for (const auto& part : row) AppendRuns(part, out.bytes);
+  }
+  convert.Report(out);
+  return out;
+}
+
+Vec3 DirectionOfSquare(double u, double v) {
+  const double a = 2.0 * u - 1.0, b = 2.0 * v - 1.0;
+  const double up = std::abs(a), vp = std::abs(b);
+  const double signed_distance = 1.0 - (up + vp);
+  const double r = 1.0 - std::abs(signed_distance);
+  const double phi = (r == 0.0 ? 1.0 : (vp - up) / r + 1.0) * kPi / 4.0;
+  const double z = SignOf(signed_distance) * (1.0 - r * r);
+  const double s = r * std::sqrt(std::max(0.0, 2.0 - r * r));
+  return {SignOf(a) * std::cos(phi) * s, SignOf(b) * std::sin(phi) * s, z};
+}
+
+EncodedPicture EqualAreaSquare(const EnvironmentPicture& picture, const ColorTarget& color) {
+  constexpr int kSubsamples = 3, kMostSide = 4096;
+  EncodedPicture out;
+  PictureColor convert(color);
+  int side = 64;
+  while (side < picture.height && side < kMostSide) side *= 2;
+  out.bytes = "PF\n" + std::to_string(side) + " " + std::to_string(side) + "\n-1.0\n";
+  // From the lowest row up, as the format has it; pbrt turns it over.
+  for (int row = side - 1; row >= 0; --row) {
+    for (int column = 0; column < side; ++column) {
+      Column3 sum{};
+      for (int i = 0; i < kSubsamples * kSubsamples; ++i) {
+        const double u = (column + (i % kSubsamples + 0.5) / kSubsamples) / side;
+        const double v = (row + (i / kSubsamples + 0.5) / kSubsamples) / side;
+        const Column3 sample = PictureTowards(picture, DirectionOfSquare(u, v));
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += sample[c] / (kSubsamples * kSubsamples);
+      }
+      const Column3 rgb = convert.Of(sum, 1.0);
+      for (const double value : rgb) AppendFloat(out.bytes, value);
+    }
+  }
+  convert.Report(out);
+  return out;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of a measured dome, as engines are given it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/core/units.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/core/view2d.h"
+#include "lightcal/presets/light_color.h"
+
+namespace lightcal {
+
+// Lat-long, row after row from the upper left: the middle looks along +Y, the right side is +X, the
+// upper edge +Z (right-handed, metres, Z up, as everywhere).
+struct EnvironmentPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  // linear Rec. 709 whose luminance is cd/m^2; may be negative
+  int small_width = 0, small_height = 0;
+  std::vector<double> small;  // the same, means over solid angle of at most kSmallWidth columns
+
+  // Makes `small`.
+  void Reduce();
+};
+inline constexpr int kSmallWidth = 512;
+
+// On a plane of unit normal n in the middle, per channel: the integral of L max(0, n . w) dOmega.
+[[nodiscard]] Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal);
+
+// Of its radiance, in the basis 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 (normalised on the
+// sphere) of an engine's axes, to which `turn` takes ours. Irradiance has them times pi, 2 pi/3 and
+// pi/4.   Source: Ramamoorthi and Hanrahan 2001.
+using Harmonics = std::array<Vec3, 9>;
+[[nodiscard]] Harmonics RadianceHarmonics(const EnvironmentPicture& picture,
+                                          Vec3 (*turn)(const Vec3&));
+
+// As an engine of that colour gets it. What an encoding cannot hold is cut, and how much of the
+// whole luminance that was: below zero (out of the space's gamut), beyond the greatest number.
+struct EncodedPicture {
+  std::string bytes;
+  double cut_below = 0.0, cut_above = 0.0;  // of the luminance over the sphere
+  double most_nits = 0.0;
+};
+
+// A Radiance .hdr: mantissas of eight bits, rounded, for readers that take them as they are (all
+// engines here; Radiance itself adds half a step, up to .4 %).   Source: Ward, Real Pixels (1991).
+[[nodiscard]] EncodedPicture RadianceFile(const EnvironmentPicture& picture,
+                                          const ColorTarget& color);
+
+// A .pfm of floats: the equal-area octahedral square of pbrt-v4's infinite lights, each texel the
+// mean of what it covers, so that its sides bring what the picture's did (below .5 %).
+// Source: Clarberg, Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD (2008).
+[[nodiscard]] EncodedPicture EqualAreaSquare(const EnvironmentPicture& picture,
+                                             const ColorTarget& color);
+
+// The direction in which the square's (u, v) looks, both 0..1.
+[[nodiscard]] Vec3 DirectionOfSquare(double u, double v);
+
+}  // namespace lightcal
