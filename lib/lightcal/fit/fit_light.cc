@@ -227,7 +227,13 @@ Result<std::optional<FittedLight>> FitProfile(const Session& session, const Ligh
   Result<fit::ForwardPlan> plan = fit::PlanForward(session, seen, observations, settings);
   if (!plan) return Propagate(std::move(plan));
   Result<fit::BeamLight> found = fit::FitBeamLight(observations, light, plan->model);
+  // A cone and a bulb have fits of their own, which may still answer.
+  const bool stated = std::ranges::any_of(
+      observations.rows, [](const fit::Observation& o) { return o.off_axis_rad != 0.0; });
+  const bool bulb_by_places = light.kind == LightKind::kPoint && !stated;
+  if (!found && (bulb_by_places || fit::NeedsBeam(observations, light))) return std::nullopt;
   if (!found) return Propagate(std::move(found));
+  if (bulb_by_places && !found->surely_a_beam) return std::nullopt;
   if (found->even || (found->flat_cone && fit::NeedsBeam(observations, light))) return std::nullopt;
   if (auto known = CheckKnown(found->estimate, light.name); !known) {
     return Propagate(std::move(known));

@@ -27,10 +27,12 @@ constexpr double kSheetAngle = 0.1;    // 1 sigma, relative, of an angle on a da
 constexpr double kOffsetShare = 0.15;  // of the shortest distance, where nothing is known
 constexpr double kCardHidesToo = 0.04;
 constexpr double kLeastSpan = 5.0 * kDegree;
-constexpr double kNearAxis = 0.6;  // of the half angle
-constexpr double kOpenBeam = 2.5;  // ends of its interval
-constexpr double kDarkEnd = 1e-3;  // of the peak: where a table ends
+constexpr double kNearAxis = 1.0;             // half angles
+constexpr double kEvenSpan = 45.0 * kDegree;  // over which an even lamp has to be seen
+constexpr double kOpenBeam = 2.5;             // ends of its interval
+constexpr double kDarkEnd = 1e-3;             // of the peak: where a table ends
 constexpr double kUnlikely = 1e-5;
+constexpr double kHardlyEven = 0.01;
 constexpr double kConeStands = 0.05;  // a spot's cone, until the readings are as much against it
 
 bool LitAndPlaced(const Observation& row) {
@@ -140,6 +142,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
   const double ambient = AmbientOfOff(observations);
   double peak = 0.0;
   double shortest = std::numeric_limits<double>::infinity();
+  double widest = 0.0;
   bool left = false;
   bool right = false;
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
@@ -152,6 +155,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     peak = std::max(peak, row.measured * r2);
     shortest = std::min(shortest, std::sqrt(r2));
     out.placed = out.placed || LitAndPlaced(o);
+    widest = std::max(widest, std::abs(o.off_axis_rad));
     left = left || o.off_axis_rad < 0.0;
     right = right || o.off_axis_rad > 0.0;
   }
@@ -167,7 +171,8 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     out.readings.aim[0] = {true, 0.0, std::tan(kAngleSigmaDegrees * kDegree)};
   }
   AddSheet(light, out.readings.sheet);
-  out.readings.may_be_even = light.kind == LightKind::kPoint && !light.beam && !light.field;
+  const bool wide = out.placed || widest >= kEvenSpan;
+  out.readings.may_be_even = light.kind == LightKind::kPoint && !light.beam && !light.field && wide;
   if (model == nullptr) return out;
   if (model->fit_offset && model->distance_law) {
     out.readings.offsets = model->offsets;
@@ -214,7 +219,7 @@ Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
     if (rows.readings.rows[i].lit) nearest = std::min(nearest, profile.gamma_rad[i] / kDegree);
   }
   const double half = 0.5 * profile.beam_deg.value;
-  if (nearest > std::max(2.0, kNearAxis * half) && profile.axial_sd_ln > 0.1) {
+  if (nearest > std::max(2.0, kNearAxis * half)) {
     return Refused("beam_unknown", light,
                    "nothing was read nearer than " + RoundedText(nearest, 2) +
                        " degrees to the axis of a beam " + RoundedText(2.0 * half, 2) +
@@ -376,11 +381,15 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   }
   auto table = TableOfProfile(profile, light.name);
   if (!table) return Propagate(std::move(table));
-  BeamLight out{*std::move(table), {}, {}, {}, {}, Radians(0.0), false, false};
+  BeamLight out{*std::move(table), {}, {}, {}, {}, Radians(0.0), false, false, false};
   out.even = profile.family == "even";
+  double even = 0.0;
   for (const BeamFamilyShare& one : profile.families) {
+    if (one.name == "even") even = one.share;
     if (one.name == "cone") out.flat_cone = one.share > kConeStands;
   }
+  out.surely_a_beam =
+      even < kHardlyEven && (profile.family != "smooth" || profile.monotone_share > 0.5);
   FillEstimate(observations, rows, profile, out.estimate);
   const double birge =
       std::sqrt(std::max(1.0, profile.chi2 / std::max(1.0, profile.degrees_of_freedom)));

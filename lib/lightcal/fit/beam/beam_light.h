@@ -26,8 +26,9 @@ struct BeamLight {
   MeasuredBeam beam;
   std::optional<Vec3> aim;  // unit; where the lamp's place is known
   Radians aim_sd{0.0};
-  bool even = false;       // it shines alike in all directions
-  bool flat_cone = false;  // the readings are not against the spot of spot_beam.h
+  bool even = false;           // it shines alike in all directions
+  bool surely_a_beam = false;  // no blunder in a bulb's readings would look like it
+  bool flat_cone = false;      // the readings are not against the spot of spot_beam.h
 };
 
 // m = I(gamma) cr/r^2 + walls + E0, I(gamma) by families compared by evidence (beam_profile.h), r

@@ -103,8 +103,9 @@ struct BeamProblem {
   [[nodiscard]] T Illuminance(const BeamRow& row, const T* p) const {
     return row.lit ? T(Direct(row, p) + Walls(row, p)) : Walls(row, p);
   }
+  // Not inlined: its derivatives by 26 parameters are long.
   template <class T>
-  [[nodiscard]] bool Residual(std::size_t i, const T* p, T* residual) const {
+  [[nodiscard, gnu::noinline]] bool Residual(std::size_t i, const T* p, T* residual) const {
     if (i < rows.size()) {
       const BeamRow& row = rows[i];
       const T seen = Illuminance(row, p);

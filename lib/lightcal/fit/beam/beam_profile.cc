@@ -25,7 +25,9 @@ constexpr std::size_t kRefined = 3;   // of each family's starts
 constexpr int kRounds = 3;            // of settling what the walls scatter
 constexpr double kReach = 1.25;       // nodes beyond the outermost reading
 constexpr double kLeastShare = 3e-3;  // of the mixture
-constexpr double kRises = 2e-3;       // of the axis: less is level
+constexpr int kFewestForCurve = 4;
+constexpr double kDark = 0.01;   // of the peak
+constexpr double kRises = 2e-3;  // of the axis: less is level
 // 1 sigma of ln I(0): how far lamps stray from any such curve between the readings about it.
 constexpr double kShapeSd = 0.012;
 // Standard deviations of the smooth curve's second derivative, over (half angle)^-1.5.
@@ -36,6 +38,7 @@ constexpr std::array<double, 4> kBends = {0.6, 1.5, 4.0, 10.0};
 struct SolvedBeam {
   BeamShape shape;
   bool smooth = false;
+  double outermost = 0.0;  // rad, of the readings that saw light; of a smooth curve
   double ln_axial = 0.0;
   Eigen::VectorXd axial;  // how ln I(0) goes with theta
   double ln_probability = -std::numeric_limits<double>::infinity();
@@ -175,6 +178,13 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
     out.ln_axial += std::log(f);
     out.axial[kBeamCommon] = -std::expm1(-f / BeamShape::kSoft) / f;
   }
+  for (std::size_t i = 0; smooth && i < problem.rows.size(); ++i) {
+    const BeamRow& row = problem.rows[i];
+    const double candela = row.measured / TowardsOf(row, best->data()).per_candela;
+    if (row.lit && candela > kDark * std::exp(ln_peak)) {
+      out.outermost = std::max(out.outermost, out.gamma_rad[i]);
+    }
+  }
   out.leave_one_out = lit > 0 ? std::sqrt(squares / lit) : 0.0;
   return out;
 }
@@ -198,6 +208,18 @@ std::vector<RoughPoint> RoughCurve(const std::vector<BeamRow>& rows) {
   return curve;
 }
 
+int DistinctAngles(const std::vector<RoughPoint>& curve) {
+  constexpr double kApart = 0.5 * kPi / 180.0;
+  int count = 0;
+  double last = -1.0;
+  for (const RoughPoint& point : curve) {
+    if (point.gamma < last + kApart) continue;
+    last = point.gamma;
+    ++count;
+  }
+  return count;
+}
+
 double RoughAt(const std::vector<RoughPoint>& curve, double gamma) {
   if (gamma <= curve.front().gamma) return curve.front().candela;
   for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -212,10 +234,10 @@ double RoughAt(const std::vector<RoughPoint>& curve, double gamma) {
 // ---- widths and flux of a profile ----
 
 // Fine steps as far as the beam reaches, then one degree.
-std::vector<double> AnglesFor(double half_rad, bool even) {
+std::vector<double> AnglesFor(double half_rad) {
   const double half = half_rad * 180.0 / kPi;
   const double fine = half < 5.0 ? 0.25 : (half < 15.0 ? 0.5 : 1.0);
-  const double whole = even ? 180.0 : 90.0;
+  constexpr double whole = 90.0;
   std::vector<double> out;
   double at = 0.0;
   for (; at < std::min(whole, std::ceil(4.0 * half)); at += fine) out.push_back(at);
@@ -279,7 +301,11 @@ std::vector<double> CurveOf(const SolvedBeam& beam, const Eigen::VectorXd& p,
   std::vector<double> candela(gamma_deg.size());
   const double axial = std::exp(p[kBeamLnIntensity]);
   for (std::size_t i = 0; i < candela.size(); ++i) {
-    candela[i] = axial * beam.shape.Relative(gamma_deg[i] * kPi / 180.0, p.data() + kBeamCommon);
+    const double gamma = gamma_deg[i] * kPi / 180.0;
+    candela[i] = axial * beam.shape.Relative(gamma, p.data() + kBeamCommon);
+    // Beyond the last reading that saw light none comes up again.
+    if (beam.smooth && i > 0 && gamma > beam.outermost)
+      candela[i] = std::min(candela[i], candela[i - 1]);
   }
   return candela;
 }
@@ -397,6 +423,8 @@ std::vector<SolvedBeam> SolveAll(const BeamReadings& readings) {
     add(SolveFamily(readings, offset, 1.0, {BeamFamily::kPeakedOrFlat}, 0.0, powers));
     add(SolveFamily(readings, offset, 0.5, {BeamFamily::kCone}, 0.0, cones));
     add(SolveFamily(readings, offset, 0.5, {BeamFamily::kDomedCone}, 0.0, domes));
+    // A free curve through three angles says nothing of what lies between.
+    if (DistinctAngles(rough) < kFewestForCurve) continue;
     for (const double bend : kBends) {
       curve.bend = bend * std::pow(curve.step, 1.5);
       auto solved = SolveFamily(readings, offset, 0.5, curve, std::log(peak), {nodes});
@@ -447,7 +475,7 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   Normals normal;
   std::vector<BeamDraw> draws;
   BeamProfile out;
-  out.gamma_deg = AnglesFor(RoughHalfAngle(readings.rows), readings.may_be_even);
+  out.gamma_deg = AnglesFor(RoughHalfAngle(readings.rows));
   double smooth = 0.0;
   for (const SolvedBeam& one : beams) {
     const int count = std::max(8, static_cast<int>(std::lround(kDraws * one.share)));

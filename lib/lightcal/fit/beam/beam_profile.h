@@ -39,7 +39,7 @@ struct BeamDraw {
 };
 
 struct BeamProfile {
-  std::vector<double> gamma_deg;  // 0 to 90, even steps; to 180 of an even lamp
+  std::vector<double> gamma_deg;  // 0 to 90
   std::vector<double> candela;    // mean of the draws, axial_cd at 0
   std::vector<double> candela_sd;
   Uncertain axial_cd{}, flux_lm{}, beam_deg{}, field_deg{};  // full angles; peak's half and tenth
