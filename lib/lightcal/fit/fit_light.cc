@@ -205,6 +205,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
 // Calibration is one factor on every reading.
 void WidenBeam(double calibration, fit::BeamLight& found) {
   AddCalibration(calibration, found.estimate);
+  found.estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
   for (Uncertain* value : {&found.flux_lm, &*found.beam.axial}) {
     const auto end = [&](double at) {
       const double own = std::log(at / value->value);
