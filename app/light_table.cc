@@ -59,6 +59,21 @@ std::string Join(const std::vector<std::string>& words) {
   return words.empty() ? kNone : Joined(words);
 }
 
+std::string Degrees(const Uncertain& angle) {
+  return RoundedText(angle.value, 3) + "° ± " + RoundedText(angle.u95, 2) + "°";
+}
+
+// "key: beam 30° ± 1.7°, field 55° ± 3.1°, 899 cd ± 10 % on the axis", where readings told it.
+std::string BeamLine(const FittedLight& light) {
+  if (!light.beam || !light.beam->beam_deg) return "";
+  std::string line = light.name + ": beam " + Degrees(*light.beam->beam_deg);
+  if (light.beam->field_deg) line += ", field " + Degrees(*light.beam->field_deg);
+  if (const auto& axial = light.beam->axial) {
+    line += ", " + ValueWithPercent(axial->value, axial->u95, "cd") + " on the axis";
+  }
+  return line + "\n";
+}
+
 }  // namespace
 
 std::string Headline(const FittedLight& light) {
@@ -85,7 +100,9 @@ std::string LightTable(const LightFile& file) {
                     Flux(light), Cct(light), Duv(light), Offset(light)});
     if (located) rows.back().push_back(Position(light));
   }
-  return TextTable(head, rows);
+  std::string text = TextTable(head, rows);
+  for (const FittedLight& light : file.lights) text += BeamLine(light);
+  return text;
 }
 
 std::string FitTable(const LightFile& file) {

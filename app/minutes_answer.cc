@@ -121,8 +121,8 @@ std::vector<std::vector<std::string>> MinutesCells(const MinutesLadder& ladder) 
       {"minutes", "what they buy: " + ladder.light, "leaves", "limit"}};
   if (ladder.u95_relative) rows.push_back({"0", "as it is", U95Text(*ladder.u95_relative), ""});
   for (const LadderStep& step : ladder.steps) {
-    rows.push_back({ShortestText(step.total_minutes), step.say,
-                    U95Text(step.reading.u95_relative), StepMark(step)});
+    rows.push_back({ShortestText(step.total_minutes), step.say, U95Text(step.reading.u95_relative),
+                    StepMark(step)});
   }
   return rows;
 }
@@ -146,9 +146,15 @@ std::vector<std::string> MinutesSentences(const std::vector<MinutesLadder>& ladd
 }
 
 Node PlannedReadingNode(const PlannedReading& reading) {
-  return {{"action", WordOf(reading.action)}, {"distance_m", reading.distance},
-          {"position_m", reading.position_m}, {"normal", reading.normal},
-          {"expected_lx", reading.expected},  {"u95_relative", reading.u95_relative},
+  return {{"action", WordOf(reading.action)},
+          {"distance_m", reading.distance},
+          {"position_m", reading.position_m},
+          {"normal", reading.normal},
+          {"off_axis_deg",
+           reading.off_axis ? std::optional(DegreesFromRadians(*reading.off_axis)) : std::nullopt},
+          {"expected_lx", reading.expected},
+          {"u95_relative", reading.u95_relative},
+          {"beam_u95_deg", reading.beam_u95_deg},
           {"say", SayPlannedReading(reading)}};
 }
 

@@ -97,6 +97,7 @@ Reading PlacedIn(const Reading& frame, const Reading& measured) {
   reading.position_m = frame.position_m;
   reading.normal = frame.normal;
   reading.tilt = frame.tilt;
+  reading.off_axis = frame.off_axis;
   reading.lamp = frame.lamp;
   reading.shadow_card = frame.shadow_card;
   return reading;

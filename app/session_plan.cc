@@ -49,6 +49,11 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
 
 std::string PlusMinus(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
 
+std::string PlusMinus(double part, const std::optional<double>& beam_deg) {
+  const std::string beam = beam_deg ? ", beam angle ± " + RoundedText(*beam_deg, 2) + "°" : "";
+  return PlusMinus(part) + beam;
+}
+
 Node NodeOf(const PlannedLight& planned, const Session& session) {
   Node node = {{"name", planned.light->name}};
   if (!planned.plan) {
@@ -58,6 +63,7 @@ Node NodeOf(const PlannedLight& planned, const Session& session) {
   }
   const ReadingPlan& plan = *planned.plan;
   node.Put({{"u95_relative", plan.u95_relative},
+            {"beam_u95_deg", plan.beam_u95_deg},
             {"span", plan.span},
             {"steps", Node::List(plan.steps, PlannedReadingNode)},
             {"candidates", Node::List(plan.candidates, PlannedReadingNode)},
@@ -69,19 +75,21 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
   std::string text = planned.light->name + ": ";
   if (!planned.plan) return text + planned.plan.error().message + "\n";
   const ReadingPlan& plan = *planned.plan;
-  text += plan.u95_relative ? "now " + PlusMinus(*plan.u95_relative) + " (95 %)\n"
-                            : std::string("no reading yet\n");
+  text += plan.u95_relative
+              ? "now " + PlusMinus(*plan.u95_relative, plan.beam_u95_deg) + " (95 %)\n"
+              : std::string("no reading yet\n");
   std::vector<std::vector<std::string>> rows;
   for (const PlannedReading& step : plan.steps) {
     rows.push_back({std::to_string(rows.size() + 1), SayPlannedReading(step),
-                    RoundedText(step.expected.value(), 3) + " lx", PlusMinus(step.u95_relative)});
+                    RoundedText(step.expected.value(), 3) + " lx",
+                    PlusMinus(step.u95_relative, step.beam_u95_deg)});
   }
   text += TextTable({"step", "take this reading", "expect about", "then"}, rows);
   if (verbose) {
     rows.clear();
     for (const PlannedReading& one : plan.candidates) {
       if (rows.size() == kCandidatesShown) break;
-      rows.push_back({SayPlannedReading(one), PlusMinus(one.u95_relative)});
+      rows.push_back({SayPlannedReading(one), PlusMinus(one.u95_relative, one.beam_u95_deg)});
     }
     text += "\n" + TextTable({"or first", "then"}, rows);
   }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -64,6 +65,7 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
     const Result<Lux> lux = NotNegative(part.substr(equals + 1));
     if (!lux) return tl::unexpected(lux.error());
     Reading other = lit;
+    other.off_axis = out.front().off_axis;
     other.illuminance = *lux;
     if (key == "card") {
       other.shadow_card = true;
@@ -73,16 +75,26 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
     out.push_back(std::move(other));
     return {};
   }
+  if (part.ends_with("deg") || part.ends_with("°")) {
+    const auto angle = ParseAngle(part);
+    if (!angle) return tl::unexpected(angle.error());
+    if (!(std::abs(angle->value()) < RadiansFromDegrees(180.0).value())) {
+      return Refused("bad_reading", part, "an angle off the axis lies within 180 degrees");
+    }
+    for (Reading& one : out) one.off_axis = *angle;
+    return {};
+  }
   if (!part.empty() && (part.back() == 'K' || part.back() == 'k')) {
     const auto cct = ParseTemperature(part);
     if (!cct) return tl::unexpected(cct.error());
     out.front().cct = *cct;
     return {};
   }
-  return WrongUsage(part,
-                    std::string(kForm) +
-                        "; after a comma stand card=LUX (behind a shadow card), off=LUX (the "
-                        "lamp off) or a colour temperature such as 2900K; decimals have a point");
+  return WrongUsage(
+      part, std::string(kForm) +
+                "; after a comma stand card=LUX (behind a shadow card), off=LUX (the "
+                "lamp off), an angle off the axis such as 15deg or a colour temperature such "
+                "as 2900K; decimals have a point");
 }
 
 }  // namespace

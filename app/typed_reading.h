@@ -11,7 +11,7 @@
 namespace lightcal::app {
 
 // "192lx@0.5m" is a reading facing the lamp; ",card=5lx" what the same place showed behind a shadow
-// card, ",off=2lx" with the lamp off, ",2900K" its colour temperature.
+// card, ",off=2lx" with the lamp off, ",15deg" off its axis, ",2900K" its colour temperature.
 // Fails: usage. Refused: bad_reading (a distance of 0, a negative illuminance).
 [[nodiscard]] Result<std::vector<Reading>> ParseTypedReading(const std::string& text,
                                                              const std::string& light);

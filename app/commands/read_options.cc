@@ -26,6 +26,11 @@ Result<Reading> FrameOf(const ReadArguments& arguments) {
     if (!tilt) return tl::unexpected(tilt.error());
     reading.tilt = *tilt;
   }
+  if (!arguments.off_axis.empty()) {
+    const auto off_axis = ParseAngle(arguments.off_axis);
+    if (!off_axis) return tl::unexpected(off_axis.error());
+    reading.off_axis = *off_axis;
+  }
   return reading;
 }
 
@@ -85,6 +90,9 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   parser.add_option("--light", a.light, "Name of the lamp, as in session.toml");
   parser.add_option("--distance", a.distance, "From the lamp to the meter: 0.5m, 50cm, 2ft");
   parser.add_option("--tilt", a.tilt, "Between the meter's normal and the lamp, degrees");
+  parser.add_option("--off-axis", a.off_axis,
+                    "Between the lamp's axis and the meter, seen from the lamp, degrees: tells "
+                    "its beam");
   parser.add_option("--meter", a.meter, "The session's [[meter]] that took the reading");
   auto* count = parser.add_option("-n", a.measurements, "Measurements to take the median of");
   count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));

@@ -18,7 +18,7 @@ namespace lightcal::app {
 
 // As typed.
 struct ReadArguments {
-  std::string session, light, distance, tilt, meter;
+  std::string session, light, distance, tilt, off_axis, meter;
   std::string lux;
   std::string timeout = "1s";
   std::string settle = "0.5%";

@@ -192,7 +192,11 @@ class Walk {
       case PlannedAction::kRead:
         break;
     }
-    if (by_distance) {
+    if (by_distance && step.off_axis && step.off_axis->value() != 0.0) {
+      text += "Put the meter " + at + " from the lamp, " +
+              RoundedText(std::abs(DegreesFromRadians(*step.off_axis)), 3) +
+              " degrees off its axis, facing it, nothing in between.";
+    } else if (by_distance) {
       text += "Put the meter " + at + " from the lamp, facing it, nothing in between.";
     } else if (step.position_m) {
       text += "Now " + SayPlannedReading(step) + " (x, y, z of the session).";
@@ -225,6 +229,7 @@ class Walk {
     frame.distance = step.distance;
     frame.position_m = step.position_m;
     frame.normal = step.normal;
+    frame.off_axis = step.off_axis.value_or(Radians(0.0));
     frame.shadow_card = step.action == PlannedAction::kShadowCard;
     frame.lamp = step.action == PlannedAction::kLampOff ? LampState::kOff : LampState::kOn;
     const auto taken = typed_ ? source_.TakeTyped(frame, answer.typed, console_)

@@ -34,6 +34,7 @@ constexpr std::array kScalarNames = {
     KnownName{"x", CsvQuantity::kX},
     KnownName{"y", CsvQuantity::kY},
     KnownName{"tilt_deg", CsvQuantity::kTilt},
+    KnownName{"off_axis_deg", CsvQuantity::kOffAxis},
     KnownName{"sigma_relative", CsvQuantity::kSigma},
     KnownName{"light", CsvQuantity::kLight},
     KnownName{"meter", CsvQuantity::kMeter},

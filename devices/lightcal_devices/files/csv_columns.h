@@ -18,6 +18,7 @@ enum class CsvQuantity {
   kX,
   kY,
   kTilt,
+  kOffAxis,
   kSigma,
   kLight,
   kMeter,

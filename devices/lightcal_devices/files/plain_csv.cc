@@ -193,6 +193,9 @@ bool TakeNumber(Reading& reading, CsvQuantity quantity, double value) {
     case CsvQuantity::kTilt:
       reading.tilt = RadiansFromDegrees(value);
       return value > -90.0 && value < 90.0;
+    case CsvQuantity::kOffAxis:
+      reading.off_axis = RadiansFromDegrees(value);
+      return value > -180.0 && value < 180.0;
     case CsvQuantity::kSigma:
       reading.sigma_relative = value;
       return value > 0.0;

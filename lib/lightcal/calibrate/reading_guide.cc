@@ -19,7 +19,7 @@ bool IsLit(const Reading& reading) {
 }
 
 bool SamePlace(const Reading& a, const Reading& b) {
-  return a.distance == b.distance && a.position_m == b.position_m;
+  return a.distance == b.distance && a.position_m == b.position_m && a.off_axis == b.off_axis;
 }
 
 // Where nothing but distance tells readings apart, other light is part of what is measured.
@@ -78,15 +78,17 @@ std::optional<PlannedReading> ReadingGuide::PendingCard() const {
   if (!shadow_cards_ || !uncarded_) return std::nullopt;
   const double lux = uncarded_->illuminance->value();
   if (other_lux_ && *other_lux_ < kOtherLightMatters * lux) return std::nullopt;
-  return PlannedReading{PlannedAction::kShadowCard, uncarded_->distance, uncarded_->position_m,
-                        uncarded_->normal};
+  PlannedReading card{PlannedAction::kShadowCard, uncarded_->distance, uncarded_->position_m,
+                      uncarded_->normal};
+  if (uncarded_->off_axis.value() != 0.0) card.off_axis = uncarded_->off_axis;
+  return card;
 }
 
 bool ReadingGuide::IsSkipped(const PlannedReading& step) const {
   if (step.action == PlannedAction::kShadowCard && !shadow_cards_) return true;
   return std::ranges::any_of(skipped_, [&](const PlannedReading& one) {
     return one.action == step.action && one.distance == step.distance &&
-           one.position_m == step.position_m;
+           one.position_m == step.position_m && one.off_axis == step.off_axis;
   });
 }
 
@@ -99,7 +101,11 @@ Result<GuideAdvice> ReadingGuide::Next() const {
   const auto best = std::ranges::find_if(
       plan->candidates, [this](const PlannedReading& step) { return !IsSkipped(step); });
   if (best == plan->candidates.end()) return GuideAdvice{GuideAdvice::Kind::kNoGain};
-  const bool helps = !now || best->u95_relative < (1.0 - kLeastGain) * *now;
+  const auto open = [](double u95, const std::optional<double>& beam) {
+    return u95 * beam.value_or(1.0);
+  };
+  const bool helps = !now || open(best->u95_relative, best->beam_u95_deg) <
+                                 (1.0 - kLeastGain) * open(*now, plan->beam_u95_deg);
   return GuideAdvice{helps ? GuideAdvice::Kind::kMeasure : GuideAdvice::Kind::kNoGain, *best};
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/estimate_light.h"
@@ -201,6 +202,59 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   return out;
 }
 
+// Calibration is one factor on every reading.
+void WidenBeam(double calibration, fit::BeamLight& found) {
+  AddCalibration(calibration, found.estimate);
+  found.estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
+  for (Uncertain* value : {&found.flux_lm, &*found.beam.axial}) {
+    const auto end = [&](double at) {
+      const double own = std::log(at / value->value);
+      return value->value * std::exp(std::copysign(std::hypot(own, kZ95 * calibration), own));
+    };
+    value->low = end(*value->low);
+    value->high = end(*value->high);
+    value->u95 = 0.5 * (*value->high - *value->low);
+  }
+}
+
+// A lamp whose shape readings off its axis tell. Absent where it turns out to have none of its own:
+// it shines alike in all directions, or as a spot's cone, which its own fit takes on.
+Result<std::optional<FittedLight>> FitProfile(const Session& session, const LightDescription& light,
+                                              const fit::Observations& observations,
+                                              const FitSettings& settings, FittedLight out,
+                                              FittedSession& session_out) {
+  LightDescription seen = light;
+  seen.beam = fit::RoughBeam(observations, light);
+  Result<fit::ForwardPlan> plan = fit::PlanForward(session, seen, observations, settings);
+  if (!plan) return Propagate(std::move(plan));
+  Result<fit::BeamLight> found = fit::FitBeamLight(observations, light, plan->model);
+  // A cone and a bulb have fits of their own, which may still answer.
+  const bool stated = std::ranges::any_of(
+      observations.rows, [](const fit::Observation& o) { return o.off_axis_rad != 0.0; });
+  const bool bulb_by_places = light.kind == LightKind::kPoint && !stated;
+  if (!found && (bulb_by_places || fit::NeedsBeam(observations, light))) return std::nullopt;
+  if (!found) return Propagate(std::move(found));
+  if (bulb_by_places && !found->surely_a_beam) return std::nullopt;
+  if (found->even || (found->flat_cone && fit::NeedsBeam(observations, light))) return std::nullopt;
+  if (auto known = CheckKnown(found->estimate, light.name); !known) {
+    return Propagate(std::move(known));
+  }
+  WidenBeam(LargestCalibration(observations), *found);
+  fit::LightEstimate& estimate = found->estimate;
+  if (SamplingOf(settings)) session_out.notes.push_back(SayOfSampling(estimate, light.name));
+  fit::FillParameters(estimate, true, out);
+  out.fit = estimate.diagnostics;
+  out.residuals = estimate.residuals;
+  out.effects = fit::ReportEffects(*plan, observations, estimate);
+  ReportCalibration(observations, out.effects);
+  out.budget = fit::BudgetOf(estimate.variance_parts);
+  Append(session_out.warnings, std::move(estimate.warnings));
+  fit::FillBeamLight(*std::move(found), out);
+  fit::CheckDataSheet(light, out, session_out.warnings);
+  fit::CheckDrift(session, out, session_out.warnings);
+  return out;
+}
+
 // A cone was found under one offset's prior, and in all its readings: the intensity keeps to both.
 void KeepToBeam(fit::ForwardModel& model) {
   model.offsets = {MatchedOffset(model.offsets)};
@@ -237,6 +291,15 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (fit::NeedsLocating(*observations, light)) {
     Append(warnings, std::move(observations->warnings));
     return FitLocated(session, light, *observations, settings, std::move(out), session_out);
+  }
+  if (fit::NeedsProfile(*observations, light)) {
+    Result<std::optional<FittedLight>> shaped =
+        FitProfile(session, light, *observations, settings, out, session_out);
+    if (!shaped) return Propagate(std::move(shaped));
+    if (*shaped) {
+      Append(warnings, std::move(observations->warnings));
+      return **std::move(shaped);
+    }
   }
   std::optional<fit::SpotBeam> beam;
   if (fit::NeedsBeam(*observations, light)) {

@@ -39,6 +39,9 @@ inline constexpr NumberRule kCardRule{[](double v) { return v > 0.0 && v <= 1.0;
 inline constexpr NumberRule kTiltRule{
     [](double v) { return v > -90.0 && v < 90.0; },
     "must lie between -90 and 90 degrees: a meter turned further does not see the lamp"};
+inline constexpr NumberRule kOffAxisRule{[](double v) { return v > -180.0 && v < 180.0; },
+                                         "must lie between -180 and 180 degrees from the lamp's "
+                                         "axis; the sign tells its two sides apart"};
 inline constexpr NumberRule kHalfAngleRule{[](double v) { return v >= 0.0 && v <= 180.0; },
                                            "must be a half angle from 0 to 180 degrees"};
 inline constexpr NumberRule kFullAngleRule{[](double v) { return v > 0.0 && v <= 360.0; },

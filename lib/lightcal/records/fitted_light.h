@@ -88,6 +88,20 @@ struct EnvironmentFile {
   double nits_per_unit = 1.0;  // cd/m^2 of a sample of luminance 1
 };
 
+// A beam that readings off the axis told: what its distribution says in short.
+struct MeasuredBeam {
+  std::optional<Uncertain> axial;                // cd along the aim; the peak may lie beside it
+  std::optional<Uncertain> beam_deg, field_deg;  // full angles at a half and a tenth of the peak
+  // The families of shapes, and how much the readings are for each (together 1).
+  struct Family {
+    std::string name;
+    double share = 0.0;
+    double leave_one_out = 0.0;  // rms of each reading predicted by the others, over its sigma
+  };
+  std::vector<Family> families{};
+  std::optional<double> falling_share;  // of the smooth curves: those held to fall outwards alone
+};
+
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
 // the model); flux integrates the model. d0 is positive when the effective source lies behind the
 // point the distance was measured from.
@@ -110,6 +124,7 @@ struct FittedLight {
   std::optional<Vec3> axis{};                        // of a tube's length or a rect's width
   std::optional<MeasuredDistribution> distribution;  // photometric
   std::optional<EnvironmentFile> environment{};      // dome; illuminance_lx is the upward one
+  std::optional<MeasuredBeam> beam{};
   FittedColor color;
   FitDiagnostics fit;
   std::vector<EffectReport> effects;

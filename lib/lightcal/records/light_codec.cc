@@ -47,6 +47,21 @@ void VisitDuv(FieldWriter& writer, const std::optional<Uncertain>& duv) {
   writer.Number("duv_high95", duv->high);
 }
 
+constexpr auto kVisitFamily = [](auto& archive, auto& family) {
+  archive.Text("name", family.name);
+  archive.Number("share", family.share, kNotNegative);
+  archive.Number("leave_one_out", family.leave_one_out, kNotNegative);
+  archive.Require({"name", "share"});
+};
+
+constexpr auto kVisitBeam = [](auto& archive, auto& beam) {
+  archive.Object("axial_cd", beam.axial, kVisitUncertain);
+  archive.Object("beam_deg", beam.beam_deg, kVisitUncertain);
+  archive.Object("field_deg", beam.field_deg, kVisitUncertain);
+  archive.List("families", beam.families, kVisitFamily);
+  archive.Number("falling_share", beam.falling_share, kNotNegative);
+};
+
 template <class Archive, class SomeColor>
 void VisitColor(Archive& archive, SomeColor& color) {
   archive.Object("cct_K", color.cct_K, kVisitUncertain);
@@ -155,6 +170,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitGeometry(archive, light);
   VisitDistribution(archive, light.distribution);
   archive.Object("environment", light.environment, kVisitEnvironment);
+  archive.Object("beam", light.beam, kVisitBeam);
   archive.Group("color", [&](auto& color) { VisitColor(color, light.color); });
   archive.Group("fit", [&](auto& fit) { VisitFit(fit, light.fit); });
   VisitCauses(archive, light);

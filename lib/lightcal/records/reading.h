@@ -35,6 +35,9 @@ struct Reading {
   std::optional<Vec3> normal;      // any length above 0
   std::optional<Lux> illuminance;  // as read: ambient and bounce included
   Radians tilt{0.0};               // between the meter's normal and the lamp's direction
+  // Between the lamp's axis and the direction of the meter, seen from the lamp; the sign tells the
+  // two sides of the axis apart. 0: on the axis.
+  Radians off_axis{0.0};
   LampState lamp = LampState::kOn;
   bool shadow_card = false;  // only the direct beam was blocked: everything but the lamp
   std::optional<Kelvin> cct;

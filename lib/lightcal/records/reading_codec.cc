@@ -31,6 +31,7 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Array("normal", reading.normal);
   archive.Number("illuminance_lx", reading.illuminance, kIlluminanceRule);
   archive.Degrees("tilt_deg", reading.tilt, kTiltRule);
+  archive.Degrees("off_axis_deg", reading.off_axis, kOffAxisRule);
   archive.WordUnlessFirst("lamp", reading.lamp, kLampWords);
   archive.Flag("shadow_card", reading.shadow_card);
   archive.Number("cct_K", reading.cct, kPositive);
@@ -92,6 +93,10 @@ std::optional<ReadingFault> FaultOfPlace(const Reading& reading) {
     return ReadingFault{
         reading.normal ? "normal" : "position_m",
         "position_m and normal belong together: where the meter stood and where it faced"};
+  }
+  if (reading.position_m && reading.off_axis.value() != 0.0) {
+    return ReadingFault{"off_axis_deg",
+                        "position_m says already how far off the axis the meter stood"};
   }
   if (reading.normal && Length(*reading.normal) == 0.0) {
     return ReadingFault{"normal", "normal = [0, 0, 0] is no direction"};

@@ -19,8 +19,10 @@ struct PlannedReading {
   std::optional<Metres> distance;  // facing the lamp
   std::optional<Vec3> position_m;  // or at this place
   std::optional<Vec3> normal;
-  Lux expected{0.0};        // what the meter will show if the lamp is what it now seems
-  double u95_relative = 0;  // of the intensity (illuminance) once it is taken
+  Lux expected{0.0};                  // what the meter will show if the lamp is what it now seems
+  double u95_relative = 0;            // of the intensity (illuminance) once it is taken
+  std::optional<Radians> off_axis{};  // with distance: seen from the lamp, from its axis
+  std::optional<double> beam_u95_deg{};  // of a beam's full angle once it is taken
 };
 
 // Of a person, in minutes: a reading where the meter stands, a shadow card held before it, the

@@ -16,8 +16,12 @@ class RowCost : public ceres::CostFunction {
   }
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    return problem_.row(row_, parameters[0], residuals,
-                        jacobians == nullptr ? nullptr : jacobians[0]);
+    double* const gradient = jacobians == nullptr ? nullptr : jacobians[0];
+    if (!problem_.row(row_, parameters[0], residuals, gradient)) return false;
+    // Ceres prints pages of what is not finite.
+    const auto finite = [](double x) { return std::isfinite(x); };
+    return gradient == nullptr ||
+           std::all_of(gradient, gradient + parameter_block_sizes()[0], finite);
   }
 
  private:

@@ -114,6 +114,7 @@ class Collector {
     observation.distance_m = geometry->distance_m;
     observation.placed = reading.distance || reading.position_m;
     observation.tilt_rad = geometry->tilt_rad;
+    observation.off_axis_rad = reading.off_axis.value();
     observation.measured_lx = observation.raw_lx =
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
@@ -333,7 +334,8 @@ class Collector {
     if (!light_.position_m && row.position_m && there) {
       return Length(*row.position_m - *there) < kSamePlace;
     }
-    return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m);
+    return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m) &&
+           row.off_axis_rad == out_.rows[j].off_axis_rad;
   }
 
   void FillSigmas() {

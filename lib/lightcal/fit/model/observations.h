@@ -20,10 +20,11 @@ struct Observation {
   double distance_m = 1.0;  // from the reference point, or of the two positions; 1 where none
   bool placed = true;       // whether the session says where the meter was
   double tilt_rad = 0.0;
-  double measured_lx = 0.0;  // a matching shadow-card reading is subtracted
-  double raw_lx = 0.0;       // as read
-  double sigma_lx = 0.0;     // 1 sigma of measured_lx
-  bool differenced = false;  // shadow card subtracted: no ambient, no bounce
+  double off_axis_rad = 0.0;  // stated; 0 where a position says it
+  double measured_lx = 0.0;   // a matching shadow-card reading is subtracted
+  double raw_lx = 0.0;        // as read
+  double sigma_lx = 0.0;      // 1 sigma of measured_lx
+  bool differenced = false;   // shadow card subtracted: no ambient, no bounce
   // What was read behind a card: subtracted from this reading, or (lit false) this row itself.
   bool behind_card = false;
   double card_lx = 0.0;        // the mean that was subtracted

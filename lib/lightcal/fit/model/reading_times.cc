@@ -89,7 +89,7 @@ bool CannotBothBe(const Reading& a, const Reading& b) {
   const bool same_kind = a.lamp == b.lamp && a.shadow_card == b.shadow_card;
   if (a.distance && b.distance && *a.distance != *b.distance) return true;
   return same_kind && a.distance == b.distance && a.position_m == b.position_m &&
-         a.tilt == b.tilt && a.illuminance == b.illuminance;
+         a.tilt == b.tilt && a.off_axis == b.off_axis && a.illuminance == b.illuminance;
 }
 
 // Sees the readings of one light in their order.

@@ -72,6 +72,19 @@ std::optional<std::string> AboutPlace(const Session& session, const FittedLight&
          percent(*plan->u95_relative);
 }
 
+// A beam is told best at another angle.
+std::optional<std::string> AboutBeam(const Session& session, const FittedLight& light) {
+  if (!light.beam || !light.beam->beam_deg) return std::nullopt;
+  const auto plan = PlanAngle(session, light.name, {});
+  if (!plan || plan->steps.empty() || !plan->beam_u95_deg) return std::nullopt;
+  const PlannedReading& step = plan->steps.front();
+  if (!step.beam_u95_deg) return std::nullopt;
+  const auto degrees = [](double u95) { return "± " + RoundedText(u95, 2) + "°"; };
+  return SayPlannedReading(step) + ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
+         degrees(*step.beam_u95_deg) + ", intensity ± " + PercentText(*plan->u95_relative) +
+         " → ± " + PercentText(step.u95_relative);
+}
+
 // Whether the walls are a large part of what is not known.
 bool WallsDecide(const FittedLight& light) {
   for (const BudgetPart& part : light.budget) {
@@ -95,6 +108,7 @@ std::optional<std::string> AboutWalls(const Session& session, const FittedLight&
 }  // namespace
 
 std::string NextStep(const Session& session, const FittedLight& light) {
+  if (auto angle = AboutBeam(session, light)) return *angle;
   if (auto place = AboutPlace(session, light)) return *place;
   const Taken taken = TakenOf(session, light);
   if (taken.distances_m.empty()) {

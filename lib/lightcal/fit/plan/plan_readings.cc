@@ -35,6 +35,18 @@ Reading LikeTheLast(const Session& session) {
   return like;
 }
 
+// Of a beam's full angle; none where there is no beam to be known.
+std::optional<double> BeamOf(const FittedLight& light) {
+  if (!light.beam || !light.beam->beam_deg) return std::nullopt;
+  const Uncertain& beam = *light.beam->beam_deg;
+  return beam.high ? std::max(*beam.high - beam.value, beam.u95) : beam.u95;
+}
+
+// What is to be small: the interval of the intensity and, of a beam, that of its angle.
+double OpenAfter(const PlannedReading& planned) {
+  return planned.u95_relative * planned.beam_u95_deg.value_or(1.0);
+}
+
 struct Outcome {
   FittedLight light;
   double u95_relative = std::numeric_limits<double>::infinity();
@@ -53,16 +65,18 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
 class Planner {
  public:
   Planner(Session session, const FitSettings& settings, double reach_m,
-          std::optional<PlannedAction> only = {})
+          std::optional<PlannedAction> only = {}, bool only_angles = false)
       : session_(std::move(session)),
         settings_(settings),
         reach_m_(reach_m),
         only_(only),
+        only_angles_(only_angles),
         like_(LikeTheLast(session_)) {}
 
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
     if (auto begun = Begin(plan.u95_relative); !begun) return Propagate(std::move(begun));
+    if (now_ && plan.u95_relative) plan.beam_u95_deg = BeamOf(*now_);
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
       std::vector<PlannedReading> ranked = Rank();
@@ -137,6 +151,7 @@ class Planner {
     for (PlannedReading& candidate :
          fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
       if (only_ && candidate.action != *only_) continue;
+      if (only_angles_ && !candidate.off_axis) continue;
       if (Judge(candidate)) out.push_back(std::move(candidate));
     }
     return out;
@@ -174,15 +189,13 @@ class Planner {
   [[nodiscard]] std::vector<PlannedReading> Rank() const {
     std::vector<PlannedReading> out = Judged();
     if (out.empty()) return out;
-    const double least = std::min_element(out.begin(), out.end(), [](const auto& a, const auto& b) {
-                           return a.u95_relative < b.u95_relative;
-                         })->u95_relative;
+    const double least = OpenAfter(*std::ranges::min_element(out, {}, OpenAfter));
     const auto as_good = std::find_if(out.begin(), out.end(), [least](const PlannedReading& r) {
-      return r.u95_relative <= least * (1.0 + kAsGood);
+      return OpenAfter(r) <= least * (1.0 + kAsGood);
     });
     std::rotate(out.begin(), as_good, as_good + 1);
     std::stable_sort(out.begin() + 1, out.end(),
-                     [](const auto& a, const auto& b) { return a.u95_relative < b.u95_relative; });
+                     [](const auto& a, const auto& b) { return OpenAfter(a) < OpenAfter(b); });
     return out;
   }
 
@@ -191,6 +204,7 @@ class Planner {
     row.reading.distance = planned.distance;
     row.reading.position_m = planned.position_m;
     row.reading.normal = planned.normal;
+    row.reading.off_axis = planned.off_axis.value_or(Radians(0.0));
     row.reading.shadow_card = planned.action == PlannedAction::kShadowCard;
     if (planned.action == PlannedAction::kLampOff) row.reading.lamp = LampState::kOff;
     row.reading.illuminance = planned.expected;
@@ -237,6 +251,7 @@ class Planner {
     }
     if (!outcome) return false;
     candidate.u95_relative = outcome->u95_relative;
+    candidate.beam_u95_deg = BeamOf(outcome->light);
     return std::isfinite(candidate.u95_relative);
   }
 
@@ -255,6 +270,14 @@ class Planner {
     const bool has_intensity = now_ && now_->intensity_cd;
     const double candela = has_intensity ? now_->intensity_cd->value : kNominalCandela;
     if (now_ && now_->illuminance_lx) return Lux(now_->illuminance_lx->value + Ambient());
+    if (planned.distance && now_ && now_->distribution) {
+      const double d = planned.distance->value() +
+                       (now_->distance_offset_m ? now_->distance_offset_m->value : 0.0);
+      const Radians off = planned.off_axis.value_or(Radians(0.0));
+      const auto towards =
+          now_->distribution->table.At(Radians(0.0), Radians(std::abs(off.value())));
+      return Lux(towards.value() / (d * d) + Ambient());
+    }
     if (planned.distance && has_intensity) {
       const auto predicted = PredictIlluminance(*now_, *planned.distance, 0.05);
       return predicted ? Lux(predicted->model_lx.value) : Lux(-1.0);
@@ -321,6 +344,7 @@ class Planner {
   const FitSettings& settings_;
   double reach_m_;
   std::optional<PlannedAction> only_;
+  bool only_angles_;
   Reading like_;
   std::optional<FittedLight> now_;
   std::optional<PlannedReading> stands_;  // where the meter does
@@ -332,7 +356,12 @@ std::string PlaceText(const Vec3& at) {
 }
 
 std::string WhereText(const PlannedReading& reading) {
-  if (reading.distance) return " at " + RoundedText(reading.distance->value(), 3) + " m";
+  if (reading.distance) {
+    const std::string at = " at " + RoundedText(reading.distance->value(), 3) + " m";
+    if (!reading.off_axis) return at;
+    const double degrees = DegreesFromRadians(*reading.off_axis);
+    return " " + RoundedText(std::abs(degrees), 3) + " degrees off the axis," + at;
+  }
   if (!reading.position_m) return "";
   std::string text = " at " + PlaceText(*reading.position_m) + " m";
   if (reading.normal) text += ", facing " + PlaceText(*reading.normal);
@@ -372,6 +401,14 @@ Result<ReadingPlan> PlanReadings(const Session& session, const std::string& ligh
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
   return Planner(*std::move(alone), settings, fit::kFarthestReach).Plan(steps);
+}
+
+Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
+                              const FitSettings& settings) {
+  auto alone = AloneIn(session, light);
+  if (!alone) return Propagate(std::move(alone));
+  return Planner(*std::move(alone), settings, fit::kFarthestReach, PlannedAction::kRead, true)
+      .Plan(1);
 }
 
 Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,

@@ -15,6 +15,7 @@ namespace lightcal {
 
 struct ReadingPlan {
   std::optional<double> u95_relative;      // now; absent before any reading
+  std::optional<double> beam_u95_deg;      // now, where readings off the axis tell a beam
   std::vector<PlannedReading> steps;       // in order, each on top of the former
   std::vector<PlannedReading> candidates;  // for the first step, best first
   std::optional<double> span;              // farthest over nearest distance so far
@@ -25,11 +26,17 @@ struct ReadingPlan {
 // predicts, by the meter used last) and fitting again; then the next on top of it. Candidates are
 // distances in geometric steps from 0.25 m to 10 m within a factor sqrt(8) of those taken, places
 // round those taken, across a spot's beam and on the axis of a lamp whose place and aim are known,
-// a shadow card where a reading stands, the lamp off. Before any reading the plan is that of a lamp
-// of its data sheet, or of any: relative uncertainty does not depend on its strength.
-// Refused: as FitSession (what the refusal asks for comes first), unknown_light.
+// angles off the axis of a lamp that was read off its axis (there what counts is the product of
+// both intervals, the intensity's and the beam angle's), a shadow card where a reading stands, the
+// lamp off. Before any reading the plan is that of a lamp of its data sheet, or of any: relative
+// uncertainty does not depend on its strength. Refused: as FitSession (what the refusal asks for
+// comes first), unknown_light.
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                                const FitSettings& settings, int steps);
+
+// The same of angles off the axis alone, one step, of a lamp whose beam readings told.
+[[nodiscard]] Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
+                                            const FitSettings& settings);
 
 // The same of shadow cards alone, one step: quick to ask.
 [[nodiscard]] Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,

@@ -54,6 +54,7 @@ class Candidates {
       AddPlaces(out);
     } else {
       AddDistances(out);
+      AddAngles(out);
     }
     return out;
   }
@@ -74,6 +75,7 @@ class Candidates {
     if (!IsLit(reading)) return;
     if (reading.distance && reading.distance->value() > 0.0) {
       distances_.push_back(reading.distance->value());
+      angles_.push_back(std::abs(DegreesFromRadians(reading.off_axis)));
     }
     if (reading.position_m) places_.push_back({*reading.position_m, reading.normal});
     lit_.push_back(reading);
@@ -82,13 +84,16 @@ class Candidates {
   void AddShadowCards(std::vector<PlannedReading>& out) const {
     for (const Reading& lit : lit_) {
       const bool known = std::any_of(carded_.begin(), carded_.end(), [&](const Reading& card) {
-        return card.distance == lit.distance && card.position_m == lit.position_m;
+        return card.distance == lit.distance && card.position_m == lit.position_m &&
+               card.off_axis == lit.off_axis;
       });
       const bool listed = std::any_of(out.begin(), out.end(), [&](const PlannedReading& card) {
-        return card.distance == lit.distance && card.position_m == lit.position_m;
+        return card.distance == lit.distance && card.position_m == lit.position_m &&
+               card.off_axis.value_or(Radians(0.0)) == lit.off_axis;
       });
       if (known || listed || lit.meter == kDataSheetMeter) continue;
       out.push_back({PlannedAction::kShadowCard, lit.distance, lit.position_m, lit.normal});
+      if (lit.off_axis.value() != 0.0) out.back().off_axis = lit.off_axis;
     }
   }
 
@@ -113,6 +118,29 @@ class Candidates {
                SameDistance(other.distance->value(), d);
       });
       if (!listed) out.push_back({PlannedAction::kRead, Metres(d), {}, {}});
+    }
+  }
+
+  // In and around a beam that was read off its axis, at the middle of the distances taken.
+  void AddAngles(std::vector<PlannedReading>& out) const {
+    if (fitted_ == nullptr || !fitted_->beam || !fitted_->beam->beam_deg) return;
+    if (std::ranges::all_of(angles_, [](double angle) { return angle == 0.0; })) return;
+    double ln = 0.0;
+    for (const double d : distances_) ln += std::log(d);
+    const double distance = RoundedLength(std::exp(ln / static_cast<double>(distances_.size())));
+    const double half = 0.5 * fitted_->beam->beam_deg->value;
+    const double edge = fitted_->beam->field_deg ? 0.5 * fitted_->beam->field_deg->value : 2 * half;
+    for (const double wished : {0.0, 0.5 * half, 0.8 * half, half, 1.25 * half, 0.5 * (half + edge),
+                                edge, 1.3 * edge, 2.0 * edge}) {
+      const double step = wished < 10.0 ? 1.0 : 5.0;
+      const double angle = std::round(wished / step) * step;
+      const auto near = [&](double other) { return std::abs(other - angle) < 0.5 * step; };
+      const bool listed = std::ranges::any_of(out, [&](const PlannedReading& other) {
+        return other.off_axis && near(DegreesFromRadians(*other.off_axis));
+      });
+      if (listed || angle > 85.0 || std::ranges::any_of(angles_, near)) continue;
+      out.push_back({PlannedAction::kRead, Metres(distance), {}, {}});
+      out.back().off_axis = RadiansFromDegrees(angle);
     }
   }
 
@@ -216,7 +244,7 @@ class Candidates {
   const LightDescription& light_;
   const FittedLight* fitted_;
   double reach_;
-  std::vector<double> distances_;
+  std::vector<double> distances_, angles_;
   std::vector<Place> places_;
   std::vector<Reading> lit_, carded_;
   bool off_ = false;

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/beam/beam_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/beam/beam_profile.h"
+#include "lightcal/fit/beam/spot_beam.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDarkOfPeak = 2e-4;  // what a meter still sees in the dark, of the beam's peak
+constexpr double kLogBelow = 0.3;     // relative sigma up to which a reading's logarithm is normal
+constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
+constexpr double kAngleSigmaDegrees = 1.0;
+constexpr double kAnyAim = 0.4;        // 1 sigma of the tilts of an aim that nobody stated
+constexpr double kSheetAngle = 0.1;    // 1 sigma, relative, of an angle on a data sheet
+constexpr double kOffsetShare = 0.15;  // of the shortest distance, where nothing is known
+constexpr double kCardHidesToo = 0.04;
+constexpr double kLeastSpan = 5.0 * kDegree;
+constexpr double kNearAxis = 1.0;             // half angles
+constexpr double kEvenSpan = 45.0 * kDegree;  // over which an even lamp has to be seen
+constexpr double kOpenBeam = 2.5;             // ends of its interval
+constexpr double kDarkEnd = 1e-3;             // of the peak: where a table ends
+constexpr double kUnlikely = 1e-5;
+constexpr double kHardlyEven = 0.01;
+constexpr double kConeStands = 0.05;  // a spot's cone, until the readings are as much against it
+
+bool LitAndPlaced(const Observation& row) {
+  return row.lit && row.position_m && row.measured_from_center && !row.over_range;
+}
+
+double AmbientOfOff(const Observations& observations) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Observation& row : observations.rows) {
+    if (row.lit || row.behind_card) continue;
+    sum += row.measured_lx;
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+// The aim as stated, or towards the brightest.
+Vec3 FirstAim(const Observations& observations, const LightDescription& light) {
+  if (light.aim) return *light.aim;
+  Vec3 middle{};
+  if (light.position_m) {
+    for (const Observation& row : observations.rows) {
+      if (!LitAndPlaced(row)) continue;
+      const Vec3 from = *row.position_m - *light.position_m;
+      middle = middle + from * (std::max(0.0, row.measured_lx) * Length(from));
+    }
+  }
+  const double length = Length(middle);
+  return length > 0.0 ? middle * (1.0 / length) : Vec3{0.0, 0.0, -1.0};
+}
+
+struct BeamRows {
+  BeamReadings readings;
+  SourceFrame frame;
+  std::vector<std::size_t> observation;  // of each row
+  bool placed = false;
+};
+
+BeamRow RowOfObservation(const Observation& o, const LightDescription& light,
+                         const SourceFrame& frame, double ambient) {
+  BeamRow row;
+  if (LitAndPlaced(o) && light.position_m) {
+    row.from_lamp = frame.Of(*o.position_m - *light.position_m);
+    if (o.normal) row.normal = frame.Of(*o.normal);
+  } else {
+    row.from_lamp = {o.distance_m * std::sin(o.off_axis_rad), 0.0,
+                     o.distance_m * std::cos(o.off_axis_rad)};
+  }
+  if (!row.normal) row.gain = std::cos(o.tilt_rad);
+  row.measured = o.measured_lx - (o.differenced || o.ambient_subtracted ? 0.0 : ambient);
+  row.sigma = o.sigma_lx;
+  return row;
+}
+
+void SetForm(bool over_range, double dark, BeamRow& row) {
+  const double sigma = std::hypot(row.sigma, dark / Dot(row.from_lamp, row.from_lamp));
+  const bool log = row.measured > 0.0 && sigma < kLogBelow * row.measured;
+  row.form = log ? (over_range ? RowForm::kCensored : RowForm::kLog) : RowForm::kLinear;
+  row.sigma = row.own_sigma = log ? sigma / row.measured : sigma;
+}
+
+// One normal of all the hypotheses.
+std::optional<WallPrior> MergedWalls(const std::vector<WallHypothesis>& walls) {
+  if (walls.empty()) return std::nullopt;
+  WallPrior out = walls.front().prior;
+  double b = 0.0, bb = 0.0, s = 0.0, ss = 0.0;
+  for (const WallHypothesis& one : walls) {
+    const WallPrior& p = one.prior;
+    b += one.weight * p.ln_b;
+    bb += one.weight * (p.ln_b * p.ln_b + p.sd_ln_b * p.sd_ln_b);
+    s += one.weight * p.slope;
+    ss += one.weight * (p.slope * p.slope + p.sd_slope * p.sd_slope);
+  }
+  out.ln_b = b;
+  out.sd_ln_b = std::sqrt(std::max(1e-6, bb - b * b));
+  out.slope = s;
+  out.sd_slope = std::sqrt(std::max(1e-6, ss - s * s));
+  return out;
+}
+
+void AddWalls(const Observations& observations, const WallPrior& prior, BeamRows& out) {
+  for (std::size_t i = 0; i < out.readings.rows.size(); ++i) {
+    BeamRow& row = out.readings.rows[i];
+    const Observation& o = observations.rows[out.observation[i]];
+    if (!o.sees_walls || (row.lit && o.differenced)) continue;
+    const double x = std::log(Length(row.from_lamp) / kWallReference_m);
+    row.walls = WallsOfRow{x, prior.bend * x * x, std::hypot(prior.scatter, kOffAxisScatter)};
+  }
+}
+
+void AddSheet(const LightDescription& light, std::vector<SheetRow>& sheet) {
+  // Where a beam falls through half of its peak it loses about .7 of it in an angle as large as
+  // its half angle; at a tenth, about .25.
+  if (light.beam) {
+    sheet.push_back({0.5 * light.beam->value(), 0.5, 0.7 * kSheetAngle});
+  }
+  if (light.field) {
+    sheet.push_back({0.5 * light.field->value(), 0.1, 0.25 * kSheetAngle});
+  }
+}
+
+BeamRows RowsOfBeam(const Observations& observations, const LightDescription& light,
+                    const ForwardModel* model) {
+  BeamRows out;
+  out.frame = SourceFrame::Facing(FirstAim(observations, light));
+  const double ambient = AmbientOfOff(observations);
+  double peak = 0.0;
+  double shortest = std::numeric_limits<double>::infinity();
+  double widest = 0.0;
+  bool left = false;
+  bool right = false;
+  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
+    const Observation& o = observations.rows[i];
+    if (!o.lit || !o.placed) continue;
+    out.readings.rows.push_back(RowOfObservation(o, light, out.frame, ambient));
+    out.observation.push_back(i);
+    const BeamRow& row = out.readings.rows.back();
+    const double r2 = Dot(row.from_lamp, row.from_lamp);
+    peak = std::max(peak, row.measured * r2);
+    shortest = std::min(shortest, std::sqrt(r2));
+    out.placed = out.placed || LitAndPlaced(o);
+    widest = std::max(widest, std::abs(o.off_axis_rad));
+    left = left || o.off_axis_rad < 0.0;
+    right = right || o.off_axis_rad > 0.0;
+  }
+  const std::size_t lit = out.readings.rows.size();
+  for (std::size_t i = 0; i < lit; ++i) {
+    SetForm(observations.rows[out.observation[i]].over_range, kDarkOfPeak * peak,
+            out.readings.rows[i]);
+  }
+  if (out.placed) {
+    const double sd = light.aim ? std::tan(kAimSigmaDegrees * kDegree) : kAnyAim;
+    out.readings.aim = {ParameterRule{true, 0.0, sd}, ParameterRule{true, 0.0, sd}};
+  } else if (left && right) {
+    out.readings.aim[0] = {true, 0.0, std::tan(kAngleSigmaDegrees * kDegree)};
+  }
+  AddSheet(light, out.readings.sheet);
+  const bool wide = out.placed || widest >= kEvenSpan;
+  out.readings.may_be_even = light.kind == LightKind::kPoint && !light.beam && !light.field && wide;
+  if (model == nullptr) return out;
+  if (model->fit_offset && model->distance_law) {
+    out.readings.offsets = model->offsets;
+    if (out.readings.offsets.empty()) {
+      out.readings.offsets = {{1.0, 0.0, kOffsetShare * shortest}};
+    }
+  }
+  // What a card hid the lamp from measures the walls for those without a card.
+  for (std::size_t i = 0; i < lit && !model->walls.empty(); ++i) {
+    const Observation& o = observations.rows[out.observation[i]];
+    if (!o.differenced || !(o.card_sigma_lx > 0.0) || !(o.card_lx > 0.0)) continue;
+    BeamRow row = out.readings.rows[i];
+    row.lit = false;
+    row.measured = o.card_lx;
+    row.sigma = std::hypot(o.card_sigma_lx, kCardHidesToo * o.card_lx);
+    SetForm(false, 0.0, row);
+    out.readings.rows.push_back(row);
+    out.observation.push_back(out.observation[i]);
+  }
+  out.readings.walls = MergedWalls(model->walls);
+  if (out.readings.walls) AddWalls(observations, *out.readings.walls, out);
+  return out;
+}
+
+// ---- refusals ----
+
+// An angle as a person sets it.
+double SetAngle(double degrees) {
+  const double step = degrees < 10.0 ? 1.0 : 5.0;
+  return std::max(step, std::round(degrees / step) * step);
+}
+
+// Where the draws differ most, in parts of the peak.
+double MissingAngle(const BeamProfile& profile) {
+  const auto most = std::ranges::max_element(profile.candela_sd);
+  const auto at = static_cast<std::size_t>(most - profile.candela_sd.begin());
+  return SetAngle(std::min(80.0, profile.gamma_deg[at]));
+}
+
+Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
+                            const std::string& light) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < rows.readings.rows.size(); ++i) {
+    if (rows.readings.rows[i].lit) nearest = std::min(nearest, profile.gamma_rad[i] / kDegree);
+  }
+  const double half = 0.5 * profile.beam_deg.value;
+  if (nearest > std::max(2.0, kNearAxis * half)) {
+    return Refused("beam_unknown", light,
+                   "nothing was read nearer than " + RoundedText(nearest, 2) +
+                       " degrees to the axis of a beam " + RoundedText(2.0 * half, 2) +
+                       " degrees wide: read at 0 degrees too, straight before the lamp");
+  }
+  const Uncertain& beam = profile.beam_deg;
+  if (profile.family == "even" || *beam.high <= kOpenBeam * *beam.low) return {};
+  return Refused("beam_unknown", light,
+                 "the readings leave the beam angle open from " + RoundedText(*beam.low, 2) +
+                     " to " + RoundedText(*beam.high, 2) + " degrees: read at " +
+                     RoundedText(MissingAngle(profile), 3) +
+                     " degrees off the axis too, or give the data sheet's {light.beam}");
+}
+
+// Upper tail of chi-squared (Wilson and Hilferty).
+double TailOf(double chi2, double dof) {
+  if (!(dof > 0.5)) return 1.0;
+  const double third = 2.0 / (9.0 * dof);
+  const double z = (std::cbrt(chi2 / dof) - (1.0 - third)) / std::sqrt(third);
+  return 0.5 * std::erfc(z / std::numbers::sqrt2);
+}
+
+// ---- what the rest of the room takes ----
+
+Result<IntensityTable> TableOfProfile(const BeamProfile& profile, const std::string& light) {
+  IntensityGrid grid;
+  grid.horizontal_deg = {0.0};
+  const double peak = *std::ranges::max_element(profile.candela);
+  std::size_t last = profile.candela.size() - 1;
+  while (last > 2 && profile.candela[last] < kDarkEnd * peak) --last;
+  last = std::min(last + 1, profile.candela.size() - 1);
+  for (std::size_t i = 0; i <= last; ++i) {
+    grid.vertical_deg.push_back(profile.gamma_deg[i]);
+    grid.candela.push_back(std::max(0.0, profile.candela[i]));
+  }
+  return IntensityTable::Make(std::move(grid), light);
+}
+
+void AddInfluences(const ForwardModel& model, const BeamRows& rows, LightEstimate& out) {
+  double ln = 0.0;
+  int count = 0;
+  for (const BeamRow& row : rows.readings.rows) {
+    if (!row.lit) continue;
+    ln += 0.5 * std::log(Dot(row.from_lamp, row.from_lamp));
+    ++count;
+  }
+  const double distance = std::exp(ln / std::max(1, count));
+  for (const Consider& influence : model.considered) {
+    const double sd = influence.relative * std::pow(distance, influence.distance_power);
+    out.variance_parts.push_back({influence.name, sd * sd});
+    out.covariance[0] += sd * sd;
+  }
+}
+
+void FillEstimate(const Observations& observations, const BeamRows& rows,
+                  const BeamProfile& profile, LightEstimate& out) {
+  constexpr std::array<int, 4> kPlaces = {kLnIntensity, kDistanceOffset, kLnWalls, kWallsSlope};
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    out.theta[static_cast<std::size_t>(kPlaces[i])] = profile.theta[i];
+    for (std::size_t j = 0; j < kPlaces.size(); ++j) {
+      out.covariance[static_cast<std::size_t>(kPlaces[i] * kParameters + kPlaces[j])] =
+          profile.covariance[i * kPlaces.size() + j];
+    }
+  }
+  const auto most = std::ranges::max_element(profile.candela);
+  const auto peak = static_cast<std::size_t>(most - profile.candela.begin());
+  const double sd = peak == 0 ? profile.axial_sd_ln : profile.candela_sd[peak] / *most;
+  out.theta[kLnIntensity] = std::log(*most);
+  out.covariance[0] = sd * sd;
+  out.theta[kAmbient] = AmbientOfOff(observations);
+
+  FitDiagnostics& d = out.diagnostics;
+  d.readings = observations.readings;
+  d.rejected = observations.rejected;
+  d.used = static_cast<int>(observations.shadow_used.size());
+  d.learned = {"intensity", "beam"};
+  d.prior = {};
+  const double offset_sd = std::sqrt(std::max(0.0, profile.covariance[5]));
+  const bool offset_learned = !rows.readings.offsets.empty() &&
+                              offset_sd < kLearnedShare * MatchedOffset(rows.readings.offsets).sd_m;
+  (offset_learned ? d.learned : d.prior).emplace_back("distance_offset");
+  if (rows.readings.walls) {
+    const bool learned = std::sqrt(std::max(0.0, profile.covariance[10])) <
+                         kLearnedShare * rows.readings.walls->sd_ln_b;
+    (learned ? d.learned : d.prior).emplace_back("room_bounce");
+  }
+  double squares = 0.0;
+  int lit = 0;
+  out.walls_per_candela.assign(observations.rows.size(), 0.0);
+  for (std::size_t i = 0; i < rows.readings.rows.size(); ++i) {
+    const BeamRow& row = rows.readings.rows[i];
+    if (!row.lit) continue;
+    const Observation& o = observations.rows[rows.observation[i]];
+    ResidualRow residual;
+    residual.index = o.index;
+    residual.distance_m = o.distance_m;
+    residual.measured_lx = o.measured_lx;
+    residual.predicted_lx = profile.predicted_lx[i] + (o.measured_lx - row.measured);
+    const double ratio = row.measured / std::max(profile.predicted_lx[i], 1e-300);
+    residual.relative = ratio - 1.0;
+    residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
+    out.residuals.push_back(residual);
+    out.walls_per_candela[rows.observation[i]] = profile.walls_lx[i] / *most;
+    ++d.used;
+    if (row.form != RowForm::kLog) continue;
+    squares += (ratio - 1.0) * (ratio - 1.0);
+    ++lit;
+  }
+  d.degrees_of_freedom = static_cast<int>(profile.degrees_of_freedom);
+  if (d.degrees_of_freedom <= 0) return;
+  d.chi2_dof = profile.chi2 / profile.degrees_of_freedom;
+  if (lit > 0) d.rms_relative = std::sqrt(squares / lit);
+}
+
+void Widen(Uncertain& value, double factor, double relative_sd) {
+  const auto ln = [&](double end) {
+    const double own = factor * std::log(end / value.value);
+    return std::copysign(std::hypot(own, kZ95 * relative_sd), own);
+  };
+  if (!(value.value > 0.0) || !value.low || !value.high || !(*value.low > 0.0)) return;
+  value.low = value.value * std::exp(-std::abs(ln(*value.low)));
+  value.high = value.value * std::exp(std::abs(ln(*value.high)));
+  value.u95 = 0.5 * (*value.high - *value.low);
+}
+
+}  // namespace
+
+bool NeedsProfile(const Observations& observations, const LightDescription& light) {
+  const bool spot = light.kind == LightKind::kSpot;
+  if ((!spot && light.kind != LightKind::kPoint) || light.outer || light.distribution) return false;
+  const auto stated = [](const Observation& o) { return o.lit && o.off_axis_rad != 0.0; };
+  if (std::ranges::any_of(observations.rows, stated)) return true;
+  if (!light.position_m) return false;
+  const auto placed = std::ranges::count_if(observations.rows, LitAndPlaced);
+  if (!light.aim) return placed >= kFewestForBeam;
+  double widest = 0.0;
+  for (const Observation& o : observations.rows) {
+    if (!LitAndPlaced(o)) continue;
+    const Vec3 from = *o.position_m - *light.position_m;
+    widest =
+        std::max(widest, std::acos(std::clamp(Dot(from, *light.aim) / Length(from), -1.0, 1.0)));
+  }
+  return placed >= 2 && widest > (spot ? 0.0 : kLeastSpan);
+}
+
+Radians RoughBeam(const Observations& observations, const LightDescription& light) {
+  if (light.beam) return *light.beam;
+  return Radians(2.0 * RoughHalfAngle(RowsOfBeam(observations, light, nullptr).readings.rows));
+}
+
+Result<BeamLight> FitBeamLight(const Observations& observations, const LightDescription& light,
+                               const ForwardModel& model) {
+  BeamRows rows = RowsOfBeam(observations, light, &model);
+  Result<BeamProfile> fitted = FitBeamProfile(rows.readings, light.name);
+  if (!fitted) return Propagate(std::move(fitted));
+  BeamProfile& profile = *fitted;
+  if (auto known = CheckKnownBeam(rows, profile, light.name); !known) {
+    return Propagate(std::move(known));
+  }
+  auto table = TableOfProfile(profile, light.name);
+  if (!table) return Propagate(std::move(table));
+  BeamLight out{*std::move(table), {}, {}, {}, {}, Radians(0.0), false, false, false};
+  out.even = profile.family == "even";
+  double even = 0.0;
+  for (const BeamFamilyShare& one : profile.families) {
+    if (one.name == "even") even = one.share;
+    if (one.name == "cone") out.flat_cone = one.share > kConeStands;
+  }
+  out.surely_a_beam =
+      even < kHardlyEven && (profile.family != "smooth" || profile.monotone_share > 0.5);
+  FillEstimate(observations, rows, profile, out.estimate);
+  const double birge =
+      std::sqrt(std::max(1.0, profile.chi2 / std::max(1.0, profile.degrees_of_freedom)));
+  const bool contradict = TailOf(profile.chi2, profile.degrees_of_freedom) < kUnlikely;
+  double factor = 1.0;
+  if (contradict) {
+    if (birge > 5.0 && !out.even) {
+      return Refused("beam_unlike", light.name,
+                     "the readings lie on no curve about the axis, " + RoundedText(birge, 2) +
+                         " times farther off than the meter's own scatter: check {light.aim} and "
+                         "the angles, or the beam is not round: photograph it on a wall instead");
+    }
+    factor = birge;
+    out.estimate.warnings.push_back(
+        {"beam_uneven", light.name,
+         "the readings lie " + RoundedText(birge, 2) +
+             " times farther off any curve about the axis than the meter scatters; the intervals "
+             "are wider by that: check the aim, or the beam is not round"});
+  }
+  for (double& c : out.estimate.covariance) c *= factor * factor;
+  out.estimate.variance_parts.push_back({"readings", out.estimate.covariance[0]});
+  const double own = out.estimate.covariance[0];
+  AddInfluences(model, rows, out.estimate);
+  const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));
+  out.flux_lm = profile.flux_lm;
+  Widen(out.flux_lm, factor, added);
+  out.beam.axial = profile.axial_cd;
+  Widen(*out.beam.axial, factor, added);
+  if (!out.even) {
+    out.beam.beam_deg = profile.beam_deg;
+    out.beam.field_deg = profile.field_deg;
+    Widen(*out.beam.beam_deg, factor, 0.0);
+    Widen(*out.beam.field_deg, factor, 0.0);
+  }
+  bool smooth = false;
+  for (const BeamFamilyShare& one : profile.families) {
+    out.beam.families.push_back({one.name, one.share, one.leave_one_out});
+    smooth = smooth || one.name == "smooth";
+  }
+  if (smooth) out.beam.falling_share = profile.monotone_share;
+  if (rows.placed) {
+    const Vec3 aim = rows.frame.x * profile.aim[0] + rows.frame.y * profile.aim[1] + rows.frame.z;
+    out.aim = aim * (1.0 / Length(aim));
+    out.aim_sd = Radians(factor * std::max(profile.aim_sd[0], profile.aim_sd[1]));
+  }
+  return out;
+}
+
+void FillBeamLight(BeamLight&& found, FittedLight& out) {
+  out.kind = LightKind::kPhotometric;
+  out.flux_lm = found.flux_lm;
+  const double relative = 0.5 * (*found.flux_lm.high - *found.flux_lm.low) / found.flux_lm.value;
+  out.distribution = MeasuredDistribution{std::move(found.table)};
+  double peak = 0.0;
+  if (out.intensity_cd) peak = out.intensity_cd->u95 / out.intensity_cd->value / kZ95;
+  out.distribution->budget.push_back({"readings", peak, relative / kZ95});
+  out.beam = std::move(found.beam);
+  if (!found.aim) return;
+  out.aim = found.aim;
+  out.aim_u95_deg = kZ95 * DegreesFromRadians(found.aim_sd);
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readings in and around a beam whose shape is sought, as rows of the one least-squares problem.
+// Internal to this room.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "lightcal/core/vec3.h"
+#include "lightcal/fit/beam/beam_family.h"
+#include "lightcal/fit/model/least_squares.h"
+#include "lightcal/fit/model/reading_model.h"
+
+namespace lightcal::fit {
+
+// ln I(0), d0, the aim's tilts about the start's x and y (aim ~ z + a x + b y), and of the walls'
+// light ln b and the slope (light/wall_prior.h); after them the shape's own.
+enum BeamParameter : std::uint8_t {
+  kBeamLnIntensity = 0,
+  kBeamOffset = 1,
+  kBeamAimX = 2,
+  kBeamAimY = 3,
+  kBeamLnWalls = 4,
+  kBeamWallsSlope = 5,
+};
+inline constexpr int kBeamCommon = 6;
+
+struct BeamRow {
+  RowForm form = RowForm::kLog;
+  double measured = 0.0;
+  double sigma = 1.0;          // relative in logarithms, else lux
+  double own_sigma = 1.0;      // of it, what is not scatter of the walls' light
+  bool lit = true;             // false: behind a card, the walls alone
+  Vec3 from_lamp{};            // metres, in the start's frame
+  std::optional<Vec3> normal;  // of the meter; without one it faces the lamp
+  double gain = 1.0;           // cosine of a stated tilt
+  std::optional<WallsOfRow> walls;
+};
+
+// What a data sheet prints: `level` of the peak at this angle from the axis.
+struct SheetRow {
+  double gamma = 0.0, level = 0.5, sd = 0.1;
+};
+
+template <class T>
+struct BeamTowards {
+  T gamma, per_candela;
+};
+
+// The angle from the axis and E/I(gamma) of a row.
+template <class T>
+[[nodiscard]] BeamTowards<T> TowardsOf(const BeamRow& row, const T* p) {
+  using std::atan2;
+  using std::sqrt;
+  const T length = sqrt(1.0 + p[kBeamAimX] * p[kBeamAimX] + p[kBeamAimY] * p[kBeamAimY]);
+  const Vec3Of<T> aim = {p[kBeamAimX] / length, p[kBeamAimY] / length, 1.0 / length};
+  const Vec3Of<T> v = Vec3Of<T>(row.from_lamp + aim * p[kBeamOffset]);
+  const T r2 = Dot(v, v);
+  const Vec3Of<T> across = Cross(v, aim);
+  // Just above 0, where the root has no derivative.
+  const T sine = sqrt(Dot(across, across) + 1e-12 * r2);
+  T facing = T(row.gain);
+  if (row.normal) {
+    facing = facing * (-Dot(v, *row.normal)) / sqrt(r2);
+    if (!(facing > T(0.0))) facing = T(0.0);
+  }
+  return {atan2(sine, Dot(v, aim)), facing / r2};
+}
+
+struct BeamProblem {
+  static constexpr int kCount = kBeamCommon + BeamShape::kNodes;
+  BeamShape shape;
+  std::array<ParameterRule, kCount> rules;
+  std::vector<BeamRow> rows;
+  std::span<const SheetRow> sheet;
+  double least_offset = -0.1;                 // metres
+  static constexpr double kLeastSeen = 1e-4;  // of what was read
+
+  [[nodiscard]] std::size_t RowCount() const {
+    return rows.size() + sheet.size() + shape.PriorRows();
+  }
+  [[nodiscard]] Bounds BoundsOf(int k) const {
+    return k == kBeamOffset ? Bounds{least_offset} : Bounds{};
+  }
+  template <class T>
+  [[nodiscard]] T Direct(const BeamRow& row, const T* p) const {
+    using std::exp;
+    const BeamTowards<T> towards = TowardsOf(row, p);
+    return exp(p[kBeamLnIntensity]) * towards.per_candela *
+           shape.Relative(towards.gamma, p + kBeamCommon);
+  }
+  template <class T>
+  [[nodiscard]] static T Walls(const BeamRow& row, const T* p) {
+    using std::exp;
+    if (!row.walls) return T(0.0);
+    return exp(p[kBeamLnIntensity] + p[kBeamLnWalls] + p[kBeamWallsSlope] * row.walls->x +
+               row.walls->constant);
+  }
+  template <class T>
+  [[nodiscard]] T Illuminance(const BeamRow& row, const T* p) const {
+    return row.lit ? T(Direct(row, p) + Walls(row, p)) : Walls(row, p);
+  }
+  // Not inlined: its derivatives by 26 parameters are long.
+  template <class T>
+  [[nodiscard, gnu::noinline]] bool Residual(std::size_t i, const T* p, T* residual) const {
+    if (i < rows.size()) {
+      const BeamRow& row = rows[i];
+      const T seen = Illuminance(row, p);
+      // No logarithm of darkness.
+      const T lit = row.form == RowForm::kLinear ? seen : T(seen + kLeastSeen * row.measured);
+      return WhitenedResidual(row.form, row.measured, row.sigma, lit, residual);
+    }
+    i -= rows.size();
+    if (i < sheet.size()) {
+      *residual =
+          (shape.Relative(T(sheet[i].gamma), p + kBeamCommon) - sheet[i].level) / sheet[i].sd;
+      return true;
+    }
+    *residual = shape.PriorRow(i - sheet.size(), p + kBeamCommon);
+    return true;
+  }
+};
+
+}  // namespace lightcal::fit
