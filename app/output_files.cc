@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -205,6 +206,15 @@ Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force
 
 void RemoveLeftovers(const std::string& directory) {
   RemoveTemporaries(directory, [](const std::string&) { return true; });
+}
+
+std::string WroteLine(const std::vector<OutputFile>& files, const std::string& directory) {
+  if (files.empty()) return "";
+  if (files.size() == 1) return "wrote " + files.front().path;
+  const auto report = std::ranges::find_if(
+      files, [](const OutputFile& file) { return file.path.ends_with("report.html"); });
+  return "wrote " + std::to_string(files.size()) + " files to " + directory +
+         (report == files.end() ? "" : "; open " + report->path);
 }
 
 std::vector<std::string> PathsOf(const std::vector<OutputFile>& files) {

@@ -21,6 +21,7 @@ struct PlannedReading {
   std::optional<Vec3> normal;
   Lux expected{0.0};        // what the meter will show if the lamp is what it now seems
   double u95_relative = 0;  // of the intensity (illuminance) once it is taken
+  double u95_stops = 0;     // the same: 1/2 log2(high/low)
 };
 
 // Of a person, in minutes: a reading where the meter stands, a shadow card held before it, the
