@@ -56,6 +56,18 @@ std::string WithIt(const EngineFigure& figure) {
   return HasColor(figure) ? " + colour" : "";
 }
 
+// Where the first word ends, the blanks before it included: a sign keeps its number, and a line to
+// type stays in one piece.
+std::size_t EndOfWord(std::string_view text) {
+  const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
+  const std::string_view word = text.substr(begin);
+  constexpr std::string_view kCommand = "lightcal ";
+  if (word.starts_with(kCommand)) return std::min(text.find(": ±", begin), text.size());
+  std::size_t end = std::min(text.find(' ', begin), text.size());
+  if (word.starts_with("± ")) end = std::min(text.find(' ', end + 1), text.size());
+  return end;
+}
+
 }  // namespace
 
 Strength StrengthOf(const FittedLight& light) {
@@ -80,8 +92,8 @@ std::string BareStops(double stops) {
 }
 
 bool HasColor(const EngineFigure& figure) {
-  return figure.note.find("color ") != std::string::npos ||
-         figure.note.find("Color ") != std::string::npos;
+  const auto at = std::min(figure.note.find("color "), figure.note.find("Color "));
+  return at != std::string::npos && !figure.note.substr(at + 6).starts_with("1, 1, 1 ");
 }
 
 // "Blender 1.61 W · Unity, glTF 87 cd + colour"
@@ -118,8 +130,7 @@ std::string LabelledLine(const std::string& label, const std::string& text) {
   bool first = true;
   std::string_view rest = text;
   while (!rest.empty()) {
-    // Words keep the blanks between them; a part that is set off by " · " is not torn apart.
-    const std::size_t blank = std::min(rest.find(' ', rest.find_first_not_of(' ')), rest.size());
+    const std::size_t blank = EndOfWord(rest);
     std::string_view word = rest.substr(0, blank);
     rest.remove_prefix(blank);
     if (!first && column + width(word) > kColumns) {

@@ -60,7 +60,7 @@ std::string PredictionLines(const std::vector<Prediction>& predictions) {
       line = "lamp alone " + ValueAndRange(p.predicted.reading_lx) + "   in the room " +
              ValueAndRange(p.in_room->reading_lx);
     }
-    text += LabelledLine("at " + RoundedText(p.distance.value(), 3) + " m", line);
+    text += LabelledLine("at " + ShortestText(p.distance.value()) + " m", line);
   }
   return text;
 }
@@ -94,8 +94,9 @@ std::string TypedStep(const Session& session, const PlannedReading& step) {
   for (const SessionReading& row : session.readings) {
     if (fit::IsLit(row.reading) && row.reading.distance == step.distance) before = row.where;
   }
-  const std::string at =
-      step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) + "m" : "";
+  const std::string metres =
+      step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) : "";
+  const std::string at = metres + " m";
   switch (step.action) {
     case PlannedAction::kShadowCard:
       return "block the direct beam at " + at + " with a card, type what is left: " + before +
@@ -106,8 +107,8 @@ std::string TypedStep(const Session& session, const PlannedReading& step) {
     case PlannedAction::kRead:
       break;
   }
-  return before.empty() ? "read at " + at + " too, facing the lamp: add LUX@" + at
-                        : "read at " + at + " once more: add LUX@" + at;
+  return before.empty() ? "read at " + at + " too, facing the lamp: add LUX@" + metres + "m"
+                        : "read at " + at + " once more: add LUX@" + metres + "m";
 }
 
 std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& session,

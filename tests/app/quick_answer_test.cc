@@ -63,7 +63,7 @@ TEST_P(OneLamp, IsAnsweredInTwelveLinesWithoutTheLaboratorysWords) {
   EXPECT_LE(lines.size(), 12U) << out;
   for (const std::string& line : lines) EXPECT_LE(Columns(line), 100U) << line;
   for (const char* part :
-       {" cd   ", " … ", "± ", "stop", "type in", "why ± ", "enough for", "Blender ", "Unreal "}) {
+       {" cd   ", " … ", "± ", "stop", "type in", "why ± ", "enough for", "Blender ", "Unreal"}) {
     EXPECT_THAT(out, HasSubstr(part));
   }
   EXPECT_THAT(out, HasSubstr(GetParam().says));
@@ -279,7 +279,7 @@ TEST(Ratio, OfTwoReadingsOneMetersErrorCancels) {
   EXPECT_NEAR(answer["stops"]["u95"], kZ * sd / std::log(2.0), 1e-9);
   EXPECT_GT(double(answer["stops_u95_if_independent"]), 4.0 * double(answer["stops"]["u95"]));
   EXPECT_THAT(Said({"ratio", "800lx", "200lx"}), HasSubstr("4.0 : 1 · 2.0"));
-  EXPECT_EQ(RunLightcal({"ratio", "800lx"}).exit_code, 1) << "no such file";
+  EXPECT_EQ(RunLightcal({"ratio", "800lx"}).exit_code, 2) << "of what?";
   EXPECT_EQ(RunLightcal({"ratio", "800lx", "0lx"}).exit_code, 3);
 }
 
