@@ -46,7 +46,7 @@ std::string ColorText(const LampQuestion& question, const FittedLight& light) {
 }
 
 std::string PlaceWords(const Session& session) {
-  if (session.no_walls) return ", no walls";
+  if (session.surroundings != Surroundings::kIndoors) return ", no walls";
   return session.room ? ", in its room" : ", in a room";
 }
 
@@ -95,9 +95,10 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kPartWords = {
     {{"room_bounce", "walls"},
-     {"readings", "meter"},
+     {"meter_calibration", "meter"},
+     {"readings", "reading by reading"},
      {"readings_and_place", "meter and place"},
      {"distance_offset", "where the light starts"},
      {"unknown_lamp", "what lamp it is"},

@@ -136,10 +136,10 @@ std::string PartsBar(const FittedLight& light) {
                                      {"part-offset", "where the light starts"},
                                      {"part-other", "other"}}};
   for (const BudgetPart& part : light.budget) {
-    const std::size_t at = part.name == "room_bounce"       ? 0
-                           : part.name == "readings"        ? 1
-                           : part.name == "distance_offset" ? 2
-                                                            : 3;
+    const std::size_t at = part.name == "room_bounce"                                    ? 0
+                           : part.name == "readings" || part.name == "meter_calibration" ? 1
+                           : part.name == "distance_offset"                              ? 2
+                                                                                         : 3;
     parts[at].share += part.share;
     parts[at].sd = std::hypot(parts[at].sd, part.sd_relative);
   }

@@ -131,7 +131,8 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   for (const Dot& dot : dots) DrawDot(svg, dot, light, room, x, y);
   svg.EndPlot();
   const double right = x.to_px - 8.0;
-  svg.Text("note halo", {right, y.At(u.value) + 18.0}, "end", "your lamp, " + Interval(u, "cd"));
+  svg.Text("note halo", {x.from_px + 8.0, y.At(u.value) + 18.0}, "start",
+           "your lamp, " + Interval(u, "cd"));
   if (room != nullptr) {
     const double d = 0.93 * farthest;
     const double walls = WallsTimesSquare(*room, d);
