@@ -159,7 +159,7 @@ std::string WallsPart(const FittedLight& light, const Session& session) {
 
 // ---- what next ----
 
-std::string Minutes(double count) {
+std::string MinutesBetter(double count) {
   return ShortestText(count) + (count == 1.0 ? " minute better" : " minutes better");
 }
 
@@ -170,7 +170,7 @@ LabelAndText NextWords(const LampAnswer& answer) {
   const NextStepAdvice& next = answer.next;
   switch (next.kind) {
     case NextStepAdvice::Kind::kReading:
-      return {Minutes(next.minutes), answer.better + ": " + StopsText(next.reading->u95_stops)};
+      return {MinutesBetter(next.minutes), answer.better + ": " + StopsText(next.reading->u95_stops)};
     case NextStepAdvice::Kind::kSay:
       return {"next", next.say};
     case NextStepAdvice::Kind::kMeter:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "commands.h"
 #include "lamp_answer.h"
@@ -14,9 +15,11 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/reading_candidates.h"
+#include "lightcal/match/gelled_light.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "match/behind_gels.h"
 #include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
@@ -88,6 +91,32 @@ Result<void> PlanFromNone(const QuickOptions& options, const Session& session,
   return {};
 }
 
+// The fitted light behind its gels. Without a spectrum its colour stands for a black body or
+// daylight, which is said.
+Result<BehindGels> PutGelBefore(const QuickOptions& options, FittedLight& light, Console& console) {
+  MatchLightWords words;
+  words.source = options.spectrum;
+  if (options.spectrum.empty()) {
+    if (!light.color.cct_K) {
+      return Refused("no_spectrum", "--gel",
+                     "what a gel makes of a lamp depends on its spectrum; give --spectrum FILE, or "
+                     "at least --cct 3200K");
+    }
+    words.source = ShortestText(std::round(light.color.cct_K->value)) + "K";
+    console.Warn({"spectrum_assumed", "--gel",
+                  "a black body or daylight of " + words.source +
+                      " stands for the lamp; give its own with --spectrum FILE"});
+  }
+  auto lamp = ReadMatchLight(words, console);
+  if (!lamp) return Propagate(std::move(lamp));
+  auto behind = PutBehindGels(lamp->spectrum, lamp->measured, options.gel, options.gels, console);
+  if (!behind) return Propagate(std::move(behind));
+  if (behind->size() != 1) return WrongUsage("--gel", "name one gel, or a stack: L204+L298");
+  light = match::LightBehind(light, behind->front().match);
+  light.in_room.clear();  // of the lamp without it
+  return std::move(behind->front());
+}
+
 // "20lx@2m,card=LUX": the reading a person typed there, and what to add to it.
 std::string TypedStep(const Session& session, const PlannedReading& step) {
   std::string before;
@@ -112,12 +141,12 @@ std::string TypedStep(const Session& session, const PlannedReading& step) {
 }
 
 std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& session,
-                                  const LightFile& lights) {
+                                  const LightFile& lights, bool gelled) {
   LampQuestion question;
   question.lights = &lights;
   question.session = &session;
   question.targets = options.targets;
-  question.typed_color = true;
+  question.typed_color = !gelled;
   question.by_name = options.name != QuickOptions().name;
   question.syntax = [&](const FittedLight&, const PlannedReading& step) {
     return TypedStep(session, step);
@@ -127,8 +156,11 @@ std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& se
 
 void PrintAnswer(const QuickOptions& options, const Session& session, const FittedSession& fitted,
                  const std::vector<Prediction>& predictions,
-                 const std::vector<MinutesLadder>& ladders, Console& console) {
-  const std::vector<LampAnswer> answers = AnswersOf(options, session, fitted.lights);
+                 const std::vector<MinutesLadder>& ladders, const std::optional<BehindGels>& behind,
+                 Console& console) {
+  const std::vector<LampAnswer> answers =
+      AnswersOf(options, session, fitted.lights, behind.has_value());
+  if (behind) console.Print(ThroughText(*behind) + "\n\n");
   console.Print(LampAnswersText(answers, session));
   console.Print(PredictionLines(predictions));
   if (console.verbose()) {
@@ -137,6 +169,7 @@ void PrintAnswer(const QuickOptions& options, const Session& session, const Fitt
   }
   Node document = DocumentOf(fitted.lights);
   document.Put("next_step", answers.front().next.say);
+  if (behind) document.Put("through", ThroughNode(*behind));
   document.Put("predictions",
                Node::UnlessEmpty(Node::List(predictions, [](const Prediction& p) -> Node {
                  Node node = {{"distance_m", p.distance},
@@ -168,6 +201,12 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   auto fitted = FitSession(*session, FitSettings{});
   if (!fitted) return Propagate(std::move(fitted));
   fitted->lights.provenance.generator = GeneratorName();
+  std::optional<BehindGels> behind;
+  if (!options.gel.empty()) {
+    auto put = PutGelBefore(options, fitted->lights.lights.front(), console);
+    if (!put) return Propagate(std::move(put));
+    behind = *std::move(put);
+  }
   const FittedLight& light = fitted->lights.lights.front();
   const auto predictions = Predict(options, light);
   if (!predictions) return tl::unexpected(predictions.error());
@@ -188,7 +227,7 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   if (auto written = WriteOutputs(files, options.force); !written) return written;
   std::vector<MinutesLadder> ladders;
   if (options.plan) ladders = LaddersOf(*session, {}, *wishes);
-  PrintAnswer(options, *session, *fitted, *predictions, ladders, console);
+  PrintAnswer(options, *session, *fitted, *predictions, ladders, behind, console);
   if (options.plan) {
     if (auto printed = PrintMinutes(options, ladders, console); !printed) return printed;
   }
@@ -241,6 +280,21 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("--beam", options->beam, "Data sheet: full beam angle (50 % of the peak)");
   parser.add_option("--field", options->field, "Data sheet: full field angle (10 % of the peak)");
   parser.add_option("--watts", options->watts, "Data sheet: electrical power");
+  CLI::Option* const gel =
+      parser
+          .add_option("--gel", options->gel,
+                      "Put this gel, or stack, before the lamp: L204, \"half cto\", L204+L298")
+          ->type_name("GEL");
+  parser
+      .add_option("--gels", options->gels,
+                  "A maker's transmittances for --gel [demonstration filters by formula]")
+      ->type_name("FILE.csv")
+      ->needs(gel);
+  parser
+      .add_option("--spectrum", options->spectrum,
+                  "The lamp's, for --gel [black body or daylight of its colour temperature]")
+      ->type_name("FILE")
+      ->needs(gel);
   parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m")
       ->allow_extra_args(false);
   parser.add_option("--to", options->targets, "Also write presets")

@@ -22,6 +22,7 @@ struct QuickOptions {
   std::vector<std::string> predict_at;
   std::vector<std::string> targets;
   std::string output = "lightcal-quick";
+  std::string gel, gels, spectrum;
   std::string table, columns;
   bool full_angles = false;
   bool bare = false;
