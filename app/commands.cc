@@ -13,6 +13,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal quick 192lx@0.5m 48lx@1m --room dark --at 3m\n"
      "  lightcal quick 17.8fc@20in --to gltf -o presets\n"
      "  lightcal quick 192lx@0.5m --cct 3200K --gel \"half ctb\"\n"
+     "  lightcal quick --table lamps.csv -o answers.csv\n"
      "  lightcal quick --plan --reach 3m --minutes move=5\n"
      "  lightcal quick --lumens 806 --beam 36 --field 60", BuildQuick},
     {"new", "Begin a session: asks about the lamp and the meter, writes session.toml",
@@ -79,8 +80,15 @@ constexpr CommandRow kCommands[] = {
      "--at 0,0,0 1,0,0\n"
      "  lightcal simulate out/light.json --lights 5600K --position 0,0,2.5 --plane floor --grid 512 "
      "-o floor.png -o floor.exr\n"
+     "  lightcal simulate out/light.json --lights 5600K --position 0,0,2.5 --plane z=0.8 --size 4x3m "
+     "--border 0.5m --target 500lx,U0=0.6\n"
      "  lightcal simulate my_lamp --plane z=0.8 --size 6x4m --tol 0.5% -o desk.csv",
      BuildSimulate},
+    {"ratio", "Key to fill in ratio and stops; what one meter's error has in common cancels",
+     "  lightcal ratio 800lx 200lx\n"
+     "  lightcal ratio 17.8fc 5fc --meter 3%\n"
+     "  lightcal ratio out/light.json --at 0,0,0 --key 5600K --fill 3200K --position 5600K=-1,0,2 "
+     "--position 3200K=1,0,3", BuildRatio},
     {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
      "  lightcal tradeoff sample_data/sessions/three_real_lights --tol 1% -o tradeoff\n"
      "  lightcal tradeoff my_lamp --budget 50ms\n"

@@ -40,6 +40,7 @@ Run BuildCompletion(CLI::App& parser);
 Run BuildMan(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
+Run BuildRatio(CLI::App& parser);
 Run BuildRead(CLI::App& parser);
 Run BuildWatch(CLI::App& parser);
 

@@ -30,6 +30,29 @@ std::string Sentence(std::string_view kind, const std::string& subject,
   return line + message + "\n";
 }
 
+// One sentence for one cause: "143 times (a, b, c and 140 more): " and the first's message.
+std::string OfMany(const Warnings& warnings, const std::string& code) {
+  constexpr std::size_t kShown = 3;
+  std::vector<std::string_view> subjects;
+  const Warning* first = nullptr;
+  std::size_t count = 0;
+  for (const Warning& warning : warnings) {
+    if (warning.code != code) continue;
+    ++count;
+    if (first == nullptr) first = &warning;
+    if (std::ranges::find(subjects, warning.subject) == subjects.end()) {
+      subjects.push_back(warning.subject);
+    }
+  }
+  std::string text = std::to_string(count) + " times (";
+  for (std::size_t i = 0; i < std::min(kShown, subjects.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + std::string(subjects[i]);
+  }
+  if (subjects.size() > kShown)
+    text += " and " + std::to_string(subjects.size() - kShown) + " more";
+  return text + "): " + first->message;
+}
+
 std::size_t DisplayWidth(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -75,7 +98,19 @@ void Console::Warn(const Warning& warning) {
 }
 
 void Console::Warn(const Warnings& warnings) {
-  for (const Warning& warning : warnings) Warn(warning);
+  constexpr std::ptrdiff_t kMostAlike = 3;
+  std::vector<std::string_view> said;
+  for (const Warning& warning : warnings) {
+    const auto alike = std::ranges::count(warnings, warning.code, &Warning::code);
+    if (alike <= kMostAlike || flags_.verbose) {
+      Warn(warning);
+      continue;
+    }
+    warnings_.push_back(warning);
+    if (flags_.muted || std::ranges::find(said, warning.code) != said.end()) continue;
+    said.push_back(warning.code);
+    Write(stderr, "lightcal: warning: " + OfMany(warnings, warning.code) + "\n");
+  }
 }
 
 Result<void> Console::RefuseIfStrict() const {

@@ -280,6 +280,15 @@ void RemoveLeftovers(const std::string& directory) {
   RemoveTemporaries(directory, [](const std::string&) { return true; });
 }
 
+std::string WroteLine(const std::vector<OutputFile>& files, const std::string& directory) {
+  if (files.empty()) return "";
+  if (files.size() == 1) return "wrote " + files.front().path;
+  const auto report = std::ranges::find_if(
+      files, [](const OutputFile& file) { return file.path.ends_with("report.html"); });
+  return "wrote " + std::to_string(files.size()) + " files to " + directory +
+         (report == files.end() ? "" : "; open " + report->path);
+}
+
 std::vector<std::string> PathsOf(const std::vector<OutputFile>& files) {
   std::vector<std::string> paths;
   for (const OutputFile& file : files) paths.push_back(file.path);

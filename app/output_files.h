@@ -51,6 +51,10 @@ void RemoveLeftovers(const std::string& directory);
 // Paths relative to a directory become paths below it.
 void PlaceUnder(const std::string& directory, std::vector<OutputFile>& files);
 
+// "wrote 18 files to DIR; see DIR/report.html", one: its path; "" = none.
+[[nodiscard]] std::string WroteLine(const std::vector<OutputFile>& files,
+                                    const std::string& directory);
+
 [[nodiscard]] std::vector<std::string> PathsOf(const std::vector<OutputFile>& files);
 
 // Whole file as bytes: one of our own outputs, which may be written again. What a person gives is

@@ -69,8 +69,10 @@ std::string ReportHtml(const LightFile& lights, std::string_view title) {
   return ReportPage(lights, title, ExtrasOf(lights));
 }
 
-std::string ReportHtml(const CalibratedSession& calibrated) {
-  return ReportPage(calibrated.lights, TitleOf(calibrated.session), ExtrasOf(calibrated));
+std::string ReportHtml(const CalibratedSession& calibrated, std::vector<LightAdvice> advice) {
+  ReportExtras extras = ExtrasOf(calibrated);
+  extras.advice = std::move(advice);
+  return ReportPage(calibrated.lights, TitleOf(calibrated.session), extras);
 }
 
 }  // namespace lightcal::app

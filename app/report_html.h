@@ -20,6 +20,8 @@ namespace lightcal::app {
 [[nodiscard]] const std::string& TitleOf(const Session& session);
 
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
-[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated);
+// advice: what to do next of each light (AdviceOf).
+[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated,
+                                     std::vector<LightAdvice> advice);
 
 }  // namespace lightcal::app

@@ -3,17 +3,15 @@
 // memory and go through the same fit.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
 
-#include "calibration_options.h"
 #include "commands.h"
+#include "lamp_answer.h"
+#include "lamp_words.h"
 #include "light_table.h"
-#include "lightcal/core/file_stem.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/printable.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/reading_candidates.h"
@@ -25,163 +23,16 @@
 #include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
-#include "typed_reading.h"
+#include "quick/quick_session.h"
+#include "quick/quick_table.h"
 
 namespace lightcal::app {
 namespace {
 
-struct QuickOptions {
-  std::vector<std::string> readings;
-  std::string name = "light";
-  std::string kind;
-  std::string cct, diameter, fixture, room, meter, sigma, beam, field, lumens, watts, inner, outer;
-  std::string gel, gels, spectrum;
-  std::vector<std::string> predict_at;
-  std::vector<std::string> targets;
-  std::string output = "lightcal-quick";
-  bool full_angles = false;
-  bool bare = false;
-  bool force = false;
-  bool plan = false;
-  MinutesOptions minutes;
-};
-
-// Fills an optional quantity from an option's text; an empty text leaves it absent.
-template <class Unit, class Parse>
-Result<void> Fill(std::optional<Unit>& target, const std::string& text, Parse parse) {
-  if (text.empty()) return {};
-  const auto value = parse(text);
-  if (!value) return tl::unexpected(value.error());
-  if (!(value->value() > 0.0)) return WrongUsage(text, "must be above zero");
-  target = Unit(*value);
-  return {};
-}
-
-template <class Unit>
-Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
-                       std::string_view unit_word) {
-  return Fill(target, text, [unit_word](const std::string& t) -> Result<Unit> {
-    const auto split = SplitNumberAndUnit(t);
-    if (!split) return tl::unexpected(split.error());
-    if (!split->unit.empty() && LowerAscii(split->unit) != LowerAscii(unit_word)) {
-      return WrongUsage(t, "the unit here is " + std::string(unit_word));
-    }
-    return Unit(split->number);
-  });
-}
-
-constexpr std::array<std::string_view, 5> kQuickKinds = {"point", "spot", "sphere", "disk",
-                                                         "directional"};
-
-Result<LightDescription> DescribeLight(const QuickOptions& options) {
-  LightDescription light;
-  light.name = options.name;
-  const std::string kind = !options.kind.empty()                             ? options.kind
-                           : !options.outer.empty() || !options.beam.empty() ? "spot"
-                                                                             : "point";
-  const auto known = LightKindFromName(kind);
-  if (!known) return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk or directional");
-  light.kind = *known;
-  const auto fixture = std::ranges::find(kFixtureNames, options.fixture);
-  if (fixture != kFixtureNames.end()) {
-    light.fixture = static_cast<Fixture>(fixture - kFixtureNames.begin());
-  }
-  std::optional<Radians> inner = std::nullopt;
-  std::optional<Radians> outer = std::nullopt;
-  for (const Result<void>& filled :
-       {Fill(light.diameter, options.diameter, [](const auto& t) { return ParseLength(t); }),
-        Fill(inner, options.inner, [](const auto& t) { return ParseAngle(t); }),
-        Fill(outer, options.outer, [](const auto& t) { return ParseAngle(t); }),
-        Fill(light.beam, options.beam, [](const auto& t) { return ParseAngle(t); }),
-        Fill(light.field, options.field, [](const auto& t) { return ParseAngle(t); }),
-        FillPlain(light.flux, options.lumens, "lm"),
-        FillPlain(light.electrical, options.watts, "W")}) {
-    if (!filled) return tl::unexpected(filled.error());
-  }
-  const double half = options.full_angles ? 0.5 : 1.0;
-  if (inner) light.inner = *inner * half;
-  if (outer) light.outer = *outer * half;
-  return light;
-}
-
-constexpr const char* kQuickMeter = "meter";
-
-// 1 sigma of a reading as it was typed, or by what the meter's maker says; absent where neither is.
-Result<std::optional<double>> SigmaAsked(const QuickOptions& options) {
-  if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
-  const auto sigma =
-      options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMeter(options.meter);
-  if (!sigma) return tl::unexpected(sigma.error());
-  return *sigma;
-}
-
-Result<void> AddReadings(Session& session, const QuickOptions& options) {
-  std::optional<Kelvin> cct;
-  if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
-      !filled) {
-    return filled;
-  }
-  const auto sigma = SigmaAsked(options);
-  if (!sigma) return tl::unexpected(sigma.error());
-  for (const std::string& text : options.readings) {
-    auto typed = ParseTypedReading(text, options.name);
-    if (!typed) return Propagate(std::move(typed));
-    for (Reading& reading : *typed) {
-      if (fit::IsLit(reading) && !reading.cct) reading.cct = cct;
-      if (options.meter.empty()) {
-        reading.sigma_relative = *sigma;
-      } else {
-        reading.meter = kQuickMeter;
-      }
-      session.readings.push_back({std::move(reading), text});
-    }
-  }
-  if (options.readings.empty() && cct) {
-    Reading color_only;
-    color_only.light = options.name;
-    color_only.cct = cct;
-    session.readings.push_back({color_only, "--cct " + options.cct});
-  }
-  return {};
-}
-
-// What all readings are taken with, and the first will be, where none is there to tell.
-Result<void> AddMeter(Session& session, const QuickOptions& options) {
-  const auto sigma = SigmaAsked(options);
-  if (!sigma) return tl::unexpected(sigma.error());
-  if (!*sigma || (options.meter.empty() && !options.readings.empty())) return {};
-  MeterDescription meter;
-  meter.name = kQuickMeter;
-  meter.sigma_relative = **sigma;
-  session.meters.push_back(std::move(meter));
-  return {};
-}
-
-Result<Session> SessionFromOptions(const QuickOptions& options) {
-  if (options.readings.empty() && options.lumens.empty() && !options.plan) {
-    return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
-  }
-  if (options.name.empty() || !IsPrintable(options.name)) {
-    return WrongUsage("--name", "\"" + options.name + "\" is no name: letters that show, please");
-  }
-  auto light = DescribeLight(options);
-  if (!light) return Propagate(std::move(light));
-  Session session;
-  session.name = options.name;
-  session.stem = FileStem(options.name);
-  session.directory = ".";
-  session.lights.push_back(std::move(*light));
-  if (!options.room.empty()) {
-    if (auto set = SetRoom(options.room, session); !set) return Propagate(std::move(set));
-  }
-  if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
-  if (auto added = AddMeter(session, options); !added) return Propagate(std::move(added));
-  return session;
-}
-
 struct Prediction {
   Metres distance;
   PredictedIlluminance predicted;
+  std::optional<IlluminanceInRoom> in_room;
 };
 
 Result<std::vector<Prediction>> Predict(const QuickOptions& options, const FittedLight& light) {
@@ -194,23 +45,27 @@ Result<std::vector<Prediction>> Predict(const QuickOptions& options, const Fitte
     if (!distance) return tl::unexpected(distance.error());
     auto predicted = PredictIlluminance(light, *distance, sigma);
     if (!predicted) return Propagate(std::move(predicted));
-    predictions.push_back({*distance, *predicted});
+    auto in_room = PredictInRoom(light, *distance, sigma);
+    if (!in_room) return Propagate(std::move(in_room));
+    predictions.push_back({*distance, *predicted, *std::move(in_room)});
   }
   return predictions;
 }
 
-std::string PredictionTable(const std::vector<Prediction>& predictions) {
-  std::vector<std::vector<std::string>> rows;
-  rows.reserve(predictions.size());
+std::string ValueAndRange(const Uncertain& lx) { return ValueText(lx) + " lx   " + RangeText(lx); }
+
+// "at 3 m   lamp alone 5.2 lx   4.6 … 5.9   in the room 12 lx   8 … 17"
+std::string PredictionLines(const std::vector<Prediction>& predictions) {
+  std::string text;
   for (const Prediction& p : predictions) {
-    const Uncertain& lx = p.predicted.reading_lx;
-    const std::string range =
-        lx.low && lx.high ? RoundedText(*lx.low, 4) + " … " + RoundedText(*lx.high, 4) + " lx"
-                          : "-";
-    rows.push_back({RoundedText(p.distance.value(), 4) + " m",
-                    ValueWithPercent(lx.value, lx.u95, "lx"), range});
+    std::string line = "a meter reads " + ValueAndRange(p.predicted.reading_lx);
+    if (p.in_room) {
+      line = "lamp alone " + ValueAndRange(p.predicted.reading_lx) + "   in the room " +
+             ValueAndRange(p.in_room->reading_lx);
+    }
+    text += LabelledLine("at " + ShortestText(p.distance.value()) + " m", line);
   }
-  return TextTable({"at", "a meter will read", "95 %"}, rows);
+  return text;
 }
 
 // What the minutes buy, at the end of whatever else is said.
@@ -258,30 +113,74 @@ Result<BehindGels> PutGelBefore(const QuickOptions& options, FittedLight& light,
   if (!behind) return Propagate(std::move(behind));
   if (behind->size() != 1) return WrongUsage("--gel", "name one gel, or a stack: L204+L298");
   light = match::LightBehind(light, behind->front().match);
+  light.in_room.clear();  // of the lamp without it
   return std::move(behind->front());
 }
 
-void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const std::string& next,
+// "20lx@2m,card=LUX": the reading a person typed there, and what to add to it.
+std::string TypedStep(const Session& session, const PlannedReading& step) {
+  std::string before;
+  for (const SessionReading& row : session.readings) {
+    if (fit::IsLit(row.reading) && row.reading.distance == step.distance) before = row.where;
+  }
+  const std::string metres =
+      step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) : "";
+  const std::string at = metres + " m";
+  switch (step.action) {
+    case PlannedAction::kShadowCard:
+      return "block the direct beam at " + at + " with a card, type what is left: " + before +
+             ",card=LUX";
+    case PlannedAction::kLampOff:
+      return "switch the lamp off, type what is left: " +
+             (session.readings.empty() ? before : session.readings.back().where) + ",off=LUX";
+    case PlannedAction::kRead:
+      break;
+  }
+  return before.empty() ? "read at " + at + " too, facing the lamp: add LUX@" + metres + "m"
+                        : "read at " + at + " once more: add LUX@" + metres + "m";
+}
+
+std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& session,
+                                  const LightFile& lights, bool gelled) {
+  LampQuestion question;
+  question.lights = &lights;
+  question.session = &session;
+  question.targets = options.targets;
+  question.typed_color = !gelled;
+  question.by_name = options.name != QuickOptions().name;
+  question.syntax = [&](const FittedLight&, const PlannedReading& step) {
+    return TypedStep(session, step);
+  };
+  return LampAnswersOf(question);
+}
+
+void PrintAnswer(const QuickOptions& options, const Session& session, const FittedSession& fitted,
                  const std::vector<Prediction>& predictions,
                  const std::vector<MinutesLadder>& ladders, const std::optional<BehindGels>& behind,
                  Console& console) {
-  const FittedLight& light = fitted.lights.lights.front();
+  const std::vector<LampAnswer> answers =
+      AnswersOf(options, session, fitted.lights, behind.has_value());
   if (behind) console.Print(ThroughText(*behind) + "\n\n");
-  console.Print(LightTable(fitted.lights) + "\n" + FitTable(fitted.lights));
-  if (light.intensity_cd && light.intensity_cd->low && light.intensity_cd->high) {
-    console.Print("\n95 % interval: " + RoundedText(*light.intensity_cd->low, 3) + " … " +
-                  RoundedText(*light.intensity_cd->high, 3) + " cd\n");
+  console.Print(LampAnswersText(answers, session));
+  console.Print(PredictionLines(predictions));
+  if (console.verbose()) {
+    console.Print("\n" + LightTable(fitted.lights) + "\n" + FitTable(fitted.lights) + "\n" +
+                  BudgetTable(fitted.lights.lights.front()));
   }
-  if (!predictions.empty()) console.Print("\n" + PredictionTable(predictions));
-  console.Print("\nnext: " + next + "\n");
   Node document = DocumentOf(fitted.lights);
-  document.Put("next_step", next);
+  document.Put("next_step", answers.front().next.say);
   if (behind) document.Put("through", ThroughNode(*behind));
   document.Put("predictions",
                Node::UnlessEmpty(Node::List(predictions, [](const Prediction& p) -> Node {
-                 return {{"distance_m", p.distance},
-                         {"model_lx", DocumentOf(p.predicted.model_lx)},
-                         {"reading_lx", DocumentOf(p.predicted.reading_lx)}};
+                 Node node = {{"distance_m", p.distance},
+                              {"model_lx", DocumentOf(p.predicted.model_lx)},
+                              {"reading_lx", DocumentOf(p.predicted.reading_lx)}};
+                 if (p.in_room) {
+                   node.Put("in_room_lx", DocumentOf(p.in_room->whole_lx));
+                   node.Put("in_room_reading_lx", DocumentOf(p.in_room->reading_lx));
+                   node.Put("walls_lx", DocumentOf(p.in_room->walls_lx));
+                 }
+                 return node;
                })));
   document.Put("minutes", Node::UnlessEmpty(Node::List(ladders, MinutesNode)));
   console.PrintDocument(std::move(document));
@@ -291,6 +190,7 @@ void PrintAnswer(const QuickOptions& options, const FittedSession& fitted, const
 }
 
 Result<void> RunQuick(const QuickOptions& options, Console& console) {
+  if (!options.table.empty()) return RunQuickTable(options, console);
   auto session = SessionFromOptions(options);
   if (!session) return Propagate(std::move(session));
   const auto wishes = LadderWishesOf(options.minutes);
@@ -301,7 +201,6 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   auto fitted = FitSession(*session, FitSettings{});
   if (!fitted) return Propagate(std::move(fitted));
   fitted->lights.provenance.generator = GeneratorName();
-  const FittedLight bare = fitted->lights.lights.front();
   std::optional<BehindGels> behind;
   if (!options.gel.empty()) {
     auto put = PutGelBefore(options, fitted->lights.lights.front(), console);
@@ -328,11 +227,13 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   if (auto written = WriteOutputs(files, options.force); !written) return written;
   std::vector<MinutesLadder> ladders;
   if (options.plan) ladders = LaddersOf(*session, {}, *wishes);
-  PrintAnswer(options, *fitted, NextStep(*session, bare), *predictions, ladders, behind, console);
+  PrintAnswer(options, *session, *fitted, *predictions, ladders, behind, console);
   if (options.plan) {
     if (auto printed = PrintMinutes(options, ladders, console); !printed) return printed;
   }
-  for (const OutputFile& file : files) console.Note("wrote " + file.path);
+  if (const std::string wrote = WroteLine(files, options.output); !wrote.empty()) {
+    console.Note(wrote);
+  }
   return {};
 }
 
@@ -343,6 +244,15 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("readings", options->readings,
                     "What the meter showed and where: 192lx@0.5m, 17.8fc@20in; with a shadow card "
                     "52lx@1m,card=5lx, with the lamp off ,off=2lx");
+  CLI::Option* const table = parser.add_option(
+      "--table", options->table,
+      "Many lamps, one a row of this CSV: name,distance_m,illuminance_lx,card_lx,cct_K,fixture ... "
+      "or a column reading with 203lx@0.5m,card=5lx; -o FILE.csv takes the answers");
+  table->type_name("FILE.csv")->excludes(parser.get_option("readings"));
+  parser
+      .add_option("--columns", options->columns,
+                  "Names of the table's columns, where its first line has none")
+      ->needs(table);
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();
   parser.add_option("--kind", options->kind, "What shines [point; spot with --beam]")
       ->check(OneOf(kQuickKinds));

@@ -9,6 +9,7 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lamp_answer.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
@@ -131,6 +132,7 @@ Result<Source> FromSession(const std::string& path, Console& console) {
   auto calibrated = CalibrateAloud(path, {}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   ReportExtras extras = ExtrasOf(*calibrated);
+  extras.advice = AdviceOf(SessionAnswersOf(*calibrated, path, {}));
   const Session& session = calibrated->session;
   extras.ladders = LaddersOf(session, {}, {});
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),

@@ -13,8 +13,9 @@
 #include "clock.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lamp_answer.h"
 #include "light_table.h"
-#include "lightcal/fit/fit_light.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
@@ -57,7 +58,9 @@ OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFi
 }
 
 Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::string& directory,
-                                          const CalibratedSession& calibrated, Console& console) {
+                                          const CalibratedSession& calibrated,
+                                          const std::vector<LampAnswer>& answers,
+                                          Console& console) {
   const LightFile& lights = calibrated.lights;
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
@@ -66,7 +69,7 @@ Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportHtml(calibrated)}};
+                                   {"report.html", ReportHtml(calibrated, AdviceOf(answers))}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }
@@ -77,23 +80,28 @@ Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::
 Result<void> RunSession(const RunOptions& options, const StampSeed& stamp, Console& console) {
   auto calibrated = Calibrate(options.calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
+  const LightFile& lights = calibrated->lights;
   const std::string directory =
       options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
-  auto files = OutputsOf(options, directory, *calibrated, console);
+  const std::vector<LampAnswer> answers =
+      SessionAnswersOf(*calibrated, options.calibration.session, options.targets);
+  auto files = OutputsOf(options, directory, *calibrated, answers, console);
   if (!files) return Propagate(std::move(files));
   if (stamp) files->push_back(StampFile(*stamp, directory, calibrated->lights, *files));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
-  console.Print(LightTable(calibrated->lights) + "\n" + FitTable(calibrated->lights) + "\n");
-  Node next = Node::Table();
-  for (const FittedLight& light : calibrated->lights.lights) {
-    if (light.fit.readings == 0) continue;  // a wall or a data sheet measured it
-    next.Put(light.name, NextStep(calibrated->session, light));
-    console.Print("next, " + light.name + ": " + next.members.back().value.text + "\n");
+  console.Print(LampAnswersText(answers, calibrated->session));
+  if (console.verbose()) {
+    console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n");
   }
-  for (const OutputFile& file : *files) console.Print("wrote " + file.path + "\n");
-  Node document = DocumentOf(calibrated->lights);
+  Node next = Node::Table();
+  for (const LampAnswer& answer : answers) {
+    if (answer.light->fit.readings == 0) continue;  // a wall or a data sheet measured it
+    next.Put(answer.light->name, answer.next.say);
+  }
+  console.Print(WroteLine(*files, directory) + "\n");
+  Node document = DocumentOf(lights);
   document.Put("next_steps", std::move(next));
   document.Put("files", PathsOf(*files));
   console.PrintDocument(std::move(document));

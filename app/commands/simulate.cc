@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -11,6 +12,8 @@
 #include "input_files.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/fit/fit_light.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 #include "simulate/lamp_places.h"
@@ -29,7 +32,7 @@ struct SimulateOptions {
   std::string normal = "up";
   MapPlaneWords plane{"", "512", "", ""};
   LampPlaceWords places;
-  std::string room, tolerance = "1%", effects = "auto", title, scale;
+  std::string room, tolerance = "1%", effects = "auto", title, scale, border, target;
   double reflectance = 0.5;
   bool timing = false, force = false;
 };
@@ -167,6 +170,38 @@ Result<std::vector<PredictedPoint>> Points(const SimulateOptions& options,
   return out;
 }
 
+// What a meter sees of each lamp and of what it lights, in the room it was measured in. Turned away
+// from the lamp a meter sees other walls: the tracer's surfaces differ so much.
+void PredictRooms(const SimulateOptions& options, const Input& input, Simulated& simulated) {
+  const auto chosen = ChooseLights(input.lights, options.lights);
+  if (!chosen || simulated.settings.room || chosen->size() != simulated.lamps.size()) return;
+  constexpr double kFacing = 0.98;
+  constexpr double kOtherWalls = 0.4;  // 1 sigma of ln E_walls
+  for (PredictedPoint& point : simulated.points) {
+    point.in_room.assign(simulated.lamps.size(), std::nullopt);
+    for (std::size_t k = 0; k < simulated.lamps.size(); ++k) {
+      const PlacedLamp& lamp = simulated.lamps[k];
+      if (IsEverywhere(lamp.source)) continue;
+      const Vec3 way = lamp.pose.position_m - point.at.position_m;
+      const double distance = Length(way);
+      if (!(distance > 0.0)) continue;
+      const auto room = PredictInRoom(*(*chosen)[k], Metres(distance), 0.0);
+      if (!room || !*room) continue;
+      const bool on_axis = lamp.pose.frame.z == Vec3{} || Dot(lamp.pose.frame.z, way) < 0.0;
+      if (Dot(way, point.at.normal) > kFacing * distance && on_axis) {
+        point.in_room[k] = (*room)->whole_lx;
+        continue;
+      }
+      const double walls = (*room)->walls_lx.value;
+      const double own = (*room)->walls_lx.u95;
+      const LampLux& part = point.parts[k];
+      const double u95 = std::hypot(part.u95_lx, own, kZ95 * kOtherWalls * walls);
+      const double lux = part.direct_lx + walls;
+      point.in_room[k] = Uncertain{lux, u95, std::max(0.0, lux - u95), lux + u95};
+    }
+  }
+}
+
 void Predict(Simulated& simulated) {
   const auto start = std::chrono::steady_clock::now();
   const IlluminancePredictor predictor(simulated.lamps, simulated.settings);
@@ -224,6 +259,17 @@ Result<Simulated> Prepare(const SimulateOptions& options, const Input& input, do
   auto points = Points(options, out.lamps);
   if (!points) return Propagate(std::move(points));
   out.points = *std::move(points);
+  if (!options.border.empty()) {
+    const auto border = ParseLength(options.border);
+    if (!border) return tl::unexpected(border.error());
+    if (border->value() < 0.0) return WrongUsage("--border", "must not be negative");
+    out.border_m = border->value();
+  }
+  if (!options.target.empty()) {
+    const auto target = ParseGridTarget(options.target);
+    if (!target) return tl::unexpected(target.error());
+    out.target = *target;
+  }
   if (options.plane.plane.empty()) return out;
   auto plane = ReadMapPlane(options.plane, out.lamps, *room);
   if (!plane) return Propagate(std::move(plane));
@@ -240,6 +286,7 @@ Result<void> RunSimulate(const SimulateOptions& options, Console& console) {
   auto simulated = Prepare(options, *input, *tolerance, console);
   if (!simulated) return Propagate(std::move(simulated));
   Predict(*simulated);
+  PredictRooms(options, *input, *simulated);
   if (!options.timing) simulated->elapsed_ms.reset();
   const std::string title = options.title.empty() ? input->title : options.title;
   auto writers = MapWriters(*simulated, options.outputs, {title, options.scale});
@@ -270,6 +317,15 @@ Run BuildSimulate(CLI::App& parser) {
   parser.add_option("--size", options->plane.size,
                     "Of the map, e.g. 6m or 6x4m [the room's, or around the lamps]");
   parser.add_option("--center", options->plane.center, "Of the map, in its two coordinates: 1,2");
+  CLI::Option* const plane = parser.get_option("--plane");
+  parser
+      .add_option("--border", options->border,
+                  "Of the map, left out of least, mean and uniformity: .5m")
+      ->needs(plane);
+  parser
+      .add_option("--target", options->target,
+                  "What the map's mean, least and uniformity are held to: 500lx,min=300lx,U0=0.6")
+      ->needs(plane);
   parser.add_option("--lights", options->lights, "Only these of the lights, e.g. key,fill")
       ->delimiter(',')
       ->allow_extra_args(false);

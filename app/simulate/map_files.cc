@@ -57,7 +57,7 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
   figure.x_title = plane.across_axis + " (m)";
   figure.y_title = plane.up_axis + " (m)";
   figure.lamps = Marks(s);
-  const MapSummary summary = Summarize(s.map, plane);
+  const MapSummary summary = Summarize(s.map, plane, s.border_m);
   const auto text = [](double v) { return RoundedText(v, 3); };
   figure.notes.push_back("illuminance: mean " + text(summary.mean_lx) + " lx, least " +
                          text(summary.least_lx) + " lx, most " + text(summary.most_lx) + " lx; ± " +

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "console.h"
+#include "lamp_words.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::app {
@@ -155,9 +156,35 @@ std::string LuxText(double lux, double u95) {
   return lux > 0.0 ? ValueWithPercent(lux, u95, "lx") : "0 lx";
 }
 
+// In the room its lamps were measured in: every lamp's part must be known there.
+std::optional<Uncertain> RoomTotal(const PredictedPoint& point, double ambient_lx) {
+  Uncertain sum{ambient_lx, 0.0, ambient_lx, ambient_lx};
+  bool any = false;
+  for (std::size_t k = 0; k < point.parts.size(); ++k) {
+    const LampLux& part = point.parts[k];
+    if (k >= point.in_room.size() || !point.in_room[k]) {
+      const double lux = part.direct_lx + part.bounce_lx;
+      sum = {sum.value + lux, sum.u95 + part.u95_lx, *sum.low + lux - part.u95_lx,
+             *sum.high + lux + part.u95_lx};
+      continue;
+    }
+    any = true;
+    const Uncertain& u = *point.in_room[k];
+    sum = {sum.value + u.value, sum.u95 + u.u95, *sum.low + *u.low, *sum.high + *u.high};
+  }
+  return any ? std::optional(sum) : std::nullopt;
+}
+
+std::string RoomText(const std::optional<Uncertain>& u) {
+  return u ? ValueText(*u) + " lx   " + RangeText(*u) : "-";
+}
+
 std::string PointTable(const Simulated& s) {
   std::vector<std::vector<std::string>> rows;
   const bool walls = s.settings.room.has_value();
+  const bool in_room = std::ranges::any_of(s.points, [](const PredictedPoint& point) {
+    return std::ranges::any_of(point.in_room, [](const auto& u) { return u.has_value(); });
+  });
   for (const PredictedPoint& point : s.points) {
     const Total total = TotalOf(point, s.ambient_lx);
     std::string place = PlaceText(point.at.position_m);
@@ -168,22 +195,26 @@ std::string PointTable(const Simulated& s) {
           place, s.lamps[k].name, LuxText(lux, part.u95_lx),
           total.lux > 0.0 ? RoundedText(100.0 * lux / total.lux, 3) + " %" : "-"};
       if (walls) row.push_back(RoundedText(part.bounce_lx, 3) + " lx");
+      if (in_room) row.push_back(RoomText(point.in_room[k]));
       rows.push_back(std::move(row));
       place.clear();
     }
     if (s.lamps.size() < 2 && !(s.ambient_lx > 0.0)) continue;
     std::vector<std::string> row = {"", "together", LuxText(total.lux, total.u95), "100 %"};
     if (walls) row.emplace_back("");
+    if (in_room) row.push_back(RoomText(RoomTotal(point, s.ambient_lx)));
     rows.push_back(std::move(row));
   }
-  std::vector<std::string> header = {"at x, y, z (m)", "light", "illuminance (95 %)", "share"};
+  std::vector<std::string> header = {"at x, y, z (m)", "light",
+                                     in_room ? "lamp alone (95 %)" : "illuminance (95 %)", "share"};
   if (walls) header.emplace_back("from walls");
+  if (in_room) header.emplace_back("in the room it was measured in");
   return TextTable(header, rows);
 }
 
 std::string PlaneText(const Simulated& s) {
   const MapPlane& plane = *s.plane;
-  const MapSummary summary = Summarize(s.map, plane);
+  const MapSummary summary = Summarize(s.map, plane, s.border_m);
   const auto text = [](double v) { return RoundedText(v, 4); };
   std::string out = plane.name + ", " + MetresText(std::abs(plane.right - plane.left)) + " x " +
                     MetresText(plane.top - plane.bottom) + " m, " +
@@ -195,13 +226,27 @@ std::string PlaneText(const Simulated& s) {
       {"most", text(summary.most_lx), "lx"},
       {"most at x, y, z", PlaceText(summary.brightest_m), "m"}};
   if (summary.mean_lx > 0.0) {
-    rows.push_back({"least / mean", RoundedText(summary.least_lx / summary.mean_lx, 3), ""});
+    rows.push_back({"U0 (least / mean)", RoundedText(summary.least_lx / summary.mean_lx, 3), ""});
     rows.push_back({"± (95 %, median)", RoundedText(100.0 * summary.median_u95_relative, 2), "%"});
   }
-  return out + TextTable({"illuminance", "value", "unit"}, rows);
+  if (s.border_m > 0.0) out += "without a border of " + MetresText(s.border_m) + " m\n";
+  out += TextTable({"illuminance", "value", "unit"}, rows);
+  if (!s.target) return out;
+  rows.clear();
+  for (const GridVerdict& one : JudgeGrid(*s.target, summary)) {
+    rows.push_back({std::string(one.what), text(one.asked), text(one.found),
+                    one.word == GridVerdict::Word::kOpen ? "within what is not known"
+                                                         : std::string(WordOf(one.word))});
+  }
+  return out + "\n" + TextTable({"target", "asked", "found", "verdict"}, rows);
 }
 
 Node ToJson(double lux, double u95) { return {{"value", lux}, {"u95", u95}}; }
+
+Node RoomNode(const std::optional<Uncertain>& u) {
+  if (!u) return {};
+  return {{"value", u->value}, {"u95", u->u95}, {"low95", u->low}, {"high95", u->high}};
+}
 
 Node PointNode(const Simulated& s, const PredictedPoint& point) {
   const Total total = TotalOf(point, s.ambient_lx);
@@ -212,31 +257,44 @@ Node PointNode(const Simulated& s, const PredictedPoint& point) {
         {{"name", s.lamps[k].name},
          {"illuminance_lx", ToJson(part.direct_lx + part.bounce_lx, part.u95_lx)},
          {"direct_lx", part.direct_lx},
-         {"bounce_lx", part.bounce_lx}});
+         {"bounce_lx", part.bounce_lx},
+         {"in_room_lx", RoomNode(k < point.in_room.size() ? point.in_room[k] : std::nullopt)}});
   }
   return {{"position_m", point.at.position_m},
           {"normal", point.at.normal},
           {"illuminance_lx", ToJson(total.lux, total.u95)},
+          {"in_room_lx", RoomNode(RoomTotal(point, s.ambient_lx))},
           {"ambient_lx", s.ambient_lx > 0.0 ? Node(s.ambient_lx) : Node()},
           {"lights", shares}};
 }
 
+Node VerdictNode(const GridVerdict& one) {
+  return {{"what", one.what},
+          {"asked", one.asked},
+          {"found", one.found},
+          {"verdict", WordOf(one.word)}};
+}
+
 Node PlaneNode(const Simulated& s) {
   const MapPlane& plane = *s.plane;
-  const MapSummary summary = Summarize(s.map, plane);
-  return {{"name", plane.name},
-          {"grid", {plane.grid.width, plane.grid.height}},
-          {"across", plane.across_axis},
-          {"up", plane.up_axis},
-          {"left_m", plane.left},
-          {"right_m", plane.right},
-          {"bottom_m", plane.bottom},
-          {"top_m", plane.top},
-          {"normal", plane.grid.normal},
-          {"illuminance_lx",
-           {{"min", summary.least_lx}, {"mean", summary.mean_lx}, {"max", summary.most_lx}}},
-          {"max_at_m", summary.brightest_m},
-          {"u95_relative_median", summary.median_u95_relative}};
+  const MapSummary summary = Summarize(s.map, plane, s.border_m);
+  return {
+      {"name", plane.name},
+      {"grid", {plane.grid.width, plane.grid.height}},
+      {"across", plane.across_axis},
+      {"up", plane.up_axis},
+      {"left_m", plane.left},
+      {"right_m", plane.right},
+      {"bottom_m", plane.bottom},
+      {"top_m", plane.top},
+      {"normal", plane.grid.normal},
+      {"illuminance_lx",
+       {{"min", summary.least_lx}, {"mean", summary.mean_lx}, {"max", summary.most_lx}}},
+      {"max_at_m", summary.brightest_m},
+      {"uniformity_U0", summary.mean_lx > 0.0 ? Node(summary.least_lx / summary.mean_lx) : Node()},
+      {"border_m", s.border_m > 0.0 ? Node(s.border_m) : Node()},
+      {"target", s.target ? Node::List(JudgeGrid(*s.target, summary), VerdictNode) : Node()},
+      {"u95_relative_median", summary.median_u95_relative}};
 }
 
 Node LampNode(const PlacedLamp& lamp) {
@@ -269,22 +327,36 @@ double BounceCost_ns(const LampAccount& account) {
              kPrice_ns[static_cast<std::size_t>(MapForm::kBounceBetween)];
 }
 
-MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane) {
+MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane, double border_m) {
   MapSummary out;
   double sum = 0.0;
+  std::size_t count = 0;
   std::vector<float> relative;
-  std::size_t most = 0;
-  std::size_t least = 0;
-  for (std::size_t i = 0; i < map.lux.size(); ++i) {
-    sum += double{map.lux[i]};
-    if (map.lux[i] > map.lux[most]) most = i;
-    if (map.lux[i] < map.lux[least]) least = i;
-    if (map.lux[i] > 0.0F) relative.push_back(map.u95[i] / map.lux[i]);
+  std::size_t most = map.lux.size();
+  std::size_t least = map.lux.size();
+  const auto width = static_cast<std::size_t>(map.width);
+  const auto height = static_cast<std::size_t>(map.height);
+  const double across = std::abs(plane.right - plane.left) / static_cast<double>(width);
+  const double down = std::abs(plane.top - plane.bottom) / static_cast<double>(height);
+  // Points stand in the middle of their pixels; a border that leaves none is none.
+  const auto cut = [border_m](double step, std::size_t points) {
+    const auto n = static_cast<std::size_t>(std::max(0.0, std::ceil(border_m / step - 0.5)));
+    return 2 * n < points ? n : std::size_t{0};
+  };
+  const std::size_t columns = cut(across, width);
+  const std::size_t lines = cut(down, height);
+  for (std::size_t j = lines; j < height - lines; ++j) {
+    for (std::size_t i = j * width + columns; i < (j + 1) * width - columns; ++i) {
+      sum += double{map.lux[i]};
+      ++count;
+      if (most == map.lux.size() || map.lux[i] > map.lux[most]) most = i;
+      if (least == map.lux.size() || map.lux[i] < map.lux[least]) least = i;
+      if (map.lux[i] > 0.0F) relative.push_back(map.u95[i] / map.lux[i]);
+    }
   }
   out.least_lx = double{map.lux[least]};
-  out.mean_lx = sum / static_cast<double>(map.lux.size());
+  out.mean_lx = sum / static_cast<double>(count);
   out.most_lx = double{map.lux[most]};
-  const auto width = static_cast<std::size_t>(map.width);
   out.brightest_m = PointOf(plane, static_cast<int>(most % width), static_cast<int>(most / width));
   if (relative.empty()) return out;
   const auto middle = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/uncertain.h"
 #include "lightcal/light/illuminance_map.h"
 #include "lightcal/records/document.h"
+#include "simulate/grid_target.h"
 #include "simulate/map_plane.h"
 
 namespace lightcal::app {
@@ -15,6 +17,8 @@ namespace lightcal::app {
 struct PredictedPoint {
   SurfacePoint at;
   std::vector<LampLux> parts;  // one a lamp
+  // With what the walls add where the lamp was measured; one a lamp, empty where no room is known.
+  std::vector<std::optional<Uncertain>> in_room{};
 };
 
 struct MapSummary {
@@ -22,7 +26,9 @@ struct MapSummary {
   double median_u95_relative = 0.0;  // of the points that get light
   Vec3 brightest_m{};
 };
-[[nodiscard]] MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane);
+// Of the points farther than border_m from the plane's edges; of all where that leaves none.
+[[nodiscard]] MapSummary Summarize(const IlluminanceMap& map, const MapPlane& plane,
+                                   double border_m = 0.0);
 
 // Everything a run of the command found.
 struct Simulated {
@@ -32,6 +38,8 @@ struct Simulated {
   std::vector<PredictedPoint> points;
   std::optional<MapPlane> plane;
   IlluminanceMap map;
+  double border_m = 0.0;  // of the plane, left out of its summary
+  std::optional<GridTarget> target;
   std::vector<LampAccount> accounts;  // one a lamp, of points and map together
   std::optional<double> elapsed_ms;   // --timing
   std::vector<std::string> files;

@@ -41,10 +41,12 @@ TEST(Quick, TheTableForPeopleSaysTheSameAndOneNextStep) {
       RunLightcal({"quick", "192lx@0.5m", "--cct", "2900K", "--room", "dark", "--fixture", "bulb"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("48 cd"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("prior"), std::string::npos) << result.out;
-  const auto first = result.out.find("next: ");
+  const auto first = result.out.find(" better ");
   ASSERT_NE(first, std::string::npos) << result.out;
-  EXPECT_EQ(result.out.find("next: ", first + 1), std::string::npos);
+  EXPECT_EQ(result.out.find(" better ", first + 1), std::string::npos);
+  const CliResult verbose = RunLightcal({"quick", "192lx@0.5m", "--cct", "2900K", "--room", "dark",
+                                         "--fixture", "bulb", "--verbose"});
+  EXPECT_NE(verbose.out.find("prior"), std::string::npos) << verbose.out;
 }
 
 struct Row {

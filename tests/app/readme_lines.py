@@ -25,6 +25,7 @@ PICTURES = ROOT / "sample_data/pictures"
 CARD = ROOT / "sample_data/sessions/grey_card_dng"
 WALL = ROOT / "sample_data/sessions/lit_wall"
 CSV = "distance_m,illuminance_lx\n1.5,30.6\n"
+TABLE = "name,distance_m,illuminance_lx,card_lx,fixture\nkey,1,58,10,bulb\nfill,2,20,8,bulb\n"
 
 
 def command_lines(text):
@@ -35,6 +36,17 @@ def command_lines(text):
                 yield line
     for line in re.findall(r"`(lightcal [a-z]+ [^`]*?-o [^`]*)`", text):
         yield line
+
+
+def transcript_faults(text, home, environment):
+    """What stands under a "$ lightcal ..." is what it prints, line by line."""
+    faults = []
+    for line, shown in re.findall(r"```\n\$ (lightcal [^\n]*)\n(.*?)```", text, re.S):
+        done = subprocess.run(["/bin/sh", "-c", line], cwd=home, env=environment,
+                              capture_output=True, text=True, timeout=60, check=False)
+        if done.stdout != shown:
+            faults.append(f"{line}\n  prints\n{done.stdout}  and not\n{shown}")
+    return faults
 
 
 def picture_faults(home, environment):
@@ -79,6 +91,7 @@ def main():
         (home / "measurement.csv").write_text(CSV, encoding="utf-8")
         gels = re.search(r"```text\n(filter,.*?)```", text, re.S).group(1)
         (home / "gels.csv").write_text(gels, encoding="utf-8")
+        (home / "lamps.csv").write_text(TABLE, encoding="utf-8")
         environment = os.environ | {"PATH": f"{home}/bin:{os.environ['PATH']}",
                                     "XDG_DATA_HOME": f"{home}/data"}
         lines = list(command_lines(text))
@@ -92,6 +105,7 @@ def main():
             if done.returncode != 0:
                 failures.append(f"{line}\n  exit {done.returncode}: {done.stderr.strip()}")
         failures += picture_faults(home, environment)
+        failures += transcript_faults(text, home, environment)
         if len(lines) < 50:
             failures.append(f"only {len(lines)} lines found: has the README changed its form?")
     if failures:

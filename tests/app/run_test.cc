@@ -108,8 +108,13 @@ TEST(RunCommand, TheTableNamesUnitsUncertaintyAndLearnedOrPrior) {
   const CliResult result =
       RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out.path()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  for (const char* word : {"cob_bare", " cd ± ", " K", "learned", "dof", "leave-one-out", "rms"}) {
+  for (const char* word : {"cob_bare", " cd ", " … ", "± ", "stops", " K"}) {
     EXPECT_NE(result.out.find(word), std::string::npos) << word << "\n" << result.out;
+  }
+  const CliResult verbose =
+      RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out.path(), "--verbose"});
+  for (const char* word : {" cd ± ", "learned", "dof", "leave-one-out", "rms"}) {
+    EXPECT_NE(verbose.out.find(word), std::string::npos) << word << "\n" << verbose.out;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
 
@@ -65,6 +66,14 @@ TEST(Uncertain, ALogNormalIntervalHoldsItsEnds) {
   EXPECT_NEAR(u.value, 48.0, 1e-12);
   EXPECT_NEAR(*u.low * *u.high, 48.0 * 48.0, 1e-9);
   EXPECT_NEAR(u.u95, (*u.high - *u.low) / 2.0, 1e-12);
+}
+
+TEST(Stops, AreHalfTheLogarithmOfTheEnds) {
+  EXPECT_NEAR(*HalfWidthStops({100.0, 0.0, 50.0, 200.0}), 1.0, 1e-15);
+  EXPECT_NEAR(*HalfWidthStops({100.0, 25.0, {}, {}}), 0.5 * std::log2(125.0 / 75.0), 1e-15);
+  const Uncertain u = UncertainFromLog(std::log(48.0), 0.1);
+  EXPECT_NEAR(*HalfWidthStops(u), StopsOfSd(0.1), 1e-12);
+  EXPECT_FALSE(HalfWidthStops({1.0, 1.0, 0.0, 2.0})) << "an upper limit";
 }
 
 }  // namespace

@@ -74,6 +74,31 @@ TEST(LightJson, GeometryComesBackBitForBit) {
   EXPECT_EQ(back.covariance_lnI_d0_E0, light.covariance_lnI_d0_E0);
 }
 
+TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
+  LightFile file = FullLightFile();
+  FittedLight& light = file.lights[0];
+  LampInRoom one{0.7, 3.87, -0.01, 0.1, -2.1, -1.0, -0.27, 0.07, 0.12, 0.09, {}};
+  for (std::size_t i = 0; i < one.covariance.size(); ++i) one.covariance[i] = 1.0 / (3.0 + i);
+  light.in_room = {one, {0.3, 3.5, 0.0, 0.0, -5.7, 0.6, 0.0, 0.25, 0.0, 0.0, {}}};
+  light.meter = MeterShare{"c800", 0.031};
+  light.of_file = Uncertain{0.78, 0.04, {}, {}};
+  light.residuals.at(0).walls_lx = 8.25;
+  const FittedLight back = Back(JsonOf(file)).lights.at(0);
+  ASSERT_EQ(back.in_room.size(), 2U);
+  EXPECT_EQ(back.in_room[0].weight, one.weight);
+  EXPECT_EQ(back.in_room[0].ln_intensity, one.ln_intensity);
+  EXPECT_EQ(back.in_room[0].distance_offset_m, one.distance_offset_m);
+  EXPECT_EQ(back.in_room[0].bend, one.bend);
+  EXPECT_EQ(back.in_room[0].scatter, one.scatter);
+  EXPECT_EQ(back.in_room[0].height_m, one.height_m);
+  EXPECT_EQ(back.in_room[0].covariance, one.covariance);
+  EXPECT_EQ(back.in_room[1].ln_b, -5.7);
+  EXPECT_EQ(back.meter->name, "c800");
+  EXPECT_EQ(back.meter->calibration_relative, 0.031);
+  EXPECT_EQ(back.of_file->value, 0.78);
+  EXPECT_EQ(back.residuals.at(0).walls_lx, 8.25);
+}
+
 TEST(LightJson, DiagnosticsComeBack) {
   const FitDiagnostics back = Back(JsonOf(FullLightFile())).lights.at(0).fit;
   EXPECT_EQ(back.readings, 7);

@@ -195,6 +195,31 @@ TEST(DistanceFigure, StaysInFrontOfASourceThatLiesInFrontOfTheReferencePoint) {
   EXPECT_THAT(svg, HasSubstr("class=\"model\""));
 }
 
+// Distances from 0 to 1.12 times the farthest over the 384 px from 84; E d^2 from 0 at 286 px.
+TEST(RoomFigure, MultipliesByTheSquareOfTheDistanceOnTwoLinearAxes) {
+  FittedLight light = WarmPoint();
+  const auto svg = Parsed(report::RoomFigure(light, "w"));
+  const auto dots = svg.select_nodes("//circle[@class='used']");
+  ASSERT_EQ(dots.size(), 4U);
+  std::size_t dot = 0;
+  double unit = 0.0;
+  for (const ResidualRow& row : light.residuals) {
+    if (!row.used) continue;
+    const auto circle = dots[dot++].node();
+    const double d = *row.distance_m;
+    EXPECT_NEAR(circle.attribute("cx").as_double(), 84.0 + 384.0 * d / (1.12 * 3.0), 0.0051);
+    const double px = (286.0 - circle.attribute("cy").as_double()) / (row.measured_lx * d * d);
+    if (unit == 0.0) unit = px;
+    EXPECT_NEAR(px / unit, 1.0, 2e-4);
+  }
+  EXPECT_EQ(svg.select_nodes("//path[@class='wedge']").size(), 0U) << "no room is known";
+  light.in_room = {
+      {1.0, std::log(1000.0), 0.06, 0.0, std::log(0.12), -1.0, -0.27, 0.07, 0.0, 0.0, {}}};
+  EXPECT_THAT(report::RoomFigure(light, "w"), HasSubstr("class=\"wedge\""));
+  light.residuals.clear();
+  EXPECT_EQ(report::RoomFigure(light, "w"), "");
+}
+
 TEST(ResidualFigure, PutsPercentOnALinearAxisAndNamesWhatLiesBeyond) {
   const FittedLight light = WarmPoint();
   const std::string text = report::ResidualFigure(light, "r");

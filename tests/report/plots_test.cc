@@ -103,8 +103,8 @@ TEST(LuminanceFigure, FramesWhatWasMeasuredAndNamesTheUnit) {
 
 TEST(Plots, EveryNameGivesFilesOfTheLightsThatHaveIt) {
   EXPECT_THAT(report::PlotNames(),
-              ElementsAre("distance", "residuals", "luminance", "polar", "chromaticity", "spectrum",
-                          "tm30", "minutes", "gate"));
+              ElementsAre("room", "distance", "residuals", "luminance", "polar", "chromaticity",
+                          "spectrum", "tm30", "minutes", "gate"));
   const LightFile file = FileOf({WarmPoint(), Sun()});
   ReportExtras extras;
   extras.spectra = {Line(SpectralQuantity::kRelative)};

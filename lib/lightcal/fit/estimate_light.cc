@@ -52,6 +52,16 @@ void Unscale(const Scales& scales, LightEstimate& out) {
     for (int j = 0; j < kParameters; ++j) out.covariance[i * kParameters + j] *= unit[i] * unit[j];
   }
   const double ln_unit = std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
+  for (LampInRoom& one : out.in_room) {
+    one.ln_intensity += ln_unit;
+    one.distance_offset_m *= scales.length_m;
+    one.ambient_lx *= scales.illuminance_lx;
+    for (int i = 0; i < kParameters; ++i) {
+      for (int j = 0; j < kParameters; ++j) {
+        one.covariance[i * kParameters + j] *= unit[i] * unit[j];
+      }
+    }
+  }
   if (out.ln_interval) {
     out.ln_interval->low += ln_unit;
     out.ln_interval->high += ln_unit;
@@ -215,6 +225,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   out.theta = estimate.theta;
   out.covariance = likeliest.covariance;
   if (candidates.size() > 1) Mix(candidates, shares, out);
+  out.in_room = InRoom(candidates, shares);
   if (out.sampled && out.ln_interval) {
     // What sampling found of the likeliest, on the mixture's ends.
     const SampledParameter& ln = out.sampled->parameters[kLnIntensity];

@@ -53,6 +53,7 @@ struct LightEstimate {
   // Of several things that the lamp may be: the 95 % interval of ln I, which need not be normal.
   std::optional<LnInterval> ln_interval;
   std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
+  std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = no walls fitted
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
   std::optional<double> upper_limit;
   std::optional<SampledEstimate> sampled;  // where it was asked for

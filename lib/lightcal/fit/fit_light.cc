@@ -78,6 +78,20 @@ void AddCalibration(double calibration, fit::LightEstimate& estimate) {
   }
 }
 
+// The one instrument that took every reading, if one did.
+std::optional<MeterShare> MeterOf(const Session& session, const std::string& light,
+                                  const fit::Observations& observations) {
+  std::optional<MeterShare> meter;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light || !reading.illuminance) continue;
+    const std::string& name = InstrumentOf(reading);
+    if (meter && meter->name != name) return std::nullopt;
+    meter = MeterShare{name, LargestCalibration(observations)};
+  }
+  return meter && meter->calibration_relative > 0.0 ? meter : std::nullopt;
+}
+
 // The part of the interval that more readings do not lower.
 void ReportCalibration(const fit::Observations& observations, std::vector<EffectReport>& effects) {
   const double calibration = LargestCalibration(observations);
@@ -197,6 +211,7 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
   out.budget = fit::BudgetOf(location->estimate.variance_parts);
   NameOffsetFound(out.effects);
   ReportCalibration(seen, out.effects);
+  out.meter = MeterOf(session, light.name, seen);
   fit::AddDerivedQuantities(light, out);
   fit::CheckDataSheet(light, out, warnings);
   return out;
@@ -348,6 +363,9 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   Append(warnings, std::move(estimate->warnings));
   if (beam) {
     estimate->covariance[0] += beam->ln_intensity_extra_variance;
+    for (LampInRoom& one : estimate->in_room) {
+      one.covariance[0] += beam->ln_intensity_extra_variance;
+    }
     estimate->variance_parts.push_back({"cone", beam->ln_intensity_extra_variance});
     estimate->diagnostics.used += beyond;
     estimate->diagnostics.learned.emplace_back("cone");
@@ -357,6 +375,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   out.residuals = estimate->residuals;
   out.effects = fit::ReportEffects(*plan, *observations, *estimate);
   ReportCalibration(*observations, out.effects);
+  out.meter = MeterOf(session, light.name, *observations);
   if (!estimate->upper_limit) out.budget = fit::BudgetOf(estimate->variance_parts);
   fit::AddDerivedQuantities(seen, out);
   if (distance_law) fit::CheckDataSheet(light, out, warnings);

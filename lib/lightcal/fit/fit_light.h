@@ -51,6 +51,18 @@ struct PredictedIlluminance {
                                                               Metres distance,
                                                               double sigma_relative);
 
+// What a meter facing the lamp will see where it was measured, light from the walls and other light
+// with it: the mixture of light.in_room, each ln E normal. Absent where no wall's light was fitted.
+// Refused: as PredictIlluminance.
+struct IlluminanceInRoom {
+  Uncertain whole_lx;
+  Uncertain reading_lx;  // one further reading
+  Uncertain walls_lx;    // of whole_lx
+};
+[[nodiscard]] Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light,
+                                                                     Metres distance,
+                                                                     double sigma_relative);
+
 // The one next reading that helps this light most, as a sentence: "read again at 1.4 m, facing the
 // lamp: the distance offset is still a prior".
 [[nodiscard]] std::string NextStep(const Session& session, const FittedLight& light);

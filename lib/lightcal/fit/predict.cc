@@ -4,8 +4,10 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/reading_model.h"
 #include "lightcal/fit/model/solve.h"
+#include "lightcal/light/wall_prior.h"
 
 namespace lightcal {
 namespace {
@@ -60,6 +62,51 @@ double VarianceOfLog(const FittedLight& light, const Uncertain& strength,
   return std::max(0.0, variance);
 }
 
+Uncertain UncertainOf(const std::vector<fit::NormalPart>& of_ln) {
+  constexpr double kTail = 0.025;
+  const auto at = [&](double probability) { return std::exp(fit::QuantileOf(of_ln, probability)); };
+  const double low = at(kTail);
+  const double high = at(1.0 - kTail);
+  return {at(0.5), 0.5 * (high - low), low, high};
+}
+
+// One of the things that lamp and room may be, at one distance.
+struct AtDistance {
+  double ln_whole = 0.0, variance = 0.0;
+  double ln_walls = 0.0, walls_variance = 0.0;
+};
+
+AtDistance Of(const LampInRoom& one, const fit::ReadingRow& bare, double distance_m) {
+  constexpr int n = fit::kParameters;
+  fit::ReadingRow row = bare;
+  if (one.width_m > 0.0) {
+    SourceSize size;
+    size.width = Metres(one.width_m);
+    size.height = Metres(one.height_m);
+    row.shape = AxialShapeOf(LightKind::kRect, size);
+  }
+  const double x = std::log(distance_m / kWallReference_m);
+  row.walls = fit::WallsOfRow{x, one.bend * x * x, one.scatter};
+  const fit::Theta theta = {one.ln_intensity, one.distance_offset_m, one.ambient_lx, one.ln_b,
+                            one.slope};
+  const fit::RowDerivative whole = fit::DifferentiateRow(row, theta);
+  const std::array<double, n> walls = {1.0, 0.0, 0.0, 1.0, x};
+  const auto variance = [&](const std::array<double, n>& gradient) {
+    double sum = 0.0;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) sum += gradient[i] * gradient[j] * one.covariance[i * n + j];
+    }
+    return std::max(0.0, sum);
+  };
+  AtDistance out;
+  out.ln_whole = -whole.residual;
+  out.ln_walls = one.ln_intensity + std::log(fit::WallsPerCandela(row, theta.data()));
+  const double share = std::exp(out.ln_walls - out.ln_whole);
+  out.variance = variance(whole.gradient) + std::pow(share * one.scatter, 2.0);
+  out.walls_variance = variance(walls) + one.scatter * one.scatter;
+  return out;
+}
+
 }  // namespace
 
 Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres distance,
@@ -83,6 +130,26 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
   return PredictedIlluminance{
       UncertainFromLog(-at.residual, std::sqrt(variance)),
       UncertainFromLog(-at.residual, std::sqrt(variance + sigma_relative * sigma_relative))};
+}
+
+Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light, Metres distance,
+                                                       double sigma_relative) {
+  const auto alone = PredictIlluminance(light, distance, sigma_relative);
+  if (!alone) return tl::unexpected(alone.error());
+  if (light.in_room.empty()) return std::optional<IlluminanceInRoom>();
+  const fit::ReadingRow bare = RowAt(light, distance.value());
+  std::vector<fit::NormalPart> whole;
+  std::vector<fit::NormalPart> reading;
+  std::vector<fit::NormalPart> walls;
+  for (const LampInRoom& one : light.in_room) {
+    if (!(bare.distance + one.distance_offset_m > 0.0)) continue;
+    const AtDistance at = Of(one, bare, distance.value());
+    whole.push_back({one.weight, at.ln_whole, std::sqrt(at.variance)});
+    reading.push_back({one.weight, at.ln_whole, std::hypot(whole.back().sd, sigma_relative)});
+    walls.push_back({one.weight, at.ln_walls, std::sqrt(at.walls_variance)});
+  }
+  if (whole.empty()) return std::optional<IlluminanceInRoom>();
+  return IlluminanceInRoom{UncertainOf(whole), UncertainOf(reading), UncertainOf(walls)};
 }
 
 }  // namespace lightcal

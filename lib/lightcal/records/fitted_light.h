@@ -64,6 +64,21 @@ struct ResidualRow {
   double relative = 0.0;  // measured/predicted - 1
   double sigma_relative = 0.0;
   bool used = true;
+  std::optional<double> walls_lx;  // of predicted_lx, what came off the walls; where it was fitted
+};
+
+// A lamp in its room, as one of the things that both may be: facing it a meter sees
+//   E = I (s(r)/r^2 + b exp(slope x + bend x^2)) + E0,  r = d + d0,  x = ln(d / 3 m)
+// s being 1, or of a luminous rectangle where the lamp is taken for one. ln of E_walls scatters by
+// `scatter` from place to place. All of a light's make its posterior; weights make 1.
+struct LampInRoom {
+  double weight = 1.0;
+  double ln_intensity = 0.0;       // of cd
+  double distance_offset_m = 0.0;  // d0
+  double ambient_lx = 0.0;         // E0
+  double ln_b = 0.0, slope = 0.0, bend = 0.0, scatter = 0.0;
+  double width_m = 0.0, height_m = 0.0;  // 0 = a point
+  std::array<double, 25> covariance{};   // of (ln I, d0, E0, ln b, slope)
 };
 
 // Intensity by direction as it was measured, and why it is no surer.
@@ -102,6 +117,13 @@ struct MeasuredBeam {
   std::optional<double> falling_share;  // of the smooth curves: those held to fall outwards alone
 };
 
+// The one instrument that read a lamp: 1 sigma of its scale is in the intensity, and alike in that
+// of every other lamp it read.
+struct MeterShare {
+  std::string name;  // "" = nobody named it
+  double calibration_relative = 0.0;
+};
+
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
 // the model); flux integrates the model. d0 is positive when the effective source lies behind the
 // point the distance was measured from.
@@ -131,7 +153,11 @@ struct FittedLight {
   std::vector<ResidualRow> residuals;
   // Covariance of (ln I, d0, E0), for predictions: u of a reading at another distance.
   std::optional<std::array<double, 9>> covariance_lnI_d0_E0;
-  std::vector<BudgetPart> budget{};  // of intensity_cd or illuminance_lx, largest first
+  std::vector<BudgetPart> budget{};    // of intensity_cd or illuminance_lx, largest first
+  std::optional<MeterShare> meter{};   // where one took every reading
+  std::optional<Uncertain> of_file{};  // of a luminaire: its intensity over its photometric file's
+  // Where walls shone in the readings: what a meter will see in that room. Empty = not known.
+  std::vector<LampInRoom> in_room{};
 };
 
 struct InputFile {

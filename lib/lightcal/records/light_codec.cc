@@ -118,8 +118,39 @@ constexpr auto kVisitResidual = [](auto& archive, auto& row) {
   archive.Number("relative", row.relative);
   archive.Number("sigma_relative", row.sigma_relative, kNotNegative);
   archive.Truth("used", row.used);
+  archive.Number("walls_lx", row.walls_lx, kNotNegative);
   archive.Require({"index", "measured_lx", "predicted_lx", "relative", "sigma_relative", "used"});
 };
+
+constexpr auto kVisitInRoom = [](auto& archive, auto& one) {
+  archive.Number("weight", one.weight, kNotNegative);
+  archive.Number("ln_intensity_cd", one.ln_intensity);
+  archive.Number("distance_offset_m", one.distance_offset_m);
+  archive.Number("ambient_lx", one.ambient_lx, kNotNegative);
+  archive.Number("ln_b", one.ln_b);
+  archive.Number("slope", one.slope);
+  archive.Number("bend", one.bend);
+  archive.Number("scatter", one.scatter, kNotNegative);
+  archive.Number("width_m", one.width_m, kNotNegative);
+  archive.Number("height_m", one.height_m, kNotNegative);
+  archive.Array("covariance", one.covariance);
+  archive.Require({"weight", "ln_intensity_cd", "distance_offset_m", "ambient_lx", "ln_b", "slope",
+                   "bend", "scatter", "covariance"});
+};
+
+constexpr auto kVisitMeter = [](auto& archive, auto& meter) {
+  archive.Text("name", meter.name);
+  archive.Number("calibration_relative", meter.calibration_relative, kNotNegative);
+  archive.Require({"calibration_relative"});
+};
+
+// Absent where nothing is known of walls.
+void VisitRoom(FieldReader& reader, std::vector<LampInRoom>& in_room) {
+  reader.List("in_room", in_room, kVisitInRoom);
+}
+void VisitRoom(FieldWriter& writer, const std::vector<LampInRoom>& in_room) {
+  if (!in_room.empty()) writer.List("in_room", in_room, kVisitInRoom);
+}
 
 template <class Archive, class SomeLight>
 void VisitMeasures(Archive& archive, SomeLight& light) {
@@ -176,6 +207,9 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitCauses(archive, light);
   archive.List("residuals", light.residuals, kVisitResidual);
   archive.Array("covariance_lnI_d0_E0", light.covariance_lnI_d0_E0);
+  archive.Object("meter", light.meter, kVisitMeter);
+  archive.Object("of_file", light.of_file, kVisitUncertain);
+  VisitRoom(archive, light.in_room);
   archive.Require({"name", "kind"});
 };
 

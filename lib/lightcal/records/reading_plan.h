@@ -21,6 +21,7 @@ struct PlannedReading {
   std::optional<Vec3> normal;
   Lux expected{0.0};                  // what the meter will show if the lamp is what it now seems
   double u95_relative = 0;            // of the intensity (illuminance) once it is taken
+  double u95_stops = 0;               // the same: 1/2 log2(high/low)
   std::optional<Radians> off_axis{};  // with distance: seen from the lamp, from its axis
   std::optional<double> beam_u95_deg{};  // of a beam's full angle once it is taken
 };

@@ -14,6 +14,11 @@ namespace lightcal::report {
 // shadow card would have read. id must be unique in the page.
 [[nodiscard]] std::string DistanceFigure(const FittedLight& light, std::string_view id);
 
+// E d^2 against distance, both linear: readings with their own 95 % interval, the flat band of the
+// lamp's intensity, and above it the wedge of what walls add; behind a shadow card a reading stands
+// on the band. "" where no reading has a distance.
+[[nodiscard]] std::string RoomFigure(const FittedLight& light, std::string_view id);
+
 // (measured/model - 1) in percent against distance, with 95 % intervals of the readings. Rejected
 // readings beyond the axis are drawn at its edge with their value.
 [[nodiscard]] std::string ResidualFigure(const FittedLight& light, std::string_view id);

@@ -2,8 +2,11 @@
 #include "lightcal/report/light_section.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
 #include "lightcal/report/plots.h"
 #include "lightcal/report/swatch.h"
 #include "lightcal/report/tables.h"
@@ -84,7 +87,7 @@ std::string Cards(const FittedLight& light) {
         (light.inner_deg ? Figure(*light.inner_deg) + "° … " : "") + Figure(*light.outer_deg) + "°",
         light.inner_deg ? "inner … outer" : "outer");
   }
-  return html.empty() ? "" : "<dl class=\"cards\">\n" + html + "</dl>\n";
+  return html.empty() ? "" : "<dl class=\"cards below-first\">\n" + html + "</dl>\n";
 }
 
 std::string Title(const FittedLight& light) {
@@ -94,6 +97,10 @@ std::string Title(const FittedLight& light) {
          " light</span></div>\n";
 }
 
+std::string StopsWords(double stops) {
+  return "± " + RoundedText(stops, stops >= 0.0995 ? 2 : 1) + (stops <= 1.0 ? " stop" : " stops");
+}
+
 std::string Hero(const FittedLight& light) {
   const Headline headline = HeadlineOf(light);
   if (headline.value == nullptr) {
@@ -101,16 +108,73 @@ std::string Hero(const FittedLight& light) {
   }
   const Uncertain& u = *headline.value;
   const int decimals = u.u95 > 0.0 ? DecimalsFor(u.u95) : DecimalsFor(std::abs(u.value)) + 2;
+  const auto stops = HalfWidthStops(u);
   std::string html = "<p class=\"hero\">" + Fixed(u.value, decimals) + " <span class=\"unit\">" +
-                     headline.unit + "</span> <span class=\"pm\">" + RelativePlusMinus(u) +
+                     headline.unit + "</span> <span class=\"pm\">" +
+                     (stops && u.u95 > 0.0 ? StopsWords(*stops) : RelativePlusMinus(u)) +
                      "</span></p>\n";
-  std::string line = "95 % interval " + Interval(u, headline.unit) + " · ";
+  std::string line = Interval(u, headline.unit) + " · " + RelativePlusMinus(u) + " (95 %) · ";
   const std::string decided = DecidedBy(light.fit, "intensity");
   line += decided == "prior" ? "held by a prior" : "from";
   line += decided == "prior" ? ""
                              : " " + std::to_string(light.fit.used) + " of " +
                                    std::to_string(light.fit.readings) + " readings";
   return html + "<p class=\"soft\">" + line + "</p>\n";
+}
+
+// ---- why it is no surer ----
+
+struct PartOfBar {
+  std::string_view css, words;
+  double share = 0.0, sd = 0.0;
+};
+
+std::string PartsBar(const FittedLight& light) {
+  if (light.budget.empty()) return "";
+  std::array<PartOfBar, 4> parts = {{{"part-walls", "walls"},
+                                     {"part-meter", "meter"},
+                                     {"part-offset", "where the light starts"},
+                                     {"part-other", "other"}}};
+  for (const BudgetPart& part : light.budget) {
+    const std::size_t at = part.name == "room_bounce"                                    ? 0
+                           : part.name == "readings" || part.name == "meter_calibration" ? 1
+                           : part.name == "distance_offset"                              ? 2
+                                                                                         : 3;
+    parts[at].share += part.share;
+    parts[at].sd = std::hypot(parts[at].sd, part.sd_relative);
+  }
+  constexpr double kLeastShown = 0.01;
+  std::string bar;
+  std::string legend;
+  for (const PartOfBar& part : parts) {
+    if (part.share < kLeastShown) continue;
+    bar += "<span class=\"" + std::string(part.css) +
+           "\" style=\"width:" + RoundedText(100.0 * part.share, 3) + "%\"></span>";
+    legend += "<span><i class=\"" + std::string(part.css) + "\"></i>" + std::string(part.words) +
+              " " + StopsWords(StopsOfSd(part.sd)) + "</span> ";
+  }
+  return "<div class=\"parts\" role=\"img\" aria-label=\"Where the uncertainty comes from\">" +
+         bar + "</div><p class=\"legend soft\">" + legend + "</p>\n";
+}
+
+std::string Advice(const FittedLight& light, const ReportExtras& extras) {
+  const auto found = std::ranges::find(extras.advice, light.name, &LightAdvice::light);
+  if (found == extras.advice.end()) return "";
+  return "<p class=\"advice\"><b>Enough for</b> " +
+         Escaped(found->enough.empty() ? "nothing yet: look-dev asks for ± 0.5 stop"
+                                       : found->enough) +
+         "</p>\n<p class=\"advice\"><b>" + Escaped(found->label) + "</b> " + Escaped(found->text) +
+         "</p>\n";
+}
+
+// The room's figure beside the answer, where readings have distances.
+std::string FirstFigure(const FittedLight& light, const ReportExtras& extras,
+                        const std::string& prefix) {
+  const LightPlot& plot = LightPlots().front();
+  const std::string svg = plot.draw(light, extras, prefix + std::string(plot.name));
+  if (svg.empty()) return "";
+  return "<figure class=\"first\">\n" + svg + "<figcaption>" + plot.caption(light, extras) +
+         "</figcaption>\n</figure>\n";
 }
 
 // Three numbers, or one of many digits.
@@ -149,7 +213,9 @@ std::string FigureBlock(const LightPlot& plot, const FittedLight& light, const R
 std::string Figures(const FittedLight& light, const ReportExtras& extras,
                     const std::string& prefix) {
   std::string html;
-  for (const LightPlot& plot : LightPlots()) html += FigureBlock(plot, light, extras, prefix);
+  for (const LightPlot& plot : LightPlots().subspan(1)) {
+    html += FigureBlock(plot, light, extras, prefix);
+  }
   return "<div class=\"figures\">\n" + html + FitTable(light.fit) + "</div>\n";
 }
 
@@ -183,11 +249,22 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
                       : index == 0 ? " first"
                                    : "") +
                      "\" id=\"" + id + "\"" + lamp + ">\n<div class=\"summary\">\n<div>\n";
-  html += Title(light) + Hero(light) + "</div>\n" + Cards(light) + "</div>\n";
-  html += TypeIn(light.name, extras.engines.figures) + Figures(light, extras, id + "-");
-  html += Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
-          Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
-          Below(EffectTable(light.effects));
+  const std::string figure = FirstFigure(light, extras, id + "-");
+  html += Title(light) + Hero(light) + PartsBar(light) + Advice(light, extras) + "</div>\n" +
+          (figure.empty() ? Cards(light) : figure) + "</div>\n";
+  html += TypeIn(light.name, extras.engines.figures);
+  if (!figure.empty()) html += Cards(light);
+  html += Figures(light, extras, id + "-");
+  const std::string tables =
+      Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
+      Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
+      Below(EffectTable(light.effects));
+  if (!tables.empty()) {
+    html +=
+        "<details class=\"rest\"><summary>Every reading, every engine's lux, every effect"
+        "</summary>\n" +
+        tables + "</details>\n";
+  }
   return html + "</section>\n";
 }
 

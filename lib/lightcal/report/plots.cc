@@ -120,7 +120,18 @@ std::string OfLight(const FittedLight& light, const ReportExtras& /*extras*/, st
   return kDraw(light, id);
 }
 
+std::string RoomKeys(const FittedLight& light, const ReportExtras& extras) {
+  return ReadingKeys(light, extras) +
+         Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
+             "your lamp, 95 %") +
+         (light.in_room.empty()
+              ? ""
+              : Key("<rect class=\"wedge\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
+                    "what the walls add"));
+}
+
 constexpr std::array kLightPlots = {
+    LightPlot{"room", "What the room adds", &OfLight<RoomFigure>, &RoomKeys},
     LightPlot{"distance", "Illuminance against distance", &OfLight<DistanceFigure>, &DistanceKeys},
     LightPlot{"residuals", "Distance from the model", &OfLight<ResidualFigure>, &ReadingKeys},
     LightPlot{"luminance", "Luminance", &DrawLuminance, &LuminanceCaption},

@@ -40,11 +40,20 @@ struct LuminancePicture {
   std::optional<std::array<double, 4>> region{};  // x, y, width, height of what was measured
 };
 
+// What to do next about a light, and what it is enough for by now.
+struct LightAdvice {
+  std::string light;
+  std::string label;  // "1 minute better", "next"
+  std::string text;
+  std::string enough;  // "look-dev"; "" = nothing yet
+};
+
 struct ReportExtras {
   EngineAnswers engines{};
   std::vector<LightSpectrum> spectra{};
   std::vector<LuminancePicture> pictures{};
   std::vector<MinutesLadder> ladders{};
+  std::vector<LightAdvice> advice{};
 };
 
 }  // namespace lightcal

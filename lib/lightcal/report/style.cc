@@ -29,6 +29,7 @@ svg .frame { fill: none; stroke: var(--soft); stroke-width: 1.2; }
 svg .zero { stroke: var(--accent); stroke-width: 1.8; }
 svg .model { fill: none; stroke: var(--accent); stroke-width: 2.2; }
 svg .band { fill: var(--band); stroke: none; }
+svg .wedge { fill: var(--soft); opacity: .22; stroke: none; }
 svg .whisker { stroke: var(--ink); stroke-width: 1.5; }
 svg .used { fill: var(--ink); stroke: var(--page); stroke-width: 1.4; }
 svg .rejected { fill: none; stroke: var(--warn); stroke-width: 2.4; stroke-linecap: round; }
@@ -76,6 +77,21 @@ section.light { margin-top: 56px; }
   border-radius: 18px; padding: 30px 34px; background: var(--panel);
   background: radial-gradient(90% 180% at 0 0, color-mix(in srgb, var(--lamp, var(--rule)) 55%, transparent), transparent 78%), var(--panel);
 }
+.parts { display: flex; height: 12px; border-radius: 6px; overflow: hidden; margin: 16px 0 6px; max-width: 420px; background: var(--rule); }
+.parts span { display: block; height: 100%; }
+.part-walls { background: var(--soft); opacity: .75; }
+.part-meter { background: var(--accent); }
+.part-offset { background: var(--warn); }
+.part-other { background: var(--rule); }
+.legend { font-size: 14px; margin: 0 0 14px; }
+.legend i { display: inline-block; width: 10px; height: 10px; border-radius: 3px; margin-right: 5px; }
+.legend span { white-space: nowrap; margin-right: 14px; }
+.advice { margin: 0 0 4px; font-size: 15px; overflow-wrap: anywhere; }
+.advice b { font-weight: 620; }
+.first { min-width: 0; }
+details.rest { margin-top: 44px; }
+details.rest > summary { cursor: pointer; font-weight: 620; padding: 10px 0; border-top: 1px solid var(--rule); }
+.cards.below-first { margin-top: 30px; }
 .title { display: flex; align-items: center; gap: 14px; flex-wrap: wrap; }
 .swatch { width: 30px; height: 30px; border-radius: 50%; background: var(--lamp); border: 1px solid var(--rule); flex: none; }
 .kind { color: var(--soft); font-size: 15px; }
@@ -121,6 +137,7 @@ th:last-child, td:last-child { padding-right: 0; }
 .ran::before { content: "● "; color: var(--well); }
 .notran::before { content: "○ "; color: var(--soft); }
 .notran { color: var(--soft); }
+.notrun { color: var(--soft); font-size: 13px; white-space: normal; }
 code { font: 13px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; overflow-wrap: anywhere; }
 footer { border-top: 1px solid var(--rule); margin-top: 60px; padding-top: 30px; }
 footer h3:not(:first-child) { margin-top: 26px; }

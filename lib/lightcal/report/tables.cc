@@ -49,6 +49,15 @@ std::string Residual(double relative) {
   return std::abs(relative) < kNothing ? "0.00\u00A0%" : SignedPercent(relative);
 }
 
+// Nobody ran it: what its law makes of our own numbers is no measurement.
+std::string OffBy(const ParityRow& row) {
+  constexpr double kNothing = 5e-5;
+  const double relative = row.engine_lx / row.expected_lx - 1.0;
+  if (row.rendered) return Residual(relative);
+  const std::string by = "<span class=\"notrun\">by its published law, not run</span>";
+  return std::abs(relative) < kNothing ? by : SignedPercent(relative) + " " + by;
+}
+
 const char* StateWord(EffectState state) {
   switch (state) {
     case EffectState::kOff:
@@ -123,8 +132,7 @@ std::string ParityTable(std::string_view light, const std::vector<ParityRow>& ro
                      : "—";
     body += "<tr><th scope=\"row\">" + Escaped(row.engine) +
             "</th><td class=\"n\" data-label=\"gives \">" + Illuminance(row.engine_lx) +
-            "\u00A0lx</td><td class=\"n\" data-label=\"off by \">" +
-            Residual(row.engine_lx / row.expected_lx - 1.0) + "</td>" +
+            "\u00A0lx</td><td class=\"n\" data-label=\"off by \">" + OffBy(row) + "</td>" +
             (beam ? "<td class=\"n\" data-label=\"off the axis \">" + off_axis + "</td>" : "") +
             "<td data-label=\"law \">" + Escaped(row.law) + "</td><td class=\"note\"><span " +
             "class=\"" + (row.rendered ? "ran" : "notran") + "\">" + Escaped(row.executed) +

@@ -26,6 +26,7 @@ Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const Forward
   const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
   for (const LampHypothesis& hypothesis : hypotheses) {
     Candidate one;
+    one.hypothesis = hypothesis;
     one.estimation = EstimationUnder(hypothesis, prepared, observations);
     const Result<Theta> theta = SolveSettled(one.estimation);
     if (!theta) {
@@ -155,6 +156,26 @@ std::vector<double> SharesOf(std::vector<Candidate>& candidates) {
   for (const Candidate& one : candidates) whole += likelihood(one);
   for (const Candidate& one : candidates) shares.push_back(likelihood(one) / whole);
   return shares;
+}
+
+std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
+                               const std::vector<double>& shares) {
+  constexpr double kLeastShare = 0.01;
+  std::vector<LampInRoom> out;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& one = candidates[i];
+    if (!one.hypothesis.walls || !one.estimation.rules[kLnWalls].free) return {};
+    if (shares[i] < kLeastShare) continue;
+    const Theta& theta = one.estimate.theta;
+    const WallHypothesis& walls = *one.hypothesis.walls;
+    out.push_back({shares[i], theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient],
+                   theta[kLnWalls], theta[kWallsSlope], walls.prior.bend, walls.prior.scatter,
+                   walls.width_m, walls.height_m, one.covariance});
+    whole += shares[i];
+  }
+  for (LampInRoom& one : out) one.weight /= whole;
+  return out;
 }
 
 void Mix(const std::vector<Candidate>& candidates, const std::vector<double>& shares,

@@ -7,6 +7,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/prepare.h"
 #include "lightcal/fit/model/robust.h"
 
@@ -14,6 +15,7 @@ namespace lightcal::fit {
 
 // The lamp as one hypothesis has it.
 struct Candidate {
+  LampHypothesis hypothesis;
   Estimation estimation;
   Theta squared{};  // its squared-loss optimum
   double ln_prior = 0.0;
@@ -38,6 +40,11 @@ void KeepComparable(std::vector<Candidate>& candidates);
 
 // Probability of each; those that explain nothing go.
 [[nodiscard]] std::vector<double> SharesOf(std::vector<Candidate>& candidates);
+
+// Each in its room, as light.json keeps it, but in the solver's units; those of less than a
+// hundredth are left out. Empty where some see no walls.
+[[nodiscard]] std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
+                                             const std::vector<double>& shares);
 
 // Fills median, quantiles and covariance of the mixture, and what not knowing the lamp adds to the
 // variance of ln I (unknown_lamp).

@@ -125,6 +125,11 @@ void FillResiduals(const RobustEstimate& estimate, const Estimation& all, const 
     if (o.placed) residual.distance_m = o.distance_m;
     residual.measured_lx = o.measured_lx;
     residual.predicted_lx = predicted;
+    if (row.walls) {
+      residual.walls_lx = std::exp(estimate.theta[kLnIntensity]) *
+                          WallsPerCandela(row, estimate.theta.data()) *
+                          prepared.scales.illuminance_lx;
+    }
     residual.relative = o.measured_lx / predicted - 1.0;
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
     residual.used = std::find(estimate.rejected.begin(), estimate.rejected.end(),

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/plan/next_step.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
@@ -12,13 +15,10 @@
 namespace lightcal {
 namespace {
 
-// Distances in geometric steps tell offset and ambient light best; together they should span 8 : 1.
 constexpr double kStep = 2.8284271247461903;
-constexpr double kSpan = 8.0;
 
 struct Taken {
   std::vector<double> distances_m;  // of readings with the lamp on, sorted
-  bool shadow = false;
   bool off = false;
   bool own = false;  // someone held a meter: not every figure is the manufacturer's
 };
@@ -28,7 +28,6 @@ Taken TakenOf(const Session& session, const FittedLight& light) {
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
     if (reading.light != light.name || !reading.illuminance) continue;
-    taken.shadow = taken.shadow || reading.shadow_card;
     taken.off = taken.off || (reading.lamp == LampState::kOff && !reading.shadow_card);
     taken.own = taken.own || reading.meter != kDataSheetMeter;
     const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
@@ -61,91 +60,115 @@ std::optional<std::string> AboutRejected(const FittedLight& light) {
   return std::nullopt;
 }
 
+std::string Within(double relative) { return "± " + PercentText(relative); }
+
+NextStepAdvice Say(std::string sentence) {
+  NextStepAdvice advice;
+  advice.say = std::move(sentence);
+  return advice;
+}
+
+NextStepAdvice Take(PlannedReading reading, double minutes, std::optional<double> now) {
+  NextStepAdvice advice;
+  advice.kind = NextStepAdvice::Kind::kReading;
+  advice.say = SayPlannedReading(reading) + ": " + (now ? Within(*now) + " → " : "") +
+               Within(reading.u95_relative);
+  advice.reading = std::move(reading);
+  advice.minutes = minutes;
+  return advice;
+}
+
 // A lamp that places told is told better by another place.
-std::optional<std::string> AboutPlace(const Session& session, const FittedLight& light) {
+std::optional<NextStepAdvice> AboutPlace(const Session& session, const FittedLight& light) {
   if (!light.position_u95_m) return std::nullopt;
-  const auto plan = PlanReadings(session, light.name, {}, 1);
+  auto plan = PlanReadings(session, light.name, {}, 1);
   if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
-  const PlannedReading& step = plan->steps.front();
-  const auto percent = [](double part) { return "± " + PercentText(part); };
-  return SayPlannedReading(step) + ": it leaves " + percent(step.u95_relative) + " instead of " +
-         percent(*plan->u95_relative);
+  const MeasuringMinutes minutes;
+  return Take(std::move(plan->steps.front()), minutes.move + minutes.reading, plan->u95_relative);
 }
 
 // A beam is told best at another angle.
-std::optional<std::string> AboutBeam(const Session& session, const FittedLight& light) {
+std::optional<NextStepAdvice> AboutBeam(const Session& session, const FittedLight& light) {
   if (!light.beam || !light.beam->beam_deg) return std::nullopt;
-  const auto plan = PlanAngle(session, light.name, {});
+  auto plan = PlanAngle(session, light.name, {});
   if (!plan || plan->steps.empty() || !plan->beam_u95_deg) return std::nullopt;
-  const PlannedReading& step = plan->steps.front();
+  PlannedReading& step = plan->steps.front();
   if (!step.beam_u95_deg) return std::nullopt;
   const auto degrees = [](double u95) { return "± " + RoundedText(u95, 2) + "°"; };
-  return SayPlannedReading(step) + ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
-         degrees(*step.beam_u95_deg) + ", intensity ± " + PercentText(*plan->u95_relative) +
-         " → ± " + PercentText(step.u95_relative);
+  const std::string beam = ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
+                           degrees(*step.beam_u95_deg) + ", intensity " +
+                           Within(*plan->u95_relative) + " → " + Within(step.u95_relative);
+  const MeasuringMinutes minutes;
+  NextStepAdvice advice = Take(std::move(step), minutes.move + minutes.reading, std::nullopt);
+  advice.say = SayPlannedReading(*advice.reading) + beam;
+  return advice;
 }
 
-// Whether the walls are a large part of what is not known.
-bool WallsDecide(const FittedLight& light) {
-  for (const BudgetPart& part : light.budget) {
-    constexpr double kLarge = 0.2;  // of the variance
-    if (part.name == "room_bounce") return part.share > kLarge;
+// From anywhere in a room one can stand half of its longest side away.
+double ReachIn(const Session& session) {
+  constexpr double kOpen_m = 4.0;
+  constexpr double kUnknownRoom_m = 2.0;
+  if (session.room) return 0.5 * std::max(session.room->size_m[0], session.room->size_m[1]);
+  return session.surroundings == Surroundings::kIndoors ? kUnknownRoom_m : kOpen_m;
+}
+
+NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light) {
+  LadderWishes wishes;
+  wishes.reach_m = ReachIn(session);
+  wishes.steps = 1;
+  auto ladder = PlanMinutes(session, light.name, {}, wishes);
+  NextStepAdvice nothing;
+  nothing.kind = NextStepAdvice::Kind::kNothing;
+  nothing.say = "no reading within reach would take 2 % off what is left";
+  if (!ladder) return nothing;
+  const double now = ladder->u95_relative.value_or(0.0);
+  const double meter = ladder->meter_u95_relative;
+  constexpr double kWorthWhile = 0.9;  // of what is left, where the meter is most of it
+  const bool meter_is_most = 2.0 * meter * meter > now * now;
+  const bool helps =
+      !ladder->steps.empty() &&
+      (!meter_is_most || ladder->steps.front().reading.u95_relative < kWorthWhile * now);
+  if (helps) {
+    LadderStep& step = ladder->steps.front();
+    return Take(std::move(step.reading), step.minutes, ladder->u95_relative);
   }
-  return false;
-}
-
-// The card that tells most of the walls' light, with what it leaves.
-std::optional<std::string> AboutWalls(const Session& session, const FittedLight& light) {
-  if (!WallsDecide(light)) return std::nullopt;
-  const auto plan = PlanShadowCard(session, light.name, {});
-  if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
-  const PlannedReading& card = plan->steps.front();
-  if (!(card.u95_relative < *plan->u95_relative)) return std::nullopt;
-  return SayPlannedReading(card) + ": ± " + PercentText(*plan->u95_relative) + " → ± " +
-         PercentText(card.u95_relative);
+  if (!meter_is_most) return nothing;
+  NextStepAdvice advice;
+  advice.kind = NextStepAdvice::Kind::kMeter;
+  advice.say = "the meter is the limit: its own " + Within(meter) +
+               " stays however often it reads; only another meter helps";
+  return advice;
 }
 
 }  // namespace
 
 std::string NextStep(const Session& session, const FittedLight& light) {
-  if (auto angle = AboutBeam(session, light)) return *angle;
+  return AdviseNext(session, light).say;
+}
+
+NextStepAdvice AdviseNext(const Session& session, const FittedLight& light) {
+  if (auto angle = AboutBeam(session, light)) return *std::move(angle);
   if (auto place = AboutPlace(session, light)) return *place;
   const Taken taken = TakenOf(session, light);
   if (taken.distances_m.empty()) {
-    return "measure the illuminance facing the lamp, about ten times its size away: so far only "
-           "its "
-           "data sheet speaks";
+    return Say(
+        "measure the illuminance facing the lamp, about ten times its size away: so far only its "
+        "data sheet speaks");
   }
   if (!fit::HasDistanceLaw(light.kind)) {
-    return taken.off ? "read again at the same place: repeated readings lower the uncertainty"
-                     : "read once with the lamp off: it takes the other light out";
+    return Say(taken.off ? "read again at the same place: repeated readings lower the uncertainty"
+                         : "read once with the lamp off: it takes the other light out");
   }
-  if (auto again = AboutRejected(light)) return *again;
+  if (auto again = AboutRejected(light)) return Say(*again);
   const double nearest = taken.distances_m.front();
   if (IsPrior(light, "intensity")) {
-    return ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light");
+    return Say(ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light"));
   }
-  const double farthest = taken.distances_m.back();
   if (!taken.own) {
-    return "measure your own lamp once at " + RoundedText(nearest, 2) +
-           " m: so far only the manufacturer's figures speak";
+    return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
+               " m: so far only the manufacturer's figures speak");
   }
-  if (taken.distances_m.size() > 1) {
-    if (auto walls = AboutWalls(session, light)) return *walls;
-  }
-  if (IsPrior(light, "distance_offset")) {
-    return ReadAgainAt(farthest / nearest < kSpan ? farthest * kStep : nearest / kStep,
-                       "the distance offset is still a prior");
-  }
-  if (!taken.shadow && session.surroundings == Surroundings::kIndoors) {
-    return "add a shadow-card reading at " + RoundedText(farthest, 2) +
-           " m (block only the direct beam): it takes ambient light and the room's bounce out";
-  }
-  if (farthest / nearest < kSpan) {
-    return ReadAgainAt(farthest * kStep, "distances that span 8 : 1 tell the offset best");
-  }
-  return "read again at " + RoundedText(nearest, 2) +
-         " m with another meter: the meter's own calibration is what is left";
+  return WhatMinutesBuy(session, light);
 }
 
 }  // namespace lightcal

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 
@@ -50,6 +51,7 @@ double OpenAfter(const PlannedReading& planned) {
 struct Outcome {
   FittedLight light;
   double u95_relative = std::numeric_limits<double>::infinity();
+  double u95_stops = std::numeric_limits<double>::infinity();
 };
 
 std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings) {
@@ -59,6 +61,9 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
   const auto u = RelativeUncertainty(out.light);
   if (!u) return std::nullopt;
   out.u95_relative = *u;
+  out.u95_stops = HalfWidthStops(out.light.intensity_cd ? *out.light.intensity_cd
+                                                        : *out.light.illuminance_lx)
+                      .value_or(out.u95_stops);
   return out;
 }
 
@@ -122,10 +127,18 @@ class Planner {
     if (fitted && !fitted->lights.lights.empty()) {
       now_ = std::move(fitted->lights.lights.front());
       if (read) u95_relative = RelativeUncertainty(*now_);
+      for (const SessionReading& row : session_.readings) StandAt(row.reading);
     } else if (read) {
       return Propagate(std::move(fitted));
     }
     return {};
+  }
+
+  // The meter stands where it read last.
+  void StandAt(const Reading& reading) {
+    if (!fit::IsLit(reading) || reading.meter == kDataSheetMeter) return;
+    stands_ = PlannedReading{PlannedAction::kRead, reading.distance, reading.position_m,
+                             reading.normal};
   }
 
   // 1 sigma of what the calibrations of all instruments that read leave together, relative; 0 where
@@ -252,6 +265,7 @@ class Planner {
     if (!outcome) return false;
     candidate.u95_relative = outcome->u95_relative;
     candidate.beam_u95_deg = BeamOf(outcome->light);
+    candidate.u95_stops = outcome->u95_stops;
     return std::isfinite(candidate.u95_relative);
   }
 

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// lightcal ratio: key to fill as a gaffer asks it, with the interval that the meter's common error
+// leaves.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "calibration_options.h"
+#include "commands.h"
+#include "lamp_words.h"
+#include "light_input.h"
+#include "lightcal/core/joined.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/light/illuminance_map.h"
+#include "lightcal/records/light_codec.h"
+#include "lightcal/records/session.h"
+#include "lightcal_devices/files/delimited_text.h"
+#include "simulate/lamp_places.h"
+#include "typed_reading.h"
+
+namespace lightcal::app {
+namespace {
+
+struct RatioOptions {
+  std::vector<std::string> what;
+  std::string at, normal = "lamp", meter;
+  std::vector<std::string> key, fill;
+  LampPlaceWords places;
+};
+
+// One lamp at the place asked about.
+struct RatioPart {
+  std::string name;
+  double lux = 0.0;
+  double sd_of_ln = 0.0;
+  std::optional<MeterShare> meter;
+};
+
+struct RatioSide {
+  std::vector<RatioPart> parts;
+  [[nodiscard]] double Lux() const {
+    double sum = 0.0;
+    for (const RatioPart& part : parts) sum += part.lux;
+    return sum;
+  }
+};
+
+struct RatioAnswer {
+  double ratio = 1.0;
+  double sd_of_ln = 0.0;
+  double apart_sd_of_ln = 0.0;  // as if nothing were in common
+};
+
+// ln(key/fill) = ln sum key - ln sum fill; a lamp's part in it is its share of its side. Errors of
+// two lamps that one meter read have the square of its calibration in common.
+RatioAnswer RatioOf(const RatioSide& key, const RatioSide& fill) {
+  struct Term {
+    double share;
+    const RatioPart* part;
+  };
+  std::vector<Term> terms;
+  const double key_lux = key.Lux();
+  const double fill_lux = fill.Lux();
+  for (const RatioPart& part : key.parts) terms.push_back({part.lux / key_lux, &part});
+  for (const RatioPart& part : fill.parts) terms.push_back({-part.lux / fill_lux, &part});
+  double variance = 0.0;
+  double apart = 0.0;
+  for (const Term& a : terms) {
+    const double own = a.part->sd_of_ln * a.part->sd_of_ln;
+    variance += a.share * a.share * own;
+    apart += a.share * a.share * own;
+    for (const Term& b : terms) {
+      if (a.part == b.part || !a.part->meter || !b.part->meter) continue;
+      if (a.part->meter->name != b.part->meter->name) continue;
+      const double common =
+          std::min({a.part->meter->calibration_relative, b.part->meter->calibration_relative,
+                    a.part->sd_of_ln, b.part->sd_of_ln});
+      variance += a.share * b.share * common * common;
+    }
+  }
+  return {key_lux / fill_lux, std::sqrt(std::max(0.0, variance)), std::sqrt(apart)};
+}
+
+Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
+                         const std::vector<std::string>& names, const std::string& option) {
+  if (names.empty()) return WrongUsage(option, "name the lights, e.g. " + option + " window,lamp");
+  const auto position = ParsePoint("--at", options.at);
+  if (!position) return tl::unexpected(position.error());
+  const auto chosen = ChooseLights(lights, names);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const auto places = ParseLampPlaces(options.places, *chosen);
+  if (!places) return tl::unexpected(places.error());
+  Warnings warnings;
+  const auto lamps = PlaceLamps(*chosen, nullptr, *places, warnings);
+  if (!lamps) return tl::unexpected(lamps.error());
+  const IlluminancePredictor predictor(*lamps, MapSettings{});
+  std::optional<Vec3> normal;
+  if (options.normal == "up") normal = Vec3{0.0, 0.0, 1.0};
+  if (options.normal != "up" && options.normal != "lamp") {
+    const auto stated = ParseUnitVector("--normal", options.normal);
+    if (!stated) return tl::unexpected(stated.error());
+    normal = *stated;
+  }
+  // Turned to this side's brightest lamp, as one reads key and fill.
+  const auto luxes_at = [&](const Vec3& n) { return predictor.At({*position, n}); };
+  std::vector<LampLux> luxes;
+  if (normal) {
+    luxes = luxes_at(*normal);
+  } else {
+    double most = -1.0;
+    for (const PlacedLamp& lamp : *lamps) {
+      const Vec3 way = std::holds_alternative<SunSource>(lamp.source)
+                           ? lamp.pose.frame.z * -1.0
+                           : lamp.pose.position_m - *position;
+      const double length = Length(way);
+      if (!(length > 0.0)) continue;
+      std::vector<LampLux> turned = luxes_at(way * (1.0 / length));
+      double sum = 0.0;
+      for (const LampLux& lux : turned) sum += lux.direct_lx;
+      if (sum > most) {
+        most = sum;
+        luxes = std::move(turned);
+      }
+    }
+  }
+  RatioSide side;
+  for (std::size_t i = 0; i < luxes.size(); ++i) {
+    const double lux = luxes[i].direct_lx;
+    if (!(lux > 0.0)) continue;
+    side.parts.push_back(
+        {(*chosen)[i]->name, lux, luxes[i].u95_lx / (kZ95 * lux), (*chosen)[i]->meter});
+  }
+  if (side.parts.empty()) {
+    return Refused("no_light", Joined(names), "gives no light at " + options.at + "; check --at");
+  }
+  return side;
+}
+
+// What the digits shown leave open, 1 sigma: a rectangle of one last digit.
+Result<RatioPart> TypedPart(const std::string& text, double calibration) {
+  const auto lux = ParseIlluminance(text);
+  if (!lux) return tl::unexpected(lux.error());
+  if (!(lux->value() > 0.0)) return Refused("bad_reading", text, "must be above zero");
+  const auto split = SplitNumberAndUnit(text);
+  if (!split) return tl::unexpected(split.error());
+  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+"));
+  const double rounding = devices::files::LastDigit(digits) / (std::sqrt(12.0) * split->number);
+  const double repeat = RepeatabilityBeside(calibration, calibration);
+  RatioPart part{text, lux->value(), 0.0, MeterShare{"", calibration}};
+  part.sd_of_ln = std::sqrt(calibration * calibration + repeat * repeat + rounding * rounding);
+  return part;
+}
+
+bool IsReading(const std::string& text) {
+  const auto split = SplitNumberAndUnit(text);
+  return split && ParseIlluminance(text).has_value();
+}
+
+Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
+  const std::vector<std::string>& what = options.what;
+  if (what.size() == 2 && IsReading(what[0])) {
+    double calibration = kSigmaUnnamedMeter;
+    if (!options.meter.empty()) {
+      const auto sigma = SigmaOfMeter(options.meter);
+      if (!sigma) return tl::unexpected(sigma.error());
+      calibration = *sigma;
+    }
+    const auto key = TypedPart(what[0], calibration);
+    if (!key) return tl::unexpected(key.error());
+    const auto fill = TypedPart(what[1], calibration);
+    if (!fill) return tl::unexpected(fill.error());
+    return std::pair(RatioSide{{*key}}, RatioSide{{*fill}});
+  }
+  if (what.size() != 1) {
+    return WrongUsage("ratio",
+                      "give two readings, 800lx 200lx (key first), or a light.json with --at, "
+                      "--key and --fill");
+  }
+  if (options.at.empty()) return WrongUsage("--at", "say where: --at x,y,z (metres)");
+  const auto lights = LightsIn(what.front());
+  if (!lights) return tl::unexpected(lights.error());
+  for (const std::string& name : options.key) {
+    if (std::ranges::find(options.fill, name) != options.fill.end()) {
+      return WrongUsage("--fill", "\"" + name + "\" is the key already");
+    }
+  }
+  auto key = SideOf(options, *lights, options.key, "--key");
+  if (!key) return Propagate(std::move(key));
+  auto fill = SideOf(options, *lights, options.fill, "--fill");
+  if (!fill) return Propagate(std::move(fill));
+  return std::pair(*std::move(key), *std::move(fill));
+}
+
+Node SideNode(const RatioSide& side) {
+  return {{"illuminance_lx", side.Lux()},
+          {"lights", Node::List(side.parts, [](const RatioPart& part) -> Node {
+             return {{"name", part.name},
+                     {"illuminance_lx", part.lux},
+                     {"u95_relative", kZ95 * part.sd_of_ln}};
+           })}};
+}
+
+std::string SideText(const RatioSide& side) {
+  return Joined(side.parts, " + ", [](const RatioPart& part) {
+    const std::string lux = RoundedText(part.lux, 3) + " lx";
+    return IsReading(part.name) ? part.name : part.name + " " + lux;
+  });
+}
+
+Result<void> RunRatio(const RatioOptions& options, Console& console) {
+  const auto sides = SidesOf(options);
+  if (!sides) return tl::unexpected(sides.error());
+  const auto& [key, fill] = *sides;
+  const RatioAnswer answer = RatioOf(key, fill);
+  const Uncertain ratio = UncertainFromLog(std::log(answer.ratio), answer.sd_of_ln);
+  const double stops = std::log2(answer.ratio);
+  const double u95_stops = StopsOfSd(answer.sd_of_ln);
+  const double apart = StopsOfSd(answer.apart_sd_of_ln);
+  const int decimals = u95_stops < 0.095 ? 2 : 1;
+  const double unit = decimals == 2 ? 100.0 : 10.0;
+  const auto rounded = [&](double value) {
+    std::string text = ShortestText(std::round(value * unit) / unit);
+    if (text.find('.') == std::string::npos) text += ".0";
+    return text;
+  };
+  console.Print(RoundedText(answer.ratio, 2) + " : 1 · " + rounded(stops) + " ± " +
+                rounded(u95_stops) + " stops\n");
+  console.Print(LabelledLine("key", SideText(key)) + LabelledLine("fill", SideText(fill)));
+  if (apart > 1.05 * u95_stops) {
+    console.Print(LabelledLine("why so sure",
+                               "one meter read both: its own error cancels (two "
+                               "meters would leave ± " +
+                                   RoundedText(apart, 2) + ")"));
+  }
+  console.PrintDocument({{"ratio", DocumentOf(ratio)},
+                         {"stops", {{"value", stops}, {"u95", u95_stops}}},
+                         {"stops_u95_if_independent", apart},
+                         {"key", SideNode(key)},
+                         {"fill", SideNode(fill)}});
+  return {};
+}
+
+}  // namespace
+
+Run BuildRatio(CLI::App& parser) {
+  auto options = std::make_shared<RatioOptions>();
+  parser
+      .add_option("input", options->what,
+                  "Two readings of one meter, key first: 800lx 200lx; or a light.json or session")
+      ->required();
+  parser.add_option("--at", options->at, "Where: x,y,z in metres, Z up");
+  parser.add_option("--key", options->key, "Lights of the key, e.g. window,lamp")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser.add_option("--fill", options->fill, "Lights of the fill")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  parser
+      .add_option("--normal", options->normal,
+                  "How the meter is turned: lamp (to each side's brightest), up, or x,y,z")
+      ->capture_default_str();
+  parser
+      .add_option("--position", options->places.position,
+                  "Where a light stands: [NAME=]x,y,z; may be repeated")
+      ->allow_extra_args(false);
+  parser.add_option("--aim", options->places.aim, "Where it shines: [NAME=]x,y,z")
+      ->allow_extra_args(false);
+  parser.add_option("--meter", options->meter,
+                    "Of two readings: phone, hobby or lab, or its maker's figure, e.g. 3%");
+  return [options](Console& console) { return RunRatio(*options, console); };
+}
+
+}  // namespace lightcal::app

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_answer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "console.h"
+#include "guide/shell_word.h"
+#include "lamp_words.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
+#include "lightcal/fit/plan/plan_readings.h"
+#include "lightcal/light/fixture.h"
+#include "lightcal/presets/check/engine_answers.h"
+#include "lightcal/presets/preset_table.h"
+
+namespace lightcal::app {
+namespace {
+
+// Parts of less stops than these change nothing that is shown.
+constexpr double kLeastPartStops = 0.02;
+constexpr std::size_t kPartsShown = 3;
+
+// ---- the first line ----
+
+bool WasRead(const Session& session, const std::string& light) {
+  return std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    const Reading& reading = row.reading;
+    return reading.light == light && (reading.duv || reading.xy || !reading.spectrum_file.empty());
+  });
+}
+
+std::string ColorText(const LampQuestion& question, const FittedLight& light) {
+  const auto& cct = light.color.cct_K;
+  if (!cct) return "";
+  if (question.typed_color) return RoundedText(cct->value, 4) + " K as typed";
+  std::string text = ValueWithAbsolute(cct->value, cct->u95, "K");
+  const auto& duv = light.color.duv;
+  if (duv && WasRead(*question.session, light.name)) {
+    text += ", Duv " + ValueWithAbsolute(duv->value, duv->u95, "");
+  }
+  return text;
+}
+
+std::string PlaceWords(const Session& session) {
+  if (session.surroundings != Surroundings::kIndoors) return ", no walls";
+  return session.room ? ", in its room" : ", in a room";
+}
+
+std::string LabelOf(const LampQuestion& question, const FittedLight& light) {
+  if (question.by_name) return light.name;
+  const LightDescription* described = FindLight(*question.session, light.name);
+  std::string word(LightKindName(light.kind));
+  if (described != nullptr && described->fixture) {
+    word = kFixtureNames[static_cast<std::size_t>(*described->fixture)];
+  } else if (light.kind == LightKind::kPoint) {
+    word = "lamp";
+  }
+  std::ranges::replace(word, '_', ' ');
+  return word + PlaceWords(*question.session);
+}
+
+std::string FirstLine(const LampAnswer& answer) {
+  const FittedLight& light = *answer.light;
+  const Strength strength = StrengthOf(light);
+  std::string text = "nothing is known of how bright it is";
+  if (strength.value != nullptr) {
+    const std::string stops = StopsText(*strength.value);
+    const std::string unit(strength.unit);
+    text = stops.empty() ? "below " + UpperEndText(*strength.value) + " " + unit
+                         : ValueText(*strength.value) + " " + unit + "   " +
+                               RangeText(*strength.value) + "   " + stops;
+  }
+  if (!answer.color.empty()) text += "   " + answer.color;
+  return LabelledLine(answer.label, text);
+}
+
+// Why two engines get different candela: one takes the colour apart from its luminance.
+std::string WhyTheyDiffer(const LampAnswer& answer) {
+  if (!answer.light->intensity_cd) return "";
+  const double own = answer.light->intensity_cd->value;
+  constexpr double kSame = 0.02;
+  for (const EngineFigure& figure : answer.figures) {
+    const auto value = ParseNumber(figure.value);
+    if (figure.unit != "cd" || !value || !HasColor(figure)) continue;
+    if (std::abs(*value / own - 1.0) < kSame) continue;
+    return Rounded(*value, 3) + " is the same lamp: " + Rounded(own, 3) + " / " +
+           RoundedText(own / *value, 2) + ", the colour's luminance";
+  }
+  return "";
+}
+
+// ---- why ----
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kPartWords = {
+    {{"room_bounce", "walls"},
+     {"meter_calibration", "meter"},
+     {"readings", "reading by reading"},
+     {"readings_and_place", "meter and place"},
+     {"distance_offset", "where the light starts"},
+     {"unknown_lamp", "what lamp it is"},
+     {"finite_source", "its size"},
+     {"ambient", "other light"},
+     {"cone", "the beam's shape"},
+     {"meter_tilt", "how the meter was turned"},
+     {"distance_error", "the tape measure"},
+     {"spectral_mismatch", "the meter's colour response"},
+     {"warm_up", "warming up"}}};
+
+std::string PartWord(const std::string& name) {
+  const auto row = std::ranges::find(kPartWords, name, [](const auto& p) { return p.first; });
+  std::string word = row == kPartWords.end() ? name : std::string(row->second);
+  std::ranges::replace(word, '_', ' ');
+  return word;
+}
+
+std::string Parts(const FittedLight& light) {
+  std::vector<std::pair<std::string, double>> parts;
+  for (const BudgetPart& part : light.budget) parts.emplace_back(part.name, part.sd_relative);
+  if (parts.empty() && light.distribution) {
+    for (const auto& part : light.distribution->budget) parts.emplace_back(part.name, part.peak);
+    std::ranges::stable_sort(parts, std::ranges::greater(),
+                             &std::pair<std::string, double>::second);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kPartsShown, parts.size()); ++i) {
+    const double stops = StopsOfSd(parts[i].second);
+    if (i > 0 && stops < kLeastPartStops) break;
+    text += (text.empty() ? "" : " · ") + PartWord(parts[i].first) + " " + BareStops(stops);
+  }
+  return text;
+}
+
+// "about 8 of the 20 lx at 2 m came off the walls: assumed"
+std::string WallsPart(const FittedLight& light, const Session& session) {
+  const ResidualRow* farthest = nullptr;
+  for (const ResidualRow& row : light.residuals) {
+    if (!row.used || !row.walls_lx || !row.distance_m) continue;
+    if (farthest == nullptr || *row.distance_m > *farthest->distance_m) farthest = &row;
+  }
+  constexpr double kLeastShare = 0.01;
+  if (farthest == nullptr) return "";
+  const double share = *farthest->walls_lx / farthest->predicted_lx;
+  if (!(share >= kLeastShare)) return "";
+  const bool card = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == light.name && row.reading.shadow_card;
+  });
+  const bool learned =
+      std::ranges::find(light.fit.learned, "room_bounce") != light.fit.learned.end();
+  return "about " + Rounded(share * farthest->measured_lx, share < 0.1 ? 1 : 2) + " of the " +
+         Rounded(farthest->measured_lx, 3) + " lx at " +
+         ShortestText(std::round(*farthest->distance_m * 100.0) / 100.0) +
+         " m came off the walls: " +
+         (card ? "the card tells" : (learned ? "as the readings fall" : "assumed"));
+}
+
+// ---- what next ----
+
+std::string MinutesBetter(double count) {
+  return ShortestText(count) + (count == 1.0 ? " minute better" : " minutes better");
+}
+
+struct LabelAndText {
+  std::string label, text;
+};
+LabelAndText NextWords(const LampAnswer& answer) {
+  const NextStepAdvice& next = answer.next;
+  switch (next.kind) {
+    case NextStepAdvice::Kind::kReading:
+      return {MinutesBetter(next.minutes), answer.better + ": " + StopsText(next.reading->u95_stops)};
+    case NextStepAdvice::Kind::kSay:
+      return {"next", next.say};
+    case NextStepAdvice::Kind::kMeter:
+    case NextStepAdvice::Kind::kNothing:
+      break;
+  }
+  return {"better", next.say};
+}
+
+std::string NextLine(const LampAnswer& answer) {
+  const LabelAndText words = NextWords(answer);
+  return LabelledLine(words.label, words.text);
+}
+
+std::string EnoughOf(const FittedLight& light) {
+  const Strength strength = StrengthOf(light);
+  const auto stops = strength.value == nullptr ? std::nullopt : HalfWidthStops(*strength.value);
+  return stops ? EnoughFor(*stops) : "";
+}
+
+std::string EnoughLine(const FittedLight& light) {
+  const std::string enough = EnoughOf(light);
+  return LabelledLine("enough for",
+                      enough.empty() ? "nothing yet: look-dev asks for ± 0.5 stop" : enough);
+}
+
+// ---- gathering ----
+
+constexpr std::array<std::string_view, 4> kUsualTargets = {"blender", "unreal", "unity", "gltf"};
+
+std::vector<std::string_view> TitlesOf(const std::vector<std::string>& targets) {
+  std::vector<std::string_view> titles;
+  const auto add = [&](std::string_view name) {
+    for (const PresetTarget& target : PresetTargets()) {
+      if (target.name == name && !target.title.empty()) titles.push_back(target.title);
+    }
+  };
+  // All of them are no wish.
+  if (targets.empty() || targets.size() == PresetTargets().size()) {
+    for (const std::string_view name : kUsualTargets) add(name);
+  } else {
+    for (const std::string& name : targets) add(name);
+  }
+  return titles;
+}
+
+// The line that takes a planned reading; "" where a distance does not say it.
+std::string ReadCommand(const std::string& session, const std::string& light,
+                        const PlannedReading& step) {
+  if (!step.distance && step.action != PlannedAction::kLampOff) return "";
+  std::string line = "lightcal read -s " + ShellWord(session) + " --light " + ShellWord(light);
+  if (step.distance) {
+    line +=
+        " --distance " + ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) + "m";
+  }
+  switch (step.action) {
+    case PlannedAction::kShadowCard:
+      return "block the direct beam with a card: " + line + " --shadow-card";
+    case PlannedAction::kLampOff:
+      return "switch the lamp off: " + line + " --lamp-off";
+    case PlannedAction::kRead:
+      break;
+  }
+  return "read once more: " + line;
+}
+
+}  // namespace
+
+std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
+                                         const std::string& path,
+                                         const std::vector<std::string>& targets) {
+  LampQuestion question;
+  question.lights = &calibrated.lights;
+  question.session = &calibrated.session;
+  question.targets = targets;
+  question.syntax = [&](const FittedLight& light, const PlannedReading& step) {
+    return ReadCommand(path, light.name, step);
+  };
+  return LampAnswersOf(question);
+}
+
+std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
+  const EngineAnswers engines = EngineAnswersOf(*question.lights);
+  const std::vector<std::string_view> titles = TitlesOf(question.targets);
+  std::vector<LampAnswer> answers;
+  for (const FittedLight& light : question.lights->lights) {
+    LampAnswer answer;
+    answer.light = &light;
+    answer.label = LabelOf(question, light);
+    answer.color = ColorText(question, light);
+    for (const std::string_view title : titles) {
+      for (const EngineFigure& figure : engines.figures) {
+        if (figure.light == light.name && figure.engine == title) answer.figures.push_back(figure);
+      }
+    }
+    answer.next = AdviseNext(*question.session, light);
+    if (answer.next.reading) {
+      answer.better = question.syntax ? question.syntax(light, *answer.next.reading) : "";
+      if (answer.better.empty()) answer.better = SayPlannedReading(*answer.next.reading);
+    }
+    answers.push_back(std::move(answer));
+  }
+  return answers;
+}
+
+std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers) {
+  std::vector<LightAdvice> out;
+  for (const LampAnswer& answer : answers) {
+    const LabelAndText words = NextWords(answer);
+    out.push_back({answer.light->name, words.label, words.text, EnoughOf(*answer.light)});
+  }
+  return out;
+}
+
+std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
+  const FittedLight& light = *answer.light;
+  const Strength strength = StrengthOf(light);
+  std::string text = FirstLine(answer);
+  if (const std::string typed = TypeIn(answer.figures); !typed.empty()) {
+    text += LabelledLine("type in", typed);
+    if (const std::string why = WhyTheyDiffer(answer); !why.empty()) text += LabelledLine("", why);
+  }
+  const std::string parts = Parts(light);
+  const std::string stops = strength.value == nullptr ? "" : StopsText(*strength.value);
+  if (!parts.empty() && !stops.empty()) {
+    text += LabelledLine("why " + stops.substr(0, stops.find(" stop")), parts);
+  }
+  if (const std::string walls = WallsPart(light, session); !walls.empty()) {
+    text += LabelledLine("", walls);
+  }
+  if (light.of_file) {
+    const auto percent = [](double part) { return Rounded(100.0 * part, 2); };
+    const Uncertain& u = *light.of_file;
+    text += LabelledLine("luminaire", percent(u.value) + " % of its file   " +
+                                          percent(u.low.value_or(u.value - u.u95)) + " … " +
+                                          percent(u.high.value_or(u.value + u.u95)) + " %");
+  }
+  return text + NextLine(answer) + EnoughLine(light);
+}
+
+std::string LampAnswersText(const std::vector<LampAnswer>& answers, const Session& session) {
+  return answers.size() == 1 ? LampAnswerText(answers.front(), session) : LampAnswersTable(answers);
+}
+
+}  // namespace lightcal::app

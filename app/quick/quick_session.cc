@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "quick/quick_session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "calibration_options.h"
+#include "lightcal/core/file_stem.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
+#include "lightcal/core/units_text.h"
+#include "lightcal/fit/plan/reading_candidates.h"
+#include "typed_reading.h"
+
+namespace lightcal::app {
+namespace {
+
+// Fills an optional quantity from an option's text; an empty text leaves it absent.
+template <class Unit, class Parse>
+Result<void> Fill(std::optional<Unit>& target, const std::string& text, Parse parse) {
+  if (text.empty()) return {};
+  const auto value = parse(text);
+  if (!value) return tl::unexpected(value.error());
+  if (!(value->value() > 0.0)) return WrongUsage(text, "must be above zero");
+  target = Unit(*value);
+  return {};
+}
+
+template <class Unit>
+Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
+                       std::string_view unit_word) {
+  return Fill(target, text, [unit_word](const std::string& t) -> Result<Unit> {
+    const auto split = SplitNumberAndUnit(t);
+    if (!split) return tl::unexpected(split.error());
+    if (!split->unit.empty() && LowerAscii(split->unit) != LowerAscii(unit_word)) {
+      return WrongUsage(t, "the unit here is " + std::string(unit_word));
+    }
+    return Unit(split->number);
+  });
+}
+
+Result<LightDescription> DescribeLight(const QuickOptions& options) {
+  LightDescription light;
+  light.name = options.name;
+  const std::string kind = !options.kind.empty()                             ? options.kind
+                           : !options.outer.empty() || !options.beam.empty() ? "spot"
+                                                                             : "point";
+  const auto known = LightKindFromName(kind);
+  if (!known) return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk or directional");
+  light.kind = *known;
+  const auto fixture = std::ranges::find(kFixtureNames, options.fixture);
+  if (fixture != kFixtureNames.end()) {
+    light.fixture = static_cast<Fixture>(fixture - kFixtureNames.begin());
+  }
+  std::optional<Radians> inner = std::nullopt;
+  std::optional<Radians> outer = std::nullopt;
+  for (const Result<void>& filled :
+       {Fill(light.diameter, options.diameter, [](const auto& t) { return ParseLength(t); }),
+        Fill(inner, options.inner, [](const auto& t) { return ParseAngle(t); }),
+        Fill(outer, options.outer, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.beam, options.beam, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.field, options.field, [](const auto& t) { return ParseAngle(t); }),
+        FillPlain(light.flux, options.lumens, "lm"),
+        FillPlain(light.electrical, options.watts, "W")}) {
+    if (!filled) return tl::unexpected(filled.error());
+  }
+  const double half = options.full_angles ? 0.5 : 1.0;
+  if (inner) light.inner = *inner * half;
+  if (outer) light.outer = *outer * half;
+  return light;
+}
+
+constexpr const char* kQuickMeter = "meter";
+
+Result<void> AddReadings(Session& session, const QuickOptions& options) {
+  std::optional<Kelvin> cct;
+  if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
+      !filled) {
+    return filled;
+  }
+  const auto sigma = SigmaAsked(options);
+  if (!sigma) return tl::unexpected(sigma.error());
+  for (const std::string& text : options.readings) {
+    auto typed = ParseTypedReading(text, options.name);
+    if (!typed) return Propagate(std::move(typed));
+    for (Reading& reading : *typed) {
+      if (fit::IsLit(reading) && !reading.cct) reading.cct = cct;
+      if (options.meter.empty()) {
+        reading.sigma_relative = *sigma;
+      } else {
+        reading.meter = kQuickMeter;
+      }
+      session.readings.push_back({std::move(reading), text});
+    }
+  }
+  if (options.readings.empty() && cct) {
+    Reading color_only;
+    color_only.light = options.name;
+    color_only.cct = cct;
+    session.readings.push_back({color_only, "--cct " + options.cct});
+  }
+  return {};
+}
+
+// What all readings are taken with, and the first will be, where none is there to tell.
+Result<void> AddMeter(Session& session, const QuickOptions& options) {
+  const auto sigma = SigmaAsked(options);
+  if (!sigma) return tl::unexpected(sigma.error());
+  if (!*sigma || (options.meter.empty() && !options.readings.empty())) return {};
+  MeterDescription meter;
+  meter.name = kQuickMeter;
+  meter.sigma_relative = **sigma;
+  session.meters.push_back(std::move(meter));
+  return {};
+}
+
+}  // namespace
+
+Result<std::optional<double>> SigmaAsked(const QuickOptions& options) {
+  if (options.sigma.empty() && options.meter.empty()) return std::nullopt;
+  const auto sigma =
+      options.meter.empty() ? ParseTolerance(options.sigma) : SigmaOfMeter(options.meter);
+  if (!sigma) return tl::unexpected(sigma.error());
+  return *sigma;
+}
+
+Result<Session> SessionFromOptions(const QuickOptions& options) {
+  if (options.readings.empty() && options.lumens.empty() && !options.plan) {
+    return WrongUsage("quick", "give a reading such as 192lx@0.5m, or a data sheet's --lumens 806");
+  }
+  if (options.name.empty() || !IsPrintable(options.name)) {
+    return WrongUsage("--name", "\"" + options.name + "\" is no name: letters that show, please");
+  }
+  auto light = DescribeLight(options);
+  if (!light) return Propagate(std::move(light));
+  Session session;
+  session.name = options.name;
+  session.stem = FileStem(options.name);
+  session.directory = ".";
+  session.lights.push_back(std::move(*light));
+  if (!options.room.empty()) {
+    if (auto set = SetRoom(options.room, session); !set) return Propagate(std::move(set));
+  }
+  if (auto added = AddReadings(session, options); !added) return Propagate(std::move(added));
+  if (auto added = AddMeter(session, options); !added) return Propagate(std::move(added));
+  return session;
+}
+
+}  // namespace lightcal::app

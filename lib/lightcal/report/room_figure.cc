@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "lightcal/light/wall_prior.h"
+#include "lightcal/report/figures.h"
+#include "lightcal/report/readings.h"
+#include "lightcal/report/svg.h"
+#include "lightcal/report/text.h"
+
+namespace lightcal::report {
+namespace {
+
+constexpr int kRoomSteps = 60;
+
+const LampInRoom* LikeliestOf(const FittedLight& light) {
+  const auto most = std::ranges::max_element(light.in_room, {}, &LampInRoom::weight);
+  return most == light.in_room.end() ? nullptr : &*most;
+}
+
+// E d^2 of the light from the walls, by the likeliest of what lamp and room may be.
+double WallsTimesSquare(const LampInRoom& one, double distance_m) {
+  const double x = std::log(distance_m / kWallReference_m);
+  const double ln = one.ln_intensity + one.ln_b + one.slope * x + one.bend * x * x;
+  return std::exp(ln) * distance_m * distance_m;
+}
+
+// A point lamp's own E d^2, its light starting d0 behind the reference point.
+double LampTimesSquare(const FittedLight& light, double distance_m) {
+  const double d0 = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
+  const double part = distance_m / (distance_m + d0);
+  return light.intensity_cd->value * part * part;
+}
+
+// A reading as people multiply it in a spreadsheet.
+struct Dot {
+  const ResidualRow* row;
+  double distance_m, value, factor;
+};
+
+std::vector<Dot> DotsOf(const std::vector<ResidualRow>& rows) {
+  std::vector<Dot> dots;
+  for (const ResidualRow& row : rows) {
+    const double d = *row.distance_m;
+    if (!(row.measured_lx > 0.0)) continue;
+    dots.push_back(
+        {&row, d, row.measured_lx * d * d, std::exp(std::min(kZ95 * row.sigma_relative, 3.0))});
+  }
+  return dots;
+}
+
+void DrawBand(Svg& svg, const Uncertain& u, const Axis& x, const Axis& y) {
+  const double low = std::max(0.0, u.low.value_or(u.value - u.u95));
+  const double high = std::min(y.high, u.high.value_or(u.value + u.u95));
+  svg.Path("band",
+           {{x.from_px, y.At(low)},
+            {x.to_px, y.At(low)},
+            {x.to_px, y.At(high)},
+            {x.from_px, y.At(high)}},
+           true);
+  svg.Line("zero", {x.from_px, y.At(u.value)}, {x.to_px, y.At(u.value)});
+}
+
+void DrawWedge(Svg& svg, const FittedLight& light, const LampInRoom& one, const Axis& x,
+               const Axis& y) {
+  std::vector<PagePoint> outline;
+  std::vector<PagePoint> back;
+  const double nearest =
+      std::max(0.02 * x.high,
+               light.distance_offset_m ? 0.05 * x.high - light.distance_offset_m->value : 0.0);
+  for (int i = 0; i <= kRoomSteps; ++i) {
+    const double d = nearest + (x.high - nearest) * i / kRoomSteps;
+    const double lamp = LampTimesSquare(light, d);
+    outline.emplace_back(x.At(d), y.At(lamp + WallsTimesSquare(one, d)));
+    back.emplace_back(x.At(d), y.At(lamp));
+  }
+  outline.insert(outline.end(), back.rbegin(), back.rend());
+  svg.Path("wedge", outline, true);
+}
+
+void DrawDot(Svg& svg, const Dot& dot, const FittedLight& light, const LampInRoom* room,
+             const Axis& x, const Axis& y) {
+  const PagePoint at{x.At(dot.distance_m), y.At(dot.value)};
+  if (!dot.row->used) {
+    svg.Cross("rejected", at, 5.0, TooltipOf(*dot.row));
+    return;
+  }
+  // A card took the room away: from where the reading stood to what the lamp alone gives.
+  if (room != nullptr && !dot.row->walls_lx) {
+    const double above =
+        LampTimesSquare(light, dot.distance_m) + WallsTimesSquare(*room, dot.distance_m);
+    svg.Line("guide", {at.first, y.At(std::min(above, y.high))}, at);
+  }
+  svg.Line("whisker", {at.first, y.At(dot.value / dot.factor)},
+           {at.first, y.At(dot.value * dot.factor)});
+  svg.Circle("used", at, 4.5, TooltipOf(*dot.row));
+}
+
+}  // namespace
+
+std::string RoomFigure(const FittedLight& light, std::string_view id) {
+  const auto rows = RowsWithDistance(light);
+  if (!light.intensity_cd || !(light.intensity_cd->value > 0.0) || rows.empty()) return "";
+  const Uncertain& u = *light.intensity_cd;
+  const std::vector<Dot> dots = DotsOf(rows);
+  const LampInRoom* const room = LikeliestOf(light);
+  double farthest = 0.0;
+  double most = std::min(u.high.value_or(u.value + u.u95), 3.0 * u.value);
+  for (const Dot& dot : dots) {
+    farthest = std::max(farthest, dot.distance_m);
+    most = std::max(most, dot.value * std::min(dot.factor, 1.3));
+  }
+  if (!(farthest > 0.0)) return "";
+  constexpr double kMargin = 1.12;
+  farthest *= kMargin;
+  if (room != nullptr) {
+    const double whole = LampTimesSquare(light, farthest) + WallsTimesSquare(*room, farthest);
+    most = std::max(most, std::min(whole, 2.0 * most));
+  }
+  const Axis x{AxisScale::kLinear, 0.0, farthest, Svg::Area().left, Svg::Area().right};
+  const Axis y{AxisScale::kLinear, 0.0, kMargin * most, Svg::Area().bottom, Svg::Area().top};
+  Svg svg(
+      std::string(id), "What the room adds",
+      "Illuminance times distance squared: flat for a lamp alone, rising with the walls' light");
+  svg.Axes(x, y, "distance (m)", "lux × metres² (cd)");
+  svg.BeginPlot();
+  if (room != nullptr) DrawWedge(svg, light, *room, x, y);
+  DrawBand(svg, u, x, y);
+  for (const Dot& dot : dots) DrawDot(svg, dot, light, room, x, y);
+  svg.EndPlot();
+  const double right = x.to_px - 8.0;
+  svg.Text("note halo", {x.from_px + 8.0, y.At(u.value) + 18.0}, "start",
+           "your lamp, " + Interval(u, "cd"));
+  if (room != nullptr) {
+    const double d = 0.93 * farthest;
+    const double walls = WallsTimesSquare(*room, d);
+    constexpr double kRoomForWords = 22.0;  // px
+    if (y.At(0.0) - y.At(walls) > kRoomForWords) {
+      svg.Text("note halo", {right, y.At(LampTimesSquare(light, d) + 0.6 * walls) + 4.0}, "end",
+               "your room");
+    }
+  }
+  return svg.Finish();
+}
+
+}  // namespace lightcal::report

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+// What quick, run and ratio say to people: the answer first, in stops, with what to type and what
+// to do next.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "run_cli.h"
+#include "run_cli_json.h"
+
+namespace lightcal::test {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr double kZ = 1.959963984540054;
+
+std::vector<std::string> LinesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::stringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::size_t Columns(const std::string& line) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string Said(const std::vector<std::string>& arguments) {
+  const CliResult result = RunLightcal(arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  return result.out;
+}
+
+double StopsOf(const json& u) { return 0.5 * std::log2(double(u["high95"]) / double(u["low95"])); }
+
+// The number before "stop" in the first line.
+double StopsSaid(const std::string& out) {
+  const auto at = out.find("± ");
+  return at == std::string::npos ? -1.0 : std::stod(out.substr(at + std::string("± ").size()));
+}
+
+struct Typed {
+  const char* name;
+  std::vector<std::string> words;
+  const char* says;
+};
+class OneLamp : public ::testing::TestWithParam<Typed> {};
+
+TEST_P(OneLamp, IsAnsweredInTwelveLinesWithoutTheLaboratorysWords) {
+  std::vector<std::string> words = {"quick"};
+  words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
+  const std::string out = Said(words);
+  const auto lines = LinesOf(out);
+  EXPECT_LE(lines.size(), 12U) << out;
+  for (const std::string& line : lines) EXPECT_LE(Columns(line), 100U) << line;
+  for (const char* part :
+       {" cd   ", " … ", "± ", "stop", "type in", "why ± ", "enough for", "Blender ", "Unreal"}) {
+    EXPECT_THAT(out, HasSubstr(part));
+  }
+  EXPECT_THAT(out, HasSubstr(GetParam().says));
+  for (const char* word : {"dof", "rms", "learned", "prior", "d0", "Duv", "offset", "\x1b"}) {
+    EXPECT_THAT(out, Not(HasSubstr(word)));
+  }
+  words.push_back("--verbose");
+  const std::string more = Said(words);
+  EXPECT_THAT(more, HasSubstr("dof"));
+  EXPECT_THAT(more, HasSubstr("distance offset"));
+  words.back() = "--json";
+  const json document = json::parse(Said(words));
+  EXPECT_NEAR(StopsSaid(out), StopsOf(document["lights"][0]["intensity_cd"]), 0.051) << out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Quick, OneLamp,
+                         ::testing::Values(Typed{"OneReading", {"192lx@0.5m"}, "lamp, in a room"},
+                                           Typed{"TwoReadings",
+                                                 {"192lx@0.5m", "52lx@1m", "--cct", "2900K"},
+                                                 "2900 K as typed"},
+                                           Typed{"ThreeReadings",
+                                                 {"203lx@0.5m", "58lx@1m", "20lx@2m", "--fixture",
+                                                  "bulb", "--cct", "2900K"},
+                                                 "bulb, in a room"},
+                                           Typed{"ACard",
+                                                 {"203lx@0.5m", "58lx@1m", "20lx@2m,card=8lx",
+                                                  "--fixture", "bulb", "--meter", "hobby"},
+                                                 "enough for        matching plates"}),
+                         [](const auto& typed) { return std::string(typed.param.name); });
+
+TEST(QuickAnswer, TheNumbersToTypeAreTheSameLampAndSayWhyTheyDiffer) {
+  const std::string out =
+      Said({"quick", "192lx@0.5m", "48lx@1m", "--room", "dark", "--fixture", "bulb", "--cct",
+            "2900K", "--to", "unreal,gltf", "-o", TempDir().path() + "/presets"});
+  EXPECT_THAT(out, HasSubstr("Unreal 48"));
+  EXPECT_THAT(out, HasSubstr("cd + 2900 K"));
+  EXPECT_THAT(out, HasSubstr("glTF 8"));  // 48/.55
+  EXPECT_THAT(out, HasSubstr("is the same lamp: 48"));
+  EXPECT_THAT(out, HasSubstr("the colour's luminance"));
+  EXPECT_THAT(out, Not(HasSubstr("Blender")));
+}
+
+TEST(QuickAnswer, SaysWhatOfTheFarthestReadingCameOffTheWalls) {
+  const std::string out = Said({"quick", "203lx@0.5m", "58lx@1m", "20lx@2m", "--fixture", "bulb"});
+  EXPECT_THAT(out, HasSubstr("of the 20.0 lx at 2 m came off the walls"));
+  EXPECT_THAT(Said({"quick", "192lx@0.5m", "48lx@1m", "--room", "dark"}), Not(HasSubstr("walls:")));
+}
+
+// Of the bulb of README's room: 48 cd; behind a card 1 m away 10 lx are left, 2 m away 8.
+TEST(QuickAnswer, FollowingWhatIsBetterMakesTheLampSurer) {
+  const std::vector<std::string> before = {"quick",   "203lx@0.5m", "58lx@1m",
+                                           "20lx@2m", "--fixture",  "bulb"};
+  const std::string out = Said(before);
+  const auto at = out.find(",card=LUX");
+  ASSERT_NE(at, std::string::npos) << out;
+  const std::string reading = out.substr(out.rfind(' ', at) + 1, at - out.rfind(' ', at) - 1);
+  const auto typed = std::ranges::find(before, reading);
+  ASSERT_NE(typed, before.end()) << reading;
+  std::vector<std::string> after = before;
+  const bool far = reading == "20lx@2m";
+  after[static_cast<std::size_t>(typed - before.begin())] += far ? ",card=8lx" : ",card=10lx";
+  const std::string then = Said(after);
+  EXPECT_LT(StopsSaid(then), 0.75 * StopsSaid(out)) << out << then;
+  // What was promised is what came, within a fifth.
+  const auto promise = out.find("LUX: ± ");
+  ASSERT_NE(promise, std::string::npos) << out;
+  const double promised = std::stod(out.substr(promise + std::string("LUX: ± ").size()));
+  EXPECT_NEAR(StopsSaid(then) / promised, 1.0, 0.2) << out << then;
+}
+
+TEST(QuickAnswer, EndsWhereTheMeterIsTheLimit) {
+  const std::string out =
+      Said({"quick", "192lx@0.5m", "48lx@1m", "12lx@2m", "3lx@4m", "192lx@0.5m", "48lx@1m",
+            "--room", "dark", "--fixture", "bulb", "--meter", "10%"});
+  EXPECT_THAT(out, HasSubstr("the meter is the limit"));
+}
+
+TEST(QuickAnswer, AtADistanceTheLampAloneAndTheRoomAreTwoNumbers) {
+  const std::vector<std::string> words = {"quick",     "203lx@0.5m", "58lx@1m", "20lx@2m,card=8lx",
+                                          "--fixture", "bulb",       "--at",    "2m"};
+  EXPECT_THAT(Said(words), HasSubstr("lamp alone "));
+  EXPECT_THAT(Said(words), HasSubstr("in the room "));
+  std::vector<std::string> asked = words;
+  asked.emplace_back("--json");
+  const json at = json::parse(Said(asked))["predictions"][0];
+  EXPECT_NEAR(at["in_room_lx"]["value"], 20.0, 1.0) << "what it read there";
+  EXPECT_NEAR(at["model_lx"]["value"], 12.0, 1.5) << "48 cd over 4 m2";
+  EXPECT_THAT(Said({"quick", "192lx@0.5m", "--room", "dark", "--at", "2m"}),
+              Not(HasSubstr("in the room ")));
+}
+
+// ---- many ----
+
+std::string TwoHundredLamps() {
+  std::string csv = "name,distance_m,illuminance_lx,distance_ft,illuminance_lx,card_lx,fixture\n";
+  for (int i = 0; i < 200; ++i) {
+    const double candela = 20.0 + i;
+    const double two_feet = 0.6096;
+    csv += "lamp" + std::to_string(i) + ",1," + std::to_string(candela * 1.2) + ",2," +
+           std::to_string(candela / (two_feet * two_feet) + candela * 0.2) + "," +
+           std::to_string(candela * 0.2) + ",bulb\n";
+  }
+  return csv;
+}
+
+TEST(QuickTable, TwoHundredLampsAnswerInATableAndInCsv) {
+  const TempDir dir;
+  const std::string table = dir.Write("lamps.csv", TwoHundredLamps());
+  const std::string back = dir.path() + "/answers.csv";
+  const std::string out = Said({"quick", "--table", table, "-o", back});
+  const auto lines = LinesOf(out);
+  EXPECT_GE(lines.size(), 202U);
+  EXPECT_LE(lines.size(), 215U) << "steps of one kind stand together";
+  const auto rows = LinesOf(ReadFile(back));
+  ASSERT_EQ(rows.size(), 201U);
+  EXPECT_THAT(rows[0], HasSubstr("name,value,unit,low95,high95,stops"));
+  EXPECT_THAT(rows[0], HasSubstr("Unreal Engine (cd)"));
+  int inside = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::stringstream cells(rows[static_cast<std::size_t>(i) + 1]);
+    std::string name, value, unit, low, high, stops;
+    for (std::string* cell : {&name, &value, &unit, &low, &high, &stops}) {
+      std::getline(cells, *cell, ',');
+    }
+    EXPECT_EQ(name, "lamp" + std::to_string(i));
+    EXPECT_EQ(unit, "cd");
+    inside += std::stod(low) <= 20.0 + i && 20.0 + i <= std::stod(high) ? 1 : 0;
+    EXPECT_NEAR(std::stod(stops), 0.5 * std::log2(std::stod(high) / std::stod(low)), 1e-3);
+  }
+  EXPECT_GE(inside, 190) << "readings without an error";
+}
+
+TEST(QuickTable, ARowIsTheSameAsTyped) {
+  const TempDir dir;
+  const std::string table = dir.Write(
+      "lamps.csv", "name,reading,reading,cct_K\nkey,203lx@0.5m,\"20lx@2m,card=8lx\",2900\n");
+  const json in_table = LightcalJson("quick", {"--table", table});
+  const json typed =
+      LightcalJson("quick", {"203lx@0.5m", "20lx@2m,card=8lx", "--cct", "2900K", "--name", "key"});
+  EXPECT_EQ(in_table["lights"], typed["lights"]);
+}
+
+TEST(QuickTable, ColumnsMayBeNamedOnTheLine) {
+  const TempDir dir;
+  const std::string table = dir.Write("bare.csv", "key,3.28084,192\n");
+  const json document =
+      LightcalJson("quick", {"--table", table, "--columns", "name,distance_ft,illuminance_lx"});
+  EXPECT_NEAR(document["lights"][0]["residuals"][0]["distance_m"], 1.0, 1e-5);
+}
+
+TEST(QuickTable, ARefusedRowIsNamedAndTheOthersAnswer) {
+  const TempDir dir;
+  const std::string table =
+      dir.Write("lamps.csv", "name,distance_m,illuminance_lx\ngood,1,50\nbad,0,50\nworse,1,x\n");
+  const CliResult result = RunLightcal({"quick", "--table", table});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.out, HasSubstr("good"));
+  EXPECT_THAT(result.err, HasSubstr("lamps.csv:3"));
+  EXPECT_THAT(result.err, HasSubstr("lamps.csv:4"));
+  const CliResult unknown =
+      RunLightcal({"quick", "--table", dir.Write("other.csv", "name,distance,lumen\na,1,2\n")});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("distance_m"));
+}
+
+std::string SessionOf(int lamps) {
+  std::string text = "lightcal = 1\nname = \"set\"\n";
+  for (int i = 0; i < lamps; ++i) {
+    const std::string name = "lamp" + std::to_string(i);
+    text += "[[light]]\nname = \"" + name + "\"\nkind = \"point\"\nfixture = \"bulb\"\n";
+    for (const double d : {0.5, 1.0}) {
+      text += "[[reading]]\nlight = \"" + name + "\"\ndistance_m = " + std::to_string(d) +
+              "\nilluminance_lx = " + std::to_string((30.0 + i) * (1.0 / (d * d) + 0.2)) + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(RunAnswer, OneLampThreeAndTwoHundred) {
+  const TempDir dir;
+  const auto said = [&](int lamps) {
+    const std::string session =
+        dir.Write("set" + std::to_string(lamps) + "/session.toml", SessionOf(lamps));
+    return Said({"run", session, "--to", "gltf", "-o", dir.path() + "/out"});
+  };
+  const std::string one = said(1);
+  EXPECT_LE(LinesOf(one).size(), 12U) << one;
+  for (const char* part : {"lamp0 ", " cd   ", "± ", "stop", "type in", "enough for",
+                           "lightcal read -s ", "report.html"}) {
+    EXPECT_THAT(one, HasSubstr(part));
+  }
+  EXPECT_EQ(LinesOf(one).back().rfind("wrote ", 0), 0U) << one;
+  const std::string three = said(3);
+  EXPECT_LE(LinesOf(three).size(), 10U) << three;
+  EXPECT_THAT(three, HasSubstr("next, 3 lamps"));
+  const std::string many = said(200);
+  const auto lines = LinesOf(many);
+  EXPECT_GE(lines.size(), 203U);
+  EXPECT_LE(lines.size(), 215U) << "one `next` a kind of step";
+  for (const std::string& line : lines) EXPECT_THAT(line, Not(HasSubstr("\x1b")));
+}
+
+// ---- ratio ----
+
+TEST(Ratio, OfTwoReadingsOneMetersErrorCancels) {
+  const json answer = LightcalJson("ratio", {"800lx", "200lx", "--meter", "10%"});
+  EXPECT_NEAR(answer["ratio"]["value"], 4.0, 1e-12);
+  EXPECT_NEAR(answer["stops"]["value"], 2.0, 1e-12);
+  // What is left: 1 % a reading, and half of the last digit.
+  const double digit = 1.0 / std::sqrt(12.0);
+  const double sd =
+      std::sqrt(2.0 * 0.01 * 0.01 + std::pow(digit / 800.0, 2.0) + std::pow(digit / 200.0, 2.0));
+  EXPECT_NEAR(answer["stops"]["u95"], kZ * sd / std::log(2.0), 1e-9);
+  EXPECT_GT(double(answer["stops_u95_if_independent"]), 4.0 * double(answer["stops"]["u95"]));
+  EXPECT_THAT(Said({"ratio", "800lx", "200lx"}), HasSubstr("4.0 : 1 · 2.0"));
+  EXPECT_EQ(RunLightcal({"ratio", "800lx"}).exit_code, 2) << "of what?";
+  EXPECT_EQ(RunLightcal({"ratio", "800lx", "0lx"}).exit_code, 3);
+}
+
+// Two lamps in the dark, read by a meter that is 8 % off the same way in both (1 sigma) and 1 % by
+// chance; the true ratio must lie in the interval as often as it says, and the interval be that of
+// the chance alone.
+TEST(Ratio, HoldsTheTruthAsOftenAsItSays) {
+  std::mt19937 random(1704);
+  std::normal_distribution<double> normal;
+  const TempDir dir;
+  int inside = 0;
+  constexpr int kWorlds = 60;
+  double stops = 0.0;
+  for (int world = 0; world < kWorlds; ++world) {
+    const double gain = std::exp(0.08 * normal(random));
+    const double key = 400.0;
+    const double fill = 90.0;
+    std::string text =
+        "lightcal = 1\n[room]\ndark = true\n[[meter]]\nname = \"m\"\nsigma_relative = 0.0806\n"
+        "calibration_relative = 0.08\n";
+    for (const auto& [name, candela, x] :
+         {std::tuple("key", key, -1.0), std::tuple("fill", fill, 1.0)}) {
+      text += "[[light]]\nname = \"" + std::string(name) +
+              "\"\nkind = \"point\"\nfixture = \"bulb\"\nposition_m = [" + std::to_string(x) +
+              ", 0, 1]\n";
+      for (const double d : {1.0, 2.0, 4.0}) {
+        const double lux = candela / (d * d) * gain * std::exp(0.01 * normal(random));
+        text += "[[reading]]\nlight = \"" + std::string(name) +
+                "\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +
+                "\nilluminance_lx = " + std::to_string(lux) + "\n";
+      }
+    }
+    const std::string file = dir.path() + "/light.json";
+    Said({"fit", dir.Write("world.toml", text), "-o", file});
+    const json answer =
+        LightcalJson("ratio", {file, "--at", "0,1,1", "--key", "key", "--fill", "fill"});
+    const json& ratio = answer["ratio"];
+    const double truth = key / fill;
+    inside += double(ratio["low95"]) <= truth && truth <= double(ratio["high95"]) ? 1 : 0;
+    stops += double(answer["stops"]["u95"]) / kWorlds;
+    EXPECT_LT(double(answer["stops"]["u95"]), 0.5 * double(answer["stops_u95_if_independent"]));
+  }
+  EXPECT_GE(inside, 51) << "of 60: 57 less three standard deviations";
+  EXPECT_LT(stops, 0.12) << "the meter's 8 % would be 0.32 stop";
+}
+
+TEST(Ratio, WrongLinesTeach) {
+  const std::string session = SampleData("sessions/amaran_200x_s_bare");
+  EXPECT_EQ(RunLightcal({"ratio", session}).exit_code, 2) << "no --at";
+  EXPECT_EQ(RunLightcal({"ratio", session, "--at", "0,0,0"}).exit_code, 2) << "no --key";
+}
+
+}  // namespace
+}  // namespace lightcal::test
