@@ -170,7 +170,8 @@ LabelAndText NextWords(const LampAnswer& answer) {
   const NextStepAdvice& next = answer.next;
   switch (next.kind) {
     case NextStepAdvice::Kind::kReading:
-      return {MinutesBetter(next.minutes), answer.better + ": " + StopsText(next.reading->u95_stops)};
+      return {MinutesBetter(next.minutes),
+              answer.better + ": " + StopsText(next.reading->u95_stops)};
     case NextStepAdvice::Kind::kSay:
       return {"next", next.say};
     case NextStepAdvice::Kind::kMeter:

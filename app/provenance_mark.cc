@@ -20,8 +20,8 @@ using records::Node;
 constexpr std::size_t kHeadBytes = std::size_t{64} << 10U;  // holds every format's header
 constexpr std::size_t kMostOfADocument = std::size_t{256} << 20U;
 constexpr std::size_t kHeadLines = 16;
-constexpr std::string_view kName = "lightcal ";    // of "lightcal 0.1.0"
-constexpr std::string_view kSchema = "lightcal.";  // how the "schema" of our documents begins
+constexpr std::string_view kOurName = "lightcal ";  // of "lightcal 0.1.0"
+constexpr std::string_view kSchema = "lightcal.";   // how the "schema" of our documents begins
 constexpr std::string_view kTape = "lightcal.tape";
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
@@ -39,7 +39,7 @@ std::vector<std::string_view> HeadLines(std::string_view text) {
 }
 
 bool IsOurs(const Node* generator) {
-  return generator != nullptr && generator->text.starts_with(kName);
+  return generator != nullptr && generator->text.starts_with(kOurName);
 }
 
 std::string OwnJson(std::string_view contents) {
@@ -63,7 +63,7 @@ std::string OwnPng(std::string_view head) {
   if (head.size() < kTextChunkAt + 8) return {};
   std::string wanted = "tEXtSoftware";
   wanted += '\0';
-  wanted += kName;
+  wanted += kOurName;
   return head.substr(kTextChunkAt + 4).starts_with(wanted) ? "png" : "";
 }
 
@@ -75,7 +75,7 @@ std::string OwnExr(std::string_view head) {
   wanted += '\0';
   const std::size_t at = head.find(wanted);
   if (at == std::string_view::npos || head.size() < at + wanted.size() + 4) return {};
-  return head.substr(at + wanted.size() + 4).starts_with(kName) ? "exr" : "";
+  return head.substr(at + wanted.size() + 4).starts_with(kOurName) ? "exr" : "";
 }
 
 bool StartsAsComment(std::string_view line, std::string_view leader) {

@@ -34,7 +34,6 @@ struct LightsOptions {
   bool force = false;
 };
 
-
 Result<std::string> LibraryOf(const LightsOptions& options) {
   return options.library.empty() ? DefaultLibrary() : options.library;
 }

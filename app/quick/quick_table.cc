@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "input_files.h"
 #include "lamp_answer.h"
 #include "lamp_words.h"
 #include "lightcal/core/did_you_mean.h"
@@ -273,7 +274,7 @@ std::string CsvOf(const std::deque<TableLamp>& lamps) {
 }
 
 Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
-  const auto bytes = ReadWholeFile(options.table);
+  const auto bytes = ReadInputFile(options.table);
   if (!bytes) return tl::unexpected(bytes.error());
   const auto text = devices::files::TextFromBytes(*bytes, options.table);
   if (!text) return tl::unexpected(text.error());

@@ -47,9 +47,9 @@ TEST(MakeDome, GivesTheSamplesThatTheCommandWrites) {
   const auto made = MakeDome({file}, DiskSources(), settings);
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(made->measured.input.dome.samples, dome::ReadPictureFile(out + "/dome.exr").rgb);
-  ASSERT_TRUE(made->light_file);
-  EXPECT_EQ(made->light_file->lights.front().name, answer["lights"][0]["name"].get<std::string>());
-  EXPECT_EQ(made->light_file->provenance.inputs.size(), 1U);
+  ASSERT_FALSE(made->light_file.lights.empty());
+  EXPECT_EQ(made->light_file.lights.front().name, answer["lights"][0]["name"].get<std::string>());
+  EXPECT_EQ(made->light_file.provenance.inputs.size(), 1U);
 }
 
 TEST(InspectPicture, GivesTheLuminanceThatTheCommandPrints) {

@@ -78,7 +78,9 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   LightFile file = FullLightFile();
   FittedLight& light = file.lights[0];
   LampInRoom one{0.7, 3.87, -0.01, 0.1, -2.1, -1.0, -0.27, 0.07, 0.12, 0.09, {}};
-  for (std::size_t i = 0; i < one.covariance.size(); ++i) one.covariance[i] = 1.0 / (3.0 + i);
+  for (std::size_t i = 0; i < one.covariance.size(); ++i) {
+    one.covariance[i] = 1.0 / (3.0 + static_cast<double>(i));
+  }
   light.in_room = {one, {0.3, 3.5, 0.0, 0.0, -5.7, 0.6, 0.0, 0.25, 0.0, 0.0, {}}};
   light.meter = MeterShare{"c800", 0.031};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};

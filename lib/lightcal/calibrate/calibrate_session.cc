@@ -58,8 +58,8 @@ Session AsSet(Session session, const CalibrationSettings& settings) {
 
 FitSettings FitSettingsOf(const CalibrationSettings& settings) {
   const AccuracyProfile& profile = settings.profile;
-  return {profile.tolerance_relative, profile.effects, settings.monte_carlo, profile.estimator,
-          profile.cct_method, settings.time_effects};
+  return {profile.tolerance_relative, profile.effects,    settings.monte_carlo,
+          profile.estimator,          profile.cct_method, settings.time_effects};
 }
 
 void Lap(const CalibrationSettings& settings, tradeoff::Stage stage) {

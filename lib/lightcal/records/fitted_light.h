@@ -64,7 +64,7 @@ struct ResidualRow {
   double relative = 0.0;  // measured/predicted - 1
   double sigma_relative = 0.0;
   bool used = true;
-  std::optional<double> walls_lx;  // of predicted_lx, what came off the walls; where it was fitted
+  std::optional<double> walls_lx{};  // of predicted_lx, what came off the walls; where it was fitted
 };
 
 // A lamp in its room, as one of the things that both may be: facing it a meter sees

@@ -77,8 +77,8 @@ void DrawPatches(Svg& svg, const MatchSheet& sheet) {
       Stripe(svg, left + 2.0 * width / 3.0, top, width / 3.0, sheet.gelled.samples[sample], white);
     }
     svg.Element("<rect class=\"edge\" x=\"" + Px(left) + "\" y=\"" + Px(top) + "\" width=\"" +
-                Px(sheet.has_gels ? width : width * 2.0 / 3.0) + "\" height=\"" +
-                Px(kPatchHeight) + "\"/>");
+                Px(sheet.has_gels ? width : width * 2.0 / 3.0) + "\" height=\"" + Px(kPatchHeight) +
+                "\"/>");
     const std::string before = Fixed(sheet.lamp.difference[sample], 1);
     svg.Text("tick", {left, top + kPatchHeight + 16.0}, "start", before);
     svg.Text("tick", {left + width / 2.0, top + kPatchHeight + 16.0}, "middle", PatchName(sample));

@@ -119,7 +119,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
     const double whole = LampTimesSquare(light, farthest) + WallsTimesSquare(*room, farthest);
     most = std::max(most, std::min(whole, 2.0 * most));
   }
-  const Axis x{AxisScale::kLinear, 0.0, farthest, Svg::Area().left, Svg::Area().right};
+  const Axis x{AxisScale::kLinear, 0.01 * farthest, farthest, Svg::Area().left, Svg::Area().right};
   const Axis y{AxisScale::kLinear, 0.0, kMargin * most, Svg::Area().bottom, Svg::Area().top};
   Svg svg(
       std::string(id), "What the room adds",

@@ -43,12 +43,13 @@ class Draws {
     }
     shared_.resize(static_cast<std::size_t>(instruments_) + input.considered.size());
     influence_.resize(drawn_.rows.size() * input.considered.size());
+    const double intensity = std::exp(input.theta[kLnIntensity]);
     for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
       const ReadingRow& row = drawn_.rows[i];
       const bool log = row.form == ReadingRow::Form::kLog;
       for (std::size_t c = 0; c < input.considered.size(); ++c) {
         influence_[i * input.considered.size() + c] =
-            log ? InfluenceOn(row, input.considered[c]) : 0.0;
+            log ? InfluenceOn(row, input.considered[c], intensity) : 0.0;
       }
     }
   }

@@ -57,7 +57,10 @@ void AddShared(const UncertaintyInput& input, const At& at, const Matrix3& covar
 void AddConsidered(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
                    Matrix3& total) {
   for (const Consider& influence : input.considered) {
-    const auto relative = [&](const ReadingRow& row) { return InfluenceOn(row, influence); };
+    const double intensity = std::exp(input.theta[kLnIntensity]);
+    const auto relative = [&](const ReadingRow& row) {
+      return InfluenceOn(row, influence, intensity);
+    };
     AddShared(input, at, covariance, relative, total);
   }
 }

@@ -23,14 +23,22 @@ struct Consider {
   double distance_power = 0.0;
   std::string name{};     // the effect it stands for
   bool own_lamp = false;  // a data sheet's rows have none of it
+  // Light of other sources, the same everywhere: relative times the intensity, in lux. Distance
+  // power 2; what a shadow card hides, or leaves, holds it too.
+  bool constant = false;
 };
 
-// 1 sigma of what the influence does to ln E of a row.
-template <class Row>
-[[nodiscard]] double InfluenceOn(const Row& row, const Consider& influence) {
-  const bool counts = row.form != RowForm::kCensored && row.direct_gain > 0.0 &&
-                      !(influence.own_lamp && row.data_sheet);
-  return counts ? influence.relative * std::pow(row.distance, influence.distance_power) : 0.0;
+// 1 sigma of what the influence does to ln E of a row, the lamp's intensity being what it is.
+[[nodiscard]] inline double InfluenceOn(const ReadingRow& row, const Consider& influence,
+                                        double intensity) {
+  if (row.form == RowForm::kCensored || (influence.own_lamp && row.data_sheet)) return 0.0;
+  if (influence.constant) {
+    return row.ambient_gain > 0.0 && row.measured > 0.0
+               ? influence.relative * intensity / row.measured
+               : 0.0;
+  }
+  if (!(row.direct_gain > 0.0)) return 0.0;
+  return influence.relative * std::pow(row.distance, influence.distance_power);
 }
 
 struct UncertaintyInput {

@@ -25,7 +25,7 @@ EffectState StateOf(GateState state) {
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
   return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name),
-          effect.finding.own_lamp};
+          effect.finding.own_lamp, effect.name == "ambient"};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {

@@ -61,9 +61,9 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
   const auto u = RelativeUncertainty(out.light);
   if (!u) return std::nullopt;
   out.u95_relative = *u;
-  out.u95_stops = HalfWidthStops(out.light.intensity_cd ? *out.light.intensity_cd
-                                                        : *out.light.illuminance_lx)
-                      .value_or(out.u95_stops);
+  out.u95_stops =
+      HalfWidthStops(out.light.intensity_cd ? *out.light.intensity_cd : *out.light.illuminance_lx)
+          .value_or(out.u95_stops);
   return out;
 }
 
@@ -137,8 +137,8 @@ class Planner {
   // The meter stands where it read last.
   void StandAt(const Reading& reading) {
     if (!fit::IsLit(reading) || reading.meter == kDataSheetMeter) return;
-    stands_ = PlannedReading{PlannedAction::kRead, reading.distance, reading.position_m,
-                             reading.normal};
+    stands_ =
+        PlannedReading{PlannedAction::kRead, reading.distance, reading.position_m, reading.normal};
   }
 
   // 1 sigma of what the calibrations of all instruments that read leave together, relative; 0 where

@@ -152,8 +152,8 @@ EngineLight FromPrim(const Prim& prim, const FileText& beside) {
     const double diameter = 2.0 * prim.Number("inputs:radius", 0.5);
     light.width_m = light.round ? diameter : prim.Number("inputs:width", 1.0);
     light.height_m = light.round ? diameter : prim.Number("inputs:height", 1.0);
-    light.emitted =
-        UsdNits(prim, light.width_m * light.height_m * (light.round ? std::numbers::pi / 4.0 : 1.0));
+    light.emitted = UsdNits(
+        prim, light.width_m * light.height_m * (light.round ? std::numbers::pi / 4.0 : 1.0));
   }
   return light;
 }
