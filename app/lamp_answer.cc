@@ -157,6 +157,17 @@ std::string WallsPart(const FittedLight& light, const Session& session) {
          (card ? "the card tells" : (learned ? "as the readings fall" : "assumed"));
 }
 
+// Where readings found the lamp.
+std::string PlaceFound(const FittedLight& light) {
+  if (!light.position_m || !light.position_u95_m) return "";
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    text += (k == 0 ? "" : ", ") +
+            ValueWithAbsolute((*light.position_m)[k], (*light.position_u95_m)[k], "m");
+  }
+  return text;
+}
+
 // ---- what next ----
 
 std::string MinutesBetter(double count) {
@@ -301,6 +312,9 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
   }
   if (const std::string walls = WallsPart(light, session); !walls.empty()) {
     text += LabelledLine("", walls);
+  }
+  if (const std::string place = PlaceFound(light); !place.empty()) {
+    text += LabelledLine("stands at", place);
   }
   if (light.of_file) {
     const auto percent = [](double part) { return Rounded(100.0 * part, 2); };

@@ -92,7 +92,9 @@ Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
   if (!position) return tl::unexpected(position.error());
   const auto chosen = ChooseLights(lights, names);
   if (!chosen) return tl::unexpected(chosen.error());
-  const auto places = ParseLampPlaces(options.places, *chosen);
+  std::vector<const FittedLight*> all;  // places are given for both sides at once
+  for (const FittedLight& light : lights.lights) all.push_back(&light);
+  const auto places = ParseLampPlaces(options.places, all);
   if (!places) return tl::unexpected(places.error());
   Warnings warnings;
   const auto lamps = PlaceLamps(*chosen, nullptr, *places, warnings);

@@ -4,7 +4,9 @@
 
 usage: room_prediction.py LIGHTCAL TRACED_ROOMS.csv
 
-Rooms: the family that no prior was chosen on (tests/tools/traced_rooms). Readings at 0.5 and 1 m by
+Rooms: tests/tools/traced_rooms; of a bulb that is called one, the family that no prior was chosen on.
+Of lamps that nobody describes the ordinary ones: in rooms that no prior saw the interval of a bulb
+called a point holds too seldom (76 % here, see tests/bench/README.md), which is known. Readings at 0.5 and 1 m by
 one meter, 3 % in common and 1 % each; what it then reads at 2 m must lie in the interval `quick
 --at` gives for "in the room" as often as 95 % says, and what the lamp alone gives there in that of
 the lamp alone. Flux must hold the tracer's. Knows nothing of lightcal's code.
@@ -28,11 +30,12 @@ def covered(interval, truth):
 
 def main():
     with open(sys.argv[2], encoding="utf-8") as table:
-        rooms = [r for r in csv.DictReader(table) if r["family"] != "ordinary" and r.get("wall_2")]
+        rooms = [r for r in csv.DictReader(table) if r.get("wall_2")]
     chance = random.Random(17)
     failures = []
     for kind, fixture in (("bulb", "bulb"), ("bulb", None), ("beam", None)):
-        of_kind = [r for r in rooms if r["kind"] == kind][:ROOMS]
+        of_kind = [r for r in rooms if r["kind"] == kind
+                   and (r["family"] == "ordinary") == (fixture is None)][:ROOMS]
         room = alone = flux = width = 0
         for row in of_kind:
             gain = math.exp(chance.gauss(0.0, 0.03))

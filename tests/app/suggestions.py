@@ -18,10 +18,11 @@ LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
 
 
 def mistyped(word, others):
-    """The word with two neighbouring letters swapped, the last ones whose swap is no other word."""
+    """The word with two neighbouring letters swapped, the last ones whose swap begins no other word."""
     for i in range(len(word) - 2, 1, -1):
         typo = word[:i] + word[i + 1] + word[i] + word[i + 2:]
-        if typo not in others and word[i] != "-":
+        begins = any(other.startswith(typo) for other in others)  # which is meant then?
+        if not begins and word[i] != "-":
             return typo
     return None
 

@@ -46,7 +46,16 @@ inline LightFile FullLightFile() {
       {"cosine", EffectState::kOn, 0.03, 0.011, 2.5, "the meter was tilted"},
       {"bounce", EffectState::kOff, 0.004, std::nullopt, 1700.0, "below the tolerance"},
       {"source_size", EffectState::kFitted, 0.2, -0.1, 108.0, "near readings", "light.size_m"}};
-  light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true},
+  light.environment = EnvironmentFile{"dome.hdr", "latlong", 12.5};
+  light.beam = MeasuredBeam{Uncertain{900.5, 40.0, 862.0, 941.0},
+                            Uncertain{25.0, 2.0, 23.1, 27.0},
+                            Uncertain{44.0, 3.0, 41.2, 47.1},
+                            {{"cos_power", 0.7, 0.9}},
+                            0.25};
+  light.in_room = {{0.7, 6.8, -0.01, 0.1, -2.1, -1.0, -0.27, 0.07, 0.12, 0.09, {0.1}}};
+  light.meter = MeterShare{"c800", 0.031};
+  light.of_file = Uncertain{0.78, 0.04, {}, {}};
+  light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true, 8.25},
                      {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};
   light.covariance_lnI_d0_E0 = {0.1, 0.2, 0.3, 0.2, 0.5, 0.6, 0.3, 0.6, 1.0 / 7.0};
   light.budget = {{"readings", 1.0 / 30.0, 0.9, "four times as many readings"}};

@@ -146,6 +146,7 @@ meter = "c800"
 device = "sekonic:1"
 time = 2026-01-02T03:04:05Z
 distance_m = 0.5
+off_axis_deg = 15
 illuminance_lx = 192.0
 tilt_deg = 30
 lamp = "on"

@@ -113,14 +113,14 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
     most = std::max(most, dot.value * std::min(dot.factor, 1.3));
   }
   if (!(farthest > 0.0)) return "";
-  constexpr double kMargin = 1.12;
-  farthest *= kMargin;
+  constexpr double kAirAround = 1.12;
+  farthest *= kAirAround;
   if (room != nullptr) {
     const double whole = LampTimesSquare(light, farthest) + WallsTimesSquare(*room, farthest);
     most = std::max(most, std::min(whole, 2.0 * most));
   }
-  const Axis x{AxisScale::kLinear, 0.01 * farthest, farthest, Svg::Area().left, Svg::Area().right};
-  const Axis y{AxisScale::kLinear, 0.0, kMargin * most, Svg::Area().bottom, Svg::Area().top};
+  const Axis x{AxisScale::kLinear, 0.0, farthest, Svg::Area().left, Svg::Area().right};
+  const Axis y{AxisScale::kLinear, 0.0, kAirAround * most, Svg::Area().bottom, Svg::Area().top};
   Svg svg(
       std::string(id), "What the room adds",
       "Illuminance times distance squared: flat for a lamp alone, rising with the walls' light");

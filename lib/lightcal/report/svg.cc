@@ -98,7 +98,9 @@ void Svg::Axes(const Axis& x, const Axis& y, std::string_view x_title, std::stri
   for (std::size_t i = 0; i < x_ticks.size(); ++i) {
     const double at = x.At(x_ticks[i]);
     Line("grid", {at, kArea.top}, {at, kArea.bottom});
-    Text("tick", {at, kArea.bottom + 18.0}, "middle", x_labels[i]);
+    // Where both axes begin at 0, the other's says so.
+    const bool corner = x_ticks[i] == 0.0 && at <= kArea.left && y.low == 0.0;
+    if (!corner) Text("tick", {at, kArea.bottom + 18.0}, "middle", x_labels[i]);
   }
   const auto y_ticks = TicksOf(y, kTickGapY);
   const auto y_labels = TickLabels(y, y_ticks);

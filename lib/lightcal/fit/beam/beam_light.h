@@ -14,7 +14,7 @@
 namespace lightcal::fit {
 
 // Whether readings stand off the axis of a lamp whose shape nobody stated: a point or a spot
-// without outer_deg, by {reading.off_axis}, or by the places of readings and lamp (of a lamp whose
+// without outer_deg, by off_axis_deg, or by the places of readings and lamp (of a lamp whose
 // aim is not known, from kFewestForBeam of them on; of a point that need not have a beam, where
 // they span more than five degrees).
 [[nodiscard]] bool NeedsProfile(const Observations& observations, const LightDescription& light);

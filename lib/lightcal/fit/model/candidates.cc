@@ -160,13 +160,13 @@ std::vector<double> SharesOf(std::vector<Candidate>& candidates) {
 
 std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
                                const std::vector<double>& shares) {
-  constexpr double kLeastShare = 0.01;
+  constexpr double kLeastShareTold = 0.01;
   std::vector<LampInRoom> out;
   double whole = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& one = candidates[i];
     if (!one.hypothesis.walls || !one.estimation.rules[kLnWalls].free) return {};
-    if (shares[i] < kLeastShare) continue;
+    if (shares[i] < kLeastShareTold) continue;
     const Theta& theta = one.estimate.theta;
     const WallHypothesis& walls = *one.hypothesis.walls;
     out.push_back({shares[i], theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient],
