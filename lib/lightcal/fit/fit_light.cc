@@ -82,14 +82,15 @@ void AddCalibration(double calibration, fit::LightEstimate& estimate) {
 std::optional<MeterShare> MeterOf(const Session& session, const std::string& light,
                                   const fit::Observations& observations) {
   std::optional<MeterShare> meter;
+  const double calibration = LargestCalibration(observations);
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
     if (reading.light != light || !reading.illuminance) continue;
     const std::string& name = InstrumentOf(reading);
     if (meter && meter->name != name) return std::nullopt;
-    meter = MeterShare{name, LargestCalibration(observations)};
+    if (!meter) meter = MeterShare{name, calibration};
   }
-  return meter && meter->calibration_relative > 0.0 ? meter : std::nullopt;
+  return calibration > 0.0 ? meter : std::nullopt;
 }
 
 // The part of the interval that more readings do not lower.
