@@ -273,8 +273,9 @@ class Collector {
       const Observation& other = out_.rows[j];
       double relative = relative_[j].sigma;
       if (other.instrument != row.instrument) relative = std::hypot(relative, other.calibration);
-      const double sigma =
-          std::max(std::abs(other.raw_lx) * relative, kLeastSigma * std::abs(row.raw_lx));
+      constexpr double kSquarable_lx = 1e-150;
+      const double sigma = std::max(
+          {std::abs(other.raw_lx) * relative, kLeastSigma * std::abs(row.raw_lx), kSquarable_lx});
       weights += 1.0 / (sigma * sigma);
       sum += other.raw_lx / (sigma * sigma);
     }
