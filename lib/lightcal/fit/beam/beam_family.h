@@ -139,7 +139,10 @@ T BeamShape::Relative(const T& gamma, const T* p) const {
     if (!(gamma > 1e-6)) return T(1.0);
     return exp(-std::numbers::ln2 * exp(exp(p[1]) * (log(gamma) - log(h))));
   }
-  const T cosine = log(cos(gamma)) / log(cos(h));
+  // A beam so narrow that its cosine is 1 shines along its axis alone.
+  const T ln_cosine_of_half = log(cos(h));
+  if (!(ln_cosine_of_half < 0.0)) return T(gamma > 0.0 ? 0.0 : 1.0);
+  const T cosine = log(cos(gamma)) / ln_cosine_of_half;
   if (family == BeamFamily::kCosinePower) return exp(-std::numbers::ln2 * cosine);
   const T w = LogisticOf(p[1]);
   const T x = gamma / h;
