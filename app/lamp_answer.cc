@@ -10,6 +10,7 @@
 #include "console.h"
 #include "guide/shell_word.h"
 #include "lamp_words.h"
+#include "light_table.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/fit/plan/plan_readings.h"
@@ -157,17 +158,6 @@ std::string WallsPart(const FittedLight& light, const Session& session) {
          (card ? "the card tells" : (learned ? "as the readings fall" : "assumed"));
 }
 
-// Where readings found the lamp.
-std::string PlaceFound(const FittedLight& light) {
-  if (!light.position_m || !light.position_u95_m) return "";
-  std::string text;
-  for (std::size_t k = 0; k < 3; ++k) {
-    text += (k == 0 ? "" : ", ") +
-            ValueWithAbsolute((*light.position_m)[k], (*light.position_u95_m)[k], "m");
-  }
-  return text;
-}
-
 // ---- what next ----
 
 std::string MinutesBetter(double count) {
@@ -238,6 +228,7 @@ std::string ReadCommand(const std::string& session, const std::string& light,
     line +=
         " --distance " + ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) + "m";
   }
+  if (step.off_axis) line += " --off-axis " + DegreesText(*step.off_axis) + "deg";
   switch (step.action) {
     case PlannedAction::kShadowCard:
       return "block the direct beam with a card: " + line + " --shadow-card";
@@ -313,9 +304,7 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
   if (const std::string walls = WallsPart(light, session); !walls.empty()) {
     text += LabelledLine("", walls);
   }
-  if (const std::string place = PlaceFound(light); !place.empty()) {
-    text += LabelledLine("stands at", place);
-  }
+  if (light.position_u95_m) text += LabelledLine("stands at", PlaceFound(light));
   if (light.of_file) {
     const auto percent = [](double part) { return Rounded(100.0 * part, 2); };
     const Uncertain& u = *light.of_file;

@@ -70,6 +70,10 @@ std::size_t EndOfWord(std::string_view text) {
 
 }  // namespace
 
+std::string DegreesText(Radians angle) {
+  return ShortestText(std::round(10.0 * DegreesFromRadians(angle)) / 10.0);
+}
+
 Strength StrengthOf(const FittedLight& light) {
   if (light.intensity_cd) return {&*light.intensity_cd, "cd"};
   if (light.illuminance_lx) return {&*light.illuminance_lx, "lx"};

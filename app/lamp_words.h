@@ -11,6 +11,9 @@
 
 namespace lightcal::app {
 
+// An angle as a person types it, to a tenth of a degree.
+[[nodiscard]] std::string DegreesText(Radians angle);
+
 // What says how bright a light is: intensity, else illuminance, else luminance, else flux.
 struct Strength {
   const Uncertain* value = nullptr;

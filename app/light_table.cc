@@ -45,16 +45,6 @@ std::string Offset(const FittedLight& light) {
   return text + (Contains(light.fit.learned, "distance_offset") ? " learned" : " prior");
 }
 
-std::string Position(const FittedLight& light) {
-  if (!light.position_m || !light.position_u95_m) return kNone;
-  std::string text;
-  for (std::size_t k = 0; k < 3; ++k) {
-    text += (k == 0 ? "" : ", ") +
-            ValueWithAbsolute((*light.position_m)[k], (*light.position_u95_m)[k], "m");
-  }
-  return text;
-}
-
 std::string Join(const std::vector<std::string>& words) {
   return words.empty() ? kNone : Joined(words);
 }
@@ -75,6 +65,16 @@ std::string BeamLine(const FittedLight& light) {
 }
 
 }  // namespace
+
+std::string PlaceFound(const FittedLight& light) {
+  if (!light.position_m || !light.position_u95_m) return kNone;
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k) {
+    text += (k == 0 ? "" : ", ") +
+            ValueWithAbsolute((*light.position_m)[k], (*light.position_u95_m)[k], "m");
+  }
+  return text;
+}
 
 std::string Headline(const FittedLight& light) {
   const auto text = [](const Uncertain& u, std::string_view unit) {
@@ -98,7 +98,7 @@ std::string LightTable(const LightFile& file) {
   for (const FittedLight& light : file.lights) {
     rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
                     Flux(light), Cct(light), Duv(light), Offset(light)});
-    if (located) rows.back().push_back(Position(light));
+    if (located) rows.back().push_back(PlaceFound(light));
   }
   std::string text = TextTable(head, rows);
   for (const FittedLight& light : file.lights) text += BeamLine(light);

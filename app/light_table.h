@@ -21,6 +21,9 @@ namespace lightcal::app {
 // One line: the effects that this scene has nothing of.
 [[nodiscard]] std::string EffectsOfNoConcern(const FittedLight& light);
 
+// Where readings found the lamp: its three coordinates, each with its 95 %.
+[[nodiscard]] std::string PlaceFound(const FittedLight& light);
+
 // The row's headline number: intensity, else illuminance, else luminance, else flux.
 [[nodiscard]] std::string Headline(const FittedLight& light);
 

@@ -121,7 +121,9 @@ Result<BehindGels> PutGelBefore(const QuickOptions& options, FittedLight& light,
 std::string TypedStep(const Session& session, const PlannedReading& step) {
   std::string before;
   for (const SessionReading& row : session.readings) {
-    if (fit::IsLit(row.reading) && row.reading.distance == step.distance) before = row.where;
+    const bool there = row.reading.distance == step.distance &&
+                       row.reading.off_axis == step.off_axis.value_or(Radians(0.0));
+    if (fit::IsLit(row.reading) && there) before = row.where;
   }
   const std::string metres =
       step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) : "";
@@ -136,8 +138,11 @@ std::string TypedStep(const Session& session, const PlannedReading& step) {
     case PlannedAction::kRead:
       break;
   }
-  return before.empty() ? "read at " + at + " too, facing the lamp: add LUX@" + metres + "m"
-                        : "read at " + at + " once more: add LUX@" + metres + "m";
+  const std::string degrees = step.off_axis ? DegreesText(*step.off_axis) : "";
+  const std::string place =
+      degrees.empty() ? "read at " + at : "read " + degrees + " degrees off the axis, at " + at;
+  return place + (before.empty() ? " too, facing the lamp" : " once more") + ": add LUX@" + metres +
+         "m" + (degrees.empty() ? "" : "," + degrees + "deg");
 }
 
 std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& session,

@@ -100,27 +100,19 @@ Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
   const auto lamps = PlaceLamps(*chosen, nullptr, *places, warnings);
   if (!lamps) return tl::unexpected(lamps.error());
   const IlluminancePredictor predictor(*lamps, MapSettings{});
-  std::optional<Vec3> normal;
-  if (options.normal == "up") normal = Vec3{0.0, 0.0, 1.0};
-  if (options.normal != "up" && options.normal != "lamp") {
-    const auto stated = ParseUnitVector("--normal", options.normal);
-    if (!stated) return tl::unexpected(stated.error());
-    normal = *stated;
-  }
+  const auto normal = ParseMeterNormal(options.normal);
+  if (!normal) return tl::unexpected(normal.error());
   // Turned to this side's brightest lamp, as one reads key and fill.
   const auto luxes_at = [&](const Vec3& n) { return predictor.At({*position, n}); };
   std::vector<LampLux> luxes;
-  if (normal) {
-    luxes = luxes_at(*normal);
+  if (*normal) {
+    luxes = luxes_at(**normal);
   } else {
     double most = -1.0;
     for (const PlacedLamp& lamp : *lamps) {
-      const Vec3 way = std::holds_alternative<SunSource>(lamp.source)
-                           ? lamp.pose.frame.z * -1.0
-                           : lamp.pose.position_m - *position;
-      const double length = Length(way);
-      if (!(length > 0.0)) continue;
-      std::vector<LampLux> turned = luxes_at(way * (1.0 / length));
+      const auto way = DirectionToLamp(lamp, *position);
+      if (!way) continue;
+      std::vector<LampLux> turned = luxes_at(*way);
       double sum = 0.0;
       for (const LampLux& lux : turned) sum += lux.direct_lx;
       if (sum > most) {
@@ -128,6 +120,8 @@ Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
         luxes = std::move(turned);
       }
     }
+    // Skies alone: as a meter lies on the floor.
+    if (luxes.empty()) luxes = luxes_at({0.0, 0.0, 1.0});
   }
   RatioSide side;
   for (std::size_t i = 0; i < luxes.size(); ++i) {

@@ -136,17 +136,12 @@ Vec3 TowardBrightest(const std::vector<PlacedLamp>& lamps, const Vec3& position)
   Vec3 best{0.0, 0.0, 1.0};
   double most = 0.0;
   for (const PlacedLamp& lamp : lamps) {
-    if (std::holds_alternative<EvenSky>(lamp.source)) continue;
-    const Vec3 way = std::holds_alternative<SunSource>(lamp.source)
-                         ? lamp.pose.frame.z * -1.0
-                         : lamp.pose.position_m - position;
-    const double length = Length(way);
-    if (!(length > 0.0)) continue;
-    const Vec3 normal = way * (1.0 / length);
-    const double lux = LuxOf(lamp, {position, normal});
+    const auto normal = DirectionToLamp(lamp, position);
+    if (!normal) continue;
+    const double lux = LuxOf(lamp, {position, *normal});
     if (lux > most) {
       most = lux;
-      best = normal;
+      best = *normal;
     }
   }
   return best;
@@ -155,17 +150,12 @@ Vec3 TowardBrightest(const std::vector<PlacedLamp>& lamps, const Vec3& position)
 Result<std::vector<PredictedPoint>> Points(const SimulateOptions& options,
                                            const std::vector<PlacedLamp>& lamps) {
   std::vector<PredictedPoint> out;
-  std::optional<Vec3> normal;
-  if (options.normal == "up") normal = Vec3{0.0, 0.0, 1.0};
-  if (options.normal != "up" && options.normal != "lamp") {
-    const auto stated = ParseUnitVector("--normal", options.normal);
-    if (!stated) return tl::unexpected(stated.error());
-    normal = *stated;
-  }
+  const auto normal = ParseMeterNormal(options.normal);
+  if (!normal) return tl::unexpected(normal.error());
   for (const std::string& text : options.at) {
     const auto position = ParsePoint("--at", text);
     if (!position) return tl::unexpected(position.error());
-    out.push_back({{*position, normal.value_or(TowardBrightest(lamps, *position))}, {}});
+    out.push_back({{*position, normal->value_or(TowardBrightest(lamps, *position))}, {}});
   }
   return out;
 }

@@ -71,6 +71,14 @@ Result<Vec3> ParseUnitVector(const std::string& option, const std::string& text)
   return *direction * (1.0 / length);
 }
 
+Result<std::optional<Vec3>> ParseMeterNormal(const std::string& text) {
+  if (text == "lamp") return std::optional<Vec3>();
+  if (text == "up") return std::optional<Vec3>(Vec3{0.0, 0.0, 1.0});
+  const auto stated = ParseUnitVector("--normal", text);
+  if (!stated) return tl::unexpected(stated.error());
+  return std::optional<Vec3>(*stated);
+}
+
 Result<LampPlaces> ParseLampPlaces(const LampPlaceWords& words,
                                    const std::vector<const FittedLight*>& lights) {
   LampPlaces places;

@@ -21,6 +21,8 @@ struct LampPlaceWords {
 
 // "1,2,0.5" with lengths as ParseLength reads them ("1m,2ft,50cm").
 [[nodiscard]] Result<Vec3> ParsePoint(const std::string& option, const std::string& text);
+// How a meter is turned: "up", "x,y,z", or "lamp" (absent: towards a lamp, which the caller knows).
+[[nodiscard]] Result<std::optional<Vec3>> ParseMeterNormal(const std::string& text);
 // "0,0,-1": any length above 0; unit.
 [[nodiscard]] Result<Vec3> ParseUnitVector(const std::string& option, const std::string& text);
 

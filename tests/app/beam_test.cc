@@ -8,6 +8,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <regex>
 #include <sstream>
 
 #include "run_cli.h"
@@ -61,6 +62,28 @@ double TableAt(const json& light, double degrees) {
     return candela[i - 1] + t * (candela[i] - candela[i - 1]);
   }
   return 0.0;
+}
+
+// What is to be typed next holds the angle that was planned: at the same distance on the axis it
+// would be another reading.
+TEST(Beam, TheNextReadingToTypeHasItsAngle) {
+  const CliResult quick = RunLightcal({"quick", "900lx@1m", "450lx@1m,15deg", "--room", "dark",
+                                       "--fixture", "luminaire", "--meter", "3%"});
+  ASSERT_EQ(quick.exit_code, 0) << quick.err;
+  std::smatch typed;
+  ASSERT_TRUE(std::regex_search(quick.out, typed,
+                                std::regex("read ([0-9.]+) degrees off the axis[^:]*: add\\s+"
+                                           "LUX@[0-9.]+m,([0-9.]+)deg")))
+      << quick.out;
+  EXPECT_EQ(typed[1], typed[2]);
+  const TempDir folder;
+  const std::string session =
+      folder.Write("session.toml", SessionOf([](double a) { return Gauss(a, 15.0); }, {0, 15}));
+  const CliResult run = RunLightcal({"run", session, "-o", folder.path() + "/out"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(
+      std::regex_search(run.out, std::regex("--distance [0-9.]+m\\s+--off-axis [0-9.]+deg")))
+      << run.out;
 }
 
 TEST(Beam, TwoTypedReadingsAnswerABeamAndNameTheNextAngle) {

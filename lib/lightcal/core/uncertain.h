@@ -21,6 +21,9 @@ struct Uncertain {
 // The value exp(mean_ln) of a variable that is normal in its logarithm:
 //   low, high = value exp(-+ kZ95 sd_ln),  u95 = (high - low)/2 = value sinh(kZ95 sd_ln).
 [[nodiscard]] Uncertain UncertainFromLog(double mean_ln, double sd_ln);
+// An interval of ln value made wider: its ends `factor` times as far away, and in squares
+// `relative_sd` (1 sigma) beside. Left alone where it is not one of a positive value.
+void WidenInLn(Uncertain& value, double factor, double relative_sd);
 // value +- kZ95 sd.
 [[nodiscard]] Uncertain UncertainFromNormal(double value, double sd);
 

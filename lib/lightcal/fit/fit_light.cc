@@ -222,15 +222,8 @@ Result<FittedLight> FitLocated(const Session& session, const LightDescription& l
 void WidenBeam(double calibration, fit::BeamLight& found) {
   AddCalibration(calibration, found.estimate);
   found.estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
-  for (Uncertain* value : {&found.flux_lm, &*found.beam.axial}) {
-    const auto end = [&](double at) {
-      const double own = std::log(at / value->value);
-      return value->value * std::exp(std::copysign(std::hypot(own, kZ95 * calibration), own));
-    };
-    value->low = end(*value->low);
-    value->high = end(*value->high);
-    value->u95 = 0.5 * (*value->high - *value->low);
-  }
+  WidenInLn(found.flux_lm, 1.0, calibration);
+  WidenInLn(*found.beam.axial, 1.0, calibration);
 }
 
 // A lamp whose shape readings off its axis tell. Absent where it turns out to have none of its own:

@@ -62,14 +62,6 @@ double VarianceOfLog(const FittedLight& light, const Uncertain& strength,
   return std::max(0.0, variance);
 }
 
-Uncertain UncertainOf(const std::vector<fit::NormalPart>& of_ln) {
-  constexpr double kTail = 0.025;
-  const auto at = [&](double probability) { return std::exp(fit::QuantileOf(of_ln, probability)); };
-  const double low = at(kTail);
-  const double high = at(1.0 - kTail);
-  return {at(0.5), 0.5 * (high - low), low, high};
-}
-
 // One of the things that lamp and room may be, at one distance.
 struct AtDistance {
   double ln_whole = 0.0, variance = 0.0;
@@ -149,7 +141,9 @@ Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light,
     walls.push_back({one.weight, at.ln_walls, std::sqrt(at.walls_variance)});
   }
   if (whole.empty()) return std::optional<IlluminanceInRoom>();
-  return IlluminanceInRoom{UncertainOf(whole), UncertainOf(reading), UncertainOf(walls)};
+  return IlluminanceInRoom{fit::UncertainFromLogMixture(whole),
+                           fit::UncertainFromLogMixture(reading),
+                           fit::UncertainFromLogMixture(walls)};
 }
 
 }  // namespace lightcal

@@ -110,6 +110,14 @@ bool IsEverywhere(const LampSource& source) {
   return std::holds_alternative<SunSource>(source) || std::holds_alternative<EvenSky>(source);
 }
 
+std::optional<Vec3> DirectionToLamp(const PlacedLamp& lamp, const Vec3& position_m) {
+  if (std::holds_alternative<EvenSky>(lamp.source)) return std::nullopt;
+  const bool sun = std::holds_alternative<SunSource>(lamp.source);
+  const Vec3 way = sun ? lamp.pose.frame.z * -1.0 : lamp.pose.position_m - position_m;
+  const double length = Length(way);
+  return length > 0.0 ? std::optional(way * (1.0 / length)) : std::nullopt;
+}
+
 double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDetail& detail) {
   const LampDoubt& doubt = lamp.doubt;
   const auto lux = [&](const LampSource& source, const LampPose& pose) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -79,6 +80,9 @@ struct SurfacePoint {
 
 // Sun and sky: the same everywhere, no distance law, no walls.
 [[nodiscard]] bool IsEverywhere(const LampSource& source);
+
+// Unit, from a place towards the lamp or the sun; absent for a sky, and where the lamp stands.
+[[nodiscard]] std::optional<Vec3> DirectionToLamp(const PlacedLamp& lamp, const Vec3& position_m);
 
 // Standard deviation of LuxOf from the lamp's own doubt: each parameter moved by its standard
 // deviation both ways, strength and d0 together by their covariance.                    [lx]

@@ -13,19 +13,18 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_profile.h"
 #include "lightcal/fit/beam/spot_beam.h"
+#include "lightcal/fit/model/misfit.h"
+#include "lightcal/fit/model/row_values.h"
 
 namespace lightcal::fit {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDarkOfPeak = 2e-4;  // what a meter still sees in the dark, of the beam's peak
-constexpr double kLogBelow = 0.3;     // relative sigma up to which a reading's logarithm is normal
+constexpr double kDarkOfPeak = 2e-4;     // what a meter still sees in the dark, of the beam's peak
 constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
 constexpr double kAngleSigmaDegrees = 1.0;
-constexpr double kAnyAim = 0.4;        // 1 sigma of the tilts of an aim that nobody stated
-constexpr double kSheetAngle = 0.1;    // 1 sigma, relative, of an angle on a data sheet
-constexpr double kOffsetShare = 0.15;  // of the shortest distance, where nothing is known
-constexpr double kCardHidesToo = 0.04;
+constexpr double kAnyAim = 0.4;      // 1 sigma of the tilts of an aim that nobody stated
+constexpr double kSheetAngle = 0.1;  // 1 sigma, relative, of an angle on a data sheet
 constexpr double kLeastSpan = 5.0 * kDegree;
 constexpr double kNearAxis = 1.0;             // half angles
 constexpr double kEvenSpan = 45.0 * kDegree;  // over which an even lamp has to be seen
@@ -34,10 +33,6 @@ constexpr double kDarkEnd = 1e-3;             // of the peak: where a table ends
 constexpr double kUnlikely = 1e-5;
 constexpr double kHardlyEven = 0.01;
 constexpr double kConeStands = 0.05;  // a spot's cone, until the readings are as much against it
-
-bool LitAndPlaced(const Observation& row) {
-  return row.lit && row.position_m && row.measured_from_center && !row.over_range;
-}
 
 double AmbientOfOff(const Observations& observations) {
   double sum = 0.0;
@@ -90,7 +85,7 @@ BeamRow RowOfObservation(const Observation& o, const LightDescription& light,
 
 void SetForm(bool over_range, double dark, BeamRow& row) {
   const double sigma = std::hypot(row.sigma, dark / Dot(row.from_lamp, row.from_lamp));
-  const bool log = row.measured > 0.0 && sigma < kLogBelow * row.measured;
+  const bool log = row.measured > 0.0 && sigma < kLinearBeyondSigma * row.measured;
   row.form = log ? (over_range ? RowForm::kCensored : RowForm::kLog) : RowForm::kLinear;
   row.sigma = row.own_sigma = log ? sigma / row.measured : sigma;
 }
@@ -177,7 +172,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
   if (model->fit_offset && model->distance_law) {
     out.readings.offsets = model->offsets;
     if (out.readings.offsets.empty()) {
-      out.readings.offsets = {{1.0, 0.0, kOffsetShare * shortest}};
+      out.readings.offsets = {{1.0, 0.0, kOffsetPriorRelative * shortest}};
     }
   }
   // What a card hid the lamp from measures the walls for those without a card.
@@ -187,7 +182,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     BeamRow row = out.readings.rows[i];
     row.lit = false;
     row.measured = o.card_lx;
-    row.sigma = std::hypot(o.card_sigma_lx, kCardHidesToo * o.card_lx);
+    row.sigma = std::hypot(o.card_sigma_lx, kCardHides * o.card_lx);
     SetForm(false, 0.0, row);
     out.readings.rows.push_back(row);
     out.observation.push_back(out.observation[i]);
@@ -232,14 +227,6 @@ Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
                      " to " + RoundedText(*beam.high, 2) + " degrees: read at " +
                      RoundedText(MissingAngle(profile), 3) +
                      " degrees off the axis too, or give the data sheet's {light.beam}");
-}
-
-// Upper tail of chi-squared (Wilson and Hilferty).
-double TailOf(double chi2, double dof) {
-  if (!(dof > 0.5)) return 1.0;
-  const double third = 2.0 / (9.0 * dof);
-  const double z = (std::cbrt(chi2 / dof) - (1.0 - third)) / std::sqrt(third);
-  return 0.5 * std::erfc(z / std::numbers::sqrt2);
 }
 
 // ---- what the rest of the room takes ----
@@ -334,17 +321,6 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
   if (lit > 0) d.rms_relative = std::sqrt(squares / lit);
 }
 
-void Widen(Uncertain& value, double factor, double relative_sd) {
-  const auto ln = [&](double end) {
-    const double own = factor * std::log(end / value.value);
-    return std::copysign(std::hypot(own, kZ95 * relative_sd), own);
-  };
-  if (!(value.value > 0.0) || !value.low || !value.high || !(*value.low > 0.0)) return;
-  value.low = value.value * std::exp(-std::abs(ln(*value.low)));
-  value.high = value.value * std::exp(std::abs(ln(*value.high)));
-  value.u95 = 0.5 * (*value.high - *value.low);
-}
-
 }  // namespace
 
 bool NeedsProfile(const Observations& observations, const LightDescription& light) {
@@ -393,7 +369,8 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   FillEstimate(observations, rows, profile, out.estimate);
   const double birge =
       std::sqrt(std::max(1.0, profile.chi2 / std::max(1.0, profile.degrees_of_freedom)));
-  const bool contradict = TailOf(profile.chi2, profile.degrees_of_freedom) < kUnlikely;
+  const double dof = profile.degrees_of_freedom;
+  const bool contradict = dof > 0.5 && ChiSquaredTail(profile.chi2, dof) < kUnlikely;
   double factor = 1.0;
   if (contradict) {
     if (birge > 5.0 && !out.even) {
@@ -415,14 +392,14 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   AddInfluences(model, rows, out.estimate);
   const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));
   out.flux_lm = profile.flux_lm;
-  Widen(out.flux_lm, factor, added);
+  WidenInLn(out.flux_lm, factor, added);
   out.beam.axial = profile.axial_cd;
-  Widen(*out.beam.axial, factor, added);
+  WidenInLn(*out.beam.axial, factor, added);
   if (!out.even) {
     out.beam.beam_deg = profile.beam_deg;
     out.beam.field_deg = profile.field_deg;
-    Widen(*out.beam.beam_deg, factor, 0.0);
-    Widen(*out.beam.field_deg, factor, 0.0);
+    WidenInLn(*out.beam.beam_deg, factor, 0.0);
+    WidenInLn(*out.beam.field_deg, factor, 0.0);
   }
   bool smooth = false;
   for (const BeamFamilyShare& one : profile.families) {

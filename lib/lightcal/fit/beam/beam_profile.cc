@@ -516,11 +516,9 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
     ln.push_back({one.share, one.ln_axial,
                   std::hypot(kShapeSd, std::sqrt(one.axial.dot(one.covariance * one.axial)))});
   }
-  const double middle = std::exp(QuantileOf(ln, 0.5));
-  const double low = std::exp(QuantileOf(ln, 0.025));
-  const double high = std::exp(QuantileOf(ln, 0.975));
-  out.axial_cd = {middle, 0.5 * (high - low), low, high};
-  out.axial_sd_ln = std::log(high / low) / (2.0 * kZ95);
+  out.axial_cd = UncertainFromLogMixture(ln);
+  const double middle = out.axial_cd.value;
+  out.axial_sd_ln = std::log(*out.axial_cd.high / *out.axial_cd.low) / (2.0 * kZ95);
   const double scale = middle / out.candela.front();
   for (double& value : out.candela) value *= scale;
   out.flux_lm = IntervalOf(draws, &BeamDraw::flux_lm);

@@ -22,7 +22,6 @@ struct BeamReadings {
   std::optional<WallPrior> walls;
   std::array<ParameterRule, 2> aim{};  // its tilts about x and y
   bool may_be_even = false;            // a lamp that need not have a beam
-  double dark_lx_m2 = 0.0;             // E r^2 that counts as nothing, 1 sigma
 };
 
 // One family, and how much the readings are for it.

@@ -45,10 +45,6 @@ struct Beam {
   }
 };
 
-bool Placed(const Observation& row) {
-  return row.lit && row.position_m && row.measured_from_center && !row.over_range;
-}
-
 double AmbientOf(const Observations& observations) {
   double sum = 0.0;
   int count = 0;
@@ -74,7 +70,7 @@ Beam BeamOf(const Observations& observations, const LightDescription& light) {
   double peak = 0.0;
   Beam beam;
   for (const Observation& row : observations.rows) {
-    if (!Placed(row)) continue;
+    if (!LitAndPlaced(row)) continue;
     const Vec3 from = *row.position_m - *light.position_m;
     const double distance = Length(from);
     SpotReading reading{from, row.normal.value_or(from * (-1.0 / distance)),
@@ -209,7 +205,7 @@ Information SpreadCovariance(const Beam& beam, const Parameters& p) {
 bool NeedsBeam(const Observations& observations, const LightDescription& light) {
   if (light.kind != LightKind::kSpot || !light.position_m) return false;
   if (light.outer && light.inner && light.aim) return false;
-  return std::count_if(observations.rows.begin(), observations.rows.end(), Placed) >=
+  return std::count_if(observations.rows.begin(), observations.rows.end(), LitAndPlaced) >=
          kFewestForBeam;
 }
 

@@ -163,4 +163,12 @@ double QuantileOf(std::span<const NormalPart> mixture, double probability) {
   return 0.5 * (low + high);
 }
 
+Uncertain UncertainFromLogMixture(std::span<const NormalPart> of_ln) {
+  constexpr double kTail = 0.025;
+  const auto at = [&](double probability) { return std::exp(QuantileOf(of_ln, probability)); };
+  const double low = at(kTail);
+  const double high = at(1.0 - kTail);
+  return {at(0.5), 0.5 * (high - low), low, high};
+}
+
 }  // namespace lightcal::fit

@@ -47,5 +47,7 @@ struct NormalPart {
 };
 // The value below which a part `probability` of it lies.
 [[nodiscard]] double QuantileOf(std::span<const NormalPart> mixture, double probability);
+// Of a variable whose logarithm is such a mixture: its median and the 95 % between its quantiles.
+[[nodiscard]] Uncertain UncertainFromLogMixture(std::span<const NormalPart> of_ln);
 
 }  // namespace lightcal::fit

@@ -184,7 +184,7 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
 
 }  // namespace
 
-double ChiSquaredTail(double chi_squared, int dof) {
+double ChiSquaredTail(double chi_squared, double dof) {
   const double spread = 2.0 / (9.0 * dof);
   const double z = (std::cbrt(chi_squared / dof) - (1.0 - spread)) / std::sqrt(spread);
   return 0.5 * std::erfc(z / std::numbers::sqrt2);

@@ -12,8 +12,8 @@
 namespace lightcal::fit {
 
 // Probability that chi-squared with `dof` degrees of freedom exceeds `chi_squared` (Wilson and
-// Hilferty 1931). dof >= 1.
-[[nodiscard]] double ChiSquaredTail(double chi_squared, int dof);
+// Hilferty 1931). dof >= 1/2.
+[[nodiscard]] double ChiSquaredTail(double chi_squared, double dof);
 
 // Refused: model_misfit, where readings at three distances or more contradict every lamp under its
 // priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where half

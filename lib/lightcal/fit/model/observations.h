@@ -44,6 +44,11 @@ struct Observation {
   double emission = 1.0;                // E/I there over cos(tilt)/d^2
 };
 
+// Whether it tells how the lamp shines towards a place.
+[[nodiscard]] inline bool LitAndPlaced(const Observation& row) {
+  return row.lit && row.position_m && row.measured_from_center && !row.over_range;
+}
+
 struct Observations {
   std::vector<Observation> rows;
   std::vector<int> rejected;     // indices over the light's readings, ascending

@@ -15,9 +15,6 @@ namespace {
 
 constexpr double kLeastOffset = -0.9;  // of the shortest distance
 constexpr int kDistancesForAmbient = 4;
-// 1 sigma of what a card hides besides the direct light, of all that it leaves: in traced rooms 3
-// to 5 % for cards of a lamp's size half way (tests/tools/traced_rooms).
-constexpr double kCardHides = 0.04;
 
 Scales ScalesOf(const Observations& observations) {
   double ln_length = 0.0;

@@ -13,6 +13,10 @@ namespace lightcal::fit {
 // Relative sigma from which the logarithm of a reading is no longer normal.
 inline constexpr double kLinearBeyondSigma = 0.3;
 
+// 1 sigma of what a card hides besides the direct light, of all that it leaves: in traced rooms 3
+// to 5 % for cards of a lamp's size half way (tests/tools/traced_rooms).
+inline constexpr double kCardHides = 0.04;
+
 // Fills measured, sigma, form, ambient_gain and, of a lit row, bounce: Row is ReadingRow or
 // PlacedRow. `i` is the observation's place among all (the model's bounce lies beside them).
 template <class Row>

@@ -30,13 +30,12 @@ inline constexpr double kAmbientDefault = 0.05;
   }
   if (scene.dark) return NotApplicable("[room] says dark: nothing else shines");
   if (!scene.time.own_lamp) return NotApplicable("a data sheet's lamp was measured in the dark");
-  return {kAmbientDefault,
-          Treatment::kWidens,
-          2.0,
-          "no lamp-off or shadow-card reading; up to 5 % of the dimmest reading is common",
-          true,
-          {},
-          true};
+  return {
+      .bound = kAmbientDefault,
+      .treatment = Treatment::kWidens,
+      .distance_power = 2.0,
+      .reason = "no lamp-off or shadow-card reading; up to 5 % of the dimmest reading is common",
+      .own_lamp = true};
 }
 
 }  // namespace lightcal::effects

@@ -32,7 +32,7 @@ struct EffectFinding {
 };
 
 [[nodiscard]] inline EffectFinding NotApplicable(std::string why) {
-  return {0.0, Treatment::kModelled, 0.0, std::move(why), false, {}, false, {}};
+  return {.reason = std::move(why), .applies = false};
 }
 
 struct Effect {

@@ -40,14 +40,11 @@ inline constexpr double kMeterWindow_s = 0.5;
     window = scene.picture->exposure_s.value_or(1.0 / 60.0);
   }
   const bool stated = scene.time.duty || scene.time.ripple;
-  return {FlickerBound(scene.time, window),
-          Treatment::kWidens,
-          0.0,
-          stated ? "the stated flicker against the time of one reading"
-                 : "no flicker stated; half the light rippling at 100 Hz is assumed",
-          true,
-          {},
-          true};
+  return {.bound = FlickerBound(scene.time, window),
+          .treatment = Treatment::kWidens,
+          .reason = stated ? "the stated flicker against the time of one reading"
+                           : "no flicker stated; half the light rippling at 100 Hz is assumed",
+          .own_lamp = true};
 }
 
 }  // namespace lightcal::effects

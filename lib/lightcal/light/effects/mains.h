@@ -23,14 +23,15 @@ inline constexpr double kFilamentShare = 0.3;
   if (scene.time.filament && !*scene.time.filament) {
     return NotApplicable("no filament: its driver regulates");
   }
-  if (scene.time.filament) {
-    return {bound, Treatment::kWidens, 0.0, "a filament follows 1 % of mains by 3.5 %", true, {},
-            true};
+  EffectFinding finding{.bound = bound,
+                        .treatment = Treatment::kWidens,
+                        .reason = "a filament follows 1 % of mains by 3.5 %",
+                        .own_lamp = true};
+  if (!scene.time.filament) {
+    finding.reason += "; three lamps in ten have one";
+    finding.sd = 0.5 * bound * std::sqrt(kFilamentShare);
   }
-  return {bound, Treatment::kWidens,
-          0.0,   "a filament follows 1 % of mains by 3.5 %; three lamps in ten have one",
-          true,  0.5 * bound * std::sqrt(kFilamentShare),
-          true};
+  return finding;
 }
 
 }  // namespace lightcal::effects

@@ -52,16 +52,14 @@ inline constexpr double kFittedWalls_ns = 16.0;
       bound = std::max(bound, MostWallLight(scene.walls, pose.distance_m) * pose.distance_m *
                                   pose.distance_m / std::cos(pose.tilt_rad));
     }
-    return {bound,
-            Treatment::kFitted,
-            2.0,
-            std::string(scene.room ? "what the [room] given adds" : "what an ordinary room adds") +
-                " at the worst reading, in 19 of 20; fitted under its prior, and a shadow-card "
-                "reading measures it",
-            true,
-            {},
-            false,
-            kFittedWalls_ns};
+    return {.bound = bound,
+            .treatment = Treatment::kFitted,
+            .distance_power = 2.0,
+            .reason = std::string(scene.room ? "what the [room] given adds"
+                                             : "what an ordinary room adds") +
+                      " at the worst reading, in 19 of 20; fitted under its prior, and a "
+                      "shadow-card reading measures it",
+            .cost_ns = kFittedWalls_ns};
   }
   if (!scene.room) {
     return {

@@ -22,15 +22,13 @@ inline constexpr double kOnForDefault_s = 1800.0;
   }
   const double on_for = scene.time.on_for_s.value_or(kOnForDefault_s);
   const double bound = kWarmUpPart * std::exp(-on_for / kWarmUpTime_s);
-  return {bound,
-          Treatment::kWidens,
-          0.0,
-          scene.time.on_for_s ? "the stated time since it was switched on"
-                              : "nobody says how long the lamp had been on; after half an hour "
-                                "this much may be left",
-          true,
-          {},
-          true};
+  return {.bound = bound,
+          .treatment = Treatment::kWidens,
+          .reason = scene.time.on_for_s
+                        ? "the stated time since it was switched on"
+                        : "nobody says how long the lamp had been on; after half an hour this much "
+                          "may be left",
+          .own_lamp = true};
 }
 
 }  // namespace lightcal::effects
