@@ -86,8 +86,7 @@ RatioAnswer RatioOf(const RatioSide& key, const RatioSide& fill) {
 }
 
 Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
-                         const std::vector<std::string>& names, const std::string& option) {
-  if (names.empty()) return WrongUsage(option, "name the lights, e.g. " + option + " window,lamp");
+                         const std::vector<std::string>& names) {
   const auto position = ParsePoint("--at", options.at);
   if (!position) return tl::unexpected(position.error());
   const auto chosen = ChooseLights(lights, names);
@@ -176,7 +175,14 @@ Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
                       "give two readings, 800lx 200lx (key first), or a light.json with --at, "
                       "--key and --fill");
   }
+  // The line first: a wrong one is told whatever the file holds.
   if (options.at.empty()) return WrongUsage("--at", "say where: --at x,y,z (metres)");
+  for (const auto& [option, names] :
+       {std::pair("--key", &options.key), std::pair("--fill", &options.fill)}) {
+    if (names->empty()) {
+      return WrongUsage(option, std::string("name the lights, e.g. ") + option + " window,lamp");
+    }
+  }
   const auto lights = LightsIn(what.front());
   if (!lights) return tl::unexpected(lights.error());
   for (const std::string& name : options.key) {
@@ -184,9 +190,9 @@ Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
       return WrongUsage("--fill", "\"" + name + "\" is the key already");
     }
   }
-  auto key = SideOf(options, *lights, options.key, "--key");
+  auto key = SideOf(options, *lights, options.key);
   if (!key) return Propagate(std::move(key));
-  auto fill = SideOf(options, *lights, options.fill, "--fill");
+  auto fill = SideOf(options, *lights, options.fill);
   if (!fill) return Propagate(std::move(fill));
   return std::pair(*std::move(key), *std::move(fill));
 }
