@@ -15,6 +15,7 @@
 #include "lightcal/core/base64.h"
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/exporters.h"
+#include "lightcal/presets/gltf_cube_maps.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/one_color_png.h"
 #include "lightcal/presets/photometric_files.h"
@@ -28,7 +29,7 @@ namespace {
 using records::Node;
 
 constexpr double kNear_m = 0.01;
-constexpr int kBlurColumns = 128, kCubeSide = 32;
+constexpr int kCubeSide = 32;
 constexpr int kArrayBuffer = 34962;
 constexpr int kElementArrayBuffer = 34963;
 constexpr int kFloat = 5126;
@@ -271,83 +272,6 @@ void AddPhotometricScene(Gltf& gltf, const LightFile& file,
 
 // ---- domes ----
 
-// A radiance as RGBD, whose value is rgb/d: at most 255 in the largest component.
-std::array<std::uint8_t, 4> RgbdOf(const std::array<double, 3>& radiance) {
-  constexpr double kTop = 255.0;
-  const double largest = std::max({radiance[0], radiance[1], radiance[2], 1.0});
-  const double d = std::clamp(std::floor(kTop / largest), 1.0, kTop) / kTop;
-  const double clipped = std::min(1.0, 1.0 / (largest * d));
-  std::array<std::uint8_t, 4> out{};
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    out[i] = static_cast<std::uint8_t>(std::lround(kTop * SrgbEncoded(radiance[i] * d * clipped)));
-  }
-  out[3] = static_cast<std::uint8_t>(std::lround(kTop * d));
-  return out;
-}
-
-// The picture towards a direction of glTF's axes, blurred by a lobe as wide as a roughness makes
-// it; a mirror shows its mean over a cone of that many radians.
-std::array<double, 3> BlurredTowards(const EnvironmentPicture& picture, const Vec3& towards,
-                                     double sharpness) {
-  std::array<double, 3> sum{};
-  double weight = 0.0;
-  const int w = picture.small_width, h = picture.small_height;
-  const int step = std::max(1, w / kBlurColumns);
-  for (int y = step / 2; y < h; y += step) {
-    const double zenith = std::numbers::pi * (y + 0.5) / h;
-    for (int x = step / 2; x < w; x += step) {
-      const double azimuth = 2.0 * std::numbers::pi * ((x + 0.5) / w - 0.5);
-      const Vec3 d = GltfFromZUp({std::sin(zenith) * std::sin(azimuth),
-                                  std::sin(zenith) * std::cos(azimuth), std::cos(zenith)});
-      const double lobe = std::exp(sharpness * (Dot(d, towards) - 1.0)) * std::sin(zenith);
-      if (lobe < 1e-6) continue;
-      weight += lobe;
-      const double* p =
-          picture.small.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                                      static_cast<std::size_t>(x));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += lobe * p[c];
-    }
-  }
-  for (double& v : sum) v = weight > 0.0 ? std::max(0.0, v / weight) : 0.0;
-  return sum;
-}
-
-// Texel (i, j) of a face of a cube map, from its upper left, as OpenGL has them.
-Vec3 TexelOfCube(int face, double s, double t) {
-  const double a = 2.0 * s - 1.0, b = 2.0 * t - 1.0;
-  const Vec3 faces[] = {{1.0, -b, -a}, {-1.0, -b, a}, {a, 1.0, b},
-                        {a, -1.0, -b}, {a, -b, 1.0},  {-a, -b, -1.0}};
-  return faces[face] * (1.0 / Length(faces[face]));
-}
-
-// Six faces a mip, from a mirror down to a single texel of a matt sheen. The lobe of a roughness r:
-// sharpness 2/r^4, as wide as GGX at r^2.
-Node PrefilteredImages(const EnvironmentPicture& picture, int side, Node& images) {
-  Node mips = Node::Array();
-  int levels = 1;
-  while ((side >> (levels - 1)) > 1) ++levels;
-  for (int level = 0; level < levels; ++level) {
-    const int width = side >> level;
-    const double roughness = std::max(0.2, static_cast<double>(level) / (levels - 1));
-    const double sharpness = 2.0 / std::pow(roughness, 4);
-    Node faces = Node::Array();
-    for (int face = 0; face < 6; ++face) {
-      std::vector<std::array<std::uint8_t, 4>> texels;
-      for (int j = 0; j < width; ++j) {
-        for (int i = 0; i < width; ++i) {
-          texels.push_back(RgbdOf(BlurredTowards(
-              picture, TexelOfCube(face, (i + 0.5) / width, (j + 0.5) / width), sharpness)));
-        }
-      }
-      faces.items.emplace_back(images.items.size());
-      images.items.push_back(
-          {{"uri", "data:image/png;base64," + Base64(PngOfTexels(width, texels))}});
-    }
-    mips.items.push_back(std::move(faces));
-  }
-  return mips;
-}
-
 // A last scene, "NAME (image based)", in which the first dome is EXT_lights_image_based
 // instead of the directional light of the others. Its irradiance, pi L in lux times the colour over
 // Y, is the one coefficient of a constant, over Y00; the mirror images are L in nits, clipped at
@@ -384,7 +308,15 @@ void AddImageBasedScene(Gltf& gltf, const LightFile& file, const std::vector<Pun
       }
     }
     gltf.images = Node::Array();
-    specular = PrefilteredImages(*picture, kCubeSide, gltf.images);
+    specular = Node::Array();
+    for (const CubeMap& mip : PrefilteredCube(*picture, kCubeSide)) {
+      Node faces = Node::Array();
+      for (const std::string& png : mip) {
+        faces.items.emplace_back(gltf.images.items.size());
+        gltf.images.items.push_back({{"uri", "data:image/png;base64," + Base64(png)}});
+      }
+      specular.items.push_back(std::move(faces));
+    }
   } else {
     const std::string uri =
         "data:image/png;base64," + Base64(PngOfOneColor(kSide, RgbdOf(radiance)));

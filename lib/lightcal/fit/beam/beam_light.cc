@@ -12,185 +12,21 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_profile.h"
+#include "lightcal/fit/beam/beam_rows.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/misfit.h"
-#include "lightcal/fit/model/row_values.h"
 
 namespace lightcal::fit {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDarkOfPeak = 2e-4;     // what a meter still sees in the dark, of the beam's peak
-constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
-constexpr double kAngleSigmaDegrees = 1.0;
-constexpr double kAnyAim = 0.4;      // 1 sigma of the tilts of an aim that nobody stated
-constexpr double kSheetAngle = 0.1;  // 1 sigma, relative, of an angle on a data sheet
 constexpr double kLeastSpan = 5.0 * kDegree;
-constexpr double kNearAxis = 1.0;             // half angles
-constexpr double kEvenSpan = 45.0 * kDegree;  // over which an even lamp has to be seen
-constexpr double kOpenBeam = 2.5;             // ends of its interval
-constexpr double kDarkEnd = 1e-3;             // of the peak: where a table ends
+constexpr double kNearAxis = 1.0;  // half angles
+constexpr double kOpenBeam = 2.5;  // ends of its interval
+constexpr double kDarkEnd = 1e-3;  // of the peak: where a table ends
 constexpr double kUnlikely = 1e-5;
 constexpr double kHardlyEven = 0.01;
 constexpr double kConeStands = 0.05;  // a spot's cone, until the readings are as much against it
-
-double AmbientOfOff(const Observations& observations) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Observation& row : observations.rows) {
-    if (row.lit || row.behind_card) continue;
-    sum += row.measured_lx;
-    ++count;
-  }
-  return count > 0 ? sum / count : 0.0;
-}
-
-// The aim as stated, or towards the brightest.
-Vec3 FirstAim(const Observations& observations, const LightDescription& light) {
-  if (light.aim) return *light.aim;
-  Vec3 middle{};
-  if (light.position_m) {
-    for (const Observation& row : observations.rows) {
-      if (!LitAndPlaced(row)) continue;
-      const Vec3 from = *row.position_m - *light.position_m;
-      middle = middle + from * (std::max(0.0, row.measured_lx) * Length(from));
-    }
-  }
-  const double length = Length(middle);
-  return length > 0.0 ? middle * (1.0 / length) : Vec3{0.0, 0.0, -1.0};
-}
-
-struct BeamRows {
-  BeamReadings readings;
-  SourceFrame frame;
-  std::vector<std::size_t> observation;  // of each row
-  bool placed = false;
-};
-
-BeamRow RowOfObservation(const Observation& o, const LightDescription& light,
-                         const SourceFrame& frame, double ambient) {
-  BeamRow row;
-  if (LitAndPlaced(o) && light.position_m) {
-    row.from_lamp = frame.Of(*o.position_m - *light.position_m);
-    if (o.normal) row.normal = frame.Of(*o.normal);
-  } else {
-    row.from_lamp = {o.distance_m * std::sin(o.off_axis_rad), 0.0,
-                     o.distance_m * std::cos(o.off_axis_rad)};
-  }
-  if (!row.normal) row.gain = std::cos(o.tilt_rad);
-  row.measured = o.measured_lx - (o.differenced || o.ambient_subtracted ? 0.0 : ambient);
-  row.sigma = o.sigma_lx;
-  return row;
-}
-
-void SetForm(bool over_range, double dark, BeamRow& row) {
-  const double sigma = std::hypot(row.sigma, dark / Dot(row.from_lamp, row.from_lamp));
-  const bool log = row.measured > 0.0 && sigma < kLinearBeyondSigma * row.measured;
-  row.form = log ? (over_range ? RowForm::kCensored : RowForm::kLog) : RowForm::kLinear;
-  row.sigma = row.own_sigma = log ? sigma / row.measured : sigma;
-}
-
-// One normal of all the hypotheses.
-std::optional<WallPrior> MergedWalls(const std::vector<WallHypothesis>& walls) {
-  if (walls.empty()) return std::nullopt;
-  WallPrior out = walls.front().prior;
-  double b = 0.0, bb = 0.0, s = 0.0, ss = 0.0;
-  for (const WallHypothesis& one : walls) {
-    const WallPrior& p = one.prior;
-    b += one.weight * p.ln_b;
-    bb += one.weight * (p.ln_b * p.ln_b + p.sd_ln_b * p.sd_ln_b);
-    s += one.weight * p.slope;
-    ss += one.weight * (p.slope * p.slope + p.sd_slope * p.sd_slope);
-  }
-  out.ln_b = b;
-  out.sd_ln_b = std::sqrt(std::max(1e-6, bb - b * b));
-  out.slope = s;
-  out.sd_slope = std::sqrt(std::max(1e-6, ss - s * s));
-  return out;
-}
-
-void AddWalls(const Observations& observations, const WallPrior& prior, BeamRows& out) {
-  for (std::size_t i = 0; i < out.readings.rows.size(); ++i) {
-    BeamRow& row = out.readings.rows[i];
-    const Observation& o = observations.rows[out.observation[i]];
-    if (!o.sees_walls || (row.lit && o.differenced)) continue;
-    const double x = std::log(Length(row.from_lamp) / kWallReference_m);
-    row.walls = WallsOfRow{x, prior.bend * x * x, std::hypot(prior.scatter, kOffAxisScatter)};
-  }
-}
-
-void AddSheet(const LightDescription& light, std::vector<SheetRow>& sheet) {
-  // Where a beam falls through half of its peak it loses about .7 of it in an angle as large as
-  // its half angle; at a tenth, about .25.
-  if (light.beam) {
-    sheet.push_back({0.5 * light.beam->value(), 0.5, 0.7 * kSheetAngle});
-  }
-  if (light.field) {
-    sheet.push_back({0.5 * light.field->value(), 0.1, 0.25 * kSheetAngle});
-  }
-}
-
-BeamRows RowsOfBeam(const Observations& observations, const LightDescription& light,
-                    const ForwardModel* model) {
-  BeamRows out;
-  out.frame = SourceFrame::Facing(FirstAim(observations, light));
-  const double ambient = AmbientOfOff(observations);
-  double peak = 0.0;
-  double shortest = std::numeric_limits<double>::infinity();
-  double widest = 0.0;
-  bool left = false;
-  bool right = false;
-  for (std::size_t i = 0; i < observations.rows.size(); ++i) {
-    const Observation& o = observations.rows[i];
-    if (!o.lit || !o.placed) continue;
-    out.readings.rows.push_back(RowOfObservation(o, light, out.frame, ambient));
-    out.observation.push_back(i);
-    const BeamRow& row = out.readings.rows.back();
-    const double r2 = Dot(row.from_lamp, row.from_lamp);
-    peak = std::max(peak, row.measured * r2);
-    shortest = std::min(shortest, std::sqrt(r2));
-    out.placed = out.placed || LitAndPlaced(o);
-    widest = std::max(widest, std::abs(o.off_axis_rad));
-    left = left || o.off_axis_rad < 0.0;
-    right = right || o.off_axis_rad > 0.0;
-  }
-  const std::size_t lit = out.readings.rows.size();
-  for (std::size_t i = 0; i < lit; ++i) {
-    SetForm(observations.rows[out.observation[i]].over_range, kDarkOfPeak * peak,
-            out.readings.rows[i]);
-  }
-  if (out.placed) {
-    const double sd = light.aim ? std::tan(kAimSigmaDegrees * kDegree) : kAnyAim;
-    out.readings.aim = {ParameterRule{true, 0.0, sd}, ParameterRule{true, 0.0, sd}};
-  } else if (left && right) {
-    out.readings.aim[0] = {true, 0.0, std::tan(kAngleSigmaDegrees * kDegree)};
-  }
-  AddSheet(light, out.readings.sheet);
-  const bool wide = out.placed || widest >= kEvenSpan;
-  out.readings.may_be_even = light.kind == LightKind::kPoint && !light.beam && !light.field && wide;
-  if (model == nullptr) return out;
-  if (model->fit_offset && model->distance_law) {
-    out.readings.offsets = model->offsets;
-    if (out.readings.offsets.empty()) {
-      out.readings.offsets = {{1.0, 0.0, kOffsetPriorRelative * shortest}};
-    }
-  }
-  // What a card hid the lamp from measures the walls for those without a card.
-  for (std::size_t i = 0; i < lit && !model->walls.empty(); ++i) {
-    const Observation& o = observations.rows[out.observation[i]];
-    if (!o.differenced || !(o.card_sigma_lx > 0.0) || !(o.card_lx > 0.0)) continue;
-    BeamRow row = out.readings.rows[i];
-    row.lit = false;
-    row.measured = o.card_lx;
-    row.sigma = std::hypot(o.card_sigma_lx, kCardHides * o.card_lx);
-    SetForm(false, 0.0, row);
-    out.readings.rows.push_back(row);
-    out.observation.push_back(out.observation[i]);
-  }
-  out.readings.walls = MergedWalls(model->walls);
-  if (out.readings.walls) AddWalls(observations, *out.readings.walls, out);
-  return out;
-}
 
 // ---- refusals ----
 
