@@ -106,7 +106,8 @@ class Planner {
 
   Result<void> Add(const std::string& path) {
     NoteInput(path);
-    auto imported = devices::ImportFile(path);
+    auto imported = settings_.columns.empty() ? devices::ImportFile(path)
+                                              : devices::ImportFile(path, settings_.columns);
     if (!imported) return Propagate(std::move(imported));
     auto readings = ReadingsOf(path, *imported);
     if (!readings) return Propagate(std::move(readings));
@@ -175,7 +176,8 @@ class Planner {
     const fs::path source(path);
     const bool absolute = one.spectrum.quantity == SpectralQuantity::kIrradiance;
     const bool strip = settings_.color_only && absolute;
-    if (imported.spectra.size() > 1 || strip) {
+    // A table whose columns were named on the line says nothing of itself to who reads it later.
+    if (imported.spectra.size() > 1 || strip || !settings_.columns.empty()) {
       const std::string part = one.name.empty() ? std::to_string(i + 1) : FileNamePart(one.name);
       const std::string name = source.stem().string() +
                                (imported.spectra.size() > 1 ? "-" + part : "") +

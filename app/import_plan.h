@@ -18,8 +18,10 @@ struct ImportSettings {
   std::string light;  // for readings whose file names none, "" = the session's only one
   std::optional<Metres> distance;  // for readings whose file gives none
   std::string meter;               // for readings whose file names none
-  std::string column;              // one spectrum of a file, by name or number from 1; "" = all
-  bool color_only = false;         // leave the illuminance out
+  std::vector<std::string>
+      columns;              // what a table's columns are, in their order; none = its header
+  std::string column;       // one spectrum of a file, by name or number from 1; "" = all
+  bool color_only = false;  // leave the illuminance out
   bool lamp_off = false;
   bool shadow_card = false;
   bool again = false;  // also what the session holds already

@@ -171,6 +171,11 @@ Run BuildImport(CLI::App& parser) {
   parser.add_option("-d,--distance", options->distance,
                     "From the lamp to the meter (0.5m, 20in), unless the file gives it");
   parser.add_option("-m,--meter", settings.meter, "Which [[meter]] of the session read it");
+  parser
+      .add_option("--columns", settings.columns,
+                  "What a table's columns are, in their order, whatever its header says: "
+                  "distance_m,illuminance_lx; - leaves one out; blanks may part them (.dat, .prn)")
+      ->delimiter(',');
   parser.add_option("--column", settings.column, "One spectrum of several: its name or number");
   parser.add_flag("--color-only", settings.color_only,
                   "Take the colour and leave the illuminance, which needs a distance");

@@ -249,6 +249,49 @@ TEST_F(Import, UnitsThatAreNotSaidAreRefused) {
   EXPECT_EQ(json::parse(result.out)["error"]["code"], "units_ambiguous");
 }
 
+TEST_F(Import, ColumnsMayBeNamedOnTheLine) {
+  // A header that says nothing; none and blanks between; a title and a column to leave out.
+  temp_.Write("room.csv", "h,epsilon\n0.5,192\n1,52\n");
+  temp_.Write("tower.dat", "tower 3, night\n 2   13,0\n 3    5,9\n");
+  temp_.Write("three.txt", "7;4;3,25\n8;5;2,08\n");
+  const std::string wanted = "distance_m,illuminance_lx";
+  const auto run = [&](const std::string& file, const std::string& columns) {
+    return Run({temp_.path() + "/" + file, "--light", "key", "--columns", columns});
+  };
+  EXPECT_EQ(run("room.csv", wanted).exit_code, 0);
+  EXPECT_EQ(run("tower.dat", wanted).exit_code, 0);
+  EXPECT_EQ(run("three.txt", "-," + wanted).exit_code, 0);
+  const auto journal = Journal();
+  ASSERT_THAT(journal, SizeIs(6));
+  const std::vector<std::pair<double, double>> truth = {{0.5, 192.0}, {1.0, 52.0}, {2.0, 13.0},
+                                                        {3.0, 5.9},   {4.0, 3.25}, {5.0, 2.08}};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    EXPECT_DOUBLE_EQ(journal[i].at("distance_m").get<double>(), truth[i].first);
+    EXPECT_DOUBLE_EQ(journal[i].at("illuminance_lx").get<double>(), truth[i].second);
+  }
+  for (const auto& [columns, says] : {std::pair("distance_m", "write - for each"),
+                                      std::pair("distance,illuminance_lx", "has no unit"),
+                                      std::pair("distanc_m,-", "did you mean distance_m?")}) {
+    const auto refused = run("room.csv", columns);
+    EXPECT_EQ(refused.exit_code, 3) << columns;
+    EXPECT_THAT(refused.err, HasSubstr(says));
+  }
+  EXPECT_THAT(Journal(), SizeIs(6));
+}
+
+TEST_F(Import, ASpectrumBetweenBlanksIsKeptInAFormThatReadsBack) {
+  std::string scan = "LI-1800\nDATE 1 2 3 4\n\n";
+  for (int nm = 380; nm <= 780; nm += 5) scan += " " + std::to_string(nm) + "  1.0E-3\n";
+  temp_.Write("scan.prn", scan);
+  const auto imported = Run({temp_.path() + "/scan.prn", "--light", "key", "--distance", "1m",
+                             "--columns", "wavelength_nm,irradiance_W_m2_nm"});
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  // 683 lm/W times the integral of V over wavelength, 106.857 nm (CIE 018), of 1 mW/(m2 nm).
+  EXPECT_NEAR(Journal().at(0).at("illuminance_lx").get<double>(), 683.002 * 106.857e-3, 0.05);
+  const auto fitted = RunLightcal({"fit", Session(), "-o", temp_.path() + "/light.json"});
+  EXPECT_EQ(fitted.exit_code, 0) << fitted.err;
+}
+
 TEST_F(Import, MissingFileFails) {
   const CliResult result = Run({temp_.path() + "/none.csv", "--light", "key", "--json"});
   EXPECT_EQ(result.exit_code, 1);

@@ -10,6 +10,7 @@ namespace lightcal::devices::files {
 
 enum class CsvQuantity {
   kUnknown,
+  kLeftOut,    // "-": a person's word for a column that is not wanted
   kNeedsUnit,  // a length, angle or irradiance whose unit the name does not say
   kDistance,
   kIlluminance,

@@ -37,13 +37,29 @@ constexpr std::array kFormats = {
     Format{"CSV whose column names carry units", files::IsPlainCsv, files::ReadPlainCsv},
 };
 
-}  // namespace
+// The file's text and what messages call it.
+struct NamedText {
+  std::string text;
+  std::string name;
+};
 
-Result<ImportedFile> ImportFile(const std::string& path) {
-  return ImportRead(files::ReadFileBytes(path, files::kMaxFileBytes), path);
+Result<NamedText> TextOf(std::string_view bytes, std::string_view name) {
+  std::string unpacked;
+  if (files::IsZip(bytes)) {
+    auto only = files::OnlyFileInZip(bytes, name);
+    if (!only) return Propagate(std::move(only));
+    unpacked = std::move(*only);
+    bytes = unpacked;
+  }
+  auto text = files::TextFromBytes(bytes, name);
+  if (!text) return Propagate(std::move(text));
+  if (TrimBlanks(*text).empty()) {
+    return Refused("no_rows", std::string(name), "is empty; export it again");
+  }
+  return NamedText{*std::move(text), std::string(name)};
 }
 
-Result<ImportedFile> ImportRead(const files::FileBytes& file, const std::string& path) {
+Result<void> CheckReadable(const files::FileBytes& file, const std::string& path) {
   switch (file.fault) {
     case files::FileFault::kMissing:
       return Failed("not_found", path, "there is no such file");
@@ -56,25 +72,39 @@ Result<ImportedFile> ImportRead(const files::FileBytes& file, const std::string&
     case files::FileFault::kNone:
       break;
   }
-  return ImportBytes(file.bytes, std::filesystem::path(path).filename().string());
+  return {};
+}
+
+std::string FileNameOf(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+}  // namespace
+
+Result<ImportedFile> ImportFile(const std::string& path, const std::vector<std::string>& columns) {
+  const auto file = files::ReadFileBytes(path, files::kMaxFileBytes);
+  if (auto readable = CheckReadable(file, path); !readable) return Propagate(std::move(readable));
+  const auto named = TextOf(file.bytes, FileNameOf(path));
+  if (!named) return tl::unexpected(named.error());
+  return files::ReadCsvOfColumns(named->text, named->name, columns);
+}
+
+Result<ImportedFile> ImportFile(const std::string& path) {
+  return ImportRead(files::ReadFileBytes(path, files::kMaxFileBytes), path);
+}
+
+Result<ImportedFile> ImportRead(const files::FileBytes& file, const std::string& path) {
+  if (auto readable = CheckReadable(file, path); !readable) return Propagate(std::move(readable));
+  return ImportBytes(file.bytes, FileNameOf(path));
 }
 
 Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name) {
-  std::string unpacked;
-  if (files::IsZip(bytes)) {
-    auto only = files::OnlyFileInZip(bytes, name);
-    if (!only) return Propagate(std::move(only));
-    unpacked = std::move(*only);
-    bytes = unpacked;
-  }
-  const auto text = files::TextFromBytes(bytes, name);
-  if (!text) return tl::unexpected(text.error());
-  if (TrimBlanks(*text).empty()) {
-    return Refused("no_rows", std::string(name), "is empty; export it again");
-  }
+  const auto named = TextOf(bytes, name);
+  if (!named) return tl::unexpected(named.error());
+  const std::string& text = named->text;
   const auto format = std::ranges::find_if(
-      kFormats, [&](const Format& candidate) { return candidate.recognise(*text); });
-  if (format != kFormats.end()) return format->read(*text, name);
+      kFormats, [&](const Format& candidate) { return candidate.recognise(text); });
+  if (format != kFormats.end()) return format->read(text, name);
   return Refused("unknown_format", std::string(name),
                  "its format is not recognised; understood are " +
                      Joined(kFormats, ", ", &Format::name) + " (" + files::PlainCsvColumns() + ")");

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/imported_file.h"
@@ -16,6 +17,9 @@ namespace lightcal::devices {
 // Fails: not_found, unreadable. Refused: unknown_format (lists what is understood), not_text,
 // bad_archive, too_large (over 256 MiB), bad_spectrum, bad_row, no_rows, units_ambiguous.
 [[nodiscard]] Result<ImportedFile> ImportFile(const std::string& path);
+// A table whose columns a person names (files/plain_csv.h, ReadCsvOfColumns).
+[[nodiscard]] Result<ImportedFile> ImportFile(const std::string& path,
+                                              const std::vector<std::string>& columns);
 // The same of a file whose bytes were read already.
 [[nodiscard]] Result<ImportedFile> ImportRead(const files::FileBytes& file,
                                               const std::string& path);

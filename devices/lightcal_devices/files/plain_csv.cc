@@ -8,99 +8,17 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal_devices/files/csv_columns.h"
-#include "lightcal_devices/files/delimited_text.h"
+#include "lightcal_devices/files/csv_table.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
 namespace lightcal::devices::files {
 namespace {
-
-bool IsCommentOrEmpty(const Row& row) {
-  const bool empty = std::ranges::all_of(
-      row.cells, [](const std::string& cell) { return TrimBlanks(cell).empty(); });
-  return empty || row.cells.front().starts_with('#');
-}
-
-// The first line that is neither empty nor a comment.
-std::string_view HeaderLine(std::string_view text) {
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    const std::string_view content = TrimBlanks(line);
-    if (!content.empty() && !content.starts_with('#')) return line;
-    text.remove_prefix(std::min(line.size() + 1, text.size()));
-  }
-  return {};
-}
-
-char DelimiterOf(std::string_view header) {
-  for (const char delimiter : {'\t', ';'}) {
-    if (header.find(delimiter) != std::string_view::npos) return delimiter;
-  }
-  return ',';
-}
-
-bool IsWord(CsvQuantity quantity) {
-  return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
-         quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
-         quantity == CsvQuantity::kShadowCard;
-}
-
-struct CsvTable {
-  std::string name;
-  std::vector<CsvColumn> columns;
-  std::vector<Row> rows;
-  bool decimal_comma = false;
-};
-
-std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_t column) {
-  return ParseNumber(CellAt(row, column), table.decimal_comma);
-}
 
 tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
                                  std::string_view code) {
   return Refused(std::string(code), AtLine(table.name, row.line),
                  "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
                      table.columns[column].written + " is no finite number");
-}
-
-bool HasDecimalComma(const CsvTable& table, char delimiter) {
-  if (delimiter == ',') return false;
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    if (IsWord(table.columns[column].quantity)) continue;
-    for (const Row& row : table.rows) {
-      if (CellAt(row, column).find(',') == std::string_view::npos) continue;
-      if (ParseNumber(CellAt(row, column), true)) return true;
-    }
-  }
-  return false;
-}
-
-Result<CsvTable> ParseTable(std::string_view text, std::string_view name) {
-  const char delimiter = DelimiterOf(HeaderLine(text));
-  auto rows = ReadRows(text, delimiter);
-  if (!rows) return Propagate(std::move(rows));
-  std::erase_if(*rows, IsCommentOrEmpty);
-  CsvTable table;
-  table.name = name;
-  // A quote left open in a comment swallows the header too.
-  if (rows->empty()) return Refused("no_rows", table.name, "holds comments only");
-  for (const std::string& written : rows->front().cells) {
-    table.columns.push_back(ColumnFromName(written));
-  }
-  table.rows.assign(std::make_move_iterator(rows->begin() + 1),
-                    std::make_move_iterator(rows->end()));
-  if (table.rows.empty()) {
-    return Refused("no_rows", table.name, "has a header and no row under it");
-  }
-  for (const Row& row : table.rows) {
-    if (row.cells.size() <= table.columns.size()) continue;
-    return Refused("bad_row", AtLine(table.name, row.line),
-                   "has " + std::to_string(row.cells.size()) + " cells, the header has " +
-                       std::to_string(table.columns.size()) +
-                       "; numbers with a decimal comma need ';' between the columns");
-  }
-  table.decimal_comma = HasDecimalComma(table, delimiter);
-  return table;
 }
 
 // A quantity whose unit is not said is never guessed.
@@ -133,7 +51,7 @@ Result<void> CheckNoQuantityTwice(const CsvTable& table, bool spectral) {
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvQuantity quantity = table.columns[i].quantity;
     const bool series = quantity == CsvQuantity::kIrradiance || quantity == CsvQuantity::kRelative;
-    if (quantity == CsvQuantity::kUnknown || (series && spectral)) continue;
+    if (IsLeftOut(quantity) || (series && spectral)) continue;
     for (std::size_t j = 0; j < i; ++j) {
       if (table.columns[j].quantity != quantity) continue;
       return Refused("units_ambiguous", table.name,
@@ -213,7 +131,7 @@ struct RowReading {
 Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, std::size_t i) {
   const CsvColumn& column = table.columns[i];
   const std::string cell(TrimBlanks(CellAt(row, i)));
-  if (cell.empty() || column.quantity == CsvQuantity::kUnknown) return {};
+  if (cell.empty() || IsLeftOut(column.quantity)) return {};
   if (IsWord(column.quantity)) {
     if (TakeWord(taken.reading, column.quantity, cell)) return {};
     return Refused("bad_row", AtLine(table.name, row.line),
@@ -289,7 +207,7 @@ Result<ImportedFile> ReadSpectra(const CsvTable& table, std::size_t wavelength) 
   std::vector<FoundSpectrum> all;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvQuantity quantity = table.columns[i].quantity;
-    if (i == wavelength || quantity == CsvQuantity::kUnknown) continue;
+    if (i == wavelength || IsLeftOut(quantity)) continue;
     if (quantity != CsvQuantity::kIrradiance && quantity != CsvQuantity::kRelative) {
       return Refused("units_ambiguous", table.name + ", column " + table.columns[i].written,
                      "does not go with wavelength_nm; beside it stand irradiance_W_m2_nm, "
@@ -305,31 +223,35 @@ Result<ImportedFile> ReadSpectra(const CsvTable& table, std::size_t wavelength) 
   return ImportedFromSpectra("csv", std::move(all));
 }
 
-}  // namespace
-
-bool IsPlainCsv(std::string_view text) {
-  const std::string_view header = HeaderLine(text);
-  const auto rows = ReadRows(header, DelimiterOf(header));
-  if (!rows || rows->empty()) return false;
-  return std::ranges::any_of(rows->front().cells, [](const std::string& name) {
-    return ColumnFromName(name).quantity != CsvQuantity::kUnknown;
-  });
-}
-
-Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name) {
-  auto table = ParseTable(text, name);
-  if (!table) return Propagate(std::move(table));
+Result<ImportedFile> ReadTable(const CsvTable& table) {
   const auto wavelength =
-      std::ranges::find(table->columns, CsvQuantity::kWavelength, &CsvColumn::quantity);
-  const bool spectral = wavelength != table->columns.end();
-  auto warnings = CheckColumns(*table);
+      std::ranges::find(table.columns, CsvQuantity::kWavelength, &CsvColumn::quantity);
+  const bool spectral = wavelength != table.columns.end();
+  auto warnings = CheckColumns(table);
   if (!warnings) return Propagate(std::move(warnings));
-  if (auto once = CheckNoQuantityTwice(*table, spectral); !once) return Propagate(std::move(once));
-  auto file =
-      spectral ? ReadSpectra(*table, static_cast<std::size_t>(wavelength - table->columns.begin()))
-               : ReadReadings(*table);
+  if (auto once = CheckNoQuantityTwice(table, spectral); !once) return Propagate(std::move(once));
+  auto file = spectral
+                  ? ReadSpectra(table, static_cast<std::size_t>(wavelength - table.columns.begin()))
+                  : ReadReadings(table);
   if (file) file->warnings.insert(file->warnings.begin(), warnings->begin(), warnings->end());
   return file;
+}
+
+}  // namespace
+
+bool IsPlainCsv(std::string_view text) { return IsTableUnderHeader(text); }
+
+Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name) {
+  const auto table = TableUnderHeader(text, name);
+  if (!table) return tl::unexpected(table.error());
+  return ReadTable(*table);
+}
+
+Result<ImportedFile> ReadCsvOfColumns(std::string_view text, std::string_view name,
+                                      const std::vector<std::string>& columns) {
+  const auto table = TableOfColumns(text, name, columns);
+  if (!table) return tl::unexpected(table.error());
+  return ReadTable(*table);
 }
 
 std::string PlainCsvColumns() { return KnownColumnNames(); }

@@ -6,6 +6,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/import_file.h"
@@ -19,6 +20,13 @@ namespace lightcal::devices::files {
 // numbers, the same quantity twice), bad_row (naming the line), no_rows, bad_spectrum.
 // A column of words that no one knows is left out with the warning column_ignored.
 [[nodiscard]] Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name);
+
+// The same of a table whose columns a person names, in their order ("-" leaves one out): of a file
+// whose own header says nothing ("h,epsilon"), of one without a header, or of columns between
+// blanks (.dat, .prn). What stands above the first row of numbers is a title. Refused besides:
+// unknown_column (a name not understood, or more cells in a row than names).
+[[nodiscard]] Result<ImportedFile> ReadCsvOfColumns(std::string_view text, std::string_view name,
+                                                    const std::vector<std::string>& columns);
 
 // The column names understood, for messages.
 [[nodiscard]] std::string PlainCsvColumns();

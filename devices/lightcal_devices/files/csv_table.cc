@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/files/csv_table.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::devices::files {
+namespace {
+
+bool IsCommentOrEmpty(const Row& row) {
+  const bool empty = std::ranges::all_of(
+      row.cells, [](const std::string& cell) { return TrimBlanks(cell).empty(); });
+  return empty || row.cells.front().starts_with('#');
+}
+
+// The first line that is neither empty nor a comment.
+std::string_view HeaderLine(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    const std::string_view content = TrimBlanks(line);
+    if (!content.empty() && !content.starts_with('#')) return line;
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+  return {};
+}
+
+char DelimiterOf(std::string_view header) {
+  for (const char delimiter : {'\t', ';'}) {
+    if (header.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return ',';
+}
+
+bool HasDecimalComma(const CsvTable& table, char delimiter) {
+  if (delimiter == ',') return false;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    if (IsWord(table.columns[column].quantity)) continue;
+    for (const Row& row : table.rows) {
+      if (CellAt(row, column).find(',') == std::string_view::npos) continue;
+      if (ParseNumber(CellAt(row, column), true)) return true;
+    }
+  }
+  return false;
+}
+
+// Runs of blanks become one tab, so that columns between blanks read as any others.
+std::string TabsForBlanks(std::string_view text) {
+  std::string tabbed;
+  bool blank = true;  // a row may begin with blanks
+  for (const char c : text) {
+    if (c == ' ' || c == '\t') {
+      blank = true;
+      continue;
+    }
+    const bool line_end = c == '\n' || c == '\r';
+    if (blank && !line_end && !tabbed.empty() && tabbed.back() != '\n') tabbed += '\t';
+    blank = false;
+    tabbed += c;
+  }
+  return tabbed;
+}
+
+Result<std::vector<CsvColumn>> ColumnsNamed(const std::vector<std::string>& names) {
+  std::vector<CsvColumn> columns;
+  for (const std::string& name : names) {
+    CsvColumn column =
+        name == "-" ? CsvColumn{CsvQuantity::kLeftOut, 1.0, name, ""} : ColumnFromName(name);
+    if (column.quantity == CsvQuantity::kUnknown || column.quantity == CsvQuantity::kNeedsUnit) {
+      const std::string nearest = NearestColumnName(name);
+      return Refused(
+          "unknown_column", "'" + name + "'",
+          std::string(column.quantity == CsvQuantity::kNeedsUnit ? "has no unit" : "is not known") +
+              (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " Understood are " +
+              KnownColumnNames() + ", and - for one to leave out");
+    }
+    columns.push_back(std::move(column));
+  }
+  return columns;
+}
+
+// Whether every column that holds numbers has one here (or nothing), and one at least.
+bool IsRowOfNumbers(const CsvTable& table, const Row& row) {
+  bool any = false;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const CsvQuantity quantity = table.columns[i].quantity;
+    if (IsWord(quantity) || quantity == CsvQuantity::kLeftOut) continue;
+    if (TrimBlanks(CellAt(row, i)).empty()) continue;
+    if (!ParseNumber(CellAt(row, i), table.decimal_comma)) return false;
+    any = true;
+  }
+  return any;
+}
+
+}  // namespace
+
+bool IsWord(CsvQuantity quantity) {
+  return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
+         quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
+         quantity == CsvQuantity::kShadowCard;
+}
+
+bool IsLeftOut(CsvQuantity quantity) {
+  return quantity == CsvQuantity::kUnknown || quantity == CsvQuantity::kLeftOut;
+}
+
+std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_t column) {
+  return ParseNumber(CellAt(row, column), table.decimal_comma);
+}
+
+bool IsTableUnderHeader(std::string_view text) {
+  const std::string_view header = HeaderLine(text);
+  const auto rows = ReadRows(header, DelimiterOf(header));
+  if (!rows || rows->empty()) return false;
+  return std::ranges::any_of(rows->front().cells, [](const std::string& name) {
+    return ColumnFromName(name).quantity != CsvQuantity::kUnknown;
+  });
+}
+
+Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) {
+  const char delimiter = DelimiterOf(HeaderLine(text));
+  auto rows = ReadRows(text, delimiter);
+  if (!rows) return Propagate(std::move(rows));
+  std::erase_if(*rows, IsCommentOrEmpty);
+  CsvTable table;
+  table.name = name;
+  // A quote left open in a comment swallows the header too.
+  if (rows->empty()) return Refused("no_rows", table.name, "holds comments only");
+  for (const std::string& written : rows->front().cells) {
+    table.columns.push_back(ColumnFromName(written));
+  }
+  table.rows.assign(std::make_move_iterator(rows->begin() + 1),
+                    std::make_move_iterator(rows->end()));
+  if (table.rows.empty()) {
+    return Refused("no_rows", table.name, "has a header and no row under it");
+  }
+  for (const Row& row : table.rows) {
+    if (row.cells.size() <= table.columns.size()) continue;
+    return Refused("bad_row", AtLine(table.name, row.line),
+                   "has " + std::to_string(row.cells.size()) + " cells, the header has " +
+                       std::to_string(table.columns.size()) +
+                       "; numbers with a decimal comma need ';' between the columns");
+  }
+  table.decimal_comma = HasDecimalComma(table, delimiter);
+  return table;
+}
+
+Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
+                                const std::vector<std::string>& names) {
+  CsvTable table;
+  table.name = name;
+  auto columns = ColumnsNamed(names);
+  if (!columns) return Propagate(std::move(columns));
+  table.columns = *std::move(columns);
+  // What parts the cells is read off the last line, as titles above may hold any character. Blanks
+  // do where nothing else does, or where they alone give the columns named (0,5 192).
+  std::string_view last = TrimBlanks(text);
+  if (const auto end = last.rfind('\n'); end != std::string_view::npos) last.remove_prefix(end + 1);
+  const std::string last_tabbed = TabsForBlanks(last);
+  const auto tabs = static_cast<std::size_t>(std::ranges::count(last_tabbed, '\t'));
+  const bool blanks =
+      last.find_first_of(";\t") == std::string_view::npos &&
+      (last.find(',') == std::string_view::npos || (tabs > 0 && tabs + 1 == table.columns.size()));
+  const std::string tabbed = blanks ? TabsForBlanks(text) : std::string(text);
+  const char delimiter = blanks ? '\t' : DelimiterOf(last);
+  auto rows = ReadRows(tabbed, delimiter);
+  if (!rows) return Propagate(std::move(rows));
+  std::erase_if(*rows, IsCommentOrEmpty);
+  table.rows = *std::move(rows);
+  table.decimal_comma = HasDecimalComma(table, delimiter);
+  const auto first =
+      std::ranges::find_if(table.rows, [&](const Row& row) { return IsRowOfNumbers(table, row); });
+  table.rows.erase(table.rows.begin(), first);
+  if (table.rows.empty()) {
+    return Refused("no_rows", table.name, "has no row of numbers in the columns named");
+  }
+  for (const Row& row : table.rows) {
+    if (row.cells.size() <= table.columns.size()) continue;
+    return Refused("unknown_column", AtLine(table.name, row.line),
+                   "has " + std::to_string(row.cells.size()) + " cells, and " +
+                       std::to_string(table.columns.size()) +
+                       " columns are named; write - for each that is to be left out");
+  }
+  return table;
+}
+
+}  // namespace lightcal::devices::files

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of text under columns whose meaning is known: by the table's own header, or because a person
+// named them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal_devices/files/csv_columns.h"
+#include "lightcal_devices/files/delimited_text.h"
+
+namespace lightcal::devices::files {
+
+struct CsvTable {
+  std::string name;
+  std::vector<CsvColumn> columns;
+  std::vector<Row> rows;
+  bool decimal_comma = false;
+};
+
+// Whether a column holds words, whether nothing is wanted of it.
+[[nodiscard]] bool IsWord(CsvQuantity quantity);
+[[nodiscard]] bool IsLeftOut(CsvQuantity quantity);
+
+// Absent where the cell is no finite number.
+[[nodiscard]] std::optional<double> NumberAt(const CsvTable& table, const Row& row,
+                                             std::size_t column);
+
+// Whether the first line that is no comment names at least one quantity.
+[[nodiscard]] bool IsTableUnderHeader(std::string_view text);
+
+// Refused: no_rows, bad_row (more cells than columns, naming the line).
+[[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name);
+
+// What stands above the first row of numbers is a title; "-" leaves a column out. Refused: no_rows,
+// unknown_column (a name not understood, or more cells in a row than names).
+[[nodiscard]] Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
+                                              const std::vector<std::string>& names);
+
+}  // namespace lightcal::devices::files
