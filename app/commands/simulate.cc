@@ -160,6 +160,30 @@ Result<std::vector<PredictedPoint>> Points(const SimulateOptions& options,
   return out;
 }
 
+// A room throws nothing back to where it does not reach.
+Result<void> CheckInRoom(const Simulated& simulated) {
+  if (!simulated.settings.room) return {};
+  const Vec3& size = simulated.settings.room->size_m;
+  const auto check = [&](const std::string& what, const Vec3& p) -> Result<void> {
+    if (IsInRoom(p, size)) return {};
+    return Refused("outside_room", what,
+                   "lies outside the room, which reaches from -" + RoundedText(0.5 * size[0], 3) +
+                       " to " + RoundedText(0.5 * size[0], 3) + " m in x, -" +
+                       RoundedText(0.5 * size[1], 3) + " to " + RoundedText(0.5 * size[1], 3) +
+                       " m in y, 0 to " + RoundedText(size[2], 3) + " m in z");
+  };
+  for (const PlacedLamp& lamp : simulated.lamps) {
+    if (IsEverywhere(lamp.source)) continue;
+    if (auto in = check(lamp.name, lamp.pose.position_m); !in) return in;
+  }
+  for (const PredictedPoint& point : simulated.points) {
+    const Vec3& p = point.at.position_m;
+    const std::string at = ShortestText(p[0]) + "," + ShortestText(p[1]) + "," + ShortestText(p[2]);
+    if (auto in = check(at, p); !in) return in;
+  }
+  return {};
+}
+
 // What a meter sees of each lamp and of what it lights, in the room it was measured in. Turned away
 // from the lamp a meter sees other walls: the tracer's surfaces differ so much.
 void PredictRooms(const SimulateOptions& options, const Input& input, Simulated& simulated) {
@@ -275,6 +299,7 @@ Result<void> RunSimulate(const SimulateOptions& options, Console& console) {
   if (!input) return tl::unexpected(input.error());
   auto simulated = Prepare(options, *input, *tolerance, console);
   if (!simulated) return Propagate(std::move(simulated));
+  if (auto in = CheckInRoom(*simulated); !in) return in;
   Predict(*simulated);
   PredictRooms(options, *input, *simulated);
   if (!options.timing) simulated->elapsed_ms.reset();

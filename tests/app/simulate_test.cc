@@ -411,6 +411,30 @@ TEST(SimulateCommand, APointIsThePixelThatLiesThere) {
   }
 }
 
+// However few points a map has, each has its own u95: between corners 4 m apart it is no straight
+// line.
+TEST(SimulateCommand, APointIsAsSureInAnyMap) {
+  const TempDir session;
+  session.Write(
+      "s/session.toml",
+      "lightcal = 1\n[room]\noutdoors = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+      "position_m = [0, 0, 2]\n[[meter]]\nname = \"m\"\nsigma_relative = 0.03\n"
+      "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = 1\nilluminance_lx = 500\n"
+      "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = 2\nilluminance_lx = 125\n");
+  const std::string file = session.path() + "/light.json";
+  ASSERT_EQ(RunLightcal({"fit", session.path() + "/s", "-o", file}).exit_code, 0);
+  const json point = LightcalJson("simulate", {file, "--at", "0,0,0"})["points"][0];
+  const double u95 = point["illuminance_lx"]["u95"];
+  for (const char* grid : {"1", "3", "5", "9", "33"}) {
+    const std::vector<Row> rows =
+        Map(session, {file, "--plane", "floor", "--size", "8m", "--grid", grid});
+    const auto middle =
+        std::ranges::find_if(rows, [](const Row& row) { return std::hypot(row.a, row.b) < 1e-9; });
+    ASSERT_NE(middle, rows.end());
+    EXPECT_NEAR(middle->u95, u95, 0.03 * u95) << grid;
+  }
+}
+
 TEST(SimulateCommand, TheSameBytesOnOneProcessorAndOnAll) {
   const TempDir folder;
   std::vector<json> lights;
@@ -506,6 +530,11 @@ TEST(SimulateCommand, ItRefusesWhatItCannotKnow) {
   EXPECT_EQ(code({"--at", "0,0,0", "--lights", "kee"}), 3);
   EXPECT_EQ(code({"--at", "0,0,0", "--room", "5,4"}), 2);
   EXPECT_EQ(code({"--at", "0,0,0", "--tol", "2"}), 2);
+  // A room throws nothing back to where it does not reach.
+  EXPECT_EQ(code({"--at", "2.5,2,0", "--room", "5,4,2.6"}), 0);
+  EXPECT_EQ(code({"--at", "2.6,2,0", "--room", "5,4,2.6"}), 3);
+  EXPECT_EQ(code({"--at", "0,0,-0.5", "--room", "5,4,2.6"}), 3);
+  EXPECT_EQ(code({"--at", "0,0,0", "--room", "5,4,1.5"}), 3) << "the lamp hangs above the ceiling";
   // A spot without a cone is simulated, and that is said; --strict refuses it.
   json spot = Light("spot", "spot", 500.0, {0.0, 0.0, 2.0});
   spot["aim"] = {0.0, 0.0, -1.0};

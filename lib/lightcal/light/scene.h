@@ -23,6 +23,15 @@ struct RoomBox {
   int bounce_patches = 6;  // along each side of each wall, where light bounces
 };
 
+// Whether p lies in the room, origin under its middle; 1 cm beyond is still in it: a meter on the
+// floor, a lamp at the wall.
+[[nodiscard]] inline bool IsInRoom(const Vec3& p, const Vec3& size_m) {
+  constexpr double kSlack = 0.01;
+  const bool level =
+      std::abs(p[0]) <= 0.5 * size_m[0] + kSlack && std::abs(p[1]) <= 0.5 * size_m[1] + kSlack;
+  return level && p[2] >= -kSlack && p[2] <= size_m[2] + kSlack;
+}
+
 // Where one reading was taken.
 struct ScenePose {
   double distance_m = 1.0;

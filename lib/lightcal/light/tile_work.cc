@@ -108,14 +108,13 @@ class TileWork {
       if (lux > 0.0) known += 1.0, sum += relative[k];
     }
     const bool dark = known < 4.5;
-    if (dark && lamp_.shape_unsure()) return std::nullopt;
+    if (dark && (lamp_.shape_unsure() || !CanSplit(r))) return std::nullopt;
     for (double& value : relative) {
       if (value < 0.0)
         value = known > 0.0 ? sum / known : std::sqrt(lamp_.lamp().doubt.variance_ln);
     }
     const double mean = 0.25 * (relative[0] + relative[1] + relative[2] + relative[3]);
-    const bool uneven = std::abs(mean - relative[4]) > kUnevenDoubt * relative[4];
-    if (uneven && (CanSplit(r) || lamp_.shape_unsure())) return std::nullopt;
+    if (std::abs(mean - relative[4]) > kUnevenDoubt * relative[4]) return std::nullopt;
     return kernels::Corners{relative[0], relative[1], relative[2], relative[3]};
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/scene.h"
 
 namespace lightcal::fit {
 namespace {
@@ -81,13 +82,6 @@ std::string RowList(const std::vector<Strength>& sorted, std::size_t begin, std:
     text += std::to_string(rows[i]);
   }
   return text;
-}
-
-bool IsInside(const Vec3& p, const Vec3& room_m) {
-  constexpr double kSlack = 0.01;  // metres: a meter on the floor, a lamp at the wall
-  const bool level =
-      std::abs(p[0]) <= 0.5 * room_m[0] + kSlack && std::abs(p[1]) <= 0.5 * room_m[1] + kSlack;
-  return level && p[2] >= -kSlack && p[2] <= room_m[2] + kSlack;
 }
 
 }  // namespace
@@ -175,12 +169,12 @@ void CheckRoom(const Session& session, const LightDescription& light, Warnings& 
   const auto add = [&](const std::string& what) {
     outside += (outside.empty() ? "" : ", ") + what;
   };
-  if (light.position_m && !IsInside(*light.position_m, size)) add("the lamp");
+  if (light.position_m && !IsInRoom(*light.position_m, size)) add("the lamp");
   int index = 0;  // over the light's readings
   for (const SessionReading& row : session.readings) {
     if (row.reading.light != light.name) continue;
     const auto& place = row.reading.position_m;
-    if (place && !IsInside(*place, size)) add("reading " + std::to_string(index));
+    if (place && !IsInRoom(*place, size)) add("reading " + std::to_string(index));
     ++index;
   }
   if (outside.empty()) return;
