@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "typed_reading.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -85,7 +86,7 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
     return {};
   }
   if (!part.empty() && (part.back() == 'K' || part.back() == 'k')) {
-    const auto cct = ParseTemperature(part);
+    const auto cct = ParseLampTemperature(part);
     if (!cct) return tl::unexpected(cct.error());
     out.front().cct = *cct;
     return {};
@@ -129,6 +130,48 @@ Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const st
     return Refused("bad_reading", text, "the distance must be above zero");
   }
   return out;
+}
+
+Result<std::vector<double>> ParseLengths(const std::string& option, const std::string& text,
+                                         char separator) {
+  std::vector<std::string> parts;
+  std::string_view rest = text;
+  for (;;) {
+    const std::size_t at = rest.find(separator);
+    parts.emplace_back(TrimBlanks(rest.substr(0, at)));
+    if (at == std::string_view::npos) break;
+    rest.remove_prefix(at + 1);
+  }
+  const auto last = SplitNumberAndUnit(parts.back());
+  std::vector<double> out;
+  for (std::string part : parts) {
+    if (last && ParseNumber(part)) part += std::string(last->unit);
+    const auto length = ParseLength(part);
+    if (!length) return WrongUsage(option, "\"" + text + "\": " + length.error().message);
+    out.push_back(length->value());
+  }
+  return out;
+}
+
+Result<std::vector<double>> ParseSides(const std::string& text, std::size_t count,
+                                       const std::string& example) {
+  if (text.empty()) return std::vector<double>();
+  const char separator = text.find(',') == std::string::npos ? 'x' : ',';
+  auto sides = ParseLengths("\"" + text + "\"", text, separator);
+  const bool positive = sides && std::ranges::all_of(*sides, [](double v) { return v > 0.0; });
+  if (positive && sides->size() == count) return sides;
+  return WrongUsage("\"" + text + "\"", "is not " + example);
+}
+
+Result<Kelvin> ParseLampTemperature(const std::string& text) {
+  constexpr double kColdestLamp = 1000.0;
+  auto cct = ParseTemperature(text);
+  if (cct && !(cct->value() > 0.0)) return WrongUsage(text, "must be above zero");
+  if (cct && !(cct->value() >= kColdestLamp)) {
+    return Refused("bad_reading", text,
+                   "no lamp is so red: a candle has 1900 K; is a digit missing?");
+  }
+  return cct;
 }
 
 Result<void> SetRoom(const std::string& text, Session& session) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person types of a lamp, its room and the meter: "52lx@1m,card=5lx", "5,4,2.6", "hobby".
+// What a person types of a lamp, its size, its room and the meter: "52lx@1m,card=5lx", "120x60cm",
+// "5,4,2.6", "hobby".
 #pragma once
 
 #include <string>
@@ -15,6 +16,18 @@ namespace lightcal::app {
 // Fails: usage. Refused: bad_reading (a distance of 0, a negative illuminance).
 [[nodiscard]] Result<std::vector<Reading>> ParseTypedReading(const std::string& text,
                                                              const std::string& light);
+
+// "6m", "6x4m", "5,4,2.6": lengths between `separator`s; the last one's unit stands for bare ones.
+[[nodiscard]] Result<std::vector<double>> ParseLengths(const std::string& option,
+                                                       const std::string& text, char separator);
+
+// So many lengths above zero ("120x60cm", "5,4,2.6"), or none of an empty text. Fails: usage, with
+// the example.
+[[nodiscard]] Result<std::vector<double>> ParseSides(const std::string& text, std::size_t count,
+                                                     const std::string& example);
+
+// The colour temperature of a lamp. Refused: bad_reading (under 1000 K, which no lamp has).
+[[nodiscard]] Result<Kelvin> ParseLampTemperature(const std::string& text);
 
 // "5,4,2.6" (metres, a reflectance of half) or "5,4,2.6,0.7", "dark", "outdoors". Fails: usage.
 [[nodiscard]] Result<void> SetRoom(const std::string& text, Session& session);

@@ -121,7 +121,12 @@ Result<Xy> XyOfTemperature(const ColorOptions& options) {
     if (!typed) return tl::unexpected(typed.error());
     duv = *typed;
   }
-  return XyFromCct(*temperature, duv);
+  const Xy xy = XyFromCct(*temperature, duv);
+  if (!(xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0)) {
+    return Refused("bad_chromaticity", "--duv",
+                   "no light lies so far from the locus; Duv is a few thousandths, such as 0.006");
+  }
+  return xy;
 }
 
 struct TypedColor {

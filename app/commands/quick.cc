@@ -271,6 +271,9 @@ Run BuildQuick(CLI::App& parser) {
       "Where it stands: 5,4,2.6 in metres (and ,0.7 for the walls' reflectance), dark "
       "or outdoors [an ordinary room]");
   parser.add_option("--diameter", options->diameter, "Of a sphere or disk, e.g. 6cm");
+  parser.add_option("--size", options->size, "Of a rect: 120x60cm");
+  parser.add_option("--length", options->length, "Of a tube, e.g. 1.2m");
+  parser.add_option("--radius", options->radius, "Of a tube, e.g. 13mm");
   parser.add_option("--inner", options->inner, "Half angle where the spot starts to fall off");
   parser.add_option("--outer", options->outer, "Half angle where the spot ends");
   parser.add_flag("--full-angles", options->full_angles, "--inner and --outer are full angles");

@@ -20,6 +20,7 @@
 #include "simulate/map_files.h"
 #include "simulate/map_plane.h"
 #include "simulate/simulate_answer.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {

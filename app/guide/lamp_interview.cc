@@ -13,7 +13,6 @@
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal_devices/meters/find_meters.h"
-#include "simulate/map_plane.h"
 #include "typed_reading.h"
 
 namespace lightcal::app {
@@ -67,15 +66,10 @@ Result<std::optional<Metres>> ParseSomeLength(const std::string& text) {
   return std::optional(*length);
 }
 
-// So many lengths above zero, or none.
-Result<std::vector<double>> ParseSides(const std::string& text, std::size_t count,
-                                       const std::string& example) {
-  if (text.empty()) return std::vector<double>();
-  const char separator = text.find(',') == std::string::npos ? 'x' : ',';
-  auto sides = ParseLengths("\"" + text + "\"", text, separator);
-  const bool positive = sides && std::ranges::all_of(*sides, [](double v) { return v > 0.0; });
-  if (positive && sides->size() == count) return sides;
-  return WrongUsage("\"" + text + "\"", "is not " + example);
+// Of a surface, whose law is another near it.
+Result<std::optional<Metres>> ParseLengthAboveZero(const std::string& text) {
+  if (text.empty()) return WrongUsage("its size", "is needed, for example 40cm");
+  return ParseSomeLength(text);
 }
 
 Result<double> ParseReflectance(const std::string& text) {
@@ -191,13 +185,14 @@ class Interview {
     LightDescription& light = session_.light;
     const LightKind kind = light.kind;
     if (kind == LightKind::kSphere || kind == LightKind::kDisk) {
-      return Take(light.diameter, {"--diameter", "Its diameter, for example 6cm:", ""},
-                  flags_.diameter, ParseSomeLength);
+      const bool needed = kind == LightKind::kDisk;
+      return Take(light.diameter, {"--diameter", "Its diameter, for example 6cm:", "", "", needed},
+                  flags_.diameter, needed ? ParseLengthAboveZero : ParseSomeLength);
     }
     if (kind == LightKind::kRect) return AskSides();
     if (kind == LightKind::kTube) {
-      auto length = Take(light.length, {"--length", "Its length, for example 1.2m:", ""},
-                         flags_.length, ParseSomeLength);
+      auto length = Take(light.length, {"--length", "Its length, for example 1.2m:", "", "", true},
+                         flags_.length, ParseLengthAboveZero);
       if (!length) return length;
       return Take(light.radius, {"--radius", "Its radius, for example 13mm:", ""}, flags_.radius,
                   ParseSomeLength);
@@ -222,12 +217,13 @@ class Interview {
 
   Result<void> AskSides() {
     std::vector<double> sides;
-    const auto parse = [](const std::string& text) {
-      return ParseSides(text, 2, "WIDTHxHEIGHT, for example 120x60cm");
+    const auto parse = [](const std::string& text) -> Result<std::vector<double>> {
+      const char* form = "WIDTHxHEIGHT, for example 120x60cm";
+      if (text.empty()) return WrongUsage("its size", std::string("is needed: ") + form);
+      return ParseSides(text, 2, form);
     };
-    auto taken = Take(sides, {"--size", "Its width and height, for example 120x60cm:", ""},
-                      flags_.size, parse);
-    if (!taken || sides.empty()) return taken;
+    const Question question{"--size", "Its width and height, for example 120x60cm:", "", "", true};
+    if (auto taken = Take(sides, question, flags_.size, parse); !taken) return taken;
     session_.light.width = Metres(sides[0]);
     session_.light.height = Metres(sides[1]);
     return {};

@@ -39,6 +39,32 @@ Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
   });
 }
 
+// A surface has a size: a softbox taken for a bulb is a quarter wrong at half a metre.
+Result<void> FillSides(LightDescription& light, const QuickOptions& options) {
+  const std::string kind(LightKindName(light.kind));
+  const auto asked = [&](const char* option, const char* example) {
+    return WrongUsage(option, "a " + kind + " has a size: " + option + " " + example);
+  };
+  const bool rect = light.kind == LightKind::kRect;
+  const bool tube = light.kind == LightKind::kTube;
+  const bool round = light.kind == LightKind::kDisk || light.kind == LightKind::kSphere;
+  if (rect && options.size.empty()) return asked("--size", "120x60cm");
+  if (tube && !light.length) return asked("--length", "1.2m");
+  if (light.kind == LightKind::kDisk && !light.diameter) return asked("--diameter", "40cm");
+  for (const auto& [option, wrong] : {std::pair("--size", !rect && !options.size.empty()),
+                                      std::pair("--length", !tube && light.length.has_value()),
+                                      std::pair("--radius", !tube && light.radius.has_value()),
+                                      std::pair("--diameter", !round && light.diameter)}) {
+    if (wrong) return WrongUsage(option, "a " + kind + " has none; did you mean another --kind?");
+  }
+  if (!rect) return {};
+  const auto sides = ParseSides(options.size, 2, "WIDTHxHEIGHT, for example 120x60cm");
+  if (!sides) return tl::unexpected(sides.error());
+  light.width = Metres(sides->at(0));
+  light.height = Metres(sides->at(1));
+  return {};
+}
+
 Result<LightDescription> DescribeLight(const QuickOptions& options) {
   LightDescription light;
   light.name = options.name;
@@ -46,7 +72,8 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
                            : !options.outer.empty() || !options.beam.empty() ? "spot"
                                                                              : "point";
   const auto known = LightKindFromName(kind);
-  if (!known) return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk or directional");
+  if (!known)
+    return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk, rect, tube or directional");
   light.kind = *known;
   const auto fixture = std::ranges::find(kFixtureNames, options.fixture);
   if (fixture != kFixtureNames.end()) {
@@ -56,6 +83,8 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
   std::optional<Radians> outer = std::nullopt;
   for (const Result<void>& filled :
        {Fill(light.diameter, options.diameter, [](const auto& t) { return ParseLength(t); }),
+        Fill(light.length, options.length, [](const auto& t) { return ParseLength(t); }),
+        Fill(light.radius, options.radius, [](const auto& t) { return ParseLength(t); }),
         Fill(inner, options.inner, [](const auto& t) { return ParseAngle(t); }),
         Fill(outer, options.outer, [](const auto& t) { return ParseAngle(t); }),
         Fill(light.beam, options.beam, [](const auto& t) { return ParseAngle(t); }),
@@ -67,6 +96,7 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
   const double half = options.full_angles ? 0.5 : 1.0;
   if (inner) light.inner = *inner * half;
   if (outer) light.outer = *outer * half;
+  if (auto sized = FillSides(light, options); !sized) return Propagate(std::move(sized));
   return light;
 }
 
@@ -74,8 +104,7 @@ constexpr const char* kQuickMeter = "meter";
 
 Result<void> AddReadings(Session& session, const QuickOptions& options) {
   std::optional<Kelvin> cct;
-  if (auto filled = Fill(cct, options.cct, [](const auto& t) { return ParseTemperature(t); });
-      !filled) {
+  if (auto filled = Fill(cct, options.cct, ParseLampTemperature); !filled) {
     return filled;
   }
   const auto sigma = SigmaAsked(options);

@@ -18,7 +18,8 @@ struct QuickOptions {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
-  std::string cct, diameter, fixture, room, meter, sigma, beam, field, lumens, watts, inner, outer;
+  std::string cct, diameter, size, length, radius, fixture, room, meter, sigma, beam, field, lumens,
+      watts, inner, outer;
   std::vector<std::string> predict_at;
   std::vector<std::string> targets;
   std::string output = "lightcal-quick";
@@ -31,8 +32,8 @@ struct QuickOptions {
   MinutesOptions minutes;
 };
 
-inline constexpr std::array<std::string_view, 5> kQuickKinds = {"point", "spot", "sphere", "disk",
-                                                                "directional"};
+inline constexpr std::array<std::string_view, 7> kQuickKinds = {
+    "point", "spot", "sphere", "disk", "rect", "tube", "directional"};
 
 // Wrong usage: what cannot be read. Refused as ParseTypedReading.
 [[nodiscard]] Result<Session> SessionFromOptions(const QuickOptions& options);

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -162,27 +163,6 @@ Result<Pixels> ParseGrid(const std::string& text, double width, double height) {
 }
 
 }  // namespace
-
-Result<std::vector<double>> ParseLengths(const std::string& option, const std::string& text,
-                                         char separator) {
-  std::vector<std::string> parts;
-  std::string_view rest = text;
-  for (;;) {
-    const std::size_t at = rest.find(separator);
-    parts.emplace_back(TrimBlanks(rest.substr(0, at)));
-    if (at == std::string_view::npos) break;
-    rest.remove_prefix(at + 1);
-  }
-  const auto last = SplitNumberAndUnit(parts.back());
-  std::vector<double> out;
-  for (std::string part : parts) {
-    if (last && ParseNumber(part)) part += std::string(last->unit);
-    const auto length = ParseLength(part);
-    if (!length) return WrongUsage(option, "\"" + text + "\": " + length.error().message);
-    out.push_back(length->value());
-  }
-  return out;
-}
 
 Result<MapPlane> ReadMapPlane(const MapPlaneWords& words, const std::vector<PlacedLamp>& lamps,
                               const std::optional<RoomBox>& room) {

@@ -35,8 +35,4 @@ struct MapPlaneWords {
 // A point of the map in the plane's own two coordinates.
 [[nodiscard]] Vec3 PointOf(const MapPlane& plane, int i, int j);
 
-// "6m", "6x4m", "5,4,2.6": lengths between `separator`s; the last one's unit stands for bare ones.
-[[nodiscard]] Result<std::vector<double>> ParseLengths(const std::string& option,
-                                                       const std::string& text, char separator);
-
 }  // namespace lightcal::app

@@ -54,6 +54,8 @@ TEST(New, ARoomWithoutWallsIsWrittenAsOne) {
                   .exit_code,
               2)
         << "no size";
+    EXPECT_EQ(RunLightcal({"new", home.path() + "/t", "--kind", "rect", "--yes"}).exit_code, 2)
+        << "a rect has a size";
   }
 }
 
@@ -66,7 +68,6 @@ INSTANTIATE_TEST_SUITE_P(
                     KindCase{"sphere", {"--diameter", "6cm"}, {"diameter_m = 0.06"}},
                     KindCase{"disk", {"--diameter", "20in"}, {"diameter_m = 0.508"}},
                     KindCase{"rect", {"--size", "120x60cm"}, {"size_m = [1.2, 0.6]"}},
-                    KindCase{"rect", {}, {"kind = \"rect\""}},
                     KindCase{"tube",
                              {"--length", "1.2m", "--radius", "13mm"},
                              {"length_m = 1.2", "radius_m = 0.013"}},

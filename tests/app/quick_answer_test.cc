@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <regex>
@@ -325,6 +327,89 @@ TEST(Ratio, HoldsTheTruthAsOftenAsItSays) {
   }
   EXPECT_GE(inside, 51) << "of 60: 57 less three standard deviations";
   EXPECT_LT(stops, 0.12) << "the meter's 8 % would be 0.32 stop";
+}
+
+// A rectangle of 1.2 x .8 m and 3000 cd/m2, 2880 cd: E on its axis by the view factor of a
+// rectangle's corner (Howell C-11), four of them, in the open; typed to four digits.
+TEST(QuickSize, ASoftboxIsAsLargeAsItIs) {
+  const auto lux = [](double d) {
+    const double a = 0.6 / d, b = 0.4 / d;
+    const double u = std::hypot(1.0, a), v = std::hypot(1.0, b);
+    return 6000.0 * (a / u * std::atan(b / u) + b / v * std::atan(a / v));
+  };
+  std::vector<std::string> line = {"quick",  "--room", "dark",   "--meter", "3%",
+                                   "--kind", "rect",   "--json", "--size",  "120x80cm"};
+  for (const double d : {0.5, 1.0, 2.0}) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.4glx@%gm", lux(d), d);
+    line.emplace_back(text.data());
+  }
+  const auto answer = RunLightcal(line);
+  ASSERT_EQ(answer.exit_code, 0) << answer.err;
+  const auto cd = nlohmann::json::parse(answer.out)["lights"][0]["intensity_cd"];
+  EXPECT_NEAR(cd["value"].get<double>(), 2880.0, 0.02 * 2880.0);
+  EXPECT_LT(cd["u95"].get<double>(), 0.1 * 2880.0);
+  // Without its size it is asked for; a lamp as long as a bus is asked about.
+  line = {"quick", "--kind", "rect"};
+  line.emplace_back("900lx@1m");
+  EXPECT_EQ(RunLightcal(line).exit_code, 2);
+  const auto bus = RunLightcal({"quick", "900lx@1m", "--kind", "rect", "--size", "120x60"});
+  EXPECT_NE(bus.err.find("write 120cm"), std::string::npos) << bus.err;
+  const auto tube = RunLightcal({"quick", "900lx@1m", "--kind", "tube"});
+  EXPECT_NE(tube.err.find("--length 1.2m"), std::string::npos) << tube.err;
+}
+
+TEST(QuickSize, InASessionItIsAskedForToo) {
+  const TempDir session;
+  session.Write("s/session.toml",
+                "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"rect\"\n"
+                "[[reading]]\nlight = \"key\"\ndistance_m = 1\nilluminance_lx = 900\n");
+  const auto fitted = RunLightcal({"fit", session.path() + "/s", "--json"});
+  EXPECT_EQ(fitted.exit_code, 3);
+  EXPECT_EQ(nlohmann::json::parse(fitted.out)["error"]["code"], "size_missing");
+}
+
+TEST(QuickColor, WhatIsNoColourIsNamed) {
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m", "--cct", "100K"}).exit_code, 3);
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m,290K"}).exit_code, 3);
+  EXPECT_EQ(RunLightcal({"color", "--cct", "3200", "--duv", "0.2"}).exit_code, 3);
+  // One meter, one lamp, two temperatures.
+  const auto mixed = RunLightcal({"quick", "52lx@1m,3200K", "13lx@2m,5600K", "6lx@3m,3200K"});
+  EXPECT_NE(mixed.err.find("different lamps or settings"), std::string::npos) << mixed.err;
+  const auto one = RunLightcal({"quick", "52lx@1m,3200K", "13lx@2m,3240K", "6lx@3m,3200K"});
+  EXPECT_EQ(one.err.find("different lamps"), std::string::npos) << one.err;
+  // A session's typing error is named; behind a green gel Duv is a colour still.
+  const TempDir folder;
+  const auto fit = [&](const std::string& color) {
+    folder.Write("s/session.toml",
+                 "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n[[reading]]\n"
+                 "light = \"key\"\ndistance_m = 1\nilluminance_lx = 52\n" +
+                     color);
+    const auto fitted = RunLightcal({"fit", folder.path() + "/s", "--json"});
+    EXPECT_EQ(fitted.exit_code, 0) << fitted.err;
+    return nlohmann::json::parse(fitted.out);
+  };
+  const auto typo = fit("cct_K = 290\n");
+  EXPECT_EQ(typo["warnings"][0]["code"], "color_unusable");
+  EXPECT_FALSE(typo["lights"][0].contains("color"));
+  const auto green = fit("cct_K = 6500\nduv = 0.06\n");
+  ASSERT_TRUE(green["lights"][0]["color"].contains("xy")) << green.dump();
+  EXPECT_FALSE(green["lights"][0]["color"].contains("cct_K"));
+  const auto law = LightcalJson("color", {"--cct", "6500", "--duv", "0.06"});
+  EXPECT_NEAR(green["lights"][0]["color"]["xy"][1].get<double>(), law["xy"][1].get<double>(), 1e-6);
+}
+
+TEST(QuickOff, MoreLightWithoutTheLampIsRefused) {
+  const auto swapped = RunLightcal({"quick", "52lx@1m,off=60lx", "--json"});
+  EXPECT_EQ(swapped.exit_code, 3);
+  EXPECT_EQ(nlohmann::json::parse(swapped.out)["error"]["code"], "dark_above_lit");
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m,card=60lx"}).exit_code, 3);
+  // As much as with it: an upper limit, and the next step is nearer, never one that leaves nothing.
+  for (const char* reading : {"52lx@1m,off=52.2lx", "52lx@1m,off=50lx"}) {
+    const auto limit = RunLightcal({"quick", reading});
+    EXPECT_EQ(limit.exit_code, 0) << limit.err;
+    EXPECT_EQ(limit.out.find("inf"), std::string::npos) << limit.out;
+  }
 }
 
 TEST(Ratio, WrongLinesTeach) {

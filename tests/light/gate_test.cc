@@ -364,6 +364,13 @@ TEST(Effects, HorizonIsATestOfTheSourcesRadius) {
   EXPECT_EQ(effects::FindHorizon(scene).bound, 0.0);
   scene.poses.front().tilt_rad = RadiansFromDegrees(85.0).value();
   EXPECT_EQ(effects::FindHorizon(scene).bound, 1.0);
+  // Facing a softbox squarely a meter sees all of it, however near; within a ball of that radius it
+  // would not.
+  scene.poses.front().tilt_rad = 0.0;
+  scene.size.diameter = Metres(2.4);
+  EXPECT_EQ(effects::FindHorizon(scene).bound, 0.0);
+  scene.kind = LightKind::kSphere;
+  EXPECT_EQ(effects::FindHorizon(scene).bound, 1.0);
 }
 
 TEST(Effects, TableInterpolationBoundsSmoothLobesBetweenTheirNodes) {

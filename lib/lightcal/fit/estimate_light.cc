@@ -77,6 +77,7 @@ void Unscale(const Scales& scales, LightEstimate& out) {
 
 // Weighted linear least squares of I alone, E0 from the lamp-off readings: the only estimate that
 // stays meaningful when the lamp cannot be told from nothing.
+constexpr double kDarkerThanDark = 4.0;  // standard deviations below no light at all
 struct LinearIntensity {
   double value = 0.0;
   double sd = std::numeric_limits<double>::infinity();
@@ -166,6 +167,12 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
                    "every reading was beyond the meter's range: measure from farther away");
   }
   const LinearIntensity linear = IntensityAboveAmbient(prepared);
+  if (linear.value < -kDarkerThanDark * linear.sd) {
+    return Refused("dark_above_lit", light,
+                   "more light was read with the lamp off or behind a card than with it on: were "
+                   "the two taken for one another, or did daylight change between them? Read both "
+                   "again, one after the other");
+  }
   if (!(linear.value > 2.0 * linear.sd)) {
     return UpperLimit(prepared, linear, observations, model.distance_law, light);
   }

@@ -277,6 +277,8 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (!observations) return Propagate(std::move(observations));
   fit::CheckTimes(session, light, warnings);
   fit::CheckRoom(session, light, warnings);
+  if (auto sized = fit::CheckLengths(session, light, warnings); !sized)
+    return Propagate(std::move(sized));
   FittedLight out = fit::Describe(light);
   out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) {

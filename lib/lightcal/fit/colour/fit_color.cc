@@ -2,6 +2,7 @@
 #include "lightcal/fit/colour/fit_color.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -17,7 +18,10 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-constexpr double kLargestDuv = 0.05;  // CIE 15:2018 9.4
+// Beyond |Duv| = .05 a CCT names no colour temperature (CIE 15:2018 9.4), but the chromaticity that
+// a meter wrote as CCT and Duv is one still: that of a lamp behind a green gel.
+constexpr double kFarthestDuv = 0.1;
+constexpr double kScatter = 9.0;  // chi squared of one reading about its instrument's mean
 constexpr double kColdestLocus = 1000.0;
 // Chi-squared with two degrees of freedom at 95 %.
 constexpr double kDisagreement = 5.991;
@@ -107,10 +111,20 @@ Estimate2 FromChromaticity(const Reading& reading, CctMethod method) {
   return {xy, sigma * sigma * Matrix2::Identity()};
 }
 
-bool UsableTemperature(const Reading& reading) {
-  return reading.cct && std::isfinite(reading.cct->value()) &&
-         reading.cct->value() >= kColdestLocus &&
-         std::abs(reading.duv.value_or(0.0)) <= kLargestDuv;
+// What makes a colour temperature none, "" where it is one.
+std::string FaultOfTemperature(const Reading& reading) {
+  const double kelvin = reading.cct->value();
+  if (!std::isfinite(kelvin)) return "it is no number";
+  if (kelvin < kColdestLocus) {
+    return "nothing that shines for the eye is colder than 1000 K: is a digit missing?";
+  }
+  const double duv = reading.duv.value_or(0.0);
+  const Xy xy = XyFromCct(*reading.cct, std::clamp(duv, -1.0, 1.0));
+  const bool light = xy.x > 0.0 && xy.y > 0.0 && xy.x + xy.y < 1.0;
+  if (std::abs(duv) > kFarthestDuv || !light) {
+    return "with Duv " + ShortestText(duv) + " it is no colour of light: Duv is a few thousandths";
+  }
+  return "";
 }
 bool UsableChromaticity(const Reading& reading) {
   return reading.xy && std::isfinite(reading.xy->x) && std::isfinite(reading.xy->y) &&
@@ -118,7 +132,7 @@ bool UsableChromaticity(const Reading& reading) {
 }
 
 std::vector<ColorReading> CollectColors(const Session& session, const LightDescription& light,
-                                        CctMethod method) {
+                                        CctMethod method, Warnings& warnings) {
   std::vector<ColorReading> out;
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
@@ -128,15 +142,23 @@ std::vector<ColorReading> CollectColors(const Session& session, const LightDescr
     const std::pair<std::string, ColorSource> instrument{reading.meter, reading.color_source};
     if (UsableChromaticity(reading)) {
       out.push_back({FromChromaticity(reading, method), instrument});
-    } else if (UsableTemperature(reading)) {
-      out.push_back({FromTemperature(reading), instrument});
+    } else if (reading.cct) {
+      const std::string fault = FaultOfTemperature(reading);
+      if (fault.empty()) {
+        out.push_back({FromTemperature(reading), instrument});
+      } else {
+        warnings.push_back({"color_unusable", light.name,
+                            RoundedText(reading.cct->value(), 4) + " K is left out: " + fault});
+      }
     }
   }
   return out;
 }
 
 // One estimate per instrument: the plain mean, its own covariance kept, scatter of the mean added.
-std::vector<Estimate2> MeansOfInstruments(const std::vector<ColorReading>& readings) {
+std::vector<Estimate2> MeansOfInstruments(const std::vector<ColorReading>& readings,
+                                          const LightDescription& light, Warnings& warnings) {
+  bool scatters = false;
   std::map<std::pair<std::string, ColorSource>, std::vector<Estimate2>> groups;
   for (const ColorReading& reading : readings) groups[reading.instrument].push_back(reading.in_xy);
   std::vector<Estimate2> out;
@@ -151,9 +173,15 @@ std::vector<Estimate2> MeansOfInstruments(const std::vector<ColorReading>& readi
       for (const Estimate2& one : group) {
         const Vector2 off = one.mean - mean.mean;
         mean.covariance += off * off.transpose() / (n * (n - 1.0));
+        scatters = scatters || off.dot(one.covariance.inverse() * off) > kScatter;
       }
     }
     out.push_back(mean);
+  }
+  if (scatters) {
+    warnings.push_back({"color_disagrees", light.name,
+                        "its colours, read by one instrument, are of different lamps or settings; "
+                        "their mean is no lamp's, and its interval holds them all"});
   }
   return out;
 }
@@ -234,7 +262,8 @@ void Withhold(const Vector2& xy, const LightDescription& light, Warnings& warnin
 FittedColor FitColor(const Session& session, const LightDescription& light, Warnings& warnings,
                      CctMethod method) {
   FittedColor color;
-  const std::vector<Estimate2> in_xy = MeansOfInstruments(CollectColors(session, light, method));
+  const std::vector<Estimate2> in_xy =
+      MeansOfInstruments(CollectColors(session, light, method, warnings), light, warnings);
   if (in_xy.empty()) return color;
   const std::vector<Estimate2> in_mired = InMiredDuv(in_xy, method);
   if (!in_mired.empty()) {

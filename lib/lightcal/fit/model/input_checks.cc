@@ -32,6 +32,12 @@ constexpr std::array<UnitSlip, 6> kSlips = {{
     {13.815511, 0.7, "1 000 000", "is their distance in mm?", "is the others' distance in mm?"},
 }};
 
+// Longer than what is lit with one lamp: a number in cm or inches taken for metres.
+constexpr double kLargestLamp = 12.0;
+constexpr double kLargestRoom = 150.0;
+constexpr double kFarthestIndoors = 40.0;
+constexpr double kFarthestPlace = 300.0;
+
 // Towards a beam's rim a degree of aim outweighs any unit: only its bright part is compared.
 constexpr double kBrightPart = 0.3;
 
@@ -186,6 +192,54 @@ void CheckRoom(const Session& session, const LightDescription& light, Warnings& 
            " m in y, 0 to " + RoundedText(size[2], 3) +
            " m in z; for its walls' light it counts as just inside: correct the positions or "
            "size_m"});
+}
+
+Result<void> CheckLengths(const Session& session, const LightDescription& light,
+                          Warnings& warnings) {
+  const bool no_rect = light.kind == LightKind::kRect && !(light.width && light.height);
+  const bool no_disk = light.kind == LightKind::kDisk && !light.diameter;
+  const bool no_tube = light.kind == LightKind::kTube && !light.length;
+  const bool read = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == light.name && row.reading.illuminance &&
+           row.reading.meter != kDataSheetMeter;
+  });
+  if (read && (no_rect || no_disk || no_tube)) {
+    const std::string key = no_rect   ? "size_m = [width, height]"
+                            : no_disk ? "diameter_m"
+                                      : "length_m (and radius_m)";
+    return Refused("size_missing", light.name,
+                   "a " + std::string(LightKindName(light.kind)) +
+                       " has a size, and near it light "
+                       "falls otherwise than with the square: give " +
+                       key + ", or kind = \"point\" where nobody knows it");
+  }
+  std::string suspect;
+  const auto hold = [&](const std::string& what, double metres, double largest) {
+    if (!(metres > largest)) return;
+    suspect += (suspect.empty() ? "" : ", ") + what + " of " + RoundedText(metres, 3) + " m";
+  };
+  for (const auto& side : {light.diameter, light.width, light.height, light.length}) {
+    if (side) hold("a lamp", side->value(), kLargestLamp);
+  }
+  if (light.position_m) hold("a lamp's place", Length(*light.position_m), kFarthestPlace);
+  if (session.room) {
+    const Vec3& size = session.room->size_m;
+    hold("a room", std::max({size[0], size[1], size[2]}), kLargestRoom);
+  }
+  const double farthest =
+      session.surroundings == Surroundings::kOutdoors ? kFarthestPlace : kFarthestIndoors;
+  double most = 0.0;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light.name || light.kind == LightKind::kDirectional) continue;
+    if (reading.distance) most = std::max(most, reading.distance->value());
+  }
+  hold("a reading at a distance", most, farthest);
+  if (suspect.empty()) return {};
+  warnings.push_back(
+      {"units_suspect", light.name,
+       suspect + ": a number without a unit is metres; write 120cm or 20in for others"});
+  return {};
 }
 
 }  // namespace lightcal::fit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What no estimate can repair: mixed units, light that grows with distance, places outside the
-// room.
+// room, sizes that are missing or no lamp's.
 #pragma once
 
 #include <string>
@@ -25,5 +25,10 @@ namespace lightcal::fit {
 // Warns of a lamp or a reading outside the [room] (outside_room): for its walls' light it counts as
 // just inside.
 void CheckRoom(const Session& session, const LightDescription& light, Warnings& warnings);
+
+// Refused: size_missing (a rect, disk or tube without its sides: near it the law is another).
+// Warns of lengths that no lamp, room or meter has (units_suspect): 120 x 60 for centimetres.
+[[nodiscard]] Result<void> CheckLengths(const Session& session, const LightDescription& light,
+                                        Warnings& warnings);
 
 }  // namespace lightcal::fit

@@ -70,6 +70,8 @@ bool SeesWalls(const Session& session, const LightDescription& light, const Read
          std::ranges::none_of(session.captures, of_its_luminance);
 }
 
+constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
+
 class Collector {
  public:
   Collector(const Session& session, const LightDescription& light)
@@ -86,7 +88,7 @@ class Collector {
       if (auto added = Add(row, index); !added) return tl::unexpected(std::move(added).error());
     }
     if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
-    SubtractShadows();
+    if (auto taken = SubtractShadows(); !taken) return Propagate(std::move(taken));
     FillSigmas();
     std::sort(out_.rejected.begin(), out_.rejected.end());
     return std::move(out_);
@@ -287,8 +289,8 @@ class Collector {
     return true;
   }
 
-  void SubtractShadows() {
-    if (out_.shadow_readings == 0) return;
+  Result<void> SubtractShadows() {
+    if (out_.shadow_readings == 0) return {};
     std::vector<bool> consumed(out_.rows.size(), false);
     const std::vector<std::size_t> shadows =
         RowsWhere([&](std::size_t j) { return relative_[j].shadow; });
@@ -302,6 +304,14 @@ class Collector {
       };
       if (!Subtract(i, shadows, shadow)) continue;
       out_.rows[i].differenced = out_.rows[i].behind_card = true;
+      // One meter, one place, seconds apart: no repeatability explains so much.
+      if (row.measured_lx < -std::max(kSwapped * row.raw_lx, row.sigma_lx)) {
+        return Refused("dark_above_lit", light_.name,
+                       "reading " + std::to_string(row.index) +
+                           ": behind the card the meter showed " +
+                           RoundedText(row.raw_lx - row.measured_lx, 4) + " lx, without it " +
+                           RoundedText(row.raw_lx, 4) + ": were the two taken for one another?");
+      }
       if (row.measured_lx < 0.0) WarnOfNegative(row);
     }
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
@@ -317,6 +327,7 @@ class Collector {
       relative_[i].sigma = std::hypot(relative_[i].sigma, kSigmaElsewhere);
     }
     Keep(consumed);
+    return {};
   }
 
   // Cutting it at 0 would make the lamp brighter than it is.

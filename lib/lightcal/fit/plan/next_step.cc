@@ -168,7 +168,13 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light) {
     return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
                " m: so far only the manufacturer's figures speak");
   }
-  return WhatMinutesBuy(session, light);
+  NextStepAdvice bought = WhatMinutesBuy(session, light);
+  // A step that leaves the interval down to nothing tells the lamp as little as none: nearer, the
+  // lamp outshines the rest.
+  if (bought.reading && bought.reading->u95_relative >= 1.0) {
+    return Say(ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light"));
+  }
+  return bought;
 }
 
 }  // namespace lightcal

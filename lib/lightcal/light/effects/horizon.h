@@ -8,16 +8,20 @@
 
 namespace lightcal::effects {
 
-// A test, not a bound: some of the source lies behind the meter as soon as its radius reaches
-// d cos(tilt); then up to all of its light is cut off.
+// A test, not a bound: some of a ball lies behind the meter as soon as its radius reaches
+// d cos(tilt); of a flat source that faces the meter, or a tube across, as soon as
+// radius sin(tilt) does: facing it squarely the meter sees all of a softbox, however near. Then up to
+// all of its light is cut off.
 [[nodiscard]] inline EffectFinding FindHorizon(const Scene& scene) {
   const std::optional<double> radius = SourceRadius(scene);
   if (!FollowsDistance(scene)) return NotApplicable("no distance law");
   if (!radius) return {0.0, Treatment::kModelled, 0.0, "a point is above the horizon or below it"};
+  const bool ball = scene.kind == LightKind::kSphere;
   bool cut = false;
   bool placed = true;
   for (const ScenePose& pose : scene.poses) {
-    if (*radius < pose.distance_m * std::cos(pose.tilt_rad)) continue;
+    const double behind = ball ? *radius : *radius * std::abs(std::sin(pose.tilt_rad));
+    if (behind < pose.distance_m * std::cos(pose.tilt_rad)) continue;
     cut = true;
     placed = placed && pose.position_m.has_value();
   }
