@@ -14,6 +14,7 @@
 #include "light_table.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/presets/light_distribution.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/contact_sheet.h"
@@ -29,7 +30,7 @@ struct LightsOptions {
   SearchWords search;
   std::vector<std::string> inputs;  // of add
   std::string as;                   // of add
-  std::string name;                 // of show
+  std::string name;                 // of show, remove and rename
   std::string output, title;        // of sheet
   bool force = false;
 };
@@ -154,6 +155,45 @@ Result<void> Show(const LightsOptions& options, Console& console) {
   return {};
 }
 
+// By its whole name or its file's: a part is enough to look at a light, not to take it away.
+Result<LibraryLight> ExactlyCalled(const std::string& name,
+                                   const std::vector<LibraryLight>& lights) {
+  auto entry = OneCalled(name, lights);
+  if (!entry) return entry;
+  const bool exact =
+      entry->light.name == name || entry->path == name || fs::path(entry->path).stem() == name;
+  if (exact) return entry;
+  return Refused("unknown_light", name,
+                 "no light is called just so; did you mean \"" + Printable(entry->light.name) +
+                     "\" (" + fs::path(entry->path).stem().string() + ")?");
+}
+
+Result<void> Remove(const LightsOptions& options, Console& console) {
+  const auto lights = Found(options, console);
+  if (!lights) return tl::unexpected(lights.error());
+  const auto entry = ExactlyCalled(options.name, *lights);
+  if (!entry) return tl::unexpected(entry.error());
+  if (auto removed = RemoveFromLibrary(*entry, *lights); !removed) return removed;
+  console.Print("removed " + entry->path + "\n");
+  console.PrintDocument({{"removed", std::vector{entry->path}}});
+  return {};
+}
+
+Result<void> Rename(const LightsOptions& options, Console& console) {
+  const auto lights = Found(options, console);
+  if (!lights) return tl::unexpected(lights.error());
+  const auto entry = ExactlyCalled(options.name, *lights);
+  if (!entry) return tl::unexpected(entry.error());
+  LightFile renamed{{entry->light}, entry->provenance};
+  renamed.lights.front().name = options.as;
+  const auto written = AddToLibrary(renamed, fs::path(entry->path).parent_path().string());
+  if (!written) return tl::unexpected(written.error());
+  if (auto removed = RemoveFromLibrary(*entry, *lights); !removed) return removed;
+  console.Print(entry->path + " is " + written->front() + " now\n");
+  console.PrintDocument({{"removed", std::vector{entry->path}}, {"files", *written}});
+  return {};
+}
+
 std::string NoteOf(const LibraryLight& entry) {
   const std::string day = DayOf(entry.provenance.time);
   const std::string file = fs::path(entry.path).filename().string();
@@ -234,6 +274,11 @@ Run BuildLights(CLI::App& parser) {
   CLI::App* const show = verb("show", "All that is known of one light", &Show);
   show->add_option("name", options->name, "Its name, its file's, or a part that is no other's")
       ->required();
+  CLI::App* const remove = verb("remove", "Takes one light out of the library", &Remove);
+  remove->add_option("name", options->name, "Its name or its file's")->required();
+  CLI::App* const rename = verb("rename", "Gives one light another name", &Rename);
+  rename->add_option("name", options->name, "Its name or its file's")->required();
+  rename->add_option("new_name", options->as, "The name it is to have")->required();
   CLI::App* const sheet = verb("sheet", "A contact sheet: a tile for each light", &Sheet);
   AddSearch(*sheet, options->search);
   sheet->add_option("-o,--output", options->output, "sheet.html, .svg or .png")->required();

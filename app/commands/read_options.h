@@ -33,6 +33,7 @@ struct ReadArguments {
   bool shadow_card = false;
   bool lamp_off = false;
   bool once = false;
+  bool undo = false;  // takes back the journal's last reading
   bool with_spectrum = false;
   bool guided = false;
   bool typed = false;

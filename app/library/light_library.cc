@@ -111,4 +111,16 @@ Result<std::vector<std::string>> AddToLibrary(const LightFile& file, const std::
   return paths;
 }
 
+Result<void> RemoveFromLibrary(const LibraryLight& entry, const std::vector<LibraryLight>& all) {
+  const auto beside = std::ranges::count(all, entry.path, &LibraryLight::path);
+  if (beside > 1) {
+    return Refused(
+        "several_lights", entry.path,
+        "holds " + std::to_string(beside) + " lights; lights add puts each into a file of its own");
+  }
+  std::error_code error;
+  if (fs::remove(entry.path, error)) return {};
+  return Failed("not_removed", entry.path, error ? error.message() : "it is gone already");
+}
+
 }  // namespace lightcal::app

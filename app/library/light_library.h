@@ -32,4 +32,9 @@ struct LibraryLight {
 [[nodiscard]] Result<std::vector<std::string>> AddToLibrary(const LightFile& file,
                                                             const std::string& folder);
 
+// Takes a light out of the library: its file goes. Refused: several_lights (a file that somebody
+// put there holds others too). Fails: not_removed.
+[[nodiscard]] Result<void> RemoveFromLibrary(const LibraryLight& entry,
+                                             const std::vector<LibraryLight>& all);
+
 }  // namespace lightcal::app

@@ -141,6 +141,25 @@ TEST_F(Library, TheDefaultFolderIsThePersons) {
   EXPECT_TRUE(fs::is_directory(folder.path() + "/data/lightcal/lights"));
 }
 
+TEST_F(Library, OneIsTakenOutOrRenamedByItsWholeName) {
+  const auto lights = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"lights", "--library", library});
+    return RunLightcal(words);
+  };
+  const CliResult part = lights({"remove", "Desk"});
+  EXPECT_EQ(part.exit_code, 3);
+  EXPECT_THAT(part.err, HasSubstr("did you mean \"Desk lamp\""));
+  EXPECT_EQ(Names({}).size(), 4U);
+  EXPECT_EQ(lights({"rename", "Desk lamp", "Reading lamp"}).exit_code, 0);
+  EXPECT_THAT(Names({"--name", "lamp"}), ElementsAre("Reading lamp"));
+  EXPECT_EQ(LightcalJson("lights", {"--library", library, "show",
+                                    "Reading lamp"})["lights"][0]["intensity_cd"]["value"],
+            40);
+  EXPECT_EQ(lights({"remove", "Reading lamp"}).exit_code, 0);
+  EXPECT_EQ(Names({}).size(), 3U);
+  EXPECT_EQ(lights({"remove", "Reading lamp"}).exit_code, 3);
+}
+
 TEST_F(Library, ALightMayBeRenamedAndABrokenFileIsPassedOver) {
   const std::string one = folder.Write(
       "one.json", LightFileToJson(FileOf({Lamp("key", LightKind::kPoint, 50, 600, 2700)})).value());

@@ -428,6 +428,32 @@ TEST(ReadTyped, AColourTemperatureMayStandBesideTheNumber) {
   EXPECT_EQ(RunLightcal(session.Read({"--lux", "192,warm"})).exit_code, 2);
 }
 
+TEST(ReadTyped, AReadingTypedWrongIsTakenBackAndTheJournalKeepsBoth) {
+  const SessionDir session;
+  const auto undo = [&](std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"read", "-s", session.dir.path(), "--undo"});
+    return RunLightcal(more);
+  };
+  const CliResult empty = undo({"--json"});
+  EXPECT_EQ(empty.exit_code, 3);
+  EXPECT_EQ(ErrorCode(empty), "nothing_to_undo");
+  for (const char* lux : {"192", "1920", "53"}) {
+    ASSERT_EQ(RunLightcal(session.Read({"--lux", lux})).exit_code, 0);
+  }
+  EXPECT_THAT(undo().out, HasSubstr("took back readings.jsonl:3: key 53.00 lx at 0.5000 m"));
+  EXPECT_THAT(undo().out, HasSubstr("readings.jsonl:2: key 1920 lx"));
+  ASSERT_EQ(RunLightcal(session.Read({"--lux", "194"})).exit_code, 0);
+  // Nothing written is lost; two readings count.
+  EXPECT_EQ(session.Journal().size(), 6U);
+  const CliResult validated = RunLightcal({"validate", session.dir.path()});
+  EXPECT_EQ(validated.exit_code, 0) << validated.out;
+  EXPECT_THAT(validated.out, HasSubstr("2 readings"));
+  EXPECT_EQ(undo().exit_code, 0);
+  EXPECT_EQ(undo().exit_code, 0);
+  EXPECT_EQ(undo().exit_code, 3);
+  EXPECT_EQ(RunLightcal({"read", "--undo"}).exit_code, 2) << "of which session";
+}
+
 TEST(ReadTyped, ANumberBecomesARowOfTheJournal) {
   const SessionDir session;
   const CliResult result = RunLightcal(session.Read({"--lux", "17.8fc", "--meter", "c800"}), "",

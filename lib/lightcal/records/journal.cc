@@ -130,15 +130,7 @@ Result<std::string> CheckedLine(const Reading& reading, const std::string& path)
   return line;
 }
 
-}  // namespace
-
-Result<void> AppendToJournal(const std::string& journal_path, std::span<const Reading> readings) {
-  std::string lines;
-  for (const Reading& reading : readings) {
-    auto line = CheckedLine(reading, journal_path);
-    if (!line) return Propagate(std::move(line));
-    lines += *line + "\n";
-  }
+Result<void> AppendLines(const std::string& journal_path, const std::string& lines) {
   constexpr mode_t kMode = 0666;
   const File file(
       ::open(journal_path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_NOFOLLOW | O_CLOEXEC, kMode));
@@ -163,6 +155,22 @@ Result<void> AppendToJournal(const std::string& journal_path, std::span<const Re
         "will be ignored");
   }
   return WriteFailure(journal_path, error);
+}
+
+}  // namespace
+
+Result<void> AppendToJournal(const std::string& journal_path, std::span<const Reading> readings) {
+  std::string lines;
+  for (const Reading& reading : readings) {
+    auto line = CheckedLine(reading, journal_path);
+    if (!line) return Propagate(std::move(line));
+    lines += *line + "\n";
+  }
+  return AppendLines(journal_path, lines);
+}
+
+Result<void> AppendUndoToJournal(const std::string& journal_path) {
+  return AppendLines(journal_path, "{\"undo\":true}\n");
 }
 
 }  // namespace lightcal

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/records/field_reader.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal/records/reading_codec.h"
 #include "lightcal/records/session_reader.h"
 #include "lightcal/records/session_toml.h"
@@ -107,6 +108,7 @@ class JournalReader {
  private:
   void ReadLine(std::string_view line, int number, bool closed, bool last) {
     const std::string where = file_name_ + ":" + std::to_string(number);
+    if (IsUndo(line)) return TakeBack(where);
     records::LitKeys keys;
     auto reading = records::ReadingFromLine(line, where, keys);
     if (reading && keys.given) {
@@ -120,6 +122,25 @@ class JournalReader {
     }
   }
 
+  static bool IsUndo(std::string_view line) {
+    if (line.find("undo") == std::string_view::npos) return false;
+    const auto node = records::ParseJson(line);
+    if (!node || node->members.size() != 1) return false;
+    const records::Node* const undo = node->Find("undo");
+    return undo != nullptr && undo->kind == records::Node::Kind::kBoolean && undo->boolean;
+  }
+
+  void TakeBack(const std::string& where) {
+    if (taken_lit_.empty()) return Reject(where, "there is no reading above it to take back");
+    Session& session = loaded_.session;
+    if (taken_lit_.back()) {
+      session.lit_readings.pop_back();
+    } else {
+      session.readings.pop_back();
+    }
+    taken_lit_.pop_back();
+  }
+
   void TakeReading(Reading reading, const std::string& where) {
     if (reading.light.empty()) {
       Reject(where, "light is missing");
@@ -127,6 +148,7 @@ class JournalReader {
       Reject(where, strange->message);
     } else {
       loaded_.session.readings.push_back({std::move(reading), where});
+      taken_lit_.push_back(false);
     }
   }
 
@@ -136,6 +158,7 @@ class JournalReader {
     } else {
       loaded_.session.lit_readings.push_back(
           {std::move(reading), where, std::move(keys.lit), std::move(keys.distances)});
+      taken_lit_.push_back(true);
     }
   }
 
@@ -152,6 +175,7 @@ class JournalReader {
 
   LoadedSession& loaded_;
   std::string file_name_;
+  std::vector<bool> taken_lit_;  // of the journal's readings, in their order: of several lamps
 };
 
 }  // namespace
