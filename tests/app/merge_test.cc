@@ -46,6 +46,33 @@ TEST(MergeCommand, OneSpotReadingGivesEveryLuminance) {
   EXPECT_EQ(answer["clipped_fraction"], 0.0);
 }
 
+// What the ISO speed promises is right within a factor of 3; a reading typed in another unit is
+// not.
+TEST(MergeCommand, AnAnchorFarFromTheIsoSpeedIsNamedWithTheUnitThatFits) {
+  const test::TempDir folder;
+  const SyntheticCamera camera = Camera();
+  const StepWedge wedge = Wedge(camera, 10.0, 1e4);
+  const Words files = ShootAll(folder, camera, Series(), wedge.Scene());
+  const auto codes = [&](double factor, const std::string& says) {
+    const json answer = MergeJson(
+        files, folder.path() + "/lum.exr",
+        {"--anchor", "230,10,60,80=" + std::to_string(factor * wedge.nits[3]), "--force"});
+    std::string found;
+    for (const json& warning : answer.value("warnings", json::array())) {
+      if (warning["code"] != "prior_conflict") continue;
+      found = warning["message"];
+    }
+    EXPECT_EQ(found.empty(), says.empty()) << factor << ": " << found;
+    EXPECT_NE(found.find(says), std::string::npos) << found;
+  };
+  codes(1.0, "");
+  codes(1.7, "");
+  codes(3.426, "foot-lamberts");
+  codes(1e-3, "kcd/m2");
+  codes(1e4, "cd/cm2");
+  codes(50.0, "ND filter");
+}
+
 TEST(MergeCommand, TheIsoPriorHoldsTheTruthInItsInterval) {
   for (const double sensitivity : {0.8, 1.0, 1.25}) {
     const test::TempDir folder;

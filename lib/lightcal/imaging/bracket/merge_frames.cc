@@ -100,6 +100,7 @@ Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& loa
   }
   const auto scale = ScaleOf(*merger, **prepared, request);
   if (!scale) return tl::unexpected(scale.error());
+  WarnOfAnchor(*scale, bracket.frames.front().file, merged.warnings);
 
   merged.frames = FramesOf(**prepared);
   merged.width = merger->frames()[0].width;

@@ -2,10 +2,13 @@
 #include "lightcal/imaging/bracket/picture_scale.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/exposure_grid.h"
@@ -108,7 +111,7 @@ Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows&
   }
   const double mean = sum / (static_cast<double>(spot.width) * spot.height);
   return PictureScale{prior * spot.luminance.value() / mean,
-                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd)};
+                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd), std::nullopt};
 }
 
 // Of the light that the camera balanced for; the middle of the factor's lamps where it does not
@@ -165,6 +168,38 @@ ScaleSource ScaleSourceOf(const BracketMergeRequest& request) {
   return read ? ScaleSource::kCamera : ScaleSource::kIsoPrior;
 }
 
+void WarnOfAnchor(const PictureScale& scale, const std::string& file, Warnings& warnings) {
+  if (!scale.iso_nits_per_unit) return;
+  constexpr double kFarSd = 4.0;
+  constexpr double kUnitSd = 2.0;
+  const double off = std::log(scale.nits_per_unit / *scale.iso_nits_per_unit);
+  const double sd = std::hypot(kEncodedPriorSd, scale.sd_relative);
+  if (std::abs(off) <= kFarSd * sd) return;
+  struct Cause {
+    double factor;
+    const char* words;
+  };
+  constexpr std::array kCauses = {
+      Cause{1e3, "written in a unit a thousand times smaller (kcd/m2 for cd/m2)"},
+      Cause{1e4, "in cd/m2 where it is cd/cm2"},
+      Cause{3.426, "in foot-lamberts (1 fL is 3.426 cd/m2)"},
+      Cause{std::numbers::pi, "an illuminance over a white card, or in apostilb: a factor of pi"},
+      Cause{10.76, "in candela per square foot"},
+  };
+  std::string why = "the place, the unit, or an ND filter that the frames do not name";
+  for (const Cause& cause : kCauses) {
+    if (std::abs(std::abs(off) - std::log(cause.factor)) > kUnitSd * kIsoPriorSd) continue;
+    why = std::string("was it ") + cause.words + "? Else the place, or an ND filter";
+    break;
+  }
+  const double factor = std::exp(std::abs(off));
+  warnings.push_back({"prior_conflict", file,
+                      "the spot reading asks for " + RoundedText(factor, 3) + " times " +
+                          (off > 0.0 ? "more" : "less") +
+                          " light than the frames' ISO speed promises, which is right within " +
+                          PercentText(kFarSd * kIsoPriorSd) + ": check " + why});
+}
+
 Result<PictureScale> ScaleOf(const BracketMerger& merger, const PreparedFrames& prepared,
                              const BracketMergeRequest& request) {
   if (request.raw) return PictureScale{PerExposure(prepared), prepared.planned.gauge_sd};
@@ -177,14 +212,17 @@ Result<PictureScale> ScaleOf(const BracketMerger& merger, const PreparedFrames& 
       spot.x -= prepared.alignment->x;
       spot.y -= prepared.alignment->y;
     }
-    return AnchorScale(merger, RowsOf(prepared, request, prior), prior, spot, ratio_sd);
+    auto scale = AnchorScale(merger, RowsOf(prepared, request, prior), prior, spot, ratio_sd);
+    const FrameInfo& shortest = prepared.frames[prepared.planned.order.front()].info;
+    if (scale && shortest.exposure.iso && shortest.exposure.time) scale->iso_nits_per_unit = prior;
+    return scale;
   }
   const bool encoded = prepared.frames[0].info.meaning == SampleMeaning::kEncoded;
   const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
-  PictureScale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd};
+  PictureScale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd, std::nullopt};
   if (request.camera && !request.camera->profile->scale.readings.empty()) {
     scale = {request.camera->profile->scale.full_scale_constant * PerExposure(prepared),
-             CameraScaleSigma(*request.camera, info)};
+             CameraScaleSigma(*request.camera, info), std::nullopt};
   }
   scale.sd_relative = std::hypot(scale.sd_relative, prepared.planned.gauge_sd);
   if (request.lamp) {

@@ -2,6 +2,9 @@
 // Luminance of a merged bracket's signals: by a spot reading, the camera's profile, or ISO speed.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/merge_frames.h"
@@ -13,7 +16,13 @@ namespace lightcal {
 struct PictureScale {
   double nits_per_unit = 0.0;  // luminance of full scale (signal 1) in the shortest frame
   double sd_relative = 0.0;
+  // Of an anchored one: what the frames' ISO speed had promised; absent where they name none.
+  std::optional<double> iso_nits_per_unit{};
 };
+
+// An anchor four standard deviations off what the ISO speed promises, and what may explain it
+// (prior_conflict).
+void WarnOfAnchor(const PictureScale& scale, const std::string& file, Warnings& warnings);
 
 // An anchor comes before a profile's scale, and that before what ISO speeds promise.
 // Refused: bad_anchor.
