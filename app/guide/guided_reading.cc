@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "calibration_options.h"
 #include "guide/drawings.h"
@@ -104,7 +106,12 @@ class Walk {
   Result<void> TakeSteps() {
     while (true) {
       const auto advice = guide_->Next();
-      if (!advice) return tl::unexpected(advice.error());
+      if (!advice) {
+        const auto undone = OfferToTakeBack(advice.error());
+        if (!undone) return tl::unexpected(undone.error());
+        if (*undone) continue;
+        return tl::unexpected(advice.error());
+      }
       if (advice->kind != GuideAdvice::Kind::kMeasure) {
         ending_ = advice->kind == GuideAdvice::Kind::kReached ? Ending::kReached : Ending::kNoGain;
         best_left_ = advice->step.u95_relative;
@@ -140,6 +147,13 @@ class Walk {
         continue;
       }
       if (answer->kind == StepAnswer::Kind::kQuit) return false;
+      if (answer->kind == StepAnswer::Kind::kUndo) {
+        const auto undone = TakeBack();
+        if (!undone) return tl::unexpected(undone.error());
+        if (*undone) return true;
+        prompt = Offer(step);
+        continue;
+      }
       if (answer->kind == StepAnswer::Kind::kSkip) {
         guide_->Skip(advised);
         return true;
@@ -154,6 +168,31 @@ class Walk {
       if (*kept) return true;
       prompt = "\n" + Instruction(step) + "\n" + Offer(step);
     }
+  }
+
+  // Readings that contradict one another lead nowhere: one of them may go. False: the person stops.
+  Result<bool> OfferToTakeBack(const Error& error) {
+    if (taken_ == 0) return false;
+    Explain(error);
+    const auto answer = Ask("   u = take the last reading back, Enter = stop here: ");
+    if (!answer || (*answer != "u" && *answer != "undo")) return false;
+    return TakeBack();
+  }
+
+  // The last reading of this run counts no more; its line stays in the journal. False: there is
+  // none.
+  Result<bool> TakeBack() {
+    if (!guide_->TakeBack()) {
+      console_.Note("   nothing was read in this run yet");
+      return false;
+    }
+    if (auto kept = AppendUndoToJournal(JournalPath(options_.session)); !kept) {
+      return Propagate(std::move(kept));
+    }
+    --taken_;
+    console_.Note("   took the last reading back");
+    if (guide_->light()) console_.Note(Progress());
+    return true;
   }
 
   [[nodiscard]] Result<StepAnswer> Understood(const std::string& text,
@@ -211,7 +250,8 @@ class Walk {
   [[nodiscard]] std::string Offer(const PlannedReading& step) const {
     const bool may_move = step.action == PlannedAction::kRead && step.distance;
     const std::string moved = may_move ? "0.8m = it stands at 0.8 m instead, " : "";
-    const std::string others = moved + "s = skip, q = stop";
+    const std::string others =
+        moved + "s = skip, " + (taken_ > 0 ? "u = take the last one back, " : "") + "q = stop";
     if (!typed_) return "   Enter = measure, " + others + ": ";
     const std::string at =
         step.distance ? " at " + ShortestText(step.distance->value()) + " m" : "";
@@ -264,11 +304,16 @@ class Walk {
     return typed_ || (error.kind == ErrorKind::kFailed && !source_.meter()->IsReplay());
   }
 
-  void Report(const Reading& reading) const {
+  void Report(const Reading& reading) {
     const auto share = guide_->other_light_share();
     if (reading.shadow_card && share) {
       console_.Note("   " + PercentText(*share) +
                     " of what the meter saw here came from elsewhere; it is taken off.");
+    }
+    for (const Warning& warning : guide_->warnings()) {
+      if (std::ranges::find(told_, warning.code) != told_.end()) continue;
+      told_.push_back(warning.code);  // once a cause
+      console_.Note("   note: " + InOptionWords(warning.message));
     }
     if (guide_->light()) console_.Note(Progress());
   }
@@ -338,6 +383,7 @@ class Walk {
   double best_left_ = 0.0;  // relative, by the step that was not worth taking
   bool typed_ = false;
   bool drawn_ = false;
+  std::vector<std::string> told_;  // codes of the fit's warnings that were shown
   int step_ = 0;
   int taken_ = 0;
 };

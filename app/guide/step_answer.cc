@@ -31,6 +31,7 @@ Result<StepAnswer> ParseStepAnswer(const std::string& text, bool typed) {
   const std::string answer(TrimBlanks(text));
   const std::string word = LowerAscii(answer);
   if (word == "s" || word == "skip") return StepAnswer{StepAnswer::Kind::kSkip, "", {}};
+  if (word == "u" || word == "undo") return StepAnswer{StepAnswer::Kind::kUndo, "", {}};
   if (word == "q" || word == "quit") return StepAnswer{StepAnswer::Kind::kQuit, "", {}};
   if (word.starts_with("at ")) return MovedTo(answer.substr(3));
   if (word.starts_with('@')) return MovedTo(answer.substr(1));

@@ -142,6 +142,30 @@ TEST(GuidedSession, FromNothingToPresetsWithATypedMeter) {
   ExpectTheLampInTheEngines(home.path(), truth);
 }
 
+// What the fit warns of is told while the meter is still in its place, and a slip of the finger is
+// taken back without leaving.
+TEST(GuidedSession, TheFitsDoubtsAreToldAndASlipIsTakenBack) {
+  const NoUsb machine;
+  const TempDir home;
+  home.Write("s/session.toml",
+             "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+             "fixture = \"bulb\"\n[[meter]]\nname = \"m\"\nsigma_relative = 0.02\n");
+  const CliResult walked =
+      RunProgram({LIGHTCAL_BINARY, "read", "-s", home.path() + "/s", "--guided", "--typed",
+                  "--no-shadow-card"},
+                 // 100 cd, a digit too many, another lamp's colour, a distance said 60 cm wrong.
+                 "400,3200K@0.5m\n999@1m\nk\nu\n100,5600K@1m\n25@2.6m\nk\nu\nq\n");
+  EXPECT_EQ(walked.exit_code, 0) << walked.err;
+  EXPECT_THAT(walked.err, HasSubstr("took the last reading back")) << walked.out;
+  EXPECT_THAT(walked.err, HasSubstr("   note: its colours")) << walked.out;
+  const auto rows = RowsOf(home.path() + "/s/readings.jsonl");
+  ASSERT_EQ(rows.size(), 6U);
+  EXPECT_EQ(rows[2]["undo"], true);
+  EXPECT_EQ(rows[5]["undo"], true);
+  const CliResult validated = RunLightcal({"validate", home.path() + "/s"});
+  EXPECT_THAT(validated.out, HasSubstr("2 readings"));
+}
+
 SekonicSetting Sekonic() {
   SekonicSetting setting;
   setting.measurement = RecordedReply(kReply407lx);

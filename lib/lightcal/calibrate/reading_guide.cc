@@ -41,10 +41,20 @@ ReadingGuide::ReadingGuide(const Session& session, const std::string& light, dou
     if (row.reading.light == light) session_.readings.push_back(row);
   }
   shadow_cards_ = shadow_cards && TakesShadowCards(session_.lights.front().kind);
-  if (auto fitted = FitOf(session_.readings)) fitted_ = *std::move(fitted);
+  given_ = session_.readings.size();
+  FitAll();
 }
 
-Result<FittedLight> ReadingGuide::FitOf(const std::vector<SessionReading>& readings) const {
+void ReadingGuide::FitAll() {
+  auto fitted = FitOf(session_.readings);
+  fitted_.reset();
+  warnings_.clear();
+  if (!fitted) return;
+  fitted_ = std::move(fitted->lights.lights.front());
+  warnings_ = std::move(fitted->warnings);
+}
+
+Result<FittedSession> ReadingGuide::FitOf(const std::vector<SessionReading>& readings) const {
   const bool read =
       std::ranges::any_of(readings, [](const SessionReading& row) { return IsLit(row.reading); });
   if (!read) {
@@ -52,15 +62,15 @@ Result<FittedLight> ReadingGuide::FitOf(const std::vector<SessionReading>& readi
   }
   Session session = session_;
   session.readings = readings;
-  auto fitted = FitSession(session, {});
-  if (!fitted) return Propagate(std::move(fitted));
-  return std::move(fitted->lights.lights.front());
+  return FitSession(session, {});
 }
 
 Result<FittedLight> ReadingGuide::FitWith(const Reading& reading) const {
   std::vector<SessionReading> readings = session_.readings;
   readings.push_back({reading, "this reading"});
-  return FitOf(readings);
+  auto fitted = FitOf(readings);
+  if (!fitted) return Propagate(std::move(fitted));
+  return std::move(fitted->lights.lights.front());
 }
 
 std::optional<double> ReadingGuide::u95_relative() const {
@@ -144,8 +154,20 @@ void ReadingGuide::Add(const Reading& reading) {
     }
     if (reading.shadow_card) uncarded_.reset();
   }
-  auto fitted = FitOf(session_.readings);
-  fitted_ = fitted ? std::optional(*std::move(fitted)) : std::nullopt;
+  FitAll();
+}
+
+bool ReadingGuide::TakeBack() {
+  if (session_.readings.size() == given_) return false;
+  const std::vector<SessionReading> added(session_.readings.begin() + std::ptrdiff_t(given_),
+                                          session_.readings.end() - 1);
+  session_.readings.resize(given_);
+  uncarded_.reset();
+  other_share_.reset();
+  other_lux_.reset();
+  FitAll();
+  for (const SessionReading& row : added) Add(row.reading);
+  return true;
 }
 
 void ReadingGuide::Skip(const PlannedReading& step) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/plan_readings.h"
 #include "lightcal/records/session.h"
 
@@ -40,17 +41,22 @@ class ReadingGuide {
   // Why this reading looks like a mistake, "" where it does not.
   [[nodiscard]] std::string DoubtAbout(const Reading& reading) const;
   void Add(const Reading& reading);
+  // The last reading added counts no more; false where none was added.
+  bool TakeBack();
   // This step is not advised again; a card skipped once is not asked for again anywhere.
   void Skip(const PlannedReading& step);
 
   // What the readings so far say; absent before the first, and where they say nothing.
   [[nodiscard]] const std::optional<FittedLight>& light() const { return fitted_; }
   [[nodiscard]] std::optional<double> u95_relative() const;
+  // What that fit warns of.
+  [[nodiscard]] const Warnings& warnings() const { return warnings_; }
   // Of the last pair: what the card left over what the meter saw without it.
   [[nodiscard]] std::optional<double> other_light_share() const { return other_share_; }
 
  private:
-  [[nodiscard]] Result<FittedLight> FitOf(const std::vector<SessionReading>& readings) const;
+  [[nodiscard]] Result<FittedSession> FitOf(const std::vector<SessionReading>& readings) const;
+  void FitAll();
   [[nodiscard]] std::optional<PlannedReading> PendingCard() const;
   // The lit reading of the same place, the newest; null = none.
   [[nodiscard]] const Reading* LitAtPlaceOf(const Reading& card) const;
@@ -61,7 +67,9 @@ class ReadingGuide {
   bool shadow_cards_;
   std::vector<PlannedReading> skipped_;
   std::optional<Reading> uncarded_;  // the newest lit reading without a card
+  std::size_t given_ = 0;            // readings that the session came with
   std::optional<FittedLight> fitted_;
+  Warnings warnings_;
   std::optional<double> other_share_, other_lux_;
 };
 
