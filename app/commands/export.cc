@@ -27,7 +27,7 @@ struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
-  std::string space, white, range, spots = "auto";
+  std::string space, white, range, spots = "auto", renderer;
   bool bare = false;
   bool force = false;
 };
@@ -43,6 +43,12 @@ Result<void> CheckStems(const std::vector<std::string>& inputs) {
     }
   }
   return {};
+}
+
+std::vector<std::string> UsdRenderers() {
+  std::vector<std::string> words;
+  for (const UsdReadingRow& row : UsdReadings()) words.emplace_back(row.word);
+  return words;
 }
 
 Result<PresetOptions> OptionsOf(const ExportOptions& options) {
@@ -61,6 +67,9 @@ Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   preset.spots = options.spots == "ies"    ? SpotForm::kIes
                  : options.spots == "cone" ? SpotForm::kCone
                                            : SpotForm::kAuto;
+  for (const UsdReadingRow& row : UsdReadings()) {
+    if (row.word == options.renderer) preset.usd_reading = row.reading;
+  }
   if (!options.range.empty()) {
     const auto range = ParseLength(options.range);
     if (!range || !(range->value() > 0.0)) {
@@ -151,6 +160,10 @@ Run BuildExport(CLI::App& parser) {
           "intensity")
       ->check(CLI::IsMember({"auto", "ies", "cone"}))
       ->capture_default_str();
+  parser
+      .add_option("--renderer", options->renderer,
+                  "The variant that a .usda opens with: who will render it [spec]")
+      ->check(OneOf(UsdRenderers()));
   parser.add_flag("--bare", options->bare, "The lights only, no cards and camera");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunExport(*options, console); };

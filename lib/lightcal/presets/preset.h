@@ -14,6 +14,7 @@
 #include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/environment_picture.h"
 #include "lightcal/presets/light_color.h"
+#include "lightcal/presets/usd_readings.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal {
@@ -34,7 +35,8 @@ struct PresetOptions {
   SpotForm spots = SpotForm::kAuto;
   // The pictures that domes name, one a light (null = none), or none at all: then domes are even.
   std::vector<std::shared_ptr<const EnvironmentPicture>> environments{};
-  bool figures_only = false;  // pictures are not encoded: their files stay empty
+  UsdReading usd_reading = UsdReading::kSpec;  // the variant a .usda opens with
+  bool figures_only = false;                   // pictures are not encoded: their files stay empty
 };
 
 struct PresetFile {

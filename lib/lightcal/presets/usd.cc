@@ -2,8 +2,11 @@
 // <stem>.usda: UsdLux in metres, Z up. Luminance is nits at intensity 1 and exposure 0; colours are
 // max-normalised (Unreal's importer clips above 1) and intensities divided by their luminance.
 // normalize is 0 for area lights, whose area renderers measure differently, and 1 for distant
-// lights, whose intensity then is lux.
+// lights, whose intensity then is lux. No light is said to be a point: Arnold then leaves its
+// radius out. What renderers are documented to read otherwise stands in variants of the root
+// prim (usd_readings.h): values all agree on are the light's own, the others are its variants'.
 // Sources: OpenUSD pxr/usd/usdLux/schema.usda and overview.dox.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -13,6 +16,7 @@
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/usd_readings.h"
 
 namespace lightcal {
 namespace {
@@ -21,7 +25,8 @@ using preset_text::Identifier;
 using preset_text::Numbers;
 using preset_text::Quoted;
 
-constexpr double kPointRadius_m = 0.005;  // no light may have no size
+constexpr double kPointRadius_m = 0.005;     // no light may have no size
+constexpr double kSunsAngle_degrees = 0.53;  // the schema's own, where nits need one
 constexpr EngineForms kUsdForms = {.sphere = true,
                                    .disk = true,
                                    .rect = true,
@@ -44,7 +49,36 @@ void PutUsdCone(const SpotCone& cone, DerivedLight& out) {
   out.Put("shaping:cone:softness", 1.0 - cone.inner.value() / cone.outer.value());
 }
 
-DerivedLight DeriveUsd(const PresetLight& light) {
+// Of E = L pi sin^2(angle/2).
+void PutDistant(const PresetLight& light, UsdReading reading, DerivedLight& out) {
+  const double lux = light.lux / light.color().luminance;
+  const double angle = light.angular_diameter_deg.value_or(0.0);
+  out.type = "DistantLight";
+  if (reading == UsdReading::kKarma) {
+    const double degrees = angle > 0.0 ? angle : kSunsAngle_degrees;
+    const double sine = std::sin(RadiansFromDegrees(degrees / 2.0).value());
+    out.Put("angle", degrees);
+    out.Put("intensity", lux / (std::numbers::pi * sine * sine));
+    out.Put("normalize", 0.0);
+    return;
+  }
+  out.Put("angle", angle);
+  out.Put("intensity", reading == UsdReading::kRtx2024 ? lux / std::numbers::pi : lux);
+  out.Put("normalize", 1.0);
+}
+
+void PutTube(const PresetLight& light, UsdReading reading, DerivedLight& out) {
+  const double nits = light.nits / light.color().luminance;
+  const bool normalised = reading == UsdReading::kArnold;
+  out.type = "CylinderLight";
+  out.Put("length", light.length_m);
+  out.Put("radius", light.radius_m);
+  out.Put("intensity",
+          normalised ? nits * 2.0 * std::numbers::pi * light.radius_m * light.length_m : nits);
+  out.Put("normalize", normalised ? 1.0 : 0.0);
+}
+
+DerivedLight DeriveUsd(const PresetLight& light, UsdReading reading) {
   DerivedLight out;
   out.substitution = light.substitution;
   const Rgb c = light.environment ? Rgb{1.0, 1.0, 1.0} : light.color().max_normalised;
@@ -58,6 +92,7 @@ DerivedLight DeriveUsd(const PresetLight& light) {
       break;
     case LightForm::kTable:  // the file's candela multiply the luminance: 1 cd by itself
       PutSphere(light, kPointRadius_m, 1.0, out);
+      out.Put("shaping:cone:angle", 180.0);  // the schema's fallback cuts at 90
       break;
     case LightForm::kSphere:
       PutSphere(light, light.radius_m, light.candela, out);
@@ -74,21 +109,17 @@ DerivedLight DeriveUsd(const PresetLight& light) {
       out.Put("intensity", light.nits / luminance);
       break;
     case LightForm::kTube:
-      out.type = "CylinderLight";
-      out.Put("length", light.length_m);
-      out.Put("radius", light.radius_m);
-      out.Put("intensity", light.nits / luminance);
-      break;
+      PutTube(light, reading, out);
+      return out;
     case LightForm::kDirectional:
-      out.type = "DistantLight";
-      out.Put("angle", light.angular_diameter_deg.value_or(0.0));
-      out.Put("intensity", light.lux / luminance);
-      break;
+      PutDistant(light, reading, out);
+      return out;
     case LightForm::kDome:
       out.type = "DomeLight";
       out.Put("intensity", light.environment ? 1.0 : light.nits / luminance);
-      break;
+      return out;
   }
+  out.Put("normalize", 0.0);
   return out;
 }
 
@@ -102,15 +133,47 @@ std::string Matrix(const ObjectFrame& f) {
          " )\n    uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
 }
 
-std::string UsdField(const DerivedField& field) {
+std::string UsdField(const DerivedField& field, const std::string& indent) {
   const bool color = field.name == "color";
-  return std::string("    ") + (color ? "color3f" : "float") + " inputs:" + field.name + " = " +
+  const char* type = color ? "color3f" : field.name == "normalize" ? "bool" : "float";
+  return indent + type + " inputs:" + field.name + " = " +
          (color ? "(" + Numbers(field.values) + ")" : ShortestText(field.values[0])) + "\n";
 }
 
+// One light as every renderer is to be given it, in the order of UsdReadings().
+using DerivedByReading = std::vector<DerivedLight>;
+
+bool AllAgree(const DerivedByReading& readings, const std::string& name) {
+  const DerivedField* first = readings.front().Find(name);
+  return std::ranges::all_of(readings, [&](const DerivedLight& light) {
+    return light.Find(name)->values == first->values;
+  });
+}
+
+// The root prim's variants: what its lights have that not all renderers agree on.
+std::string Variants(const std::vector<std::string>& prims,
+                     const std::vector<DerivedByReading>& lights) {
+  std::string text = "\n  variantSet \"renderer\" = {\n";
+  for (std::size_t r = 0; r < UsdReadings().size(); ++r) {
+    const UsdReadingRow& row = UsdReadings()[r];
+    text += "    " + Quoted(row.word) + " (\n      doc = " + Quoted(row.note) + "\n    ) {\n";
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      std::string fields;
+      for (const DerivedField& field : lights[i][r].fields) {
+        if (!AllAgree(lights[i], field.name)) fields += UsdField(field, "        ");
+      }
+      if (fields.empty()) continue;
+      text += "      over \"" + prims[i] + "\"\n      {\n" + fields + "      }\n";
+    }
+    text += "    }\n";
+  }
+  return text + "  }\n";
+}
+
 std::string LightPrim(const std::string& name, const FittedLight& lamp, const PresetLight& light,
-                      const DerivedLight& derived, const std::optional<PresetFile>& ies,
+                      const DerivedByReading& readings, const std::optional<PresetFile>& ies,
                       const std::string& picture) {
+  const DerivedLight& derived = readings.front();
   const bool table = light.form == LightForm::kTable && ies;
   const bool shaped = table || light.form == LightForm::kSpot;
   std::string text = "\n  def " + derived.type + " \"" + name + "\" (\n";
@@ -123,15 +186,10 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
                ? "\n      double distance_offset_m = " + ShortestText(lamp.distance_offset_m->value)
                : std::string()) +
           "\n    }\n  )\n  {\n";
-  for (const DerivedField& field : derived.fields) text += UsdField(field);
+  for (const DerivedField& field : derived.fields) {
+    if (AllAgree(readings, field.name)) text += UsdField(field, "    ");
+  }
   text += "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
-  if (light.form != LightForm::kDome) {
-    text += std::string("    bool inputs:normalize = ") +
-            (light.form == LightForm::kDirectional ? "1\n" : "0\n");
-  }
-  if (light.form == LightForm::kPoint || light.form == LightForm::kSpot || table) {
-    text += "    bool treatAsPoint = 1\n";
-  }
   if (table) {
     text += "    asset inputs:shaping:ies:file = @./" + ies->name +
             "@\n    bool inputs:shaping:ies:normalize = 0\n";
@@ -194,7 +252,9 @@ std::string Head(const LightFile& file, const Rig& rig, const PresetOptions& opt
          ShortestText(rig.exposure.ev100) +
          "\n    double exposure = " + ShortestText(rig.exposure.scale) +
          "\n    string colorSpace = " + Quoted(RgbSpaceWord(options.color.space)) +
-         "\n  }\n)\n\ndef Xform \"lightcal\"\n{\n";
+         "\n  }\n)\n\ndef Xform \"lightcal\" (\n  variants = {\n    string renderer = \"" +
+         std::string(UsdReadings()[static_cast<std::size_t>(options.usd_reading)].word) +
+         "\"\n  }\n  prepend variantSets = \"renderer\"\n)\n{\n";
 }
 
 }  // namespace
@@ -210,19 +270,25 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
   std::string text = Head(lights, rig, options);
   std::set<std::string> taken = {"card_0", "card_1", "card_material_0", "card_material_1",
                                  "rig_camera"};
+  std::vector<std::string> prims;
+  std::vector<DerivedByReading> readings;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& light = (*forms)[i];
-    preset.derived.push_back(DeriveUsd(light));
-    auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
-    if (!finite) return Propagate(std::move(finite));
+    readings.emplace_back();
+    for (const UsdReadingRow& row : UsdReadings()) {
+      readings.back().push_back(DeriveUsd(light, row.reading));
+      auto finite = preset_text::CheckFinite(readings.back().back(), light.name());
+      if (!finite) return Propagate(std::move(finite));
+    }
+    preset.derived.push_back(readings.back()[static_cast<std::size_t>(options.usd_reading)]);
+    prims.push_back(Identifier(light.name(), taken));
     std::string picture;
     if (light.environment) {
       preset.files.push_back(preset_text::PictureFileOf(
           light, stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
       picture = preset.files.back().name;
     }
-    text += LightPrim(Identifier(light.name(), taken), lights.lights[i], light,
-                      preset.derived.back(), (*ies)[i], picture);
+    text += LightPrim(prims.back(), lights.lights[i], light, readings.back(), (*ies)[i], picture);
     if (light.form == LightForm::kTable) {
       preset.warnings.push_back({"ies_not_portable", light.name(),
                                  "renderers scale shaping:ies:file differently; the candela are "
@@ -231,6 +297,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
     }
   }
   if (!options.bare) text += CardPrims(rig) + CameraPrim(rig);
+  text += Variants(prims, readings);
   preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", text + "}\n"});
   preset.paste = "usdview " + std::string(kPasteDirectory) + "/" + stem + ".usda";
   return preset;

@@ -8,7 +8,15 @@ from seen import GateError, Rig, Seen, luminance, read_ies
 
 
 def prims(text):
-    """[(type, name, {attribute: text})] of every def, in order."""
+    """[(type, name, {attribute: text})] of every def, in order; values of the variant chosen."""
+    text, _, sets = text.partition("  variantSet ")
+    if sets:
+        text = text.rstrip() + "\n}\n"
+        chosen = re.search(r'string renderer = ("\w+")', text).group(1)
+        body = sets.split("\n    " + chosen + " (", 1)[1].split("\n    }\n", 1)[0]
+        for over in re.finditer(r'over "(\w+)"\s*\{([^}]*)\}', body):
+            head = re.search(r'def \w+ "%s" \(.*?\n  \)\n  \{\n' % over.group(1), text, re.S)
+            text = text[:head.end()] + over.group(2).rstrip() + "\n" + text[head.end():]
     found, stack = [], []
     for line in text.split("\n"):
         line = line.strip()
@@ -63,7 +71,7 @@ def read(text, folder):
         if kind == "SphereLight":
             r = float(a["inputs:radius"])
             seen.aim = None
-            if a.get("treatAsPoint") == "1":
+            if r == 0.005:
                 seen.candela = value * math.pi * r * r
             else:
                 seen.nits = value
@@ -71,7 +79,7 @@ def read(text, folder):
                 path = a["inputs:shaping:ies:file"].strip("@")
                 with open(os.path.join(folder, path), newline="") as ies:
                     seen.candela *= read_ies(ies.read())
-            if "inputs:shaping:cone:angle" in a:
+            if "inputs:shaping:cone:softness" in a:
                 seen.aim = [-v for v in m[8:11]]
                 seen.outer = float(a["inputs:shaping:cone:angle"])
                 seen.inner = seen.outer * (1 - float(a["inputs:shaping:cone:softness"]))

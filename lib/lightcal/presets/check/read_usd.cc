@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // UsdLux in a .usda, one attribute a line, by the schema's own words: luminance = intensity
 // 2^exposure colour nits, over the area where normalize is on; matrices of row vectors. Lights
-// below untransformed parents.
+// below untransformed parents. Of variants those that the file opens with.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -44,30 +44,75 @@ std::string Unquoted(std::string_view text) {
   return out;
 }
 
-// `def Type "name"` begins a prim; what follows is its own until the next one does.
+std::string_view BetweenQuotes(std::string_view line) {
+  const std::size_t quote = std::min(line.find('"'), line.size());
+  const std::size_t close = std::min(line.find('"', quote + 1), line.size());
+  return quote < close ? line.substr(quote + 1, close - quote - 1) : std::string_view();
+}
+
+// The variant sets of a file, line by line: which lines are of a variant that is not chosen.
+class Variants {
+ public:
+  // Of a line that is another variant's, or begins or ends one.
+  bool Takes(std::string_view line, const std::string& chosen) {
+    const int before = depth_;
+    if (line.ends_with("{")) ++depth_;
+    if (line == "}") --depth_;
+    if (line.starts_with("variantSet ")) {
+      set_ = before;
+      return true;
+    }
+    if (set_ < 0) return false;
+    if (depth_ <= set_) set_ = -1;  // the set's own brace
+    if (before == set_ + 1 && line.starts_with('"')) {
+      other_ = BetweenQuotes(line) != chosen;
+      return true;
+    }
+    return set_ < 0 || other_;
+  }
+
+ private:
+  int depth_ = 0, set_ = -1;
+  bool other_ = false;
+};
+
+// `def Type "name"` begins a prim; what follows is its own until the next one does. `over "name"`
+// goes on with one that was there.
 std::vector<Prim> PrimsOf(const std::string& text) {
   if (!text.starts_with("#usda")) throw std::runtime_error("it does not begin with #usda");
   std::vector<Prim> prims(1);  // the layer's own metadata
-  std::size_t at = 0;
-  while (at < text.size()) {
+  std::size_t current = 0;
+  Variants variants;
+  std::string chosen;
+  for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = TrimBlanks(std::string_view(text).substr(at, end - at));
     at = end + 1;
+    if (variants.Takes(line, chosen)) continue;
     if (line.starts_with("def ")) {
       const std::size_t quote = std::min(line.find('"'), line.size());
-      const std::size_t close = std::min(line.find('"', quote + 1), line.size());
       Prim prim;
       prim.type = TrimBlanks(line.substr(4, quote - std::min<std::size_t>(quote, 4)));
-      if (quote < close) prim.name = line.substr(quote + 1, close - quote - 1);
+      prim.name = BetweenQuotes(line);
+      current = prims.size();
       prims.push_back(std::move(prim));
+      continue;
+    }
+    if (line.starts_with("over ")) {
+      const auto it = std::ranges::find(prims, BetweenQuotes(line), &Prim::name);
+      if (it == prims.end())
+        throw std::runtime_error(std::string(line) + ": there is no such prim");
+      current = static_cast<std::size_t>(it - prims.begin());
       continue;
     }
     const std::size_t equals = line.find(" = ");
     if (equals == std::string_view::npos) continue;
     const std::string_view left = line.substr(0, equals);
-    prims.back().values[std::string(left.substr(left.find_last_of(' ') + 1))] =
-        TrimBlanks(line.substr(equals + 3));
+    const std::string_view value = TrimBlanks(line.substr(equals + 3));
+    if (line.starts_with("string renderer = ")) chosen = BetweenQuotes(value);
+    prims[current].values[std::string(left.substr(left.find_last_of(' ') + 1))] = value;
   }
+  prims.front().values["renderer"] = chosen;
   return prims;
 }
 
@@ -121,15 +166,19 @@ void FromSphere(const Prim& prim, const FileText& beside, EngineLight& light) {
   light.inner_rad = light.outer_rad * (1.0 - prim.Number("inputs:shaping:cone:softness", 0.0));
 }
 
-void FromDistant(const Prim& prim, EngineLight& light) {
+void FromDistant(const Prim& prim, const std::string& renderer, EngineLight& light) {
   light.kind = EngineLightKind::kSun;
   light.emitted = LuminanceOf(prim);
+  if (renderer == "rtx_2024") {  // pi brighter than the schema's, whatever normalize says
+    light.emitted *= std::numbers::pi;
+    return;
+  }
   if (prim.On("inputs:normalize")) return;
   const double sine = std::sin(prim.Number("inputs:angle", 0.53) * std::numbers::pi / 360.0);
   light.emitted *= std::numbers::pi * sine * sine;
 }
 
-EngineLight FromPrim(const Prim& prim, const FileText& beside) {
+EngineLight FromPrim(const Prim& prim, const std::string& renderer, const FileText& beside) {
   EngineLight light;
   light.name = prim.Text("displayName").empty() ? prim.name : Unquoted(prim.Text("displayName"));
   light.offset_m = prim.Number("distance_offset_m", 0.0);
@@ -137,7 +186,7 @@ EngineLight FromPrim(const Prim& prim, const FileText& beside) {
   if (prim.type == "SphereLight") {
     FromSphere(prim, beside, light);
   } else if (prim.type == "DistantLight") {
-    FromDistant(prim, light);
+    FromDistant(prim, renderer, light);
   } else if (prim.type == "DomeLight") {
     light.kind = EngineLightKind::kDome;
     light.emitted = LuminanceOf(prim);
@@ -171,7 +220,7 @@ std::vector<EngineLight> ReadUsd(const std::string& text, const FileText& beside
   std::vector<EngineLight> lights;
   for (const Prim& prim : prims) {
     if (std::ranges::find(kTypes, prim.type) != std::end(kTypes)) {
-      lights.push_back(FromPrim(prim, beside));
+      lights.push_back(FromPrim(prim, prims.front().Text("renderer"), beside));
     }
   }
   return lights;
