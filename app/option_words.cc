@@ -48,7 +48,6 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"meter.tape", "--record"},
     {"place.aim", "--aim"},
     {"place.position", "--position"},
-    {"preset.bare", "--bare"},
     {"preset.json", "--to json"},
     {"preset.range", "--range"},
     {"preset.target", "--to"},

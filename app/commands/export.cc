@@ -17,6 +17,7 @@
 #include "lightcal_devices/disk_sources.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "preset_flags.h"
 
 namespace lightcal::app {
 namespace {
@@ -28,7 +29,8 @@ struct ExportOptions {
   std::vector<std::string> targets;
   std::string output = ".";
   std::string space, white, range, spots = "auto", renderer;
-  bool bare = false;
+  bool rig = false;
+  bool bare = false;  // what is done anyway
   bool force = false;
 };
 
@@ -53,7 +55,7 @@ std::vector<std::string> UsdRenderers() {
 
 Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   PresetOptions preset;
-  preset.bare = options.bare;
+  preset.rig = options.rig;
   if (!options.space.empty()) {
     const auto space = ParseSpace("--space", options.space);
     if (!space) return tl::unexpected(space.error());
@@ -164,7 +166,7 @@ Run BuildExport(CLI::App& parser) {
       .add_option("--renderer", options->renderer,
                   "The variant that a .usda opens with: who will render it [spec]")
       ->check(OneOf(UsdRenderers()));
-  parser.add_flag("--bare", options->bare, "The lights only, no cards and camera");
+  AddSceneFlags(parser, options->rig, options->bare);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunExport(*options, console); };
 }

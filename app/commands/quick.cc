@@ -23,6 +23,7 @@
 #include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "preset_flags.h"
 #include "quick/quick_session.h"
 #include "quick/quick_table.h"
 
@@ -220,7 +221,7 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   std::vector<OutputFile> files;
   if (!options.targets.empty()) {
     auto presets =
-        ExportPresets(fitted->lights, options.targets, session->stem, {.bare = options.bare});
+        ExportPresets(fitted->lights, options.targets, session->stem, {.rig = options.rig});
     if (!presets) return Propagate(std::move(presets));
     console.Warn(presets->warnings);
     for (PresetFile& file : presets->files) {
@@ -317,7 +318,7 @@ Run BuildQuick(CLI::App& parser) {
   for (const char* name : {"--minutes", "--reach", "--plot"}) {
     parser.get_option(name)->needs(plan);
   }
-  parser.add_flag("--bare", options->bare, "Presets hold the light only, no cards and camera");
+  AddSceneFlags(parser, options->rig, options->bare);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunQuick(*options, console); };
 }

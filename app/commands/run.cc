@@ -22,6 +22,7 @@
 #include "lightcal/records/session_codec.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "preset_flags.h"
 #include "report_html.h"
 
 namespace lightcal::app {
@@ -34,7 +35,8 @@ struct RunOptions {
   std::vector<std::string> sessions;
   std::string output;
   std::vector<std::string> targets;
-  bool bare = false;
+  bool rig = false;
+  bool bare = false;  // what is done anyway
   bool force = false;
   // Of a batch.
   int jobs = 0;
@@ -65,7 +67,7 @@ Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::
   auto json = LightFileToJson(lights);
   if (!json) return Propagate(std::move(json));
   const Session& session = calibrated.session;
-  auto presets = ExportPresets(lights, options.targets, session.stem, {.bare = options.bare});
+  auto presets = ExportPresets(lights, options.targets, session.stem, {.rig = options.rig});
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
@@ -113,7 +115,7 @@ Result<std::string> SettingsHash(const RunOptions& options) {
   const CalibrationOptions& asked = options.calibration;
   std::string text = asked.tolerance + '\n' + asked.effects + '\n';
   for (const bool flag : {asked.tolerance_given, asked.effects_given, asked.monte_carlo,
-                          asked.full_angles, options.bare, options.strict}) {
+                          asked.full_angles, options.rig, options.strict}) {
     text += flag ? '1' : '0';
   }
   if (!asked.profile.empty()) {
@@ -182,7 +184,7 @@ Run BuildRun(CLI::App& parser) {
       ->check(OneOf(NamesOf(PresetTargets())))
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_flag("--bare", options->bare, "Presets hold the lights only, no cards and camera");
+  AddSceneFlags(parser, options->rig, options->bare);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   parser
       .add_option("--jobs", options->jobs,

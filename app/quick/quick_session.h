@@ -26,7 +26,8 @@ struct QuickOptions {
   std::string gel, gels, spectrum;
   std::string table, columns;
   bool full_angles = false;
-  bool bare = false;
+  bool rig = false;
+  bool bare = false;  // what is done anyway
   bool force = false;
   bool plan = false;
   MinutesOptions minutes;

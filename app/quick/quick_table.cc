@@ -334,7 +334,7 @@ Result<void> RunQuickTable(const QuickOptions& options, Console& console) {
   if (as_csv) {
     files.push_back({options.output, CsvOf(*lamps)});
   } else if (!options.targets.empty()) {
-    auto presets = ExportPresets(all, options.targets, "lamps", {.bare = options.bare});
+    auto presets = ExportPresets(all, options.targets, "lamps", {.rig = options.rig});
     if (!presets) return Propagate(std::move(presets));
     warnings.insert(warnings.end(), presets->warnings.begin(), presets->warnings.end());
     for (PresetFile& file : presets->files) {

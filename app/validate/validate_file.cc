@@ -56,7 +56,7 @@ Contents PresetContents(const std::string& text, const std::string& path) {
   const std::string count = Counted(lights->size(), "light");
   auto rig = RigFromPreset(text, path);
   if (rig) return count + " in a rig";
-  if (rig.error().code == "no_rig") return count + ", bare";
+  if (rig.error().code == "no_rig") return count + " without a rig";
   return Propagate(std::move(rig));
 }
 

@@ -47,7 +47,7 @@ TEST(ExportCommand, WritesEveryTargetNamedAfterTheJson) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   const json gltf = json::parse(ReadFile(out + "/lamp.gltf"));
-  EXPECT_EQ(gltf["nodes"].size(), 5U) << "two lights, two cards, a camera";
+  EXPECT_EQ(gltf["nodes"].size(), 2U) << "two lights and nothing else";
   EXPECT_EQ(json::parse(ReadFile(out + "/lamp.preset.json"))["schema"], "lightcal.preset/1");
 }
 
@@ -61,7 +61,20 @@ TEST(ExportCommand, SameInputSameBytesAndFreelyReplaced) {
   EXPECT_EQ(ReadFile(out + "/lamp.gltf"), first);
 }
 
-TEST(ExportCommand, OnlyTheTargetsNamedAndBareWithoutCards) {
+TEST(ExportCommand, TheRigIsASecondFileOfItsOwn) {
+  const TempDir folder;
+  const std::string input = WriteLights(folder, {WarmPoint(), Spot()});
+  const std::string out = folder.path() + "/out";
+  ASSERT_EQ(RunLightcal({"export", "--rig", "-o", out, "--to", "gltf,json,ies", input}).exit_code,
+            0);
+  EXPECT_EQ(FilesIn(out), 6U) << "two gltf, two json, an ies a light";
+  EXPECT_EQ(json::parse(ReadFile(out + "/lamp.gltf"))["nodes"].size(), 2U);
+  const json rig = json::parse(ReadFile(out + "/lamp.rig.gltf"));
+  EXPECT_EQ(rig["nodes"].size(), 5U) << "two lights, two cards, a camera";
+  EXPECT_EQ(rig["scenes"][0]["name"], "lamp.rig");
+}
+
+TEST(ExportCommand, OnlyTheTargetsNamedAndBareIsWhatIsDoneAnyway) {
   const TempDir folder;
   const std::string input = WriteLights(folder, {WarmPoint()});
   const std::string out = folder.path() + "/out";

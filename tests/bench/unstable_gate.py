@@ -56,7 +56,7 @@ def names(kinds):
 
 def blender(root):
     kinds = names(gate.BARS['blender'])
-    jobs = [{'script': f'/work/{n}/out/{n}.blender.py', 'probes': cases.probes(kind)}
+    jobs = [{'script': f'/work/{n}/out/{n}.rig.blender.py', 'probes': cases.probes(kind)}
             for kind, _, n in kinds]
     with open(f'{root}/work/jobs.json', 'w') as f:
         json.dump(jobs, f)
@@ -77,9 +77,9 @@ def godot(root, lightcal):
     os.makedirs(project, exist_ok=True)
     kinds = names(GODOT_KINDS)
     for _, _, n in kinds:
-        shutil.copy(f'{root}/work/{n}/out/{n}.tscn', project)
+        shutil.copy(f'{root}/work/{n}/out/{n}.rig.tscn', project)
     for name, text in (('project.godot', PROJECT), ('probe.gd', PROBE), ('jobs.json', json.dumps(
-            [{'scene': f'res://{n}.tscn', 'exr': f'/work/{n}.exr'} for _, _, n in kinds]))):
+            [{'scene': f'res://{n}.rig.tscn', 'exr': f'/work/{n}.exr'} for _, _, n in kinds]))):
         with open(f'{project}/{name}', 'w') as f:
             f.write(text)
     print('Godot ' + in_chroot(root, 'godot', '--version').stdout.strip())
@@ -90,7 +90,7 @@ def godot(root, lightcal):
             sys.exit('godot: ' + done.stdout[-3000:] + done.stderr[-3000:])
         answer = json.loads(subprocess.run(
             [lightcal, 'check', '--render', f'{root}/work/{n}.exr', '--rig',
-             f'{root}/work/{n}/out/{n}.preset.json', '--engine', 'godot', '--json'],
+             f'{root}/work/{n}/out/{n}.rig.preset.json', '--engine', 'godot', '--json'],
             capture_output=True, text=True, check=True).stdout)
         got, read = answer['illuminance_lx'], answer['expected_lx']
         yield 'godot', kind, color, read, got, got / read - 1

@@ -16,8 +16,8 @@ namespace {
 
 using nlohmann::json;
 
-json Exported(const LightFile& file, bool bare = false) {
-  const auto preset = ExportGltf(file, "stem", {.bare = bare});
+json Exported(const LightFile& file, bool rig = true) {
+  const auto preset = ExportGltf(file, "stem", {.rig = rig});
   EXPECT_TRUE(preset.has_value());
   return json::parse(preset->files.front().contents);
 }
@@ -213,7 +213,7 @@ TEST(GltfRig, TheExposureShowsTheWhiteCardAtNinetyPercent) {
 }
 
 TEST(GltfRig, BareHasTheLightsOnlyAndStillTheExposure) {
-  const json gltf = Exported(FileOf({WarmPoint(), Spot()}), true);
+  const json gltf = Exported(FileOf({WarmPoint(), Spot()}), false);
   EXPECT_EQ(gltf["nodes"].size(), 2U);
   for (const char* key : {"meshes", "buffers", "cameras", "materials"}) {
     EXPECT_FALSE(gltf.contains(key)) << key;

@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-json Exported(const LightFile& file, bool bare = false) {
-  const auto preset = ExportJson(file, "stem", {.bare = bare});
+json Exported(const LightFile& file, bool rig = false) {
+  const auto preset = ExportJson(file, "stem", {.rig = rig});
   EXPECT_TRUE(preset.has_value());
-  EXPECT_EQ(preset->files.front().name, "stem.preset.json");
+  EXPECT_EQ(preset->files.front().name, rig ? "stem.rig.preset.json" : "stem.preset.json");
   return json::parse(preset->files.front().contents);
 }
 
@@ -44,9 +44,9 @@ std::vector<FittedLight> ManyKinds() {
   return {WarmPoint(), Spot(), Sun(), sky, white, SimpleLight("disk", LightKind::kDisk, 5.0)};
 }
 
-TEST(PresetJson, KeepsItsSchemaForEveryKindBareAndRig) {
-  for (const bool bare : {false, true}) {
-    const CliResult result = ValidateAgainstSchema(Exported(FileOf(ManyKinds()), bare).dump());
+TEST(PresetJson, KeepsItsSchemaForEveryKindAloneAndInARig) {
+  for (const bool rig : {false, true}) {
+    const CliResult result = ValidateAgainstSchema(Exported(FileOf(ManyKinds()), rig).dump());
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   }
 }
@@ -64,7 +64,7 @@ TEST(PresetJson, TheSchemaRejectsUnknownKeysAndMissingNumbers) {
 TEST(PresetJson, DerivedHoldsEveryNumberTheGltfFileHas) {
   const LightFile file = FileOf(ManyKinds());
   const json document = Exported(file);
-  const auto preset = ExportGltf(file, "stem", {});
+  const auto preset = ExportGltf(file, "stem", {.rig = true});
   ASSERT_TRUE(preset.has_value());
   const json gltf = json::parse(preset->files.front().contents);
   for (std::size_t i = 0; i < file.lights.size(); ++i) {
@@ -131,10 +131,13 @@ TEST(PresetJson, PhotometryIsTheFitsWithItsIntervals) {
   EXPECT_EQ(light["color"]["cct_K"]["value"], 2700.0);
 }
 
-TEST(PresetJson, BareHasNoRigButTheExposure) {
-  const json document = Exported(FileOf({WarmPoint()}), true);
-  EXPECT_FALSE(document.contains("rig"));
-  EXPECT_TRUE(document["exposure"].contains("ev100"));
+TEST(PresetJson, AlwaysDescribesTheRigForPicturesOfIt) {
+  for (const bool rig : {false, true}) {
+    const json document = Exported(FileOf({WarmPoint()}), rig);
+    EXPECT_TRUE(document.contains("rig"));
+    EXPECT_TRUE(document["exposure"].contains("ev100"));
+    EXPECT_EQ(document["name"], rig ? "stem.rig" : "stem");
+  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// <stem>.blender.py: a script that builds the lights, the rig and the exposure in Blender 3.4 and
-// later. With K = 683 lm/W, I the axial intensity, E an illuminance, L a luminance, Y the luminance
-// of the max-normalised colour:
+// <stem>.blender.py: a script that brings the lights into the scene that is open in Blender 3.4 and
+// later; of a rig, that builds a scene with cards, camera and exposure. With K = 683 lm/W, I the
+// axial intensity, E an illuminance, L a luminance, Y the luminance of the max-normalised colour:
 //   point, sphere, spot  4 pi I/(K Y)     sun    E/(K Y)
 //   rect, disk           pi I/(K Y)       world  L/(K Y)
 //   measured             177.83/(K Y), the candela in the IES text (Cycles turns them to watts at
@@ -174,6 +174,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kBlender, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
+  const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
@@ -192,18 +193,18 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     }
     list.items.push_back(std::move(document));
   }
-  const auto text = JsonText({{"name", stem},
+  const auto text = JsonText({{"name", name},
                               {"lumens_per_watt", kLumensPerWatt},
                               {"lights", std::move(list)},
                               {"exposure", NodeOf(rig.exposure)},
-                              {"rig", options.bare ? Node() : NodeOf(rig)},
+                              {"rig", options.rig ? NodeOf(rig) : Node()},
                               {"provenance", NodeOf(lights.provenance)}},
-                             stem + ".blender.py");
+                             name + ".blender.py");
   if (!text) return tl::unexpected(text.error());
   preset.files.push_back(
-      {stem + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
+      {name + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
   std::ranges::move(pictures, std::back_inserter(preset.files));
-  preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + stem + ".blender.py";
+  preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + name + ".blender.py";
   return preset;
 }
 

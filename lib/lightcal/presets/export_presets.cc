@@ -68,14 +68,20 @@ Result<ExportedPresets> ExportPresets(const LightFile& lights,
     return Refused("bad_name", stem, "is no stem of file names: a path, hidden, or unprintable");
   }
   ExportedPresets all;
+  std::vector<bool> scenes = {false};
+  if (options.rig) scenes.push_back(true);
   for (const PresetTarget& target : *chosen) {
-    auto preset = target.exporter(lights, stem, options);
-    if (!preset) return Propagate(std::move(preset));
-    if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
-    AddOnce(preset->warnings, all.warnings);
-    std::ranges::move(preset->files, std::back_inserter(all.files));
-    if (!preset->paste.empty()) {
-      all.pastes.push_back(std::string(target.name) + ": " + preset->paste);
+    for (const bool rig : scenes) {
+      PresetOptions one = options;
+      one.rig = rig;
+      auto preset = target.exporter(lights, stem, one);
+      if (!preset) return Propagate(std::move(preset));
+      if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
+      AddOnce(preset->warnings, all.warnings);
+      std::ranges::move(preset->files, std::back_inserter(all.files));
+      if (!preset->paste.empty()) {
+        all.pastes.push_back(std::string(target.name) + (rig ? ", rig: " : ": ") + preset->paste);
+      }
     }
   }
   KeepFirstOfEachName(all.files);

@@ -18,7 +18,8 @@ struct ExportedPresets {
 };
 
 // The files of every target named (none named = every target there is), in that order; `stem`
-// begins their names. Of targets that nobody named, warnings of what their format cannot hold are
+// begins their names. With options.rig each target that has one brings its rig too, as a second
+// file. Of targets that nobody named, warnings of what their format cannot hold are
 // left out.   Wrong usage: an unknown target (names the nearest). Refuses and fails as Exporter.
 [[nodiscard]] Result<ExportedPresets> ExportPresets(const LightFile& lights,
                                                     const std::vector<std::string>& targets = {},

@@ -191,19 +191,20 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
     preset.derived.push_back(DerivedFrom(list.items.back()));
     NoteRefit(refits[i], preset.derived.back());
   }
+  const std::string name = preset_text::SceneStem(stem, options);
   Node exposure = NodeOf(rig.exposure);
   exposure.Put({{"aperture", kAperture},
                 {"shutter_s", kShutterPerScale * rig.exposure.scale},
                 {"iso", kIso}});
-  auto text = JsonText({{"name", stem},
+  auto text = JsonText({{"name", name},
                         {"lights", list},
                         {"exposure", exposure},
-                        {"rig", options.bare ? Node() : NodeOf(Turned(rig, GltfFromZUp))},
+                        {"rig", options.rig ? NodeOf(Turned(rig, GltfFromZUp)) : Node()},
                         {"provenance", NodeOf(lights.provenance)}},
-                       stem + ".filament.json");
+                       name + ".filament.json");
   if (!text) return Propagate(std::move(text));
-  preset.files.push_back({stem + ".filament.json", std::move(*text)});
-  preset.files.push_back({stem + ".filament.h", Snippet(list, exposure)});
+  preset.files.push_back({name + ".filament.json", std::move(*text)});
+  if (!options.rig) preset.files.push_back({stem + ".filament.h", Snippet(list, exposure)});
   return preset;
 }
 

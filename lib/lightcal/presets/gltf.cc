@@ -345,7 +345,7 @@ Gltf WithLights(const LightFile& file, const std::string& stem,
   Gltf gltf;
   gltf.generator = preset_text::GeneratorOf(file);
   gltf.extensions_used = {"KHR_lights_punctual"};
-  if (!options.bare) gltf.extensions_used.emplace_back("KHR_materials_specular");
+  if (options.rig) gltf.extensions_used.emplace_back("KHR_materials_specular");
   std::vector<Node> definitions;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const GltfLight light = GltfLightFrom(lights[i], refits[i]);
@@ -353,11 +353,12 @@ Gltf WithLights(const LightFile& file, const std::string& stem,
     gltf.nodes.push_back(GltfNode(light, file.lights[i], lights[i], i));
   }
   gltf.extensions.Put("KHR_lights_punctual", {{"lights", definitions}});
-  if (!options.bare) {
+  if (options.rig) {
     AddCards(gltf, rig);
     AddCamera(gltf, rig.camera);
   }
-  GltfScene all{stem, std::vector<std::size_t>(gltf.nodes.size()), Node::Table()};
+  GltfScene all{preset_text::SceneStem(stem, options), std::vector<std::size_t>(gltf.nodes.size()),
+                Node::Table()};
   std::iota(all.nodes.begin(), all.nodes.end(), std::size_t{0});
   gltf.scenes.push_back(std::move(all));
   gltf.extras = SceneExtras(file, rig);
@@ -377,9 +378,10 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   Gltf gltf = WithLights(lights, stem, *punctual, refits, options);
   AddPhotometricScene(gltf, lights, *punctual, *ies);
   AddImageBasedScene(gltf, lights, *punctual, options);
-  auto text = JsonText(gltf.Document(), stem + ".gltf");
+  const std::string name = preset_text::SceneStem(stem, options);
+  auto text = JsonText(gltf.Document(), name + ".gltf");
   if (!text) return Propagate(std::move(text));
-  preset.files.push_back({stem + ".gltf", std::move(*text)});
+  preset.files.push_back({name + ".gltf", std::move(*text)});
   for (std::size_t i = 0; i < punctual->size(); ++i) {
     preset.derived.push_back(DerivedGltf((*punctual)[i], refits[i]));
   }

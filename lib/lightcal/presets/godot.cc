@@ -246,7 +246,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
                      ", not executed in Godot by this run: schema-checked.\n"
                      "; In project.godot, or lumens and lux are ignored:\n"
                      ";   [rendering]\n;   lights_and_shadows/use_physical_light_units=true\n";
-  const bool world = !options.bare || dome;
+  const bool world = options.rig || dome;
   if (!picture.empty()) {
     text += "\n[ext_resource type=\"Texture2D\" path=" + Quoted(picture) +
             " id=\"panorama\"]\n\n[sub_resource type=\"PanoramaSkyMaterial\" id=\"panorama_sky\"]\n"
@@ -254,7 +254,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
             "sky_material = SubResource(\"panorama_sky\")\n";
   }
   if (world) text += EnvironmentText(dome);
-  if (!options.bare) text += CameraAttributes(rig) + Materials(rig);
+  if (options.rig) text += CameraAttributes(rig) + Materials(rig);
   text += "\n[node name=" + Quoted(stem) + " type=\"Node3D\"]\n" +
           "metadata/ev100 = " + ShortestText(rig.exposure.ev100) +
           "\nmetadata/exposure = " + ShortestText(rig.exposure.scale) + "\n" + nodes;
@@ -262,7 +262,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
     text += NodeHead("surroundings", "WorldEnvironment") +
             "environment = SubResource(\"surroundings\")\n";
   }
-  if (!options.bare) text += RigNodes(rig);
+  if (options.rig) text += RigNodes(rig);
   return text;
 }
 
@@ -285,6 +285,7 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
     auto finite = preset_text::CheckFinite(preset.derived.back(), (*forms)[i].name());
     if (!finite) return Propagate(std::move(finite));
   }
+  const std::string name = preset_text::SceneStem(stem, options);
   std::string picture;
   for (const PresetLight& light : *forms) {
     if (!light.environment) continue;
@@ -294,9 +295,11 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
   }
   preset.files.insert(
       preset.files.begin(),
-      {stem + ".tscn", GodotScene(lights, stem, *forms, preset.derived, options, picture)});
-  preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
-                 ".tscn into a project with physical light units and open it";
+      {name + ".tscn", GodotScene(lights, name, *forms, preset.derived, options, picture)});
+  preset.paste =
+      "copy " + std::string(kPasteDirectory) + "/" + name +
+      ".tscn into a project with physical light units and " +
+      (options.rig ? "open it" : "drag it into your scene: written again, it is replaced");
   return preset;
 }
 

@@ -175,6 +175,7 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   const auto derivations = Derivations(lights, stem, options);
+  const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& form = (*forms)[i];
@@ -182,14 +183,14 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
     WarnOfHalfFloats(form, rig.exposure.scale, preset.warnings);
   }
   auto text = JsonText({{"schema", "lightcal.preset/1"},
-                        {"name", stem},
+                        {"name", name},
                         {"lights", std::move(list)},
                         {"exposure", NodeOf(rig.exposure)},
-                        {"rig", options.bare ? Node() : NodeOf(rig)},
+                        {"rig", NodeOf(rig)},
                         {"provenance", NodeOf(lights.provenance)}},
-                       stem + ".preset.json");
+                       name + ".preset.json");
   if (!text) return Propagate(std::move(text));
-  preset.files.push_back({stem + ".preset.json", std::move(*text)});
+  preset.files.push_back({name + ".preset.json", std::move(*text)});
   return preset;
 }
 

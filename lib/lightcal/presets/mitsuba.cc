@@ -183,14 +183,17 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kMitsubaForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
-  const double exposure = options.bare ? 1.0 : rig.exposure.scale;
+  const double exposure = options.rig ? rig.exposure.scale : 1.0;
+  const std::string name = preset_text::SceneStem(stem, options);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- " +
       XmlEscaped(preset_text::GeneratorOf(lights)) +
       ", not executed in Mitsuba: schema-checked. Values are cd, lx and nits times " +
       ShortestText(exposure) + "; ev100 " + ShortestText(rig.exposure.ev100) +
-      " -->\n<scene version=\"3.0.0\">\n  <integrator type=\"path\">"
-      "<integer name=\"max_depth\" value=\"2\"/></integrator>\n";
+      " -->\n<scene version=\"3.0.0\">\n";
+  if (options.rig) {
+    text += "  <integrator type=\"path\"><integer name=\"max_depth\" value=\"2\"/></integrator>\n";
+  }
   for (const PresetLight& light : *forms) {
     preset.derived.push_back(DeriveMitsuba(light, exposure));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
@@ -209,10 +212,11 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
     text += "  <!-- " + comment + " -->\n  " + MitsubaLight(light, preset.derived.back(), picture) +
             "\n";
   }
-  if (!options.bare) text += RigText(rig);
-  preset.files.insert(preset.files.begin(), {stem + ".mitsuba.xml", text + "</scene>\n"});
-  preset.paste =
-      "mitsuba -m scalar_rgb " + std::string(kPasteDirectory) + "/" + stem + ".mitsuba.xml";
+  if (options.rig) text += RigText(rig);
+  preset.files.insert(preset.files.begin(), {name + ".mitsuba.xml", text + "</scene>\n"});
+  const std::string path = std::string(kPasteDirectory) + "/" + name + ".mitsuba.xml";
+  preset.paste = options.rig ? "mitsuba -m scalar_rgb " + path
+                             : "<include filename=\"" + path + "\"/> in your scene";
   return preset;
 }
 

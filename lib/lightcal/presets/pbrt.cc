@@ -190,13 +190,15 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
   const auto forms = PresetLightsFrom(lights, kPbrtForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
+  const std::string name = preset_text::SceneStem(stem, options);
   std::string text = "# " + preset_text::GeneratorOf(lights) +
                      ", not executed in pbrt: schema-checked. cd, lx and nits; ev100 " +
                      ShortestText(rig.exposure.ev100) + ", exposure " +
-                     ShortestText(rig.exposure.scale) + "\nColorSpace \"" +
-                     std::string(*ColorSpaceWord(options.color.space)) + "\"\n";
-  if (!options.bare) text += CameraText(rig, stem);
-  text += "WorldBegin\n";
+                     ShortestText(rig.exposure.scale) + "\n";
+  const std::string space =
+      "ColorSpace \"" + std::string(*ColorSpaceWord(options.color.space)) + "\"\n";
+  // Lights alone stand in a block of their own, so that a scene that includes them keeps its state.
+  text += options.rig ? space + CameraText(rig, name) + "WorldBegin\n" : "AttributeBegin\n" + space;
   for (const PresetLight& light : *forms) {
     preset.derived.push_back(DerivePbrt(light));
     auto finite = preset_text::CheckFinite(preset.derived.back(), light.name());
@@ -214,9 +216,10 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
     text += "# " + Quoted(light.name()) + (note.empty() ? "" : " " + note) + "\n" +
             PbrtLight(light, preset.derived.back(), picture);
   }
-  if (!options.bare) text += CardText(rig);
-  preset.files.insert(preset.files.begin(), {stem + ".pbrt", std::move(text)});
-  preset.paste = "pbrt " + std::string(kPasteDirectory) + "/" + stem + ".pbrt";
+  text += options.rig ? CardText(rig) : "AttributeEnd\n";
+  preset.files.insert(preset.files.begin(), {name + ".pbrt", std::move(text)});
+  const std::string path = std::string(kPasteDirectory) + "/" + name + ".pbrt";
+  preset.paste = options.rig ? "pbrt " + path : "Include \"" + path + "\" after WorldBegin";
   return preset;
 }
 

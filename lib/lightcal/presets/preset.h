@@ -28,7 +28,9 @@ enum class SpotForm : std::uint8_t {
 inline constexpr double kConeGoodEnough = 0.03;  // of the axial intensity
 
 struct PresetOptions {
-  bool bare = false;    // the lights alone: no cards, no camera
+  // false: the lights alone, which touch nothing else in the scene they come into. true: the rig,
+  // <stem>.rig.<ending>: the lights with cards, camera and exposure in a scene of its own.
+  bool rig = false;
   ColorTarget color{};  // the space the engine works in, and what its pipeline calls white
   // The range the person wants (their engine culls lights by it); absent = so far that it is none.
   std::optional<Metres> range{};

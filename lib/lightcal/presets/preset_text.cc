@@ -157,6 +157,10 @@ std::string SubstitutionNote(const DerivedLight& derived) {
   return derived.substitution.empty() ? std::string() : "substituted: " + derived.substitution;
 }
 
+std::string SceneStem(const std::string& stem, const PresetOptions& options) {
+  return options.rig ? stem + ".rig" : stem;
+}
+
 Result<void> CheckFinite(const DerivedLight& light, const std::string& subject) {
   for (const DerivedField& field : light.fields) {
     for (const double v : field.values) {

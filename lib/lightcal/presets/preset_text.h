@@ -25,6 +25,10 @@ namespace lightcal::preset_text {
 // Text for XML attributes and element contents.
 [[nodiscard]] std::string XmlEscaped(std::string_view text);
 
+// What begins the name of a preset itself: <stem>, of a rig <stem>.rig. Files beside it, which both
+// name, go by <stem>.
+[[nodiscard]] std::string SceneStem(const std::string& stem, const PresetOptions& options);
+
 // A file's name as a relative URI.
 [[nodiscard]] std::string UriOf(const std::string& name);
 

@@ -208,6 +208,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   if (!ies) return tl::unexpected(ies.error());
   const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
   const Rig rig = BuildRig(lights, *forms);
+  const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
@@ -221,15 +222,15 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
     }
     preset.derived.push_back(DerivedFrom(list.items.back()));
   }
-  auto text = JsonText({{"name", stem},
+  auto text = JsonText({{"name", name},
                         {"lights", std::move(list)},
                         {"exposure", NodeOf(rig.exposure)},
-                        {"rig", options.bare ? Node() : NodeOf(Turned(rig, GltfFromZUp))},
+                        {"rig", options.rig ? NodeOf(Turned(rig, GltfFromZUp)) : Node()},
                         {"provenance", NodeOf(lights.provenance)}},
-                       stem + ".three.js");
+                       name + ".three.js");
   if (!text) return Propagate(std::move(text));
   text->pop_back();
-  preset.files.push_back({stem + ".three.js", ScriptWith("three.js", *text)});
+  preset.files.push_back({name + ".three.js", ScriptWith("three.js", *text)});
   std::ranges::move(pictures, std::back_inserter(preset.files));
   return preset;
 }

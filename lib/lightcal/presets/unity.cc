@@ -129,19 +129,22 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
     const Rgb& c = (*forms)[i].color().max_normalised;
     preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
   }
+  const std::string name = preset_text::SceneStem(stem, options);
   Node root = {{"schema", "lightcal.unity/1"},
                {"generator", preset_text::GeneratorOf(lights)},
-               {"name", stem},
+               {"name", name},
                {"note", "not executed in Unity: schema-checked"},
                {"exposure", Node{{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
                {"lights", std::move(list)}};
-  if (!options.bare) root.Put(RigNode(rig));
-  auto text = JsonText(root, stem + ".unity.json");
+  if (options.rig) root.Put(RigNode(rig));
+  auto text = JsonText(root, name + ".unity.json");
   if (!text) return Propagate(std::move(text));
-  preset.files = {{stem + ".unity.json", *std::move(text)},
+  preset.files = {{name + ".unity.json", *std::move(text)},
                   {"LightcalImporter.cs", std::string(Script("LightcalImporter.cs"))}};
-  preset.paste = "copy both files from " + std::string(kPasteDirectory) +
-                 " into Assets/Editor, then Tools > lightcal > Import preset";
+  preset.paste = "copy " + name + ".unity.json and LightcalImporter.cs from " +
+                 std::string(kPasteDirectory) +
+                 " into Assets/Editor, then Tools > lightcal > Import preset" +
+                 (options.rig ? ": opens a scene of its own" : "");
   return preset;
 }
 

@@ -180,7 +180,8 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                   {.falloff = kUnrealFalloff, .far_range = kUnrealFarRange, .fixed = options.range},
                   preset.warnings);
   std::vector<UnrealLight> unreal;
-  OrderedJson data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", stem}};
+  const std::string name = preset_text::SceneStem(stem, options);
+  OrderedJson data = {{"generator", preset_text::GeneratorOf(lights)}, {"name", name}};
   data["lights"] = OrderedJson::array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
@@ -193,13 +194,17 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                                "a .t3d imports no photometric file: run the script, or assign the "
                                ".ies by hand"});
   }
-  if (!options.bare) data["rig"] = RigJson(BuildRig(lights, *forms));
-  auto script = ScriptText(data, stem + ".unreal.py");
+  if (options.rig) data["rig"] = RigJson(BuildRig(lights, *forms));
+  auto script = ScriptText(data, name + ".unreal.py");
   if (!script) return Propagate(std::move(script));
-  preset.files.insert(preset.files.begin(), {PresetFile{stem + ".unreal.py", *std::move(script)},
-                                             PresetFile{stem + ".t3d", T3dText(*forms, unreal)}});
-  preset.paste = "py \"" + std::string(kPasteDirectory) + "/" + stem +
-                 ".unreal.py\"   (Output Log, Cmd; or copy the .t3d and paste it into the level)";
+  if (!options.rig) {
+    preset.files.insert(preset.files.begin(), {stem + ".t3d", T3dText(*forms, unreal)});
+  }
+  preset.files.insert(preset.files.begin(), {name + ".unreal.py", *std::move(script)});
+  preset.paste = "py \"" + std::string(kPasteDirectory) + "/" + name +
+                 ".unreal.py\"   (Output Log, Cmd" +
+                 (options.rig ? ": opens a level of its own)"
+                              : "; pasting the .t3d into the level adds the lights, each time)");
   return preset;
 }
 

@@ -296,10 +296,11 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
       if ((*ies)[i]) preset.files.push_back(*(*ies)[i]);
     }
   }
-  if (!options.bare) text += CardPrims(rig) + CameraPrim(rig);
+  const std::string name = preset_text::SceneStem(stem, options);
+  if (options.rig) text += CardPrims(rig) + CameraPrim(rig);
   text += Variants(prims, readings);
-  preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", text + "}\n"});
-  preset.paste = "usdview " + std::string(kPasteDirectory) + "/" + stem + ".usda";
+  preset.files.insert(preset.files.begin(), PresetFile{name + ".usda", text + "}\n"});
+  preset.paste = "usdview " + std::string(kPasteDirectory) + "/" + name + ".usda";
   return preset;
 }
 

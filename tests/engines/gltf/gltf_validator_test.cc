@@ -42,7 +42,7 @@ LightFile EveryKind() {
 class GltfValidator : public ::testing::TestWithParam<bool> {};
 
 TEST_P(GltfValidator, FindsNoErrorAndNoWarningInAnyKindOfLight) {
-  const auto preset = ExportGltf(EveryKind(), "every_kind", {.bare = GetParam()});
+  const auto preset = ExportGltf(EveryKind(), "every_kind", {.rig = GetParam()});
   ASSERT_TRUE(preset.has_value()) << preset.error().message;
   const CliResult result = Validate(preset->files.front().contents);
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
@@ -55,11 +55,11 @@ TEST_P(GltfValidator, FindsNoErrorAndNoWarningInAnyKindOfLight) {
   EXPECT_EQ(report["messages"][0]["code"], "UNSUPPORTED_EXTENSION") << report;
   EXPECT_EQ(report["messages"][1]["pointer"], "/images/0") << report;
 }
-INSTANTIATE_TEST_SUITE_P(BareAndRig, GltfValidator, ::testing::Bool(),
-                         [](const auto& tested) { return tested.param ? "Bare" : "Rig"; });
+INSTANTIATE_TEST_SUITE_P(LightsAndRig, GltfValidator, ::testing::Bool(),
+                         [](const auto& tested) { return tested.param ? "Rig" : "LightsAlone"; });
 
 TEST(GltfValidatorGate, RejectsAColorAboveOneAndAConeOutOfOrder) {
-  const auto preset = ExportGltf(FileOf({Spot()}), "spot", {.bare = true});
+  const auto preset = ExportGltf(FileOf({Spot()}), "spot", {});
   ASSERT_TRUE(preset.has_value());
   json file = json::parse(preset->files.front().contents);
   json& light = file["extensions"]["KHR_lights_punctual"]["lights"][0];

@@ -73,7 +73,7 @@ def export(lightcal, work):
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for mode in ('cone', 'auto'):
             subprocess.run([lightcal, 'export', f'{folder}/{stem(beam)}.json', '--to', 'json,blender,three,filament',
-                            '--spots', mode, '-o', f'{folder}/{mode}', '--force', '--quiet'], check=True,
+                            '--spots', mode, '--rig', '-o', f'{folder}/{mode}', '--force', '--quiet'], check=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
@@ -162,12 +162,12 @@ def main():
 def render(args, work, engine, jobs):
     path, out = f'{work}/{engine}_beams.json', f'{work}/{engine}_beams_out.json'
     if engine == 'blender':
-        rows = [{'script': f'{work}/{j["name"]}/{stem(j["beam"])}.blender.py', 'probes': j['probes'],
+        rows = [{'script': f'{work}/{j["name"]}/{stem(j["beam"])}.rig.blender.py', 'probes': j['probes'],
                  'probe_samples': 64} for j in jobs]
         command = ['blender', '-b', '--factory-startup', '-P', f'{gate.HERE}/blender_probe.py', '--', path, out]
     else:
         suffix = 'filament.json' if engine == 'filament' else 'three.js'
-        rows = [{'engine': engine, 'module': f'{j["name"]}/{stem(j["beam"])}.{suffix}', 'probes': j['probes']}
+        rows = [{'engine': engine, 'module': f'{j["name"]}/{stem(j["beam"])}.rig.{suffix}', 'probes': j['probes']}
                 for j in jobs]
         command = ['node', f'{gate.HERE}/browse.mjs', args.modules, work, path, out]
     with open(path, 'w') as f:

@@ -65,12 +65,12 @@ def render(args, work):
         picture = f'{work}/fault{number}.' + ('png' if kind == 'png' else 'exr')
         job = {'probes': [], 'edit': edit}
         if engine == 'blender':
-            job |= {'script': f'{work}/{lamp}/out/{lamp}.blender.py', 'percent': 50, 'samples': 32,
+            job |= {'script': f'{work}/{lamp}/out/{lamp}.rig.blender.py', 'percent': 50, 'samples': 32,
                     'exr_bits': 16 if kind == 'exr16' else 32,
                     ('rig_png' if kind == 'png' else 'rig_exr'): picture}
         else:
             suffix = 'filament.json' if engine == 'filament' else 'three.js'
-            job |= {'engine': engine, 'module': f'{lamp}/out/{lamp}.{suffix}',
+            job |= {'engine': engine, 'module': f'{lamp}/out/{lamp}.rig.{suffix}',
                     ('png' if kind == 'png' else 'exr'): picture}
         jobs.setdefault(engine, []).append(job)
     for engine, rows in jobs.items():
@@ -98,7 +98,7 @@ def main():
         render(args, work)
         for number, (engine, lamp, kind, edit, cause, factor) in enumerate(FAULTS):
             picture = f'{work}/fault{number}.' + ('png' if kind == 'png' else 'exr')
-            rig = f'{work}/{lamp}/out/{lamp}.preset.json'
+            rig = f'{work}/{lamp}/out/{lamp}.rig.preset.json'
             done = subprocess.run([args.lightcal, 'check', '--render', picture, '--rig', rig,
                                    '--engine', engine, '--json'], capture_output=True, text=True)
             answer = json.loads(done.stdout)

@@ -45,12 +45,12 @@ def export(lightcal, work):
                 with open(f'{folder}/lamp.ies', 'w', newline='') as f:
                     f.write(cases.ies_text(kind == 'axial'))
             subprocess.run([lightcal, 'run', folder, '-o', f'{folder}/out', '--to',
-                            'json,gltf,blender,three,filament,godot', '--force', '--quiet'], check=True,
+                            'json,gltf,blender,three,filament,godot', '--rig', '--force', '--quiet'], check=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def run_blender(work, jobs):
-    rows = [{'script': f'{work}/{j["name"]}/out/{j["name"]}.blender.py', 'probes': j['probes'],
+    rows = [{'script': f'{work}/{j["name"]}/out/{j["name"]}.rig.blender.py', 'probes': j['probes'],
              'rig_png': j['png'], 'percent': 100 if j['name'] == 'point_2700K' else 25,
              **({} if j['name'] == 'point_2700K' else {'samples': 16})} for j in jobs]
     with open(f'{work}/blender_jobs.json', 'w') as f:
@@ -66,7 +66,7 @@ def run_blender(work, jobs):
 
 def run_browser(modules, work, engine, jobs):
     suffix = {'filament': 'filament.json', 'babylon_gltf': 'gltf'}.get(engine, 'three.js')
-    rows = [{'engine': engine, 'module': f'{j["name"]}/out/{j["name"]}.{suffix}',
+    rows = [{'engine': engine, 'module': f'{j["name"]}/out/{j["name"]}.rig.{suffix}',
              'probes': j['probes'], **({} if engine in WITHOUT_RIG else {'png': j['png']})}
             for j in jobs]
     with open(f'{work}/{engine}_jobs.json', 'w') as f:
@@ -104,7 +104,7 @@ def measure(args, work):
 
 
 def grey(work, job):
-    rig = json.load(open(f'{work}/{job["name"]}/out/{job["name"]}.preset.json'))['rig']
+    rig = json.load(open(f'{work}/{job["name"]}/out/{job["name"]}.rig.preset.json'))['rig']
     return pictures.card_luminance(job['png'], rig, 1)
 
 

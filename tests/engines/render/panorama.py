@@ -124,7 +124,7 @@ def export(lightcal, work, truth):
         run(lightcal, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--extract', taken, '-o', f'{work}/{case}',
             '--force', '--quiet')
         run(lightcal, 'export', f'{work}/{case}/light.json', '--to',
-            'json,gltf,blender,three,filament,mitsuba,pbrt,usd,godot', '-o', f'{work}/{case}/out', '--force', '--quiet')
+            'json,gltf,blender,three,filament,mitsuba,pbrt,usd,godot', '--rig', '-o', f'{work}/{case}/out', '--force', '--quiet')
 
 
 def render(args, work, engine, case, environment=False):
@@ -134,11 +134,11 @@ def render(args, work, engine, case, environment=False):
         os.remove(out)
     folder = f'{case}/out/light'
     if engine == 'blender':
-        jobs = [{'script': f'{work}/{folder}.blender.py', 'probes': probes, 'probe_samples': 1024}]
+        jobs = [{'script': f'{work}/{folder}.rig.blender.py', 'probes': probes, 'probe_samples': 1024}]
         command = ['blender', '-b', '--factory-startup', '-P', f'{gate.HERE}/blender_probe.py', '--', path, out]
     else:
         suffix = {'filament': 'filament.json', 'babylon_gltf': 'gltf'}.get(engine, 'three.js')
-        jobs = [{'engine': engine, 'module': f'{folder}.{suffix}', 'probes': probes, 'environment': environment,
+        jobs = [{'engine': engine, 'module': f'{folder}.rig.{suffix}', 'probes': probes, 'environment': environment,
                  'suns': 1 if case == 'beside' else 0}]
         command = ['node', f'{gate.HERE}/browse.mjs', args.modules, work, path, out]
     with open(path, 'w') as f:

@@ -40,11 +40,11 @@ def jobs_of(work, stem, edits):
             png = f'{work}/{engine}_{"naive" if naive else "ours"}.png'
             edit = edits[engine] if naive else ''
             if engine == 'blender':
-                blender.append({'script': f'{work}/out/{stem}.blender.py', 'probes': [], 'percent': 100,
+                blender.append({'script': f'{work}/out/{stem}.rig.blender.py', 'probes': [], 'percent': 100,
                                 'samples': 64, 'rig_png': png, 'edit': edit})
             else:
                 suffix = 'filament.json' if engine == 'filament' else 'three.js'
-                browser.append({'engine': engine, 'module': f'out/{stem}.{suffix}', 'probes': [],
+                browser.append({'engine': engine, 'module': f'out/{stem}.rig.{suffix}', 'probes': [],
                                 'png': png, 'edit': edit})
     return blender, browser
 
@@ -81,8 +81,8 @@ def main():
         with open(f'{work}/{stem}.json', 'w') as f:
             json.dump(one, f)
         subprocess.run([args.lightcal, 'export', f'{work}/{stem}.json', '--to',
-                        'json,blender,three,filament', '-o', f'{work}/out', '--quiet'], **quiet)
-        rig = json.load(open(f'{work}/out/{stem}.preset.json'))
+                        'json,blender,three,filament', '--rig', '-o', f'{work}/out', '--quiet'], **quiet)
+        rig = json.load(open(f'{work}/out/{stem}.rig.preset.json'))
         lamp = rig['lights'][0]
         cd = lamp['photometry']['intensity_cd']['value']
         edits = {e: edit.format(watts=args.watts, cd=cd) for e, (edit, _) in NAIVE.items()}

@@ -46,6 +46,7 @@ class Export:
         if result.returncode != 0:
             raise GateError(result.stderr + result.stdout)
         self.answer = json.loads(result.stdout)
+        self.stem = "set.rig" if "--rig" in arguments else "set"
         self.warnings = self.answer.get("warnings", [])
 
     def text(self, name):
@@ -54,44 +55,44 @@ class Export:
 
 
 def godot(export, change=lambda t: t):
-    return read_godot.read(change(export.text("set.tscn")))
+    return read_godot.read(change(export.text(export.stem + ".tscn")))
 
 
 def usd(export, change=lambda t: t):
-    return read_usd.read(change(export.text("set.usda")), export.path)
+    return read_usd.read(change(export.text(export.stem + ".usda")), export.path)
 
 
 def mitsuba(export, change=lambda t: t):
-    return read_mitsuba.read(change(export.text("set.mitsuba.xml")))
+    return read_mitsuba.read(change(export.text(export.stem + ".mitsuba.xml")))
 
 
 def pbrt(export, change=lambda t: t):
-    return read_pbrt.read(change(export.text("set.pbrt")))
+    return read_pbrt.read(change(export.text(export.stem + ".pbrt")))
 
 
 def unity(export, change=lambda t: t):
-    return read_unity.read(change(export.text("set.unity.json")))
+    return read_unity.read(change(export.text(export.stem + ".unity.json")))
 
 
 def unreal(export, change=lambda t: t):
-    return read_unreal.read_script(change(export.text("set.unreal.py")),
+    return read_unreal.read_script(change(export.text(export.stem + ".unreal.py")),
                                    os.path.join(export.path, "set.unreal.py"))
 
 
 def gltf(export, change=lambda t: t):
-    return read_gltf.read(change(export.text("set.gltf")))
+    return read_gltf.read(change(export.text(export.stem + ".gltf")))
 
 
 def blender(export, change=lambda t: t):
-    return read_scripts.blender(change(export.text("set.blender.py")))
+    return read_scripts.blender(change(export.text(export.stem + ".blender.py")))
 
 
 def three(export, change=lambda t: t):
-    return read_scripts.three(change(export.text("set.three.js")))
+    return read_scripts.three(change(export.text(export.stem + ".three.js")))
 
 
 def filament(export, change=lambda t: t):
-    return read_scripts.filament(change(export.text("set.filament.json")))
+    return read_scripts.filament(change(export.text(export.stem + ".filament.json")))
 
 
 READERS = {"gltf": gltf, "blender": blender, "three": three, "filament": filament, "godot": godot, "usd": usd, "mitsuba": mitsuba, "pbrt": pbrt, "unity": unity,
@@ -196,7 +197,7 @@ class PhotometricGltf(unittest.TestCase):
 
     def test_it(self):
         export = Export("gltf", ["key", "luminaire"], "--bare")
-        root = json.loads(export.text("set.gltf"))
+        root = json.loads(export.text(export.stem + ".gltf"))
         first, second = root["scenes"]
         self.assertEqual(root["scene"], 0)
         in_first = [root["nodes"][i] for i in first["nodes"]]
@@ -221,7 +222,7 @@ class ImageBasedGltf(unittest.TestCase):
     def dome(self, nits):
         with unittest.mock.patch.dict(golden_lights.LAMPS["sky"], lx=nits * math.pi):
             export = Export("gltf", ["key", "sky"], "--bare")
-        root = json.loads(export.text("set.gltf"))
+        root = json.loads(export.text(export.stem + ".gltf"))
         first, last = root["scenes"]
         self.assertEqual(root["scene"], 0)
         names = [[root["nodes"][i]["name"] for i in s["nodes"]] for s in (first, last)]
@@ -262,7 +263,9 @@ class ExposedRig(unittest.TestCase):
     def test_each(self):
         for target in READERS:
             with self.subTest(target):
-                export = Export(target, ["key"], distances=(0.5, 1.0, 2.0))
+                export = Export(target, ["key"], "--rig", distances=(0.5, 1.0, 2.0))
+                for light in READERS[target](Export(target, ["key"])):
+                    self.assertNotIsInstance(light, seen.Rig)
                 lights, rig = READERS[target](export)
                 # Unreal's square centimetre is given back over .5 to 2 m.
                 compare(lights, ["key"], max(TOLERANCE[target], 3e-4))
@@ -429,7 +432,7 @@ class Refits(unittest.TestCase):
                             distances=self.DISTANCES)
             self.assertNotIn("falloff_residual", {w["code"] for w in export.warnings})
             if target == "gltf":
-                light = json.loads(export.text("set.gltf"))["extensions"]["KHR_lights_punctual"][
+                light = json.loads(export.text(export.stem + ".gltf"))["extensions"]["KHR_lights_punctual"][
                     "lights"][0]
                 self.assertAlmostEqual(light["range"], r, delta=1e-9)
                 candela = light["intensity"] * sum(
@@ -449,7 +452,7 @@ class Refits(unittest.TestCase):
                 self.assertLess(self.residual(lambda d: window(d, near) / d ** 2,
                                               candela * light["babylon_intensity_factor"]), 0.005)
             if target == "filament":
-                light = json.loads(export.text("set.filament.json"))["lights"][0]
+                light = json.loads(export.text(export.stem + ".filament.json"))["lights"][0]
                 self.assertAlmostEqual(light["falloff_m"], r, delta=1e-9)
             self.assertLess(self.residual(law, candela), 0.005 + TOLERANCE.get(target, 1e-4), target)
 

@@ -38,12 +38,26 @@ namespace UnityEngine
     }
     public class Transform : Component
     {
+        readonly List<Transform> children = new List<Transform>();
+        public Transform parent { get; private set; }
+        public int childCount { get { return children.Count; } }
+        public Transform GetChild(int index) { return children[index]; }
+        internal void Leave() { if (parent != null) parent.children.Remove(this); parent = null; }
         public Vector3 localPosition { get; set; }
         public Quaternion localRotation { get; set; }
         public Vector3 localScale { get; set; }
-        public void SetParent(Transform parent, bool worldPositionStays) { }
+        public void SetParent(Transform parent, bool worldPositionStays)
+        {
+            Leave();
+            this.parent = parent;
+            if (parent != null) parent.children.Add(this);
+        }
     }
-    public class Component : Object { }
+    public class Component : Object
+    {
+        public GameObject gameObject { get; internal set; }
+        public Transform transform { get { return gameObject.transform; } }
+    }
     public class Behaviour : Component { }
     public class Renderer : Component { public Material sharedMaterial { get; set; } }
     public class Camera : Behaviour
@@ -57,13 +71,22 @@ namespace UnityEngine
     {
         public static readonly List<GameObject> All = new List<GameObject>();
         readonly List<Component> parts = new List<Component>();
-        public GameObject() { All.Add(this); transform = new Transform(); }
+        public GameObject() { All.Add(this); transform = new Transform(); transform.gameObject = this; }
+        public T[] GetComponentsInChildren<T>(bool includeInactive) where T : Component
+        {
+            List<T> found = new List<T>();
+            foreach (Component part in parts) if (part is T) found.Add((T)part);
+            for (int i = 0; i < transform.childCount; i++)
+                found.AddRange(transform.GetChild(i).gameObject.GetComponentsInChildren<T>(includeInactive));
+            return found.ToArray();
+        }
         public GameObject(string name) : this() { this.name = name; }
         public Transform transform { get; private set; }
         public T AddComponent<T>() where T : Component { return (T)AddComponent(typeof(T)); }
         public Component AddComponent(Type type)
         {
             Component part = (Component)Activator.CreateInstance(type);
+            part.gameObject = this;
             parts.Add(part);
             return part;
         }
@@ -163,11 +186,42 @@ namespace UnityEngine
         } }
     public static class Debug
     {
+        public static readonly List<string> Log_ = new List<string>();
+        public static void Log(object message) { Log_.Add("" + message); }
         public static readonly List<string> Said = new List<string>();
         public static void LogError(object message) { Said.Add("error: " + message); }
         public static void LogWarning(object message) { Said.Add("warning: " + message); }
     }
     public static class Application { public static string dataPath { get { return ""; } } }
+}
+
+namespace UnityEngine.SceneManagement
+{
+    public struct Scene
+    {
+        public GameObject[] GetRootGameObjects() { return GameObject.All.FindAll(thing => thing.transform.parent == null).ToArray(); }
+    }
+    public static class SceneManager { public static Scene GetActiveScene() { return new Scene(); } }
+}
+
+namespace UnityEditor.SceneManagement
+{
+    using UnityEngine;
+    public enum NewSceneSetup { EmptyScene, DefaultGameObjects }
+    public enum NewSceneMode { Single, Additive }
+    public static class EditorSceneManager
+    {
+        public static bool UserSaves = true;
+        public static int Opened;
+        public static bool SaveCurrentModifiedScenesIfUserWantsTo() { return UserSaves; }
+        public static UnityEngine.SceneManagement.Scene NewScene(NewSceneSetup setup, NewSceneMode mode)
+        {
+            if (setup != NewSceneSetup.EmptyScene || mode != NewSceneMode.Single) throw new Exception("another scene");
+            GameObject.All.Clear();
+            Opened++;
+            return new UnityEngine.SceneManagement.Scene();
+        }
+    }
 }
 
 namespace UnityEngine.Rendering
@@ -186,6 +240,31 @@ namespace UnityEditor
 {
     [AttributeUsage(AttributeTargets.Method)]
     public class MenuItem : Attribute { public MenuItem(string path) { } }
+    // Groups as the editor counts them; what is made or destroyed without it is not undone.
+    public static class Undo
+    {
+        static int group;
+        public static readonly HashSet<UnityEngine.Object> Created = new HashSet<UnityEngine.Object>();
+        public static readonly HashSet<UnityEngine.Object> Recorded = new HashSet<UnityEngine.Object>();
+        public static readonly List<string> Steps = new List<string>();
+        static string name = "";
+        public static void IncrementCurrentGroup() { group++; }
+        public static int GetCurrentGroup() { return group; }
+        public static void SetCurrentGroupName(string groupName) { name = groupName; }
+        public static void CollapseUndoOperations(int groupIndex)
+        {
+            if (groupIndex != group || name == "") throw new Exception("another group");
+            Steps.Add(name);
+        }
+        public static void RegisterCreatedObjectUndo(UnityEngine.Object objectToUndo, string label) { Created.Add(objectToUndo); }
+        public static void DestroyObjectImmediate(UnityEngine.Object objectToUndo)
+        {
+            UnityEngine.GameObject thing = (UnityEngine.GameObject)objectToUndo;
+            while (thing.transform.childCount > 0) DestroyObjectImmediate(thing.transform.GetChild(0).gameObject);
+            thing.transform.Leave();
+            UnityEngine.GameObject.All.Remove(thing);
+        }
+    }
     public static class EditorUtility
     {
         public static string OpenFilePanel(string title, string directory, string extension) { return ""; }

@@ -136,17 +136,40 @@ class PostProcessSettings(Object):
     properties.update({"override_" + name: bool for name in list(properties)})
 
 
+class Name:
+    def __init__(self, text=""):
+        assert isinstance(text, str)
+        self.text = text
+
+    def __str__(self):
+        return self.text
+
+
+class Package(Object):
+    def __init__(self, name):
+        super().__init__()
+        self.name = name
+
+    def get_name(self):
+        return self.name
+
+
 class Actor(Object):
     component = SceneComponent
+    properties = dict(tags=list)
 
     def __init__(self):
         super().__init__()
         self.root = self.component()
+        self.held["tags"] = []
         self.label = self.scale = None
 
     def set_actor_label(self, label):
         assert isinstance(label, str)
         self.label = label
+
+    def get_actor_label(self):
+        return self.label
 
     def set_actor_scale3d(self, scale):
         self.scale = scale
@@ -203,20 +226,78 @@ class AssetImportTask(Object):
                       save=bool, imported_object_paths=list)
 
 
-def build(ies_multiplier):
-    """The module, and the list of what was spawned: (actor, location, rotation)."""
-    spawned, assets, warnings = [], {"/Engine/BasicShapes/Plane": StaticMesh()}, []
+class Scene:
+    """What an editor keeps between runs of scripts: levels of [(actor, location, rotation)], assets,
+    the log, and how many transactions were opened and closed."""
+
+    def __init__(self):
+        self.levels, self.open, self.unsaved = {"/Game/Stage": []}, "/Game/Stage", []
+        self.assets = {"/Engine/BasicShapes/Plane": StaticMesh()}
+        self.log, self.warnings, self.errors = [], [], []
+        self.transactions, self.in_transaction = [], False
+        self.spawned_in_all = 0
+
+    def actors(self):
+        return [row[0] for row in self.levels[self.open]]
+
+
+def build(scene, ies_multiplier):
+    """The module of an editor that has this scene."""
+    assets = scene.assets
     module = types.ModuleType("unreal")
     for name, value in globals().items():
-        if isinstance(value, type) and name not in ("Enum", "Struct", "Object", "Actor"):
+        if isinstance(value, type) and name not in ("Enum", "Struct", "Object", "Scene"):
             setattr(module, name, value)
 
     class EditorActorSubsystem:
         def spawn_actor_from_class(self, actor_class, location, rotation):
             assert isinstance(location, Vector) and isinstance(rotation, Rotator)
+            assert scene.in_transaction, "spawned outside of a transaction"
             made = actor_class()
-            spawned.append((made, location.values, rotation.values))
+            scene.spawned_in_all += 1
+            scene.levels[scene.open].append((made, location.values, rotation.values))
             return made
+
+        def get_all_level_actors(self):
+            return scene.actors()
+
+        def destroy_actor(self, actor_to_destroy):
+            assert scene.in_transaction, "destroyed outside of a transaction"
+            rows = scene.levels[scene.open]
+            rows[:] = [row for row in rows if row[0] is not actor_to_destroy]
+            return True
+
+    class LevelEditorSubsystem:
+        def new_level(self, asset_path, is_partitioned_world=False):
+            assert asset_path.startswith("/Game/") and asset_path not in scene.levels
+            assert "." not in asset_path and " " not in asset_path
+            scene.levels[asset_path], scene.open = [], asset_path
+            assets[asset_path] = "level"
+            return True
+
+        def load_level(self, asset_path):
+            scene.open = asset_path
+            return asset_path in scene.levels
+
+    class EditorLoadingAndSavingUtils:
+        @staticmethod
+        def get_dirty_map_packages():
+            return [Package(name) for name in scene.unsaved]
+
+    class ScopedEditorTransaction:
+        def __init__(self, description):
+            assert isinstance(description, str) and description
+            self.description = description
+
+        def __enter__(self):
+            assert not scene.in_transaction
+            scene.in_transaction = True
+            return self
+
+        def __exit__(self, kind, value, trace):
+            scene.in_transaction = False
+            scene.transactions.append(self.description)
+            return False
 
     class Tools:
         def import_asset_tasks(self, tasks):
@@ -261,21 +342,30 @@ def build(ies_multiplier):
             pass
 
     module.EditorActorSubsystem = EditorActorSubsystem
+    module.LevelEditorSubsystem = LevelEditorSubsystem
+    module.EditorLoadingAndSavingUtils = EditorLoadingAndSavingUtils
+    module.ScopedEditorTransaction = ScopedEditorTransaction
     module.AssetToolsHelpers = AssetToolsHelpers
     module.EditorAssetLibrary = EditorAssetLibrary
     module.MaterialEditingLibrary = MaterialEditingLibrary
     module.get_editor_subsystem = lambda wanted: wanted()
     module.load_asset = lambda path: assets[path]
-    module.log = lambda text: None
-    module.log_warning = warnings.append
-    return module, spawned, warnings
+    module.log = scene.log.append
+    module.log_warning = scene.warnings.append
+    module.log_error = scene.errors.append
+    return module
 
 
-def run(script, path, ies_multiplier=1.0):
-    module, spawned, warnings = build(ies_multiplier)
-    sys.modules["unreal"] = module
+def run_in(scene, script, path, ies_multiplier=1.0):
+    sys.modules["unreal"] = build(scene, ies_multiplier)
     try:
         exec(compile(script, path, "exec"), {"__file__": path, "__name__": "__main__"})
     finally:
         del sys.modules["unreal"]
-    return spawned, warnings
+
+
+def run(script, path, ies_multiplier=1.0):
+    """In an empty level: what stands in the level that is open at the end, and what was warned."""
+    scene = Scene()
+    run_in(scene, script, path, ies_multiplier)
+    return scene.levels[scene.open], scene.warnings + scene.errors

@@ -25,19 +25,19 @@ def export(folder, *arguments):
         out.write(golden_lights.light_json(golden_lights.LAMPS))
     subprocess.run([LIGHTCAL, "export", lamps, "--to", "usd", "-o", folder, *arguments],
                    check=True, capture_output=True)
-    return os.path.join(folder, "set.usda")
+    return os.path.join(folder, "set.rig.usda" if "--rig" in arguments else "set.usda")
 
 
 class TinyUsdz(unittest.TestCase):
     def test_it_loads_every_kind(self):
-        for arguments in (["--bare"], []):
+        for arguments in ([], ["--bare"], ["--rig"]):
             with tempfile.TemporaryDirectory() as folder:
                 result = load(export(folder, *arguments))
                 self.assertEqual(result.returncode, 0, result.stderr)
                 for prim in ("SphereLight", "DistantLight", "RectLight", "DiskLight",
                              "CylinderLight", "DomeLight", "ShapingAPI", "shaping:ies:file"):
                     self.assertIn(prim, result.stdout)
-                self.assertEqual("rig_camera" in result.stdout, not arguments)
+                self.assertEqual("rig_camera" in result.stdout, "--rig" in arguments)
 
     def test_its_own_dump_of_the_layer_gives_the_same_residuals(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -98,7 +98,7 @@ Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& pat
   }
   if (root->Find("rig") == nullptr) {
     return Refused("no_rig", path,
-                   "has no rig; export it without {preset.bare}, with {preset.json}");
+                   "has no rig: an older file; export it again with {preset.json}");
   }
   Finder find;
   CheckedRig rig;

@@ -1,11 +1,17 @@
 // Written by lightcal. Not executed in Unity: compiled against stand-ins of its documented types.
-// Put this file and the .unity.json into Assets/Editor, then Tools > lightcal > Import preset.
+// Put this file and the .unity.json into Assets/Editor, then Tools > lightcal > Import preset. The
+// lights come into the scene that is open, under one root; imported again, they replace those under
+// that root and leave all else as it is; one undo takes them back. NAME.rig.unity.json opens a new
+// scene with cards, camera and exposure.
 using System;
+using System.Collections.Generic;
 using System.IO;
 using System.Reflection;
 using UnityEditor;
+using UnityEditor.SceneManagement;
 using UnityEngine;
 using UnityEngine.Rendering;
+using UnityEngine.SceneManagement;
 
 namespace Lightcal
 {
@@ -58,12 +64,50 @@ namespace Lightcal
             Type hdLight = Find("UnityEngine.Rendering.HighDefinition.HDAdditionalLightData");
             bool hdrp = hdLight != null &&
                 GraphicsSettings.currentRenderPipeline.GetType().Name.StartsWith("HD");
-            GameObject root = new GameObject("lightcal " + preset.name);
+            bool rig = preset.cards != null && preset.cards.Length > 0;
+            if (rig)
+            {
+                // The rig's scene is its own: the one that is open is saved first, or nothing is done.
+                if (!EditorSceneManager.SaveCurrentModifiedScenesIfUserWantsTo()) return;
+                EditorSceneManager.NewScene(NewSceneSetup.EmptyScene, NewSceneMode.Single);
+            }
+            Undo.IncrementCurrentGroup();
+            Undo.SetCurrentGroupName("lightcal " + preset.name);
+            GameObject root = OwnRoot("lightcal " + preset.name);
+            RemoveOwnLights(root);
             foreach (Lamp lamp in preset.lights) AddLight(root, lamp, hdrp, hdLight);
-            if (preset.cards == null || preset.cards.Length == 0) return;
-            foreach (Card card in preset.cards) AddCard(root, card, preset.side_m, hdrp);
-            AddCamera(root, preset.camera);
-            if (hdrp) LockExposure(root, preset.exposure.ev100);
+            if (rig)
+            {
+                foreach (Card card in preset.cards) AddCard(root, card, preset.side_m, hdrp);
+                AddCamera(root, preset.camera);
+                if (hdrp) LockExposure(root, preset.exposure.ev100);
+            }
+            Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
+            Debug.Log("lightcal: " + preset.lights.Length + " lights under \"" + root.name + "\"");
+        }
+
+        // Ours by its name among the roots of the scene that is open.
+        static GameObject OwnRoot(string name)
+        {
+            foreach (GameObject thing in SceneManager.GetActiveScene().GetRootGameObjects())
+            {
+                if (thing.name == name) return thing;
+            }
+            GameObject root = new GameObject(name);
+            Undo.RegisterCreatedObjectUndo(root, name);
+            return root;
+        }
+
+        // Only what stands right under our root and is a light: what a person put there stays.
+        static void RemoveOwnLights(GameObject root)
+        {
+            List<GameObject> old = new List<GameObject>();
+            for (int i = 0; i < root.transform.childCount; i++)
+            {
+                GameObject thing = root.transform.GetChild(i).gameObject;
+                if (thing.GetComponent<Light>() != null) old.Add(thing);
+            }
+            foreach (GameObject thing in old) Undo.DestroyObjectImmediate(thing);
         }
 
         static Vector3 V(float[] v) { return new Vector3(v[0], v[1], v[2]); }
@@ -100,6 +144,7 @@ namespace Lightcal
             }
             if (hdrp) SetPhysical(thing, light, e, hdLight);
             else light.intensity = e.intensity;
+            Undo.RegisterCreatedObjectUndo(thing, lamp.name);
         }
 
         static string UnitOf(LightType type)

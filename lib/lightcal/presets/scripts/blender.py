@@ -1,8 +1,11 @@
 # Written by lightcal: measured lights for Blender 3.4 and later, Cycles.
-#   blender -b -P THIS_FILE -- [--save out.blend] [--render out.png|out.exr] [--samples N]
-# or open it in the Text editor and press Run. It makes a scene of its own; others stay as they are.
+#   blender [-b] [yours.blend] -P THIS_FILE -- [--save out.blend]
+# or open it in the Text editor and press Run. The lights come into the scene that is open; run again,
+# it replaces its own and leaves all else as it is; one undo takes them back. NAME.rig.blender.py
+# makes a scene of its own with cards, camera and exposure, and takes
+#   [--render out.png|out.exr] [--samples N]  as well.
 # Lights are watts of W = lm/683 (as Blender's glTF importer has it): every radiance of the scene is
-# cd/m2 divided by 683, and the view's exposure brings the white card to 1.0 (reflectance 1).
+# cd/m2 divided by 683, and the rig's exposure brings the white card to 1.0 (reflectance 1).
 import json
 import math
 import os
@@ -13,17 +16,30 @@ from mathutils import Matrix, Vector
 
 PRESET = json.loads(r'''
 @DATA@''')
+OWN, LAMP = 'lightcal_of', 'lightcal_lamp'  # custom properties: whose, and which
 
 
-def placed(name, data, scene, columns, position):
-    thing = bpy.data.objects.new(name, data)
+def is_own(thing):
+    return thing.get(OWN) == PRESET['name']
+
+
+def owned(thing):
+    thing[OWN] = PRESET['name']
+    return thing
+
+
+def placed(name, data, collection, columns, position, thing=None):
+    """A new object, or one that is there, moved."""
+    if thing is None:
+        thing = owned(bpy.data.objects.new(name, data))
+        collection.objects.link(thing)
     matrix = Matrix.Identity(4)
     for i, column in enumerate(columns):
         for row in range(3):
             matrix[row][i] = column[row]
     matrix.translation = Vector(position)
+    thing.parent = None
     thing.matrix_world = matrix
-    scene.collection.objects.link(thing)
     return thing
 
 
@@ -34,7 +50,7 @@ def ies_nodes(lamp, text):
     tree.nodes.clear()
     ies = tree.nodes.new('ShaderNodeTexIES')
     ies.mode = 'INTERNAL'
-    block = bpy.data.texts.new(lamp.name + '.ies')
+    block = owned(bpy.data.texts.new(lamp.name + '.ies'))
     block.write(text)
     ies.ies = block
     emission = tree.nodes.new('ShaderNodeEmission')
@@ -43,9 +59,26 @@ def ies_nodes(lamp, text):
     tree.links.new(emission.outputs[0], output.inputs[0])
 
 
-def add_light(scene, light):
+def discard(lamp):
+    """Light data that nothing uses any more, with its photometric text."""
+    nodes = list(lamp.node_tree.nodes) if lamp.node_tree else []
+    texts = [node.ies for node in nodes if node.type == 'TEX_IES' and node.ies]
+    if lamp.users == 0:
+        bpy.data.lights.remove(lamp)
+        for text in texts:
+            if is_own(text):
+                bpy.data.texts.remove(text)
+
+
+def add_light(collection, light, mine=None):
+    """A light, in the place of ours of an earlier run where there is one."""
     kind = light['type']
     lamp = bpy.data.lights.new(light['name'], 'POINT' if kind == 'IES' else kind)
+    if mine:
+        earlier, mine.data = mine.data, lamp
+        name = earlier.name
+        discard(earlier)
+        lamp.name = name
     lamp.color = light['color']
     energy = light['energy_W']
     if kind == 'AREA':
@@ -74,7 +107,8 @@ def add_light(scene, light):
     if kind == 'IES':
         ies_nodes(lamp, light['ies'])
     lamp['lightcal'] = json.dumps(light['measured'])
-    placed(light['name'], lamp, scene, light['axes'], light['position_m'])
+    thing = placed(light['name'], lamp, collection, light['axes'], light['position_m'], mine)
+    thing[LAMP] = light['name']
 
 
 def picture_node(tree, name):
@@ -95,10 +129,10 @@ def picture_node(tree, name):
     return picture
 
 
-def set_world(scene, domes):
-    if not domes:
-        return  # no world at all: black, and no samples spent on it
-    world = bpy.data.worlds.new(scene.name)
+def add_world(name, domes):
+    """The light from all around, as a world; scenes take it or not."""
+    world = owned(bpy.data.worlds.new(name))
+    world.use_fake_user = True
     world.use_nodes = True
     tree = world.node_tree
     tree.nodes.clear()
@@ -118,7 +152,7 @@ def set_world(scene, domes):
         shader = last
     output = tree.nodes.new('ShaderNodeOutputWorld')
     tree.links.new(shader.outputs[0], output.inputs['Surface'])
-    scene.world = world
+    return world
 
 
 def add_card(scene, rig, card):
@@ -137,7 +171,7 @@ def add_card(scene, rig, card):
                      [(0, 1, 2, 3)])
     mesh.materials.append(material)
     row, normal = Vector(rig['row']), Vector(rig['normal'])
-    placed(card['name'], mesh, scene, [row, normal.cross(row), normal], card['centre_m'])
+    placed(card['name'], mesh, scene.collection, [row, normal.cross(row), normal], card['centre_m'])
 
 
 def add_camera(scene, camera):
@@ -148,7 +182,7 @@ def add_camera(scene, camera):
     data.clip_start = 0.001
     back = (Vector(camera['position_m']) - Vector(camera['target_m'])).normalized()
     up = Vector(camera['up'])
-    scene.camera = placed('rig camera', data, scene, [up.cross(back), up, back],
+    scene.camera = placed('rig camera', data, scene.collection, [up.cross(back), up, back],
                           camera['position_m'])
 
 
@@ -171,25 +205,100 @@ def set_exposure(scene, scale):
     scene.render.dither_intensity = 0.0  # Blender's only adds: .42 of an 8 bit code, 1 % of the grey
 
 
-def build():
-    scene = bpy.data.scenes.new('lightcal ' + PRESET['name'])
+def own_collection(scene):
+    for collection in scene.collection.children_recursive:
+        if is_own(collection):
+            return collection
+    collection = owned(bpy.data.collections.new('lightcal ' + PRESET['name']))
+    scene.collection.children.link(collection)
+    return collection
+
+
+def replace_world(scene, domes):
+    """Ours, where the scene has none or ours: a person's own world stays."""
+    earlier = [world for world in bpy.data.worlds if is_own(world)]
+    for world in earlier:
+        world.name = 'earlier'
+    if domes and (scene.world is None or is_own(scene.world)):
+        scene.world = add_world('lightcal ' + PRESET['name'], domes)
+    elif domes:
+        world = add_world('lightcal ' + PRESET['name'], domes)
+        print('lightcal: the light from all around is the world "' + world.name +
+              '"; choose it in World properties, where this scene has one of its own')
+    for world in earlier:
+        world.use_fake_user = False
+        if world.users == 0:
+            bpy.data.worlds.remove(world)
+
+
+def bring_lights():
+    """Into the scene that is open: ours of an earlier run are replaced, all else stays as it is."""
+    scene = bpy.context.scene
+    collection = own_collection(scene)
+    ours = {}
+    for thing in [t for t in scene.objects if is_own(t)]:
+        ours.setdefault(thing.get(LAMP), []).append(thing)
+    count = 0
     for light in PRESET['lights']:
         if light['type'] != 'WORLD':
-            add_light(scene, light)
-    set_world(scene, [light for light in PRESET['lights'] if light['type'] == 'WORLD'])
+            mine = ours.get(light['name'])
+            add_light(collection, light, mine.pop(0) if mine else None)
+            count += 1
+    for thing in [thing for left in ours.values() for thing in left]:
+        lamp = thing.data
+        bpy.data.objects.remove(thing)
+        discard(lamp)
+    replace_world(scene, [light for light in PRESET['lights'] if light['type'] == 'WORLD'])
+    stops = math.log2(PRESET['exposure']['exposure'] * PRESET['lumens_per_watt'])
+    print('lightcal: %d lights in "%s"; as the meter saw it at exposure %+.1f (Color Management)'
+          % (count, scene.name, stops))
+    return scene
+
+
+def remove_rigs():
+    for old in [scene for scene in bpy.data.scenes if is_own(scene)]:
+        things = [thing for thing in old.objects if is_own(thing)]
+        bpy.data.scenes.remove(old)
+        data = [t.data for t in things if t.users == 0]
+        materials = [m for d in data for m in getattr(d, 'materials', [])]
+        bpy.data.batch_remove([t for t in things if t.users == 0])
+        for lamp in [d for d in data if isinstance(d, bpy.types.Light)]:
+            data.remove(lamp)
+            discard(lamp)
+        bpy.data.batch_remove([d for d in data if d.users == 0])
+        bpy.data.batch_remove([m for m in materials if m.users == 0])
+    for world in [world for world in bpy.data.worlds if is_own(world)]:
+        bpy.data.worlds.remove(world)
+
+
+def build_rig():
+    """A scene of its own, in the place of that of an earlier run."""
+    scene = bpy.data.scenes.new('lightcal')
+    remove_rigs()
+    owned(scene).name = 'lightcal ' + PRESET['name']
+    for light in PRESET['lights']:
+        if light['type'] != 'WORLD':
+            add_light(scene.collection, light)
+    domes = [light for light in PRESET['lights'] if light['type'] == 'WORLD']
+    if domes:  # else no world at all: black, and no samples spent on it
+        scene.world = add_world(scene.name, domes)
     set_exposure(scene, PRESET['exposure']['exposure'])
-    if 'rig' in PRESET:
-        for card in PRESET['rig']['cards']:
-            add_card(scene, PRESET['rig'], card)
-        add_camera(scene, PRESET['rig']['camera'])
+    for card in PRESET['rig']['cards']:
+        add_card(scene, PRESET['rig'], card)
+    add_camera(scene, PRESET['rig']['camera'])
     if bpy.context.window:
         bpy.context.window.scene = scene
     return scene
 
 
 def run(arguments):
-    scene = build()
     options = dict(zip(arguments[0::2], arguments[1::2]))
+    if 'rig' not in PRESET and ('--render' in options or '--samples' in options):
+        sys.exit('lightcal: these are the lights alone; what renders is ' + PRESET['name'] +
+                 '.rig.blender.py, which export writes with --rig')
+    bpy.ops.ed.undo_push(message='Before lightcal')
+    scene = build_rig() if 'rig' in PRESET else bring_lights()
+    bpy.ops.ed.undo_push(message='lightcal ' + PRESET['name'])
     if '--samples' in options:
         scene.cycles.samples = int(options['--samples'])
     if '--save' in options:

@@ -1,12 +1,16 @@
 # Lights by lightcal. Not executed in Unreal Engine: checked against its documented names.
-# Run in the editor with the Python plugin: py "THIS FILE". Lights are made anew at every run.
+# Run in the editor with the Python plugin: py "THIS FILE". The lights come into the level that is
+# open; run again, it replaces its own, found by their tag, and leaves all else as it is; one undo
+# takes them back. NAME.rig.unreal.py opens a level of its own with cards, camera and exposure.
 import json
 import os
+import re
 
 import unreal
 
 DATA = json.loads(r'''@DATA@''')
 FOLDER = "/Game/lightcal"
+TAG = "lightcal:" + DATA["name"]
 ACTORS = unreal.get_editor_subsystem(unreal.EditorActorSubsystem)
 COMPONENTS = {
     "PointLight": (unreal.PointLight, unreal.PointLightComponent),
@@ -16,6 +20,22 @@ COMPONENTS = {
 }
 
 
+def is_own(actor):
+    return TAG in [str(tag) for tag in actor.get_editor_property("tags")]
+
+
+def owned(actor, label):
+    actor.set_actor_label(label)
+    actor.set_editor_property("tags", [unreal.Name(TAG)])
+    return actor
+
+
+def remove_own():
+    for actor in ACTORS.get_all_level_actors():
+        if is_own(actor):
+            ACTORS.destroy_actor(actor)
+
+
 def spawn(actor_class, item):
     pitch, yaw, roll = item["pitch_yaw_roll_deg"]
     actor = ACTORS.spawn_actor_from_class(
@@ -23,8 +43,7 @@ def spawn(actor_class, item):
         unreal.Vector(*item["location_cm"]),
         unreal.Rotator(roll=roll, pitch=pitch, yaw=yaw),
     )
-    actor.set_actor_label(item["name"])
-    return actor
+    return owned(actor, item["name"])
 
 
 def put(target, name, value):
@@ -100,7 +119,7 @@ def lock_exposure(bias):
     volume = ACTORS.spawn_actor_from_class(
         unreal.PostProcessVolume, unreal.Vector(0, 0, 0), unreal.Rotator(roll=0, pitch=0, yaw=0)
     )
-    volume.set_actor_label("lightcal exposure")
+    owned(volume, "lightcal exposure")
     put(volume, "unbound", True)
     settings = volume.get_editor_property("settings")
     for name, value in (
@@ -124,11 +143,36 @@ def add_camera(item):
     put(component, "constrain_aspect_ratio", True)
 
 
-for light in DATA["lights"]:
-    add_light(light)
-if "rig" in DATA:
-    for card in DATA["rig"]["cards"]:
-        add_card(card)
-    lock_exposure(DATA["rig"]["exposure_bias"])
-    add_camera(DATA["rig"]["camera"])
-unreal.log("lightcal: %d lights" % len(DATA["lights"]))
+def open_rig_level():
+    """The rig's own level, new or that of an earlier run; False where work would be lost."""
+    unsaved = unreal.EditorLoadingAndSavingUtils.get_dirty_map_packages()
+    if unsaved:
+        unreal.log_error("lightcal: nothing done: %s has changes that are not saved; save it, then "
+                         "run this again" % unsaved[0].get_name())
+        return False
+    levels = unreal.get_editor_subsystem(unreal.LevelEditorSubsystem)
+    path = FOLDER + "/" + re.sub("[^A-Za-z0-9_]", "_", DATA["name"])
+    if unreal.EditorAssetLibrary.does_asset_exist(path):
+        opened = levels.load_level(path)
+    else:
+        opened = levels.new_level(path)
+    if not opened:
+        unreal.log_error("lightcal: nothing done: the level %s cannot be opened" % path)
+    return opened
+
+
+def bring_lights():
+    with unreal.ScopedEditorTransaction("lightcal " + DATA["name"]):
+        remove_own()
+        for light in DATA["lights"]:
+            add_light(light)
+        if "rig" in DATA:
+            for card in DATA["rig"]["cards"]:
+                add_card(card)
+            lock_exposure(DATA["rig"]["exposure_bias"])
+            add_camera(DATA["rig"]["camera"])
+    unreal.log("lightcal: %d lights" % len(DATA["lights"]))
+
+
+if "rig" not in DATA or open_rig_level():
+    bring_lights()
