@@ -161,6 +161,12 @@ class Planner {
     std::vector<Reading> readings;
     for (std::size_t i = first; i < last; ++i) {
       auto reading = imported.readings[i];
+      const Warnings about = WarningsAbout(imported, i);
+      if (const Warning* const doubt = IlluminanceDoubt(about);
+          doubt != nullptr && !settings_.color_only) {
+        return Refused("illuminance_ambiguous", doubt->subject,
+                       doubt->message + "; --color-only takes its colour alone");
+      }
       auto capture = Capture(path, imported, i);
       if (!capture) return Propagate(std::move(capture));
       reading.spectrum_file = *capture;

@@ -292,6 +292,33 @@ TEST_F(Import, ASpectrumBetweenBlanksIsKeptInAFormThatReadsBack) {
   EXPECT_EQ(fitted.exit_code, 0) << fitted.err;
 }
 
+// One file, two doors: what header and spectrum say differently is lux by neither.
+TEST_F(Import, AnIlluminanceThatHeaderAndSpectrumDisputeIsRefusedByBothDoors) {
+  std::string text = ReadFile(SampleData(kCasper));
+  const std::string lux = "2925.355469";
+  ASSERT_NE(text.find(lux), std::string::npos);
+  text.replace(text.find(lux), lux.size(), "123");
+  temp_.Write("s/captures/wrong.xls", text);
+  const auto import = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {InSession("captures/wrong.xls"), "--light", "key", "--json"});
+    return Run(more);
+  };
+  const CliResult refused = import({"--distance", "50cm"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(json::parse(refused.out)["error"]["code"], "illuminance_ambiguous");
+  EXPECT_EQ(import({"--color-only"}).exit_code, 0);
+  const auto fit = [&](const std::string& more) {
+    temp_.Write("t/session.toml", std::string(kSession) +
+                                      "[[reading]]\nlight = \"key\"\ndistance_m = 0.5\n"
+                                      "spectrum = \"" +
+                                      InSession("captures/wrong.xls") + "\"\n" + more);
+    return RunLightcal({"fit", temp_.path() + "/t", "--json"});
+  };
+  const CliResult unread = fit("");
+  EXPECT_EQ(unread.exit_code, 3);
+  EXPECT_EQ(json::parse(unread.out)["error"]["code"], "illuminance_ambiguous");
+}
+
 TEST_F(Import, MissingFileFails) {
   const CliResult result = Run({temp_.path() + "/none.csv", "--light", "key", "--json"});
   EXPECT_EQ(result.exit_code, 1);

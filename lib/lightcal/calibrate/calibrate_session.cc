@@ -84,7 +84,13 @@ Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, 
     reading.color_source = ColorSource::kSpectrometer;
   }
   const bool absolute = spectrum.quantity == SpectralQuantity::kIrradiance;
-  if (!reading.illuminance && absolute) reading.illuminance = Lux(xyz->Y);
+  if (!reading.illuminance && absolute) {
+    if (const Warning* const doubt = IlluminanceDoubt(one->warnings)) {
+      return Refused("illuminance_ambiguous", path,
+                     doubt->message + ": write illuminance_lx beside it, or mend the file");
+    }
+    reading.illuminance = Lux(xyz->Y);
+  }
   evidence.AddFile(path);
   evidence.AddSpectrum(reading.light, reading.spectrum_file, one->imported.spectrum);
   return reading;

@@ -28,6 +28,11 @@ Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view colu
                      (names.empty() ? "" : " or its name: " + names));
 }
 
+const Warning* IlluminanceDoubt(const Warnings& warnings) {
+  const auto doubt = std::ranges::find(warnings, "spectrum_disagrees", &Warning::code);
+  return doubt == warnings.end() ? nullptr : &*doubt;
+}
+
 Warnings WarningsAbout(const ImportedFile& file, std::size_t spectrum) {
   const std::string& where = file.spectra[spectrum].where;
   Warnings about = file.warnings;

@@ -57,6 +57,10 @@ struct ImportedFile {
 // counted from 1): an index into spectra. Refused: unknown_column (lists the names).
 [[nodiscard]] Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view column);
 
+// The warning that a header's illuminance is not its spectrum's: neither is a reading then; null where
+// they agree.
+[[nodiscard]] const Warning* IlluminanceDoubt(const Warnings& warnings);
+
 // The file's warnings without those about its other spectra.
 [[nodiscard]] Warnings WarningsAbout(const ImportedFile& file, std::size_t spectrum);
 
