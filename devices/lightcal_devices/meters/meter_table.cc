@@ -150,6 +150,7 @@ constexpr auto kMeters = std::to_array<MeterRow>({
      .models = "OPT4048, OPT3001, BH1750, VEML7700 on a MCP2221A",
      .line = &kHidUsbLine,
      .usb = kMcp2221Ids,
+     .usb_is_any_bridge = true,
      .verified = Verified::kDocumentation,
      .options = kMcp2221Options,
      .make = mcp2221::MakeMeter},
@@ -194,7 +195,9 @@ std::string_view VerifiedName(Verified how) {
 
 std::vector<std::string> UdevRules(const MeterRow& row) {
   std::vector<std::string> rules;
-  for (const UsbId& id : row.usb) rules.push_back(row.line->udev_rule(id));
+  for (const UsbId& id : row.usb) {
+    if (std::string rule = row.line->udev_rule(id); !rule.empty()) rules.push_back(std::move(rule));
+  }
   return rules;
 }
 

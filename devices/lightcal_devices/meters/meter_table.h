@@ -41,6 +41,7 @@ struct MeterRow {
   std::string_view models;          // for people
   const MeterLine* line = nullptr;  // of lines.h
   std::span<const UsbId> usb;       // of the meter, or of the cable in it
+  bool usb_is_any_bridge = false;   // the ids are a chip's that other devices have too
   SerialSettings serial = {};       // of a meter on a serial port
   Verified verified = Verified::kDocumentation;
   std::span<const MeterOption> options;
@@ -54,8 +55,9 @@ struct MeterRow {
 [[nodiscard]] const MeterRow* FindDriver(std::string_view driver);
 
 [[nodiscard]] std::string_view VerifiedName(Verified how);  // "captured_replay"
-// The udev rules that let whoever sits at the machine use this meter, one per USB id;
-// devices/udev/ holds them all.
+// The udev rules that let whoever sits at the machine use this meter, one per USB id; none for a
+// serial cable, whose chip is in a thousand other devices. devices/70-lightcal.rules holds those of
+// the meters' own ids; of a bridge that other devices have too the person decides.
 [[nodiscard]] std::vector<std::string> UdevRules(const MeterRow& row);
 
 }  // namespace lightcal::devices

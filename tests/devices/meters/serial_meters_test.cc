@@ -108,11 +108,11 @@ TEST(SerialMeters, APortInUseIsBusyAndAMissingOneIsNoDevice) {
   EXPECT_EQ(missing.error().subject, "gossen:/dev/ttyUSB999");
 }
 
-TEST(SerialMeters, WhoMayNotOpenAPortIsToldOfTheGroupAndTheRule) {
+TEST(SerialMeters, WhoMayNotOpenAPortIsToldOfTheGroup) {
   auto meter = *ChooseMeter({}, "gossen:/dev/ttyUSB0");
   meter.access = MeterAccess::kNoPermission;
   EXPECT_THAT(Remedy(meter), testing::HasSubstr("join the group dialout"));
-  EXPECT_THAT(Remedy(meter), testing::HasSubstr("SUBSYSTEM==\"tty\", ATTRS{idVendor}==\"0403\""));
+  EXPECT_THAT(Remedy(meter), testing::Not(testing::HasSubstr("SUBSYSTEM")));
 }
 
 }  // namespace

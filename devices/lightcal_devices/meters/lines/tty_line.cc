@@ -38,11 +38,8 @@ Result<std::unique_ptr<Transport>> OpenFoundTty(const FoundMeter& meter) {
   return OpenTty(meter.address, meter.row->serial);
 }
 
-std::string UdevRuleOfTty(UsbId id) {
-  const std::string text = UsbIdText(id.vendor, id.product);
-  return R"(SUBSYSTEM=="tty", ATTRS{idVendor}==")" + text.substr(0, 4) +
-         R"(", ATTRS{idProduct}==")" + text.substr(5) + R"(", MODE="0660", TAG+="uaccess")";
-}
+// A cable's chip is a thousand other devices' too: its ports stay the group's.
+std::string NoRuleForCables(UsbId /*id*/) { return ""; }
 
 }  // namespace
 
@@ -50,7 +47,7 @@ const MeterLine kTtyLine = {
     .name = "tty",
     .find = FindTty,
     .open = OpenFoundTty,
-    .udev_rule = UdevRuleOfTty,
+    .udev_rule = NoRuleForCables,
     .takes_address = true,
     .tells_meters_apart = false,
     .permission_remedy =
