@@ -14,8 +14,8 @@
 #include "lightcal/match/match_lights.h"
 #include "lightcal/match/mix_lights.h"
 #include "lightcal/records/light_codec.h"
-#include "lightcal/report/match_sheet.h"
 #include "match/match_answer.h"
+#include "match/match_sheet_of.h"
 #include "match/match_source.h"
 #include "output_files.h"
 #include "picture_file.h"
@@ -84,23 +84,6 @@ void WarnIfTooWeak(const match::Match& best, Console& console) {
 
 // ---- what is written ----
 
-Result<OutputFile> SheetFile(const MatchOptions& o, const match::MatchRequest& request,
-                             const match::Match& match, const std::string& gels,
-                             const MatchLight& lamp, const MatchLight& target) {
-  const auto seen = match::ViewMatch(request, match);
-  if (!seen) return tl::unexpected(seen.error());
-  report::MatchSheet sheet;
-  sheet.title = lamp.title + " to " + target.title;
-  sheet.viewer = seen->viewer;
-  sheet.lamp = {lamp.title, seen->lamp.samples, seen->lamp.difference, lamp.spectrum};
-  sheet.target = {target.title, seen->target, {}, target.spectrum};
-  sheet.gelled = {gels, seen->gelled.samples, seen->gelled.difference,
-                  SpectrumBehind(lamp.spectrum, match.transmittance)};
-  sheet.transmittance = match.transmittance;
-  sheet.has_gels = !match.gels.empty();
-  return PictureFile(o.plot, report::MatchSheetSvg(sheet));
-}
-
 Result<OutputFile> GelledLightFile(const MatchOptions& o, const match::MatchRequest& request,
                                    const match::Match& match, const MatchLight& lamp) {
   LightFile file;
@@ -130,9 +113,11 @@ Result<std::vector<OutputFile>> FilesAsked(const MatchOptions& o,
   }
   const match::Match& match = taken == 0 ? answer.unfiltered : answer.matches[taken - 1];
   if (!o.plot.empty()) {
-    auto sheet = SheetFile(o, request, match, StackTitle(match.gels, set), lamp, target);
-    if (!sheet) return Propagate(std::move(sheet));
-    files.push_back(*std::move(sheet));
+    const auto sheet = SheetOf(request, match, StackTitle(match.gels, set), lamp, target);
+    if (!sheet) return tl::unexpected(sheet.error());
+    auto picture = PictureFile(o.plot, report::MatchSheetSvg(*sheet));
+    if (!picture) return Propagate(std::move(picture));
+    files.push_back(*std::move(picture));
   }
   if (!o.output.empty()) {
     auto light = GelledLightFile(o, request, match, lamp);

@@ -16,6 +16,7 @@
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
 #include "lightcal/report/plots.h"
+#include "match/match_sheet_of.h"
 #include "minutes_answer.h"
 #include "output_files.h"
 #include "picture_file.h"
@@ -31,6 +32,8 @@ struct ReportOptions {
   std::string output;
   std::vector<std::string> plots;  // "distance=FILE.svg"
   std::string light;
+  CameraViewWords view;
+  std::string spectrum;  // of a light.json's lamp
   bool force = false;
 };
 
@@ -148,14 +151,61 @@ Result<void> CheckLight(const std::string& light, const LightFile& file) {
                                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
+// ---- --match ----
+
+// The lights that a spectrum is known of: the session's own, or the one that is named.
+Result<std::vector<MatchLight>> LampsWithSpectra(const ReportOptions& options, const Source& source,
+                                                 Console& console) {
+  std::vector<MatchLight> lamps;
+  for (const FittedLight& light : source.lights.lights) {
+    if (!options.light.empty() && light.name != options.light) continue;
+    if (!options.spectrum.empty()) {
+      MatchLightWords words;
+      words.source = options.spectrum;
+      auto lamp = ReadMatchLight(words, console);
+      if (!lamp) return Propagate(std::move(lamp));
+      lamp->title = light.name;
+      lamps.push_back(*std::move(lamp));
+      continue;
+    }
+    const auto& spectra = source.extras.spectra;
+    const auto own = std::ranges::find(spectra, light.name, &LightSpectrum::light);
+    if (own == spectra.end()) continue;
+    MatchLight lamp;
+    lamp.title = light.name;
+    lamp.spectrum = own->spectrum;
+    lamp.spectrum.quantity = SpectralQuantity::kRelative;  // at one meter's place
+    lamps.push_back(std::move(lamp));
+  }
+  if (!options.spectrum.empty() && lamps.size() > 1) {
+    return WrongUsage("--spectrum", "is of one lamp; say which with --light");
+  }
+  if (!lamps.empty()) return lamps;
+  return Refused("no_spectrum", options.input,
+                 "no lamp here was measured with a spectrum, and a colour alone does not say what "
+                 "a camera sees; give one with --light NAME --spectrum FILE");
+}
+
+Result<void> AddCameraViews(const ReportOptions& options, Source& source, Console& console) {
+  if (options.view.target.empty()) return {};
+  const auto lamps = LampsWithSpectra(options, source, console);
+  if (!lamps) return tl::unexpected(lamps.error());
+  auto sheets = SheetsOf(*lamps, options.view, console);
+  if (!sheets) return Propagate(std::move(sheets));
+  for (std::size_t i = 0; i < sheets->size(); ++i) {
+    source.extras.matches.push_back({(*lamps)[i].title, std::move((*sheets)[i])});
+  }
+  return {};
+}
+
 Result<void> RunReport(const ReportOptions& options, Console& console) {
   const auto plots = ParsePlots(options.plots);
   if (!plots) return tl::unexpected(plots.error());
   const bool is_light_file = fs::path(options.input).extension() == ".json";
-  const auto source =
-      is_light_file ? FromLightFile(options.input) : FromSession(options.input, console);
-  if (!source) return tl::unexpected(source.error());
+  auto source = is_light_file ? FromLightFile(options.input) : FromSession(options.input, console);
+  if (!source) return Propagate(std::move(source));
   if (auto known = CheckLight(options.light, source->lights); !known) return known;
+  if (auto added = AddCameraViews(options, *source, console); !added) return added;
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<OutputFile> files;
   if (plots->empty() || !options.output.empty()) {
@@ -188,7 +238,23 @@ Run BuildReport(CLI::App& parser) {
       ->type_name("NAME=FILE.svg|png")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_option("--light", options->light, "Plots of this light alone");
+  parser.add_option("--light", options->light, "Plots, or the camera's view, of this light alone");
+  CLI::Option* const match = parser.add_option("--match", options->view.target,
+                                               "Adds what a camera sees of each lamp, of this "
+                                               "light (illuminant:A, 3200K, a spectrum), and of "
+                                               "the lamp behind the gels that come nearest");
+  match->type_name("TARGET");
+  parser.add_option("--gels", options->view.gels, "Of --match: a maker's filters")
+      ->type_name("FILE.csv")
+      ->needs(match);
+  parser
+      .add_option("--camera", options->view.camera,
+                  "Of --match: whose colours decide, a camera's name, all, or observer")
+      ->capture_default_str()
+      ->needs(match);
+  parser.add_option("--spectrum", options->spectrum, "Of --match: the lamp's, where none is known")
+      ->type_name("FILE")
+      ->needs(match);
   parser.add_flag("--force", options->force, "Replace a file that lightcal did not write");
   return [options](Console& console) { return RunReport(*options, console); };
 }

@@ -5,6 +5,7 @@ there, a target that is brighter, gel files of every form, names as people type 
 
     match_command.py LIGHTCAL
 """
+import base64
 import json
 import pathlib
 import re
@@ -224,6 +225,24 @@ def the_gelled_lamp_and_the_sheet_are_written():
     run(*words, "-o", "x.json", "--take", 99, code=2)
 
 
+def the_report_shows_what_a_camera_sees():
+    session = ROOT / "sample_data/sessions/three_real_lights"
+    words = ("report", session, "--match", "3200K", "--camera", "Nikon D850")
+    run(*words, "-o", "seen.html", "--plot", "match=seen.svg")
+    page, sheet = (HOME / "seen.html").read_text(), (HOME / "seen.svg").read_bytes()
+    # The page carries the picture itself, of the one lamp whose spectrum was read.
+    shown = re.findall(r'src="data:image/svg\+xml;base64,([^"]*)"', page)
+    assert [base64.b64decode(one) for one in shown] == [sheet] and b"Nikon D850" in sheet
+    run("match", session, "--light", "led_panel_5000K", "--to", "3200K", "--camera", "Nikon D850",
+        "--reach", 1, "--plot", "same.svg")
+    assert (HOME / "same.svg").read_bytes() == sheet
+    run("report", session, "-o", "plain.html")
+    assert "svg+xml;base64" not in (HOME / "plain.html").read_text()
+    lamp = ROOT / "sample_data/lights/desk_lamp_june.json"
+    refused("no_spectrum", "report", lamp, "--match", "3200K", "-o", "no.html", says="--spectrum")
+    run("report", lamp, "--match", "3200K", "--spectrum", NICHIA, "-o", "own.html")
+
+
 def the_answer_repeats_itself():
     words = ("match", NICHIA, "--to", "illuminant:A", "--camera", "Nikon D850", "--json")
     assert run(*words).stdout == run(*words).stdout
@@ -245,4 +264,4 @@ if __name__ == "__main__":
     for test in TESTS:
         test()
     print(f"{len(TESTS)} tests")
-    assert len(TESTS) >= 11
+    assert len(TESTS) >= 12

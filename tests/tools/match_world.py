@@ -6,6 +6,8 @@ import csv
 import json
 import os
 import pathlib
+import re
+import xml.etree.ElementTree
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # small products: threads only spin
 import numpy as np  # noqa: E402
@@ -101,6 +103,28 @@ def uprtek(path):
         if len(cells) == 2 and cells[0].endswith("nm") and cells[0][:-2].isdigit():
             values[int(cells[0][:-2])] = float(cells[1]) / 1000
     return np.array([values[int(nm)] for nm in NM])
+
+
+def sekonic(path):
+    """A Sekonic CSV: its samples at every nanometre, on NM."""
+    values = {}
+    for line in open(path, encoding="utf-8-sig"):
+        found = re.match(r"Spectral Data (\d+)\[nm\],([-+.\deE]+)", line)
+        if found:
+            values[int(found[1])] = float(found[2])
+    return np.array([values[int(nm)] for nm in NM])
+
+
+def tm27(path):
+    """An IES TM-27 file: straight lines between its samples, dark beyond them."""
+    rows = [(float(node.get("wavelength")), float(node.text))
+            for node in xml.etree.ElementTree.parse(path).iter("{iestm2714}SpectralData")]
+    return np.interp(NM, *np.array(rows).T, 0, 0)
+
+
+def spectrum(path):
+    path = pathlib.Path(path)
+    return {".csv": sekonic, ".spdx": tm27}.get(path.suffix, uprtek)(path)
 
 
 def camera(path):

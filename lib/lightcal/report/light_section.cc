@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "lightcal/core/base64.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/report/plots.h"
@@ -210,6 +211,19 @@ std::string FigureBlock(const LightPlot& plot, const FittedLight& light, const R
          plot.caption(light, extras) + "</figcaption>\n</figure>\n";
 }
 
+// A picture of its own, as its rules are.
+std::string CameraView(const FittedLight& light, const ReportExtras& extras) {
+  const auto found = std::ranges::find(extras.matches, light.name, &LightMatchSheet::light);
+  if (found == extras.matches.end()) return "";
+  const MatchSheet& sheet = found->sheet;
+  return "<figure class=\"sheet\">\n<h3>As " + Escaped(sheet.viewer) +
+         " sees it</h3>\n<img alt=\"" + Escaped("Patches of colour: " + sheet.title) +
+         "\" src=\"data:image/svg+xml;base64," + Base64(MatchSheetSvg(sheet)) + "\"/><figcaption>" +
+         Escaped(sheet.lamp.title + ", " + sheet.target.title +
+                 (sheet.has_gels ? ", and the first behind " + sheet.gelled.title : "")) +
+         "</figcaption>\n</figure>\n";
+}
+
 std::string Figures(const FittedLight& light, const ReportExtras& extras,
                     const std::string& prefix) {
   std::string html;
@@ -255,6 +269,7 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
   html += TypeIn(light.name, extras.engines.figures);
   if (!figure.empty()) html += Cards(light);
   html += Figures(light, extras, id + "-");
+  html += Below(CameraView(light, extras));
   const std::string tables =
       Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
       Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +

@@ -18,6 +18,7 @@ namespace lightcal::report {
 namespace {
 
 constexpr std::string_view kGate = "gate";
+constexpr std::string_view kMatch = "match";  // a sheet with rules of its own
 
 // The first that belongs to the light; null where none does.
 template <class Item>
@@ -150,6 +151,7 @@ std::span<const LightPlot> LightPlots() { return kLightPlots; }
 std::vector<std::string_view> PlotNames() {
   std::vector<std::string_view> names;
   for (const LightPlot& plot : kLightPlots) names.push_back(plot.name);
+  names.push_back(kMatch);
   names.push_back(kGate);
   return names;
 }
@@ -159,6 +161,11 @@ std::vector<PlotFile> PlotFilesOf(std::string_view name, const LightFile& file,
   std::vector<PlotFile> files;
   if (name == kGate && HasEffects(file.lights)) {
     files.push_back({"", GatePlot(file.lights, kUsualTolerance)});
+  }
+  if (name == kMatch) {
+    for (const LightMatchSheet& one : extras.matches) {
+      files.push_back({one.light, MatchSheetSvg(one.sheet)});
+    }
   }
   const auto plot = std::ranges::find(kLightPlots, name, &LightPlot::name);
   if (plot == kLightPlots.end()) return files;

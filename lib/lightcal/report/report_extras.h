@@ -13,6 +13,7 @@
 #include "lightcal/records/engine_answers.h"
 #include "lightcal/records/reading_plan.h"
 #include "lightcal/report/false_color.h"
+#include "lightcal/report/match_sheet.h"
 
 namespace lightcal {
 
@@ -48,12 +49,19 @@ struct LightAdvice {
   std::string enough;  // "look-dev"; "" = nothing yet
 };
 
+// What a camera sees of a light, of what it is to match, and of it behind gels.
+struct LightMatchSheet {
+  std::string light;
+  report::MatchSheet sheet;
+};
+
 struct ReportExtras {
   EngineAnswers engines{};
   std::vector<LightSpectrum> spectra{};
   std::vector<LuminancePicture> pictures{};
   std::vector<MinutesLadder> ladders{};
   std::vector<LightAdvice> advice{};
+  std::vector<LightMatchSheet> matches{};
 };
 
 }  // namespace lightcal

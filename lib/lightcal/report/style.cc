@@ -115,6 +115,7 @@ details.rest > summary { cursor: pointer; font-weight: 620; padding: 10px 0; bor
 .engines .note { color: var(--soft); font-size: 13px; line-height: 1.4; overflow-wrap: anywhere; }
 .figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 44px 40px; margin-top: 44px; align-items: start; }
 figure { margin: 0; min-width: 0; }
+figure.sheet img { display: block; width: 100%; max-width: 940px; height: auto; }
 figcaption { font-size: 14px; color: var(--soft); margin-top: 10px; overflow-wrap: anywhere; }
 figcaption b { color: var(--ink); font-weight: 600; }
 .key { white-space: nowrap; margin-right: 14px; }
