@@ -18,6 +18,7 @@
 #include "one_of.h"
 #include "output_files.h"
 #include "preset_flags.h"
+#include "target_words.h"
 
 namespace lightcal::app {
 namespace {
@@ -143,7 +144,7 @@ Run BuildExport(CLI::App& parser) {
   parser.add_option("lights", options->inputs, "light.json files, as fit and run write them")
       ->required();
   parser.add_option("--to", options->targets, "Presets to write [all]")
-      ->check(OneOf(NamesOf(PresetTargets())))
+      ->check(OneOf(TargetWords()))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Directory of the presets")
@@ -168,7 +169,11 @@ Run BuildExport(CLI::App& parser) {
       ->check(OneOf(UsdRenderers()));
   AddSceneFlags(parser, options->rig, options->bare);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
-  return [options](Console& console) { return RunExport(*options, console); };
+  return [options](Console& console) -> Result<void> {
+    if (auto parted = CheckNoTargetAmong(options->inputs); !parted) return parted;
+    SpellOutAll(options->targets);
+    return RunExport(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

@@ -26,6 +26,7 @@
 #include "preset_flags.h"
 #include "quick/quick_session.h"
 #include "quick/quick_table.h"
+#include "target_words.h"
 
 namespace lightcal::app {
 namespace {
@@ -307,7 +308,7 @@ Run BuildQuick(CLI::App& parser) {
   parser.add_option("--at", options->predict_at, "Predict the reading at this distance, e.g. 5m")
       ->allow_extra_args(false);
   parser.add_option("--to", options->targets, "Also write presets")
-      ->check(OneOf(NamesOf(PresetTargets())))
+      ->check(OneOf(TargetWords()))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();
@@ -320,7 +321,11 @@ Run BuildQuick(CLI::App& parser) {
   }
   AddSceneFlags(parser, options->rig, options->bare);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
-  return [options](Console& console) { return RunQuick(*options, console); };
+  return [options](Console& console) -> Result<void> {
+    if (auto parted = CheckNoTargetAmong(options->readings); !parted) return parted;
+    SpellOutAll(options->targets);
+    return RunQuick(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

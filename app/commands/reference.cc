@@ -31,8 +31,7 @@ constexpr Alias kAliases[] = {{"lux", "illuminance"},        {"lx", "illuminance
 std::string Haystack(const ReferenceValue& row) {
   std::string text;
   for (const std::string_view part :
-       {ReferenceQuantityName(row.quantity), ReferenceUnit(row.quantity), row.what, row.source,
-        ReferenceBasisName(row.basis), row.seed_note}) {
+       {ReferenceQuantityName(row.quantity), ReferenceUnit(row.quantity), row.what, row.source}) {
     text += LowerAscii(part) + " ";
   }
   return text;
@@ -79,12 +78,13 @@ void PrintRows(const std::vector<const ReferenceValue*>& found, Console& console
   for (const ReferenceValue* row : found) {
     const std::string what(row->what);
     table.push_back({std::string(ReferenceQuantityName(row->quantity)), RangeText(*row),
-                     std::string(ReferenceUnit(row->quantity)),
-                     row->seed_note.empty() ? what : what + " [!]", std::string(row->source)});
-    if (!row->seed_note.empty()) notes += "[!] " + what + ": " + std::string(row->seed_note) + "\n";
+                     std::string(ReferenceUnit(row->quantity)), what, std::string(row->source)});
+    if (!row->seed_note.empty()) notes += what + ": " + std::string(row->seed_note) + "\n";
   }
   console.Print(TextTable({"quantity", "value", "unit", "what", "source"}, table));
-  if (!notes.empty()) console.Print("\nDoubtful in the seed document:\n" + notes);
+  if (console.verbose() && !notes.empty()) {
+    console.Print("\nPrinted otherwise in the text lightcal began with (\"the seed\"):\n" + notes);
+  }
 }
 
 Result<void> RunReference(const ReferenceOptions& o, Console& console) {

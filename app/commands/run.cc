@@ -20,10 +20,10 @@
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
-#include "one_of.h"
 #include "output_files.h"
 #include "preset_flags.h"
 #include "report_html.h"
+#include "target_words.h"
 
 namespace lightcal::app {
 namespace {
@@ -181,7 +181,7 @@ Run BuildRun(CLI::App& parser) {
   parser.add_option("-o,--output", options->output,
                     "Where everything goes; of several sessions a folder for each [SESSION/out]");
   parser.add_option("--to", options->targets, "Presets to write [all]")
-      ->check(OneOf(NamesOf(PresetTargets())))
+      ->check(OneOf(TargetWords()))
       ->delimiter(',')
       ->allow_extra_args(false);
   AddSceneFlags(parser, options->rig, options->bare);
@@ -200,6 +200,7 @@ Run BuildRun(CLI::App& parser) {
   return [options, &parser](Console& console) {
     options->strict = parser.count("--strict") > 0;
     options->quiet = parser.count("--quiet") > 0;
+    SpellOutAll(options->targets);
     return RunRun(*options, console);
   };
 }

@@ -83,6 +83,22 @@ TEST(ExportCommand, OnlyTheTargetsNamedAndBareIsWhatIsDoneAnyway) {
   EXPECT_EQ(json::parse(ReadFile(out + "/lamp.gltf"))["nodes"].size(), 1U);
 }
 
+TEST(ExportCommand, AllIsEveryTargetAndSeveralArePartedByCommas) {
+  const TempDir folder;
+  const std::string input = WriteLights(folder, {WarmPoint()});
+  const auto files = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.begin(), {"export", input, "-o", folder.path() + "/" + out});
+    EXPECT_EQ(RunLightcal(more).exit_code, 0);
+    return FilesIn(folder.path() + "/" + out);
+  };
+  EXPECT_EQ(files("named", {"--to", "all"}), files("unnamed", {}));
+  const CliResult blanks = RunLightcal({"export", input, "--to", "gltf", "usd"});
+  EXPECT_EQ(blanks.exit_code, 2);
+  EXPECT_NE(blanks.err.find("--to gltf,usd"), std::string::npos) << blanks.err;
+  EXPECT_EQ(RunLightcal({"quick", "52lx@1m", "--to", "all", "-o", folder.path() + "/q"}).exit_code,
+            0);
+}
+
 TEST(ExportCommand, AnUnknownTargetIsWrongUsageAndNamesTheNearest) {
   const TempDir folder;
   const std::string input = WriteLights(folder, {WarmPoint()});
