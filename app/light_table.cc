@@ -8,6 +8,7 @@
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/effects/effect_table.h"
+#include "lightcal/records/used_readings.h"
 
 namespace lightcal::app {
 namespace {
@@ -110,7 +111,7 @@ std::string FitTable(const LightFile& file) {
   rows.reserve(file.lights.size());
   for (const FittedLight& light : file.lights) {
     const FitDiagnostics& fit = light.fit;
-    rows.push_back({light.name, std::to_string(fit.used) + " of " + std::to_string(fit.readings),
+    rows.push_back({light.name, UsedOfReadings(fit),
                     std::to_string(fit.degrees_of_freedom), PercentOrNone(fit.rms_relative),
                     PercentOrNone(fit.leave_one_out), Join(fit.learned), Join(fit.prior)});
   }

@@ -399,6 +399,16 @@ TEST(QuickColor, WhatIsNoColourIsNamed) {
   EXPECT_NEAR(green["lights"][0]["color"]["xy"][1].get<double>(), law["xy"][1].get<double>(), 1e-6);
 }
 
+TEST(FitTable, AReadingOfColourIsNoReadingOfLight) {
+  const TempDir session;
+  const std::string row = "[[reading]]\nlight = \"key\"\n";
+  session.Write("s/session.toml", "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n" +
+                                      row + "distance_m = 1\nilluminance_lx = 52\n" + row +
+                                      "cct_K = 3000\n");
+  const auto fitted = RunLightcal({"fit", session.path() + "/s"});
+  EXPECT_NE(fitted.out.find("1 of 1"), std::string::npos) << fitted.out;
+}
+
 TEST(QuickOff, MoreLightWithoutTheLampIsRefused) {
   const auto swapped = RunLightcal({"quick", "52lx@1m,off=60lx", "--json"});
   EXPECT_EQ(swapped.exit_code, 3);

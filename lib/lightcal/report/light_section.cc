@@ -8,6 +8,7 @@
 #include "lightcal/core/base64.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
+#include "lightcal/records/used_readings.h"
 #include "lightcal/report/plots.h"
 #include "lightcal/report/swatch.h"
 #include "lightcal/report/tables.h"
@@ -118,8 +119,7 @@ std::string Hero(const FittedLight& light) {
   const std::string decided = DecidedBy(light.fit, "intensity");
   line += decided == "prior" ? "held by a prior" : "from";
   line += decided == "prior" ? ""
-                             : " " + std::to_string(light.fit.used) + " of " +
-                                   std::to_string(light.fit.readings) + " readings";
+                             : " " + UsedOfReadings(light.fit) + " readings";
   return html + "<p class=\"soft\">" + line + "</p>\n";
 }
 

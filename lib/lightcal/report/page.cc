@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/records/used_readings.h"
 #include "lightcal/report/gate_figure.h"
 #include "lightcal/report/light_section.h"
 #include "lightcal/report/style.h"
@@ -46,8 +47,7 @@ std::string OverviewRow(const FittedLight& light, std::size_t index) {
          LabelledCell("d₀", light.distance_offset_m
                                 ? report::PlusMinus(*light.distance_offset_m, "cm", 100.0)
                                 : "") +
-         LabelledCell("readings used", std::to_string(light.fit.used) + " of " +
-                                           std::to_string(light.fit.readings)) +
+         LabelledCell("readings used", UsedOfReadings(light.fit)) +
          "</tr>\n";
 }
 

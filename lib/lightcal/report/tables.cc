@@ -6,6 +6,7 @@
 
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/used_readings.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
 
@@ -83,7 +84,7 @@ std::string PairTable(std::string_view heading,
 
 std::string FitTable(const FitDiagnostics& fit) {
   std::vector<std::pair<std::string, std::string>> rows = {
-      {"Readings used", std::to_string(fit.used) + " of " + std::to_string(fit.readings)}};
+      {"Readings used", UsedOfReadings(fit)}};
   if (!fit.rejected.empty()) {
     rows.emplace_back("Rejected", "<span class=\"off\">no. " + Numbers(fit.rejected) + "</span>");
   }
