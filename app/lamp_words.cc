@@ -163,6 +163,15 @@ std::string ValueText(const Uncertain& u) {
   return Rounded(u.value, DigitsOf(u.value, 0.5 * (HighOf(u) - LowOf(u))));
 }
 
+std::string ValueAndInterval(const Uncertain& u, std::string_view unit) {
+  constexpr double kEven = 1.25;  // one arm of the interval over the other
+  const double below = u.value - LowOf(u);
+  const double above = HighOf(u) - u.value;
+  const bool even = below > 0.0 && above > 0.0 && below <= kEven * above && above <= kEven * below;
+  if (even || !(u.value > 0.0)) return ValueWithPercent(u.value, u.u95, unit);
+  return ValueText(u) + " " + std::string(unit) + ", " + RangeText(u);
+}
+
 std::string UpperEndText(const Uncertain& u) { return Rounded(HighOf(u), 2); }
 
 std::string RangeText(const Uncertain& u) {

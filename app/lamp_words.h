@@ -27,6 +27,9 @@ struct Strength {
 [[nodiscard]] std::string ValueText(const Uncertain& u);
 [[nodiscard]] std::string RangeText(const Uncertain& u);
 
+// "501 cd ± 12 %" where the interval is even about the value, "45 cd, 20 … 67" where it is not.
+[[nodiscard]] std::string ValueAndInterval(const Uncertain& u, std::string_view unit);
+
 // The upper end of its interval, two digits: what "below" an upper limit names.
 [[nodiscard]] std::string UpperEndText(const Uncertain& u);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "console.h"
+#include "lamp_words.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/effects/effect_table.h"
@@ -21,7 +22,7 @@ std::string PercentOrNone(const std::optional<double>& relative) {
 }
 
 std::string Flux(const FittedLight& light) {
-  return light.flux_lm ? ValueWithPercent(light.flux_lm->value, light.flux_lm->u95, "lm") : kNone;
+  return light.flux_lm ? ValueAndInterval(*light.flux_lm, "lm") : kNone;
 }
 
 std::string Cct(const FittedLight& light) {
@@ -60,7 +61,7 @@ std::string BeamLine(const FittedLight& light) {
   std::string line = light.name + ": beam " + Degrees(*light.beam->beam_deg);
   if (light.beam->field_deg) line += ", field " + Degrees(*light.beam->field_deg);
   if (const auto& axial = light.beam->axial) {
-    line += ", " + ValueWithPercent(axial->value, axial->u95, "cd") + " on the axis";
+    line += ", " + ValueAndInterval(*axial, "cd") + " on the axis";
   }
   return line + "\n";
 }
@@ -78,13 +79,10 @@ std::string PlaceFound(const FittedLight& light) {
 }
 
 std::string Headline(const FittedLight& light) {
-  const auto text = [](const Uncertain& u, std::string_view unit) {
-    return ValueWithPercent(u.value, u.u95, unit);
-  };
-  if (light.intensity_cd) return text(*light.intensity_cd, "cd");
-  if (light.illuminance_lx) return text(*light.illuminance_lx, "lx");
-  if (light.luminance_nits) return text(*light.luminance_nits, "cd/m²");
-  if (light.flux_lm) return text(*light.flux_lm, "lm");
+  if (light.intensity_cd) return ValueAndInterval(*light.intensity_cd, "cd");
+  if (light.illuminance_lx) return ValueAndInterval(*light.illuminance_lx, "lx");
+  if (light.luminance_nits) return ValueAndInterval(*light.luminance_nits, "cd/m²");
+  if (light.flux_lm) return ValueAndInterval(*light.flux_lm, "lm");
   return kNone;
 }
 
@@ -111,9 +109,9 @@ std::string FitTable(const LightFile& file) {
   rows.reserve(file.lights.size());
   for (const FittedLight& light : file.lights) {
     const FitDiagnostics& fit = light.fit;
-    rows.push_back({light.name, UsedOfReadings(fit),
-                    std::to_string(fit.degrees_of_freedom), PercentOrNone(fit.rms_relative),
-                    PercentOrNone(fit.leave_one_out), Join(fit.learned), Join(fit.prior)});
+    rows.push_back({light.name, UsedOfReadings(fit), std::to_string(fit.degrees_of_freedom),
+                    PercentOrNone(fit.rms_relative), PercentOrNone(fit.leave_one_out),
+                    Join(fit.learned), Join(fit.prior)});
   }
   return TextTable({"light", "readings", "dof", "rms", "leave-one-out", "learned", "prior"}, rows);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "lamp_words.h"
 #include "library/light_library.h"
 #include "library/light_search.h"
 #include "light_input.h"
@@ -65,11 +66,10 @@ std::string Table(const std::vector<LibraryLight>& lights) {
     const FittedLight& light = entry.light;
     const auto& cct = light.color.cct_K;
     const std::string day = DayOf(entry.provenance.time);
-    rows.push_back(
-        {light.name, std::string(LightKindName(light.kind)), Headline(light),
-         light.flux_lm ? ValueWithPercent(light.flux_lm->value, light.flux_lm->u95, "lm") : kNone,
-         cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone, day.empty() ? kNone : day,
-         fs::path(entry.path).filename().string()});
+    rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
+                    light.flux_lm ? ValueAndInterval(*light.flux_lm, "lm") : kNone,
+                    cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone,
+                    day.empty() ? kNone : day, fs::path(entry.path).filename().string()});
   }
   return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "measured", "file"}, rows);
 }

@@ -332,6 +332,7 @@ TEST(LocateRefusals, ShapesThatReadingsCannotTellAreNamed) {
   twin.session().lights.front().kind = LightKind::kSpot;
   EXPECT_EQ(LocateRefused(twin.session()).code, "position_unknown");
   twin.session().lights.front().kind = LightKind::kDisk;
+  twin.session().lights.front().diameter = Metres(0.2);
   EXPECT_EQ(LocateRefused(twin.session()).code, "aim_unknown");
   twin.session().lights.front().kind = LightKind::kSphere;
   EXPECT_TRUE(FitSession(twin.session(), FitSettings{}).has_value());
