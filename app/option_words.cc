@@ -48,6 +48,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"meter.tape", "--record"},
     {"place.aim", "--aim"},
     {"place.position", "--position"},
+    {"preset.into", "--into"},
     {"preset.json", "--to json"},
     {"preset.range", "--range"},
     {"preset.target", "--to"},

@@ -12,9 +12,11 @@
 #include "lightcal/calibrate/environments.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
+#include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal_devices/disk_sources.h"
+#include "lightcal_devices/files/delimited_text.h"
 #include "one_of.h"
 #include "output_files.h"
 #include "preset_flags.h"
@@ -29,7 +31,7 @@ struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
-  std::string space, white, range, spots = "auto", renderer;
+  std::string space, white, range, spots = "auto", renderer, into;
   bool rig = false;
   bool bare = false;  // what is done anyway
   bool force = false;
@@ -83,6 +85,31 @@ Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   return preset;
 }
 
+// A pattern of names, or a file of lines lamp,object.
+Result<std::vector<IntoRow>> IntoOf(const std::string& into, const LightFile& lights) {
+  if (into.empty()) return std::vector<IntoRow>{};
+  if (!into.ends_with(".csv")) return IntoByPattern(lights, into);
+  const auto bytes = ReadInputFile(into);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto text = devices::files::TextFromBytes(*bytes, into);
+  if (!text) return tl::unexpected(text.error());
+  std::vector<IntoRow> rows;
+  const auto read = devices::files::ForEachRow(
+      *text, ',', [&](int line, std::span<const std::string> cells) -> Result<void> {
+        if (cells.empty() || (cells.size() == 1 && cells[0].empty())) return {};
+        if (cells.size() != 2 || cells[0].empty() || cells[1].empty()) {
+          return Refused("into_map", into + " line " + std::to_string(line),
+                         "is no lamp,object, such as key,PropLamp_*");
+        }
+        if (rows.empty() && cells[0] == "lamp" && cells[1] == "object") return {};
+        rows.push_back({cells[0], cells[1]});
+        return {};
+      });
+  if (!read) return tl::unexpected(read.error());
+  if (rows.empty()) return Refused("into_map", into, "has no line lamp,object");
+  return rows;
+}
+
 Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOptions& options,
                                        const PresetOptions& preset) {
   const auto lights = LightsIn(input);
@@ -99,6 +126,9 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   auto pictures = LoadEnvironments(*lights, beside.string(), devices::DiskSources());
   if (!pictures) return Propagate(std::move(pictures));
   with_pictures.environments = *std::move(pictures);
+  auto into = IntoOf(options.into, *lights);
+  if (!into) return Propagate(std::move(into));
+  with_pictures.into = *std::move(into);
   return ExportPresets(*lights, options.targets, named.string(), with_pictures);
 }
 
@@ -112,6 +142,9 @@ std::string WithDirectory(std::string line, const std::string& directory) {
 
 Result<void> RunExport(const ExportOptions& options, Console& console) {
   if (auto checked = CheckStems(options.inputs); !checked) return checked;
+  if (!options.into.empty() && options.inputs.size() > 1) {
+    return WrongUsage("--into", "sets the lights of one scene: export one file of lamps at a time");
+  }
   const auto preset = OptionsOf(options);
   if (!preset) return tl::unexpected(preset.error());
   std::vector<OutputFile> all;
@@ -168,6 +201,13 @@ Run BuildExport(CLI::App& parser) {
                   "The variant that a .usda opens with: who will render it [spec]")
       ->check(OneOf(UsdRenderers()));
   AddSceneFlags(parser, options->rig, options->bare);
+  parser
+      .add_option(
+          "--into", options->into,
+          "Set lights that are in your scene, by name (* any letters, ? one), or those of a "
+          "map.csv of lines lamp,object: none is made, none is moved")
+      ->type_name("PATTERN|map.csv")
+      ->excludes(parser.get_option("--rig"));
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) -> Result<void> {
     if (auto parted = CheckNoTargetAmong(options->inputs); !parted) return parted;

@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
+#include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
@@ -171,7 +172,9 @@ Result<std::string> MirroredIes(const LightFile& file, const FittedLight& lamp,
 Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
                              const PresetOptions& options) {
   Preset preset;
-  const auto forms = PresetLightsFrom(lights, kBlender, options, preset.warnings);
+  EngineForms able = kBlender;
+  able.spots_by_table = options.into.empty();  // a light that is there has a cone of its own
+  const auto forms = PresetLightsFrom(lights, able, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   const std::string name = preset_text::SceneStem(stem, options);
@@ -197,6 +200,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
                               {"lumens_per_watt", kLumensPerWatt},
                               {"lights", std::move(list)},
                               {"exposure", NodeOf(rig.exposure)},
+                              {"into", IntoNode(options.into)},
                               {"rig", options.rig ? NodeOf(rig) : Node()},
                               {"provenance", NodeOf(lights.provenance)}},
                              name + ".blender.py");
@@ -204,7 +208,8 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   preset.files.push_back(
       {name + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});
   std::ranges::move(pictures, std::back_inserter(preset.files));
-  preset.paste = "blender -P " + std::string(kPasteDirectory) + "/" + name + ".blender.py";
+  preset.paste = (options.into.empty() ? "blender -P " : "blender YOURS.blend -P ") +
+                 std::string(kPasteDirectory) + "/" + name + ".blender.py";
   return preset;
 }
 

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "lightcal/core/file_stem.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/printable.h"
+#include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_table.h"
 
 namespace lightcal {
@@ -26,6 +28,22 @@ Result<std::vector<PresetTarget>> ChosenTargets(const std::vector<std::string>& 
         std::ranges::any_of(chosen, [&](const PresetTarget& t) { return t.name == target->name; });
     if (!repeated) chosen.push_back(*target);
   }
+  return chosen;
+}
+
+// Of targets that set lights that are there.
+Result<std::vector<PresetTarget>> TargetsInto(const std::vector<std::string>& names,
+                                              std::vector<PresetTarget> chosen) {
+  const auto cannot = [](const PresetTarget& target) { return !target.into_scene; };
+  const auto first = std::ranges::find_if(chosen, cannot);
+  if (!names.empty() && first != chosen.end()) {
+    std::vector<PresetTarget> able(PresetTargets().begin(), PresetTargets().end());
+    std::erase_if(able, cannot);
+    return Refused("into_unsupported", std::string(first->name),
+                   "sets no lights of a scene that is there; {preset.into} does for " +
+                       Joined(able, ", ", &PresetTarget::name));
+  }
+  std::erase_if(chosen, cannot);
   return chosen;
 }
 
@@ -59,11 +77,21 @@ void KeepFirstOfEachName(std::vector<PresetFile>& files) {
 
 }  // namespace
 
-Result<ExportedPresets> ExportPresets(const LightFile& lights,
+Result<ExportedPresets> ExportPresets(const LightFile& all_lights,
                                       const std::vector<std::string>& targets,
-                                      const std::string& stem, const PresetOptions& options) {
-  const auto chosen = ChosenTargets(targets);
+                                      const std::string& stem, const PresetOptions& asked) {
+  auto chosen = ChosenTargets(targets);
   if (!chosen) return tl::unexpected(chosen.error());
+  IntoLights into{all_lights, asked};
+  if (!asked.into.empty()) {
+    chosen = TargetsInto(targets, *std::move(chosen));
+    if (!chosen) return tl::unexpected(chosen.error());
+    if (auto checked = CheckInto(all_lights, asked.into); !checked) {
+      return Propagate(std::move(checked));
+    }
+    into = OnlyInto(all_lights, asked);
+  }
+  const auto& [lights, options] = into;
   if (stem != FileStem(stem) || !IsPrintable(stem)) {
     return Refused("bad_name", stem, "is no stem of file names: a path, hidden, or unprintable");
   }

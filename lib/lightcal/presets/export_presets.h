@@ -20,7 +20,9 @@ struct ExportedPresets {
 // The files of every target named (none named = every target there is), in that order; `stem`
 // begins their names. With options.rig each target that has one brings its rig too, as a second
 // file. Of targets that nobody named, warnings of what their format cannot hold are
-// left out.   Wrong usage: an unknown target (names the nearest). Refuses and fails as Exporter.
+// left out. With options.into: the lamps it names onto lights that are there, every target named
+// (none named = every one that can).   Wrong usage: an unknown target (names the nearest).
+// Refused: into_unsupported, and as CheckInto; else refuses and fails as Exporter.
 [[nodiscard]] Result<ExportedPresets> ExportPresets(const LightFile& lights,
                                                     const std::vector<std::string>& targets = {},
                                                     const std::string& stem = "lights",

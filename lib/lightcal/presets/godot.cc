@@ -14,7 +14,10 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
+#include "lightcal/presets/into_scene.h"
+#include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/scripts.h"
 
 namespace lightcal {
 namespace {
@@ -222,6 +225,23 @@ std::string RigNodes(const Rig& rig) {
          "attributes = SubResource(\"locked_exposure\")\ncurrent = true\n";
 }
 
+// ---- lights that are there ----
+
+records::Node GodotFigures(const PresetLight& light, const DerivedLight& derived,
+                           const FalloffRefit& refit) {
+  records::Node document = {{"name", light.name()}, {"type", derived.type}};
+  for (const DerivedField& field : derived.fields) {
+    const bool one = field.values.size() == 1;
+    document.Put(field.name, one ? records::Node(field.values[0]) : records::Node(field.values));
+  }
+  if (light.form != LightForm::kDirectional) {
+    document.Put("candela",
+                 light.candela * refit.intensity_factor / ColorFor(light.color()).luminance);
+    document.Put("range", RangeOf(refit));
+  }
+  return document;
+}
+
 std::string GodotScene(const LightFile& file, const std::string& stem,
                        const std::vector<PresetLight>& lights,
                        const std::vector<DerivedLight>& derived, const PresetOptions& options,
@@ -286,6 +306,19 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
     if (!finite) return Propagate(std::move(finite));
   }
   const std::string name = preset_text::SceneStem(stem, options);
+  if (!options.into.empty()) {
+    records::Node list = records::Node::Array();
+    for (std::size_t i = 0; i < forms->size(); ++i) {
+      list.items.push_back(GodotFigures((*forms)[i], preset.derived[i], refits[i]));
+    }
+    const auto text = JsonText(
+        {{"name", stem}, {"lights", std::move(list)}, {"into", IntoNode(options.into)}}, stem);
+    if (!text) return tl::unexpected(text.error());
+    preset.files.push_back({stem + ".godot.gd", ScriptWith("godot.gd", *text)});
+    preset.paste = "copy " + std::string(kPasteDirectory) + "/" + stem +
+                   ".godot.gd into the project, open it in the script editor, File > Run";
+    return preset;
+  }
   std::string picture;
   for (const PresetLight& light : *forms) {
     if (!light.environment) continue;

@@ -62,8 +62,6 @@ IntoLights OnlyInto(const LightFile& lights, const PresetOptions& options) {
   IntoLights out{lights, options};
   out.lights.lights.clear();
   out.options.environments.clear();
-  // A light that is there has a cone of its own; photometric files only where the lamp is one.
-  if (options.spots == SpotForm::kAuto) out.options.spots = SpotForm::kCone;
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
     if (std::ranges::find(options.into, lamp.name, &IntoRow::lamp) == options.into.end()) continue;

@@ -27,10 +27,19 @@ enum class SpotForm : std::uint8_t {
 };
 inline constexpr double kConeGoodEnough = 0.03;  // of the axial intensity
 
+// The figures of a lamp go onto the lights of this name in a person's scene: * any letters, ? one;
+// for USD the path of one prim.
+struct IntoRow {
+  std::string lamp;
+  std::string object;
+};
+
 struct PresetOptions {
   // false: the lights alone, which touch nothing else in the scene they come into. true: the rig,
   // <stem>.rig.<ending>: the lights with cards, camera and exposure in a scene of its own.
   bool rig = false;
+  // Not empty: nothing is made; what is written sets lights that are there.
+  std::vector<IntoRow> into{};
   ColorTarget color{};  // the space the engine works in, and what its pipeline calls white
   // The range the person wants (their engine culls lights by it); absent = so far that it is none.
   std::optional<Metres> range{};

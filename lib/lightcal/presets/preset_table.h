@@ -48,6 +48,7 @@ struct PresetTarget {
   std::string_view name;  // the word it is asked for by
   Exporter* exporter;
   std::string_view verified;  // how the output was checked, for people
+  bool into_scene = false;    // sets lights that are there (PresetOptions::into)
 
   // The file that is read back: "" = none is.
   std::string_view ending{};

@@ -11,6 +11,7 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/frames.h"
+#include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
@@ -136,6 +137,7 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                {"note", "not executed in Unity: schema-checked"},
                {"exposure", Node{{"ev100", rig.exposure.ev100}, {"scale", rig.exposure.scale}}},
                {"lights", std::move(list)}};
+  root.Put("into", IntoNode(options.into));
   if (options.rig) root.Put(RigNode(rig));
   auto text = JsonText(root, name + ".unity.json");
   if (!text) return Propagate(std::move(text));

@@ -190,20 +190,26 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
     data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i]));
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);
+    if (!options.into.empty()) continue;
     preset.warnings.push_back({"ies_by_script_only", (*forms)[i].name(),
                                "a .t3d imports no photometric file: run the script, or assign the "
                                ".ies by hand"});
   }
+  for (const IntoRow& row : options.into) {
+    data["into"].push_back({{"lamp", row.lamp}, {"object", row.object}});
+  }
   if (options.rig) data["rig"] = RigJson(BuildRig(lights, *forms));
   auto script = ScriptText(data, name + ".unreal.py");
   if (!script) return Propagate(std::move(script));
-  if (!options.rig) {
+  const bool sets = !options.into.empty();
+  if (!options.rig && !sets) {
     preset.files.insert(preset.files.begin(), {stem + ".t3d", T3dText(*forms, unreal)});
   }
   preset.files.insert(preset.files.begin(), {name + ".unreal.py", *std::move(script)});
   preset.paste = "py \"" + std::string(kPasteDirectory) + "/" + name +
                  ".unreal.py\"   (Output Log, Cmd" +
                  (options.rig ? ": opens a level of its own)"
+                  : sets      ? ")"
                               : "; pasting the .t3d into the level adds the lights, each time)");
   return preset;
 }

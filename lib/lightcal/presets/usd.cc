@@ -8,6 +8,7 @@
 // Sources: OpenUSD pxr/usd/usdLux/schema.usda and overview.dox.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -170,6 +171,13 @@ std::string Variants(const std::vector<std::string>& prims,
   return text + "  }\n";
 }
 
+// Of a measured distribution; null = none.
+std::string IesFigures(const PresetFile* ies) {
+  if (ies == nullptr) return {};
+  return "    asset inputs:shaping:ies:file = @./" + ies->name +
+         "@\n    bool inputs:shaping:ies:normalize = 0\n";
+}
+
 std::string LightPrim(const std::string& name, const FittedLight& lamp, const PresetLight& light,
                       const DerivedByReading& readings, const std::optional<PresetFile>& ies,
                       const std::string& picture) {
@@ -190,10 +198,7 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
     if (AllAgree(readings, field.name)) text += UsdField(field, "    ");
   }
   text += "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
-  if (table) {
-    text += "    asset inputs:shaping:ies:file = @./" + ies->name +
-            "@\n    bool inputs:shaping:ies:normalize = 0\n";
-  }
+  text += IesFigures(table ? &*ies : nullptr);
   if (!picture.empty()) {
     // The middle of a lat-long picture looks along the dome's +Z, its right side along -X, +Y up.
     const ObjectFrame frame = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}, {}};
@@ -201,6 +206,92 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
            "@\n    token inputs:texture:format = \"latlong\"\n" + Matrix(frame) + "  }\n";
   }
   return text + Matrix(FrameOfLight(EngineAxes::kZUp, light)) + "  }\n";
+}
+
+// ---- lights that are there ----
+
+// /World/Lamps/Key as its parts; nothing where it is no path of a prim.
+std::vector<std::string> PartsOfPath(std::string_view path) {
+  std::vector<std::string> parts;
+  if (path.starts_with('/')) path.remove_prefix(1);
+  while (true) {
+    const std::size_t slash = std::min(path.find('/'), path.size());
+    std::set<std::string> none;
+    const std::string part(path.substr(0, slash));
+    if (part.empty() || Identifier(part, none) != part) return {};
+    parts.push_back(part);
+    if (slash == path.size()) return parts;
+    path.remove_prefix(slash + 1);
+  }
+}
+
+// Prims by name, each with its opinions and what stands below it.
+struct Over {
+  std::string opinions;  // of the prim itself: head, then body
+  std::string head;
+  std::map<std::string, Over> below;
+};
+
+std::string OverText(const std::string& name, const Over& over, const std::string& indent) {
+  std::string text = "\n" + indent + "over \"" + name + "\"" + over.head + "\n" + indent + "{\n";
+  for (std::size_t at = 0; at < over.opinions.size();) {
+    const std::size_t end = over.opinions.find('\n', at);
+    text += indent + over.opinions.substr(at, end - at) + "\n";
+    at = end + 1;
+  }
+  for (const auto& [child, one] : over.below) text += OverText(child, one, indent + "  ");
+  return text + indent + "}\n";
+}
+
+std::string UsdOpinions(const DerivedLight& derived) {
+  std::string text;
+  for (const DerivedField& field : derived.fields) text += UsdField(field, "    ");
+  return text + "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
+}
+
+Over OpinionsOf(const PresetLight& light, const DerivedLight& derived,
+                const std::optional<PresetFile>& ies) {
+  const bool table = light.form == LightForm::kTable && ies;
+  Over over;
+  if (table || light.form == LightForm::kSpot) {
+    over.head = " (\n    prepend apiSchemas = [\"ShapingAPI\"]\n  )";
+  }
+  over.opinions = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) + "\n" +
+                  UsdOpinions(derived) + IesFigures(table ? &*ies : nullptr);
+  // As deep as the prim they stand in is indented by OverText.
+  for (std::size_t at = 0; (at = over.opinions.find("\n    ", at)) != std::string::npos; ++at) {
+    over.opinions.erase(at + 1, 2);
+  }
+  return over;
+}
+
+// An `over` layer: opinions on the prims of a person's stage, and nothing else.
+Result<std::string> OverLayer(const LightFile& file, const std::vector<PresetLight>& lights,
+                              const std::vector<DerivedLight>& derived,
+                              const std::vector<std::optional<PresetFile>>& ies,
+                              const PresetOptions& options) {
+  Over root;
+  for (const IntoRow& row : options.into) {
+    const std::vector<std::string> parts = PartsOfPath(row.object);
+    if (parts.empty()) {
+      return Refused("into_path", row.object,
+                     "is no path of a prim, and a USD layer names prims by nothing else: write "
+                     "/World/Lamps/Key, a line a prim in a map.csv");
+    }
+    Over* over = &root;
+    for (const std::string& part : parts) over = &over->below[part];
+    const auto lamp = std::ranges::find(lights, row.lamp, &PresetLight::name);
+    const auto i = static_cast<std::size_t>(lamp - lights.begin());
+    Over opinions = OpinionsOf(*lamp, derived[i], ies[i]);
+    over->head = std::move(opinions.head);
+    over->opinions = std::move(opinions.opinions);
+  }
+  std::string text =
+      "#usda 1.0\n(\n  doc = \"" + preset_text::GeneratorOf(file) +
+      ": opinions for the lights of a stage whose metersPerUnit is 1; name this layer first in its "
+      "subLayers. Not executed in a renderer\"\n)\n";
+  for (const auto& [name, over] : root.below) text += OverText(name, over, "");
+  return text;
 }
 
 std::string CardPrims(const Rig& rig) {
@@ -297,6 +388,14 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
     }
   }
   const std::string name = preset_text::SceneStem(stem, options);
+  if (!options.into.empty()) {
+    auto layer = OverLayer(lights, *forms, preset.derived, *ies, options);
+    if (!layer) return Propagate(std::move(layer));
+    preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", *std::move(layer)});
+    preset.paste = "subLayers = [@" + std::string(kPasteDirectory) + "/" + stem +
+                   ".usda@, ...] first in your stage, in metres";
+    return preset;
+  }
   if (options.rig) text += CardPrims(rig) + CameraPrim(rig);
   text += Variants(prims, readings);
   preset.files.insert(preset.files.begin(), PresetFile{name + ".usda", text + "}\n"});

@@ -4,6 +4,7 @@
 alone, what a second run and an undo do.
   blender_gate.py LIGHTCAL [unittest arguments]"""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -85,6 +86,58 @@ class LightsAlone(unittest.TestCase):
         self.assertIn('scenes:lightcal set.rig', new)
         self.assertEqual(new & set(all_undone), set())
         self.assertEqual(changed(rigged, rigged_again), set())
+
+
+class Into(unittest.TestCase):
+    """Lights that are there, by name: nothing is made, nothing moves, nothing else changes."""
+    ROWS = [('key', 'PropLamp_0'), ('key', 'PropLamp_1?'), ('green spot', 'PropLamp_4'), ('panel', 'PropLamp_5'),
+            ('luminaire', 'PropLamp_3'), ('sun', 'Fill_12')]
+    NAMED = {'PropLamp_0', 'PropLamp_10', 'PropLamp_11', 'PropLamp_4', 'PropLamp_5', 'PropLamp_3', 'Fill_12'}
+
+    def script(self, folder, rows, names=('key', 'green spot', 'panel', 'luminaire', 'sun')):
+        with open(folder + '/map.csv', 'w') as out:
+            out.write(''.join(f'{lamp},{thing}\n' for lamp, thing in rows))
+        return export(folder, list(names), '--into', folder + '/map.csv')
+
+    def test_only_the_named_lights_change_twice_the_same_and_an_undo_restores_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = self.script(folder, self.ROWS)
+            states, logs = blender(folder, {'run': path}, {'undo': True}, {'run': path}, {'run': path})
+        start, once, undone, again, twice = states
+        self.assertEqual(sum(name.startswith('objects:') for name in start), 40)
+        self.assertEqual(changed(start, once), {'lights:' + name for name in self.NAMED} | {'texts:PropLamp_3.ies'})
+        self.assertEqual((changed(once, again), changed(once, twice)), (set(), set()))
+        self.assertEqual(changed(start, undone), set())  # one step
+        lamp = {name: json.loads(once['lights:' + name]) for name in self.NAMED}
+        watts = {name: float(one['energy']) for name, one in lamp.items()}
+        y = 0.51677  # luminance of the 2700 K lamp's colour, its largest component 1
+        self.assertAlmostEqual(watts['PropLamp_0'] * 683 * y / (4 * math.pi), 1000.0, delta=1.0)
+        self.assertAlmostEqual(watts['PropLamp_11'] * 683 * y / 4, 1000.0, delta=1.0)  # an area light of 3.4
+        self.assertAlmostEqual(watts['PropLamp_10'], watts['PropLamp_0'], delta=0.01)
+        self.assertAlmostEqual(float(lamp['PropLamp_5']['size']), 0.6, delta=1e-6)
+        self.assertEqual(len([line for line in logs[1].splitlines() if ' -> ' in line]), len(self.NAMED))
+        self.assertIn('PropLamp_0: 40 W, colour 0.900 0.800 0.100', logs[1])
+
+    def test_it_refuses_as_a_whole_and_says_what_to_do(self):
+        share = "bpy.data.objects['PropLamp_3'].data = bpy.data.objects['PropLamp_0'].data"
+        cases = (
+            ([('key', 'PropLamp_0'), ('key', 'Chandelier_*')],
+             'no light of the scene "Scene" is called "Chandelier_*"; it has PropLamp_0, PropLamp_1,'),
+            ([('key', 'Table_*')], 'no light of the scene "Scene" is called "Table_*"'),
+            ([('key', 'PropLamp_*'), ('panel', 'PropLamp_2')], '"PropLamp_2" would get two lamps, "key" and "panel"'),
+            ([('key', 'Fill_12')], '"Fill_12" is a SUN, and "key" was measured in candela'),
+            ([('key', 'PropLamp_0')], 'shares its light with "PropLamp_3"'),  # from here on it does
+            ([('key', 'PropLamp_0'), ('panel', 'PropLamp_3')], 'gets another lamp'))
+        with tempfile.TemporaryDirectory() as folder:
+            steps = []
+            for number, (rows, _) in enumerate(cases):
+                os.makedirs(f'{folder}/{number}')
+                steps += [{'edit': share if number == 4 else ''}, {'run': self.script(f'{folder}/{number}', rows)}]
+            states, logs = blender(folder, *steps)
+        for number, (rows, said) in enumerate(cases):
+            self.assertEqual(changed(states[2 * number + 1], states[2 * number + 2]), set(), rows)
+            self.assertIn(said, logs[2 * number + 2])
+            self.assertIn('nothing set', logs[2 * number + 2])
 
 
 if __name__ == '__main__':

@@ -107,7 +107,7 @@ for step in job['steps']:
             sys.argv = [step['run']]
             try:
                 runpy.run_path(step['run'], run_name='__main__')
-            except SystemExit as stop:
+            except RuntimeError as stop:
                 print(stop)
         elif 'undo' in step:
             bpy.ops.ed.undo()

@@ -57,6 +57,7 @@ namespace UnityEngine
     {
         public GameObject gameObject { get; internal set; }
         public Transform transform { get { return gameObject.transform; } }
+        public Component GetComponent(Type type) { return gameObject.GetComponent(type); }
     }
     public class Behaviour : Component { }
     public class Renderer : Component { public Material sharedMaterial { get; set; } }
@@ -256,6 +257,8 @@ namespace UnityEditor
             if (groupIndex != group || name == "") throw new Exception("another group");
             Steps.Add(name);
         }
+        public static UnityEngine.Component AddComponent(UnityEngine.GameObject thing, Type type) { return thing.AddComponent(type); }
+        public static void RecordObject(UnityEngine.Object objectToUndo, string label) { Recorded.Add(objectToUndo); }
         public static void RegisterCreatedObjectUndo(UnityEngine.Object objectToUndo, string label) { Created.Add(objectToUndo); }
         public static void DestroyObjectImmediate(UnityEngine.Object objectToUndo)
         {
@@ -264,6 +267,10 @@ namespace UnityEditor
             thing.transform.Leave();
             UnityEngine.GameObject.All.Remove(thing);
         }
+    }
+    public static class PrefabUtility
+    {
+        public static void RecordPrefabInstancePropertyModifications(UnityEngine.Object targetObject) { }
     }
     public static class EditorUtility
     {

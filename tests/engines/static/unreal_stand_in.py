@@ -21,6 +21,11 @@ class Struct:
                 raise TypeError("%s has no %s" % (type(self).__name__, name))
             self.values[name] = value
 
+    def __getattr__(self, name):
+        if name.startswith("_") or name not in self.fields:
+            raise AttributeError("%s has no %s" % (type(self).__name__, name))
+        return self.values[name]
+
 
 class Vector(Struct):
     fields = dict(x=0.0, y=0.0, z=0.0)
@@ -60,15 +65,24 @@ class Object:
         known = self.all_properties()
         if name not in known:
             raise AttributeError("%s has no editor property %s" % (type(self).__name__, name))
+        if value is None and known[name] is TextureLightProfile:
+            self.held[name] = None
+            return
         if not isinstance(value, known[name]) or (known[name] is float and isinstance(value, bool)):
             raise TypeError("%s.%s takes %s, not %r" % (type(self).__name__, name, known[name], value))
         self.held[name] = value
+
+    def modify(self, always_mark_dirty=True):
+        self.modified = getattr(self, "modified", 0) + 1
+        return True
 
     def get_editor_property(self, name):
         if name not in self.all_properties():
             raise AttributeError("%s has no editor property %s" % (type(self).__name__, name))
         if name not in self.held and name == "settings":
             self.held[name] = PostProcessSettings()
+        if name not in self.held and name in ENGINE_DEFAULTS:
+            return ENGINE_DEFAULTS[name]
         return self.held[name]
 
 
@@ -174,8 +188,11 @@ class Actor(Object):
     def set_actor_scale3d(self, scale):
         self.scale = scale
 
-    def get_component_by_class(self, wanted):
-        return self.root if isinstance(self.root, wanted) else None
+    def get_component_by_class(self, component_class):
+        return self.root if isinstance(self.root, component_class) else None
+
+    def get_components_by_class(self, component_class):
+        return [self.root] if isinstance(self.root, component_class) else []
 
 
 def actor(name, component, properties=()):
@@ -195,6 +212,13 @@ PostProcessVolume = actor("PostProcessVolume", SceneComponent,
 class LightUnits:
     UNITLESS, CANDELAS, LUMENS, EV, NITS = (Enum(n) for n in
                                             ("UNITLESS", "CANDELAS", "LUMENS", "EV", "NITS"))
+
+
+ENGINE_DEFAULTS = dict(
+    intensity=5000.0, intensity_units=LightUnits.UNITLESS, temperature=6500.0, use_temperature=False,
+    attenuation_radius=1000.0, light_color=Color(b=255, g=255, r=255, a=255), ies_texture=None,
+    source_radius=0.0, source_width=64.0, source_height=64.0, inner_cone_angle=0.0,
+    outer_cone_angle=44.0)
 
 
 class ComponentMobility:

@@ -2,7 +2,9 @@
 """tinyusdz 0.9.0-rc10 on a .usda with every kind of light, bare and with the rig.
   gate.py LIGHTCAL MODULES"""
 import json
+import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -11,6 +13,7 @@ import unittest
 import golden_lights
 
 LIGHTCAL, MODULES = sys.argv[1:3]
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def load(path):
@@ -62,6 +65,54 @@ class TinyUsdz(unittest.TestCase):
             for a, b in zip(*rows):
                 self.assertAlmostEqual(a["predicted_lx"] / b["predicted_lx"], 1.0, delta=1e-5)
                 self.assertLess(abs(a["error"]), 0.05)
+
+    def test_an_over_layer_composes_on_a_persons_stage(self):
+        base = """#usda 1.0
+def Xform "World"
+{
+  def Xform "Lamps"
+  {
+    def SphereLight "Key"
+    {
+      float inputs:intensity = 3
+      color3f inputs:color = (1, 0, 0)
+      float inputs:radius = 0.5
+      token visibility = "inherited"
+      double3 xformOp:translate = (7, 8, 9)
+      uniform token[] xformOpOrder = ["xformOp:translate"]
+    }
+    def SphereLight "Other"
+    {
+      float inputs:intensity = 4
+    }
+  }
+}
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            with open(folder + "/map.csv", "w") as out:
+                out.write("lamp,object\nkey,/World/Lamps/Key\npanel,/World/Window\n")
+            over = export(folder, "--into", folder + "/map.csv")
+            with open(over) as layer:
+                text = layer.read()
+            self.assertNotIn("def ", text)
+            self.assertNotIn("xformOp", text)
+            with open(folder + "/base.usda", "w") as out:
+                out.write(base)
+            with open(folder + "/stage.usda", "w") as out:
+                out.write("#usda 1.0\n(\n  metersPerUnit = 1\n  subLayers = [@./set.usda@, @./base.usda@]\n)\n")
+            done = subprocess.run(["node", os.path.join(HERE, "compose.mjs"), MODULES, folder + "/stage.usda",
+                                   over, folder + "/base.usda"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            lamps = {name: body for name, body in re.findall(
+                r'"(Key|Other|Window)"[^{"]*\{([^}]*)\}', done.stdout)}
+            key = dict(re.findall(r"(inputs:\w+|xformOp:translate|treatAsPoint|visibility) = (.*)", lamps["Key"]))
+            y = sum(w * float(c) for w, c in zip((0.2126, 0.7152, 0.0722), key["inputs:color"].strip("()").split(",")))
+            candela = float(key["inputs:intensity"]) * math.pi * float(key["inputs:radius"]) ** 2 * y
+            self.assertAlmostEqual(candela / 1000.0, 1.0, delta=1e-4)
+            self.assertEqual(key["xformOp:translate"], "(7.0, 8.0, 9.0)")
+            self.assertEqual(key["visibility"], '"inherited"')
+            self.assertEqual(lamps["Other"].split(), "float inputs:intensity = 4".split())
+            self.assertIn("inputs:width = 0.6", lamps["Window"])
 
     def test_it_rejects_what_is_no_usd(self):
         with tempfile.TemporaryDirectory() as folder:

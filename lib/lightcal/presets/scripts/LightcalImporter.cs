@@ -2,11 +2,13 @@
 // Put this file and the .unity.json into Assets/Editor, then Tools > lightcal > Import preset. The
 // lights come into the scene that is open, under one root; imported again, they replace those under
 // that root and leave all else as it is; one undo takes them back. NAME.rig.unity.json opens a new
-// scene with cards, camera and exposure.
+// scene with cards, camera and exposure. A file exported with --into makes nothing: it sets lights
+// that are there, by name, or refuses.
 using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Reflection;
+using System.Text.RegularExpressions;
 using UnityEditor;
 using UnityEditor.SceneManagement;
 using UnityEngine;
@@ -27,11 +29,13 @@ namespace Lightcal
     [Serializable] public class Card : Place { public float reflectance; }
     [Serializable] public class Eye : Place { public float vertical_fov_deg; }
     [Serializable] public class Exposure { public float ev100, scale; }
+    [Serializable] public class Row { public string lamp, @object; }
     [Serializable] public class Preset
     {
         public string schema, name;
         public Exposure exposure;
         public Lamp[] lights;
+        public Row[] into;
         public float side_m;
         public Card[] cards;
         public Eye camera;
@@ -64,6 +68,11 @@ namespace Lightcal
             Type hdLight = Find("UnityEngine.Rendering.HighDefinition.HDAdditionalLightData");
             bool hdrp = hdLight != null &&
                 GraphicsSettings.currentRenderPipeline.GetType().Name.StartsWith("HD");
+            if (preset.into != null && preset.into.Length > 0)
+            {
+                SetLightsThatAreThere(preset, hdrp, hdLight);
+                return;
+            }
             bool rig = preset.cards != null && preset.cards.Length > 0;
             if (rig)
             {
@@ -127,24 +136,141 @@ namespace Lightcal
             Light light = thing.AddComponent<Light>();
             Emission e = hdrp ? lamp.hdrp : lamp.urp;
             light.type = (LightType)Enum.Parse(typeof(LightType), e.type);
+            light.shadows = LightShadows.Soft;
+            if (hdrp && thing.GetComponent(hdLight) == null) thing.AddComponent(hdLight);
+            SetFigures(light, lamp, e, hdrp, hdLight);
+            Undo.RegisterCreatedObjectUndo(thing, lamp.name);
+        }
+
+        // Intensity, colour, cone and size, as far as the lamp and this type of light have them.
+        static void SetFigures(Light light, Lamp lamp, Emission e, bool hdrp, Type hdLight)
+        {
             // The colour's luminance is in the intensity already: no colour temperature on top.
             light.useColorTemperature = false;
             light.color = new Color(lamp.color_linear[0], lamp.color_linear[1],
                                     lamp.color_linear[2]).gamma;
-            light.shadows = LightShadows.Soft;
             if (e.range_m > 0) light.range = e.range_m;
-            if (light.type == LightType.Spot)
+            if (light.type == LightType.Spot && e.type == "Spot")
             {
                 light.spotAngle = e.spot_angle_deg;
                 light.innerSpotAngle = e.inner_spot_angle_deg;
             }
-            if (light.type == LightType.Rectangle)
+            if (light.type == LightType.Rectangle && e.type == "Rectangle")
             {
                 light.areaSize = new Vector2(e.area_width_m, e.area_height_m);
             }
-            if (hdrp) SetPhysical(thing, light, e, hdLight);
+            if (hdrp) SetPhysical(light, e, hdLight);
             else light.intensity = e.intensity;
-            Undo.RegisterCreatedObjectUndo(thing, lamp.name);
+        }
+
+        // * any letters, ? one; all else as it is.
+        static bool Matches(string pattern, string name)
+        {
+            string spelled = Regex.Escape(pattern).Replace("\\*", ".*").Replace("\\?", ".");
+            return Regex.IsMatch(name, "\\A(?:" + spelled + ")\\z", RegexOptions.Singleline);
+        }
+
+        static string Figures(Light light, bool hdrp, Type hdLight)
+        {
+            Color c = light.color;
+            string text = "intensity " + light.intensity;
+            if (hdrp)
+            {
+#if UNITY_6000_0_OR_NEWER
+                text += " " + light.lightUnit;
+#else
+                Component data = light.GetComponent(hdLight);
+                if (data != null) text = "intensity " + Get(data, "intensity") + " " + Get(data, "lightUnit");
+#endif
+            }
+            text += ", colour " + c.r + " " + c.g + " " + c.b + ", range " + light.range;
+            if (light.useColorTemperature) text += ", with a temperature";
+            if (light.type == LightType.Spot)
+            {
+                text += ", cone " + light.innerSpotAngle + " to " + light.spotAngle + " deg";
+            }
+            return text;
+        }
+
+        // What keeps this light from being set, and what to do; "" = nothing.
+        static string WhyNot(Light light, Lamp lamp, Emission e, bool hdrp)
+        {
+            bool sun = light.type == LightType.Directional;
+            if (sun != (e.type == "Directional"))
+            {
+                return "is " + light.type + ", and \"" + lamp.name + "\" was measured in " +
+                    (sun ? "candela: make it a point or a spot light" : "lux: make it directional");
+            }
+            bool known = sun || light.type == LightType.Point || light.type == LightType.Spot ||
+                (light.type == LightType.Rectangle && hdrp);
+            return known ? "" : "is " + light.type + ", which this pipeline gives no candela: make it " +
+                "a point or a spot light";
+        }
+
+        // The rows of the export's --into; all of them, or nothing.
+        static void SetLightsThatAreThere(Preset preset, bool hdrp, Type hdLight)
+        {
+            List<Light> there = new List<Light>();
+            foreach (GameObject root in SceneManager.GetActiveScene().GetRootGameObjects())
+            {
+                there.AddRange(root.GetComponentsInChildren<Light>(true));
+            }
+            List<string> problems = new List<string>();
+            Dictionary<Light, Lamp> taken = new Dictionary<Light, Lamp>();
+            foreach (Row row in preset.into)
+            {
+                Lamp lamp = Array.Find(preset.lights, one => one.name == row.lamp);
+                List<Light> found = there.FindAll(one => Matches(row.@object, one.gameObject.name));
+                if (found.Count == 0)
+                {
+                    string names = string.Join(", ", there.ConvertAll(one => one.gameObject.name).ToArray());
+                    problems.Add("no light of the scene is called \"" + row.@object + "\"; it has " +
+                                 (names == "" ? "none" : names));
+                }
+                foreach (Light light in found)
+                {
+                    string name = "\"" + light.gameObject.name + "\" ";
+                    if (taken.ContainsKey(light) && taken[light] != lamp)
+                    {
+                        problems.Add(name + "would get two lamps, \"" + taken[light].name + "\" and \"" +
+                                     lamp.name + "\": leave one of the lines");
+                    }
+                    taken[light] = lamp;
+                    string why = WhyNot(light, lamp, hdrp ? lamp.hdrp : lamp.urp, hdrp);
+                    if (why != "") problems.Add(name + why);
+                }
+            }
+            foreach (string problem in problems) Debug.LogError("lightcal: nothing set: " + problem);
+            if (problems.Count > 0) return;
+            Undo.IncrementCurrentGroup();
+            Undo.SetCurrentGroupName("lightcal " + preset.name);
+            foreach (KeyValuePair<Light, Lamp> pair in taken)
+            {
+                Light light = pair.Key;
+                Emission e = hdrp ? pair.Value.hdrp : pair.Value.urp;
+                string before = Figures(light, hdrp, hdLight);
+                List<UnityEngine.Object> parts = new List<UnityEngine.Object> { light };
+                if (hdrp)
+                {
+                    Component data = light.GetComponent(hdLight);
+                    if (data == null) data = Undo.AddComponent(light.gameObject, hdLight);
+                    parts.Add(data);
+                }
+                foreach (UnityEngine.Object part in parts) Undo.RecordObject(part, "lightcal " + preset.name);
+                SetFigures(light, pair.Value, e, hdrp, hdLight);
+                foreach (UnityEngine.Object part in parts)
+                {
+                    PrefabUtility.RecordPrefabInstancePropertyModifications(part);
+                }
+                Debug.Log("lightcal: " + light.gameObject.name + ": " + before + " -> " +
+                          Figures(light, hdrp, hdLight) + "   (" + pair.Value.name + ")");
+                if (e.type == "Spot" && light.type != LightType.Spot)
+                {
+                    Debug.LogWarning("lightcal: " + light.gameObject.name + " has no cone: right on the " +
+                                     "axis of \"" + pair.Value.name + "\" alone");
+                }
+            }
+            Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
         }
 
         static string UnitOf(LightType type)
@@ -153,27 +279,39 @@ namespace Lightcal
             return type == LightType.Rectangle ? "Nits" : "Candela";
         }
 
-        static void SetPhysical(GameObject thing, Light light, Emission e, Type hdLight)
+        // In cd, lx or nits: what a light of this type is given, of the lamp's own figure.
+        static float IntensityFor(Light light, Emission e)
         {
-            Component data = thing.GetComponent(hdLight);
-            if (data == null) data = thing.AddComponent(hdLight);
-            Set(data, "angularDiameter", e.angular_diameter_deg);
+            float area = light.areaSize.x * light.areaSize.y;
+            if (light.type == LightType.Rectangle && e.type != "Rectangle") return e.intensity / area;
+            if (light.type != LightType.Rectangle && e.type == "Rectangle")
+            {
+                return e.intensity * e.area_width_m * e.area_height_m;
+            }
+            return e.intensity;
+        }
+
+        static void SetPhysical(Light light, Emission e, Type hdLight)
+        {
+            Component data = light.GetComponent(hdLight);
+            if (e.type == "Directional") Set(data, "angularDiameter", e.angular_diameter_deg);
             if (e.radius_m > 0) Set(data, "shapeRadius", e.radius_m);
             // HDRP's own inner cone, in percent of the outer angle, 0 by default: Light.innerSpotAngle
             // counts from the version on that has this no more.
-            if (light.type == LightType.Spot && hdLight.GetProperty("innerSpotPercent") != null)
+            if (light.type == LightType.Spot && e.type == "Spot" &&
+                hdLight.GetProperty("innerSpotPercent") != null)
             {
                 Set(data, "innerSpotPercent", e.inner_spot_percent);
             }
 #if UNITY_6000_0_OR_NEWER
             light.lightUnit = (LightUnit)Enum.Parse(typeof(LightUnit), UnitOf(light.type));
-            light.intensity = e.intensity;
+            light.intensity = IntensityFor(light, e);
 #else
             if (light.type == LightType.Rectangle) Set(data, "type", "Area");
             if (light.type == LightType.Rectangle) Call(data, "SetAreaLightSize", light.areaSize);
             Type units = Find("UnityEngine.Rendering.HighDefinition.LightUnit");
             MethodInfo set = hdLight.GetMethod("SetIntensity", new Type[] { typeof(float), units });
-            set.Invoke(data, new object[] { e.intensity, Enum.Parse(units, UnitOf(light.type)) });
+            set.Invoke(data, new object[] { IntensityFor(light, e), Enum.Parse(units, UnitOf(light.type)) });
 #endif
         }
 
@@ -235,6 +373,12 @@ namespace Lightcal
                 if (type != null) return type;
             }
             return null;
+        }
+
+        static object Get(object target, string name)
+        {
+            PropertyInfo property = target.GetType().GetProperty(name);
+            return property == null ? null : property.GetValue(target, null);
         }
 
         static void Set(object target, string name, object value)

@@ -4,11 +4,13 @@
 # it replaces its own and leaves all else as it is; one undo takes them back. NAME.rig.blender.py
 # makes a scene of its own with cards, camera and exposure, and takes
 #   [--render out.png|out.exr] [--samples N]  as well.
+# Exported with --into it makes nothing: it sets lights that are there, by name, or refuses.
 # Lights are watts of W = lm/683 (as Blender's glTF importer has it): every radiance of the scene is
 # cd/m2 divided by 683, and the rig's exposure brings the white card to 1.0 (reflectance 1).
 import json
 import math
 import os
+import re
 import sys
 
 import bpy
@@ -47,7 +49,10 @@ def ies_nodes(lamp, text):
     """The distribution's candela as the light's strength; C0 is the node's -Y."""
     lamp.use_nodes = True
     tree = lamp.node_tree
+    earlier = [node.ies for node in tree.nodes if node.type == 'TEX_IES' and node.ies]
     tree.nodes.clear()
+    for block in [block for block in earlier if is_own(block)]:
+        bpy.data.texts.remove(block)
     ies = tree.nodes.new('ShaderNodeTexIES')
     ies.mode = 'INTERNAL'
     block = owned(bpy.data.texts.new(lamp.name + '.ies'))
@@ -70,6 +75,53 @@ def discard(lamp):
                 bpy.data.texts.remove(text)
 
 
+def energy_for(lamp, light):
+    """Watts of a light of this type that shines with the lamp's candela, or lux, along its axis."""
+    energy, kind = light['energy_W'], light['type']
+    if kind in ('SUN', 'IES'):
+        return energy
+    if kind == 'AREA' and lamp.type != 'AREA':
+        energy *= 4  # pi cd to 4 pi cd
+    if lamp.type == 'AREA':
+        if kind != 'AREA':
+            energy /= 4
+        if bpy.app.version < (4, 0):
+            energy *= 4 / math.pi  # before 4.0 an area light of P watts has P/4 on its axis
+    return energy
+
+
+def set_figures(lamp, light):
+    """Intensity, colour, cone, distribution and size, as far as the lamp has them."""
+    kind = light['type']
+    lamp.color = light['color']
+    if kind == 'AREA' and lamp.type == 'AREA':
+        lamp.shape = light['shape']
+        lamp.size = light['size_m'][0]
+        if light['shape'] == 'RECTANGLE':
+            lamp.size_y = light['size_m'][1]
+    elif kind == 'SUN':
+        lamp.angle = light['angle_rad']
+    elif lamp.type in ('POINT', 'SPOT') and light.get('radius_m', 0) > 0:
+        lamp.shadow_soft_size = light['radius_m']
+    if kind == 'SPOT' and lamp.type == 'SPOT':
+        # Before 4.0 a spot is a disc, which its own cosine dims.
+        cone = light['before_4_0'] if bpy.app.version < (4, 0) else light
+        lamp.spot_size = cone['spot_size_rad']
+        lamp.spot_blend = cone['spot_blend']
+    lamp.energy = energy_for(lamp, light)
+    if hasattr(lamp, 'exposure'):
+        lamp.exposure = 0.0
+    if hasattr(lamp, 'normalize'):
+        lamp.normalize = True
+    if hasattr(lamp, 'use_temperature'):
+        lamp.use_temperature = False
+    if kind == 'IES':
+        ies_nodes(lamp, light['ies'])
+    elif lamp.use_nodes:
+        lamp.use_nodes = False  # they would multiply the watts
+    lamp['lightcal'] = json.dumps(light['measured'])
+
+
 def add_light(collection, light, mine=None):
     """A light, in the place of ours of an earlier run where there is one."""
     kind = light['type']
@@ -79,34 +131,9 @@ def add_light(collection, light, mine=None):
         name = earlier.name
         discard(earlier)
         lamp.name = name
-    lamp.color = light['color']
-    energy = light['energy_W']
-    if kind == 'AREA':
-        lamp.shape = light['shape']
-        lamp.size = light['size_m'][0]
-        if light['shape'] == 'RECTANGLE':
-            lamp.size_y = light['size_m'][1]
-        if bpy.app.version < (4, 0):
-            energy *= 4 / math.pi  # before 4.0 an area light of P watts has P/4 on its axis
-    elif kind == 'SUN':
-        lamp.angle = light['angle_rad']
-    else:
+    if kind not in ('AREA', 'SUN'):
         lamp.shadow_soft_size = light['radius_m']
-    if kind == 'SPOT':
-        # Before 4.0 a spot is a disc, which its own cosine dims.
-        cone = light['before_4_0'] if bpy.app.version < (4, 0) else light
-        lamp.spot_size = cone['spot_size_rad']
-        lamp.spot_blend = cone['spot_blend']
-    lamp.energy = energy
-    if hasattr(lamp, 'exposure'):
-        lamp.exposure = 0.0
-    if hasattr(lamp, 'normalize'):
-        lamp.normalize = True
-    if hasattr(lamp, 'use_temperature'):
-        lamp.use_temperature = False
-    if kind == 'IES':
-        ies_nodes(lamp, light['ies'])
-    lamp['lightcal'] = json.dumps(light['measured'])
+    set_figures(lamp, light)
     thing = placed(light['name'], lamp, collection, light['axes'], light['position_m'], mine)
     thing[LAMP] = light['name']
 
@@ -291,13 +318,87 @@ def build_rig():
     return scene
 
 
+def matches(pattern, name):
+    """* any letters, ? one; all else as it is."""
+    spelled = re.escape(pattern).replace(r'\*', '.*').replace(r'\?', '.')
+    return re.fullmatch(spelled, name, re.S) is not None
+
+
+def figures(lamp):
+    text = '%.4g W, colour %.3f %.3f %.3f' % (lamp.energy, *lamp.color)
+    if lamp.type == 'SPOT':
+        text += ', cone %.4g deg, blend %.3g' % (math.degrees(lamp.spot_size), lamp.spot_blend)
+    if lamp.type in ('POINT', 'SPOT'):
+        text += ', radius %.4g m' % lamp.shadow_soft_size
+    if lamp.type == 'AREA':
+        text += ', %s %.4g x %.4g m' % (lamp.shape.lower(), lamp.size, lamp.size_y)
+    if lamp.type == 'SUN':
+        text += ', angle %.4g deg' % math.degrees(lamp.angle)
+    return text + (', nodes' if lamp.use_nodes else '')
+
+
+def why_not(thing, light, chosen):
+    """What keeps this light from being set, and what to do; '' = nothing."""
+    lamp, kind = thing.data, light['type']
+    if (kind == 'SUN') != (lamp.type == 'SUN'):
+        return ('is a %s, and "%s" was measured in %s: make it a %s, or leave it out'
+                % (lamp.type, light['name'], 'lux' if kind == 'SUN' else 'candela',
+                   'SUN' if kind == 'SUN' else 'POINT or SPOT'))
+    if kind == 'IES' and lamp.type == 'AREA':
+        return 'is an AREA, which takes no photometric file: make it a POINT or a SPOT'
+    if lamp.library or lamp.override_library:
+        return 'is linked from another file: open that file, or make it local (Object > Relations)'
+    others = [o.name for o in bpy.data.objects if o.data == lamp and o not in chosen]
+    if others:
+        return ('shares its light with "%s", which would change too: make it single user '
+                '(Object > Relations), or name both' % others[0])
+    return ''
+
+
+def set_lights_that_are_there():
+    """The rows of the export's --into; all of them, or nothing."""
+    scene = bpy.context.scene
+    lights = {light['name']: light for light in PRESET['lights']}
+    taken, problems = {}, []
+    for row in PRESET['into']:
+        found = [t for t in scene.objects if t.type == 'LIGHT' and matches(row['object'], t.name)]
+        if not found:
+            problems.append('no light of the scene "%s" is called "%s"; it has %s' % (
+                scene.name, row['object'],
+                ', '.join(t.name for t in scene.objects if t.type == 'LIGHT') or 'none'))
+        for thing in found:
+            if taken.setdefault(thing, row['lamp']) != row['lamp']:
+                problems.append('"%s" would get two lamps, "%s" and "%s": leave one of the lines'
+                                % (thing.name, taken[thing], row['lamp']))
+    data = {}
+    for thing, lamp in taken.items():
+        problem = why_not(thing, lights[lamp], taken)
+        if problem:
+            problems.append('"%s" %s' % (thing.name, problem))
+        if data.setdefault(thing.data, lamp) != lamp:
+            problems.append('"%s" shares its light with one that gets another lamp: make it single '
+                            'user (Object > Relations)' % thing.name)
+    if problems:
+        raise RuntimeError('lightcal: nothing set: ' + '; '.join(problems))
+    for thing, lamp in taken.items():
+        before = figures(thing.data)
+        set_figures(thing.data, lights[lamp])
+        print('lightcal: %s: %s -> %s   (%s)' % (thing.name, before, figures(thing.data), lamp))
+        if lights[lamp]['type'] == 'SPOT' and thing.data.type != 'SPOT':
+            print('lightcal: %s: a %s has no cone: right on the axis of "%s" alone; a SPOT has one'
+                  % (thing.name, thing.data.type, lamp))
+    return scene
+
+
 def run(arguments):
     options = dict(zip(arguments[0::2], arguments[1::2]))
     if 'rig' not in PRESET and ('--render' in options or '--samples' in options):
-        sys.exit('lightcal: these are the lights alone; what renders is ' + PRESET['name'] +
-                 '.rig.blender.py, which export writes with --rig')
+        raise RuntimeError('lightcal: these are the lights alone; what renders is ' + PRESET['name'] +
+                           '.rig.blender.py, which export writes with --rig')
     bpy.ops.ed.undo_push(message='Before lightcal')
-    scene = build_rig() if 'rig' in PRESET else bring_lights()
+    bring = (build_rig if 'rig' in PRESET else set_lights_that_are_there if 'into' in PRESET else
+             bring_lights)
+    scene = bring()
     bpy.ops.ed.undo_push(message='lightcal ' + PRESET['name'])
     if '--samples' in options:
         scene.cycles.samples = int(options['--samples'])

@@ -2,6 +2,7 @@
 # Run in the editor with the Python plugin: py "THIS FILE". The lights come into the level that is
 # open; run again, it replaces its own, found by their tag, and leaves all else as it is; one undo
 # takes them back. NAME.rig.unreal.py opens a level of its own with cards, camera and exposure.
+# Exported with --into it makes nothing: it sets lights that are there, by label, or refuses.
 import json
 import os
 import re
@@ -70,14 +71,37 @@ def add_light(item):
     actor = spawn(actor_class, item)
     component = actor.get_component_by_class(component_class)
     component.set_mobility(unreal.ComponentMobility.MOVABLE)
-    if item["class"] != "DirectionalLight":
+    set_figures(component, item, item["properties"])
+
+
+def fitting(component, item):
+    """Those of the lamp's figures that a light of this class has. A size that was not measured is
+    left as it is."""
+    names = ["intensity"]
+    if item["use_temperature"]:
+        names.append("temperature")
+    if isinstance(component, unreal.DirectionalLightComponent):
+        names.append("light_source_angle")
+    else:
+        names.append("attenuation_radius")
+    if isinstance(component, unreal.SpotLightComponent):
+        names += ["inner_cone_angle", "outer_cone_angle"]
+    if isinstance(component, unreal.PointLightComponent) and item["properties"].get("source_radius"):
+        names.append("source_radius")
+    if isinstance(component, unreal.RectLightComponent):
+        names += ["source_width", "source_height", "barn_door_length"]
+    return {name: item["properties"][name] for name in names if name in item["properties"]}
+
+
+def set_figures(component, item, properties):
+    if not isinstance(component, unreal.DirectionalLightComponent):
         put(component, "intensity_units", unreal.LightUnits.CANDELAS)
-    if item["class"] in ("PointLight", "SpotLight"):
+    if isinstance(component, unreal.PointLightComponent):
         put(component, "use_inverse_squared_falloff", True)
     red, green, blue = item["light_color"]
     put(component, "light_color", unreal.Color(b=blue, g=green, r=red, a=255))
     put(component, "use_temperature", item["use_temperature"])
-    for name, value in item["properties"].items():
+    for name, value in properties.items():
         put(component, name, float(value))
     if "ies" in item:
         profile = import_ies(item["ies"])
@@ -174,5 +198,81 @@ def bring_lights():
     unreal.log("lightcal: %d lights" % len(DATA["lights"]))
 
 
-if "rig" not in DATA or open_rig_level():
+def matches(pattern, name):
+    """* any letters, ? one; all else as it is."""
+    spelled = re.escape(pattern).replace(r"\*", ".*").replace(r"\?", ".")
+    return re.fullmatch(spelled, name, re.S) is not None
+
+
+def figures(component):
+    get = component.get_editor_property
+    color = get("light_color")
+    text = "intensity %.6g" % get("intensity")
+    if isinstance(component, unreal.LocalLightComponent):
+        text += " %s, radius of attenuation %.4g cm" % (
+            getattr(get("intensity_units"), "name", get("intensity_units")), get("attenuation_radius"))
+    text += ", %.4g K" % get("temperature") if get("use_temperature") else ", no temperature"
+    text += ", colour %d %d %d" % (color.r, color.g, color.b)
+    if isinstance(component, unreal.SpotLightComponent):
+        text += ", cone %.4g to %.4g deg" % (get("inner_cone_angle"), get("outer_cone_angle"))
+    if isinstance(component, unreal.PointLightComponent):
+        text += ", source radius %.4g cm" % get("source_radius")
+    if isinstance(component, unreal.RectLightComponent):
+        text += ", source %.4g x %.4g cm" % (get("source_width"), get("source_height"))
+    return text + (", photometric file" if get("ies_texture") else "")
+
+
+def why_not(component, item):
+    sun = isinstance(component, unreal.DirectionalLightComponent)
+    if sun == (item["class"] == "DirectionalLight"):
+        return ""
+    return 'is %s, and "%s" was measured in %s; name a light that is %s' % (
+        "directional" if sun else "no directional light", item["name"],
+        "candela" if sun else "lux", "a point, spot or rect light" if sun else "directional")
+
+
+def set_lights_that_are_there():
+    """The rows of the export's --into; all of them, or nothing."""
+    items = {item["name"]: item for item in DATA["lights"]}
+    lights = {}
+    for actor in ACTORS.get_all_level_actors():
+        components = actor.get_components_by_class(unreal.LightComponent)
+        if components:
+            lights[actor] = (str(actor.get_actor_label()), components)
+    taken, problems = {}, []
+    for row in DATA["into"]:
+        found = [actor for actor, (label, _) in lights.items() if matches(row["object"], label)]
+        if not found:
+            problems.append('no light of the level is called "%s"; it has %s' % (
+                row["object"], ", ".join(label for label, _ in lights.values()) or "none"))
+        for actor in found:
+            label, components = lights[actor]
+            if taken.setdefault(actor, row["lamp"]) != row["lamp"]:
+                problems.append('"%s" would get two lamps, "%s" and "%s": leave one of the lines'
+                                % (label, taken[actor], row["lamp"]))
+            for why in {why_not(component, items[row["lamp"]]) for component in components} - {""}:
+                problems.append('"%s" %s' % (label, why))
+    if problems:
+        for problem in problems:
+            unreal.log_error("lightcal: nothing set: " + problem)
+        return
+    with unreal.ScopedEditorTransaction("lightcal " + DATA["name"]):
+        for actor, lamp in taken.items():
+            label, components = lights[actor]
+            item = items[lamp]
+            for component in components:
+                before = figures(component)
+                component.modify()
+                if component.get_editor_property("ies_texture") and "ies" not in item:
+                    component.set_editor_property("ies_texture", None)  # it would shape this lamp
+                set_figures(component, item, fitting(component, item))
+                unreal.log("lightcal: %s: %s -> %s   (%s)" % (label, before, figures(component), lamp))
+                if item["class"] == "SpotLight" and not isinstance(component, unreal.SpotLightComponent):
+                    unreal.log_warning('lightcal: %s has no cone: right on the axis of "%s" alone'
+                                       % (label, lamp))
+
+
+if "into" in DATA:
+    set_lights_that_are_there()
+elif "rig" not in DATA or open_rig_level():
     bring_lights()
