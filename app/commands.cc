@@ -98,7 +98,7 @@ constexpr CommandRow kCommands[] = {
     {"export", "Engine presets of fitted lights, for the scene that is there; --rig for one of its own",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --to blender --rig -o presets --force\n"
-     "  lightcal export out/light.json --to unreal,blender --into \"PropLamp_*\" -o presets", BuildExport},
+     "  lightcal export out/light.json --to unreal,blender --into map.csv -o into", BuildExport},
     {"check", "A preset against the readings, or an engine's picture of the rig against the meter",
      "  lightcal check presets/light.gltf --session sample_data/sessions/amaran_200x_s_bare\n"
      "  lightcal check --render beauty.exr --rig presets/light.preset.json --engine blender",

@@ -18,9 +18,13 @@ namespace lightcal::app {
   return words;
 }
 
-// "all" is every target.
-inline void SpellOutAll(std::vector<std::string>& targets) {
-  if (std::ranges::find(targets, "all") != targets.end()) targets = NamesOf(PresetTargets());
+// "all" is every target; of lights that are in a scene, every one that sets them.
+inline void SpellOutAll(std::vector<std::string>& targets, bool into_scene = false) {
+  if (std::ranges::find(targets, "all") == targets.end()) return;
+  targets.clear();
+  for (const PresetTarget& target : PresetTargets()) {
+    if (target.into_scene || !into_scene) targets.emplace_back(target.name);
+  }
 }
 
 // A target among the inputs: "--to gltf usd" for "--to gltf,usd".

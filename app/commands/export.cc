@@ -211,7 +211,7 @@ Run BuildExport(CLI::App& parser) {
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) -> Result<void> {
     if (auto parted = CheckNoTargetAmong(options->inputs); !parted) return parted;
-    SpellOutAll(options->targets);
+    SpellOutAll(options->targets, !options->into.empty());
     return RunExport(*options, console);
   };
 }

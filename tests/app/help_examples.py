@@ -72,6 +72,7 @@ def prepare(home):
     gels = re.search(r"```text\n(filter,.*?)```", readme, re.S).group(1)
     (home / "gels.csv").write_text(gels, encoding="utf-8")
     (home / "tape_measure.csv").write_text("distance_m,illuminance_lx\n1.5,23.5\n", encoding="utf-8")
+    (home / "map.csv").write_text("lamp,object\n5600K,PropLamp_*\n", encoding="utf-8")
     (home / "lamps.csv").write_text("name,distance_m,illuminance_lx,card_lx,fixture\n"
                                     "key,1,58,10,bulb\nfill,1,31,4,bulb\n", encoding="utf-8")
     shutil.copy(SAMPLES / "spectra/jeti/spectral_Jeti_50pct.csv", home / "sweep.csv")
