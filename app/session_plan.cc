@@ -8,6 +8,8 @@
 
 #include "calibration_options.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/plan/next_step.h"
 #include "lightcal/fit/plan/plan_readings.h"
 #include "minutes_answer.h"
 #include "session_names.h"
@@ -21,7 +23,20 @@ constexpr std::size_t kCandidatesShown = 8;
 struct PlannedLight {
   const LightDescription* light = nullptr;
   Result<ReadingPlan> plan;
+  std::string next{};  // as run and quick name it; "" before a reading
 };
+
+// The step that is worth most for its minutes, the same that run and quick name.
+void SayNext(const Session& session, const FitSettings& settings,
+             std::vector<PlannedLight>& planned) {
+  const auto fitted = FitSession(session, settings);
+  if (!fitted) return;
+  for (PlannedLight& one : planned) {
+    const auto light =
+        std::ranges::find(fitted->lights.lights, one.light->name, &FittedLight::name);
+    if (light != fitted->lights.lights.end()) one.next = AdviseNext(session, *light).say;
+  }
+}
 
 std::string SpanAdvice(const ReadingPlan& plan) {
   const std::string wanted =
@@ -67,6 +82,7 @@ Node NodeOf(const PlannedLight& planned, const Session& session) {
             {"span", plan.span},
             {"steps", Node::List(plan.steps, PlannedReadingNode)},
             {"candidates", Node::List(plan.candidates, PlannedReadingNode)},
+            {"next", Node::UnlessEmpty(planned.next)},
             {"advice", Node::UnlessEmpty(AdviceOf(planned, session))}});
   return node;
 }
@@ -78,6 +94,9 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
   text += plan.u95_relative
               ? "now " + PlusMinus(*plan.u95_relative, plan.beam_u95_deg) + " (95 %)\n"
               : std::string("no reading yet\n");
+  if (!planned.next.empty()) {
+    text += "next, for its minutes: " + planned.next + "\nwhatever the minutes:\n";
+  }
   std::vector<std::vector<std::string>> rows;
   for (const PlannedReading& step : plan.steps) {
     rows.push_back({std::to_string(rows.size() + 1), SayPlannedReading(step),
@@ -123,6 +142,7 @@ Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   }
   if (!any && !planned.empty()) refused = &planned.front().plan.error();
   if (refused != nullptr) return tl::unexpected(*refused);
+  SayNext(*session, settings, planned);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<MinutesLadder> ladders;
   if (options.with_minutes) {

@@ -220,8 +220,14 @@ TEST(PlanCommand, SaysTheNextReadingsWithWhatTheyLeave) {
   EXPECT_LT(double(plan["steps"][1]["u95_relative"]), double(plan["steps"][0]["u95_relative"]));
   EXPECT_GT(double(plan["steps"][0]["expected_lx"]), 0.0);
   EXPECT_NE(std::string(plan["advice"]).find("8 : 1"), std::string::npos);
+  const TempDir out;
+  const json run = LightcalJson("run", {session, "-o", out.path(), "--to", "json"});
+  EXPECT_EQ(plan["next"], run["next_steps"]["5600K"]);
   const CliResult table = RunLightcal({"plan", session});
   EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_NE(table.out.find("next, for its minutes: " + std::string(plan["next"])),
+            std::string::npos)
+      << table.out;
   EXPECT_NE(table.out.find("take this reading"), std::string::npos);
   EXPECT_EQ(RunLightcal({"plan"}).exit_code, 2);
   EXPECT_EQ(RunLightcal({"plan", session, "--light", "kye"}).exit_code, 3);

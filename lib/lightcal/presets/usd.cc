@@ -256,7 +256,9 @@ Over OpinionsOf(const PresetLight& light, const DerivedLight& derived,
   if (table || light.form == LightForm::kSpot) {
     over.head = " (\n    prepend apiSchemas = [\"ShapingAPI\"]\n  )";
   }
-  over.opinions = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) + "\n" +
+  const bool sized = light.form != LightForm::kPoint && light.form != LightForm::kSpot && !table;
+  over.opinions = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) +
+                  (sized ? "" : "; no size was measured: 5 mm, and so many nits") + "\n" +
                   UsdOpinions(derived) + IesFigures(table ? &*ies : nullptr);
   // As deep as the prim they stand in is indented by OverText.
   for (std::size_t at = 0; (at = over.opinions.find("\n    ", at)) != std::string::npos; ++at) {
