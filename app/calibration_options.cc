@@ -100,13 +100,17 @@ Result<T> Told(Calibrated<T>&& answer, Console& console) {
 
 Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationSettings& settings,
                                      Console& console) {
-  return Told(MeasureSession(path, InputSources(), settings), console);
+  const auto roots = RootsOfSession(path, console.allows_outside());
+  if (!roots) return tl::unexpected(roots.error());
+  return Told(MeasureSession(path, InputSourcesWithin(*roots), settings), console);
 }
 
 Result<CalibratedSession> CalibrateAloud(const std::string& path, CalibrationSettings settings,
                                          Console& console) {
   settings.time = SourceDateIso8601().value_or("");
-  return Told(CalibrateSession(path, InputSources(), settings), console);
+  const auto roots = RootsOfSession(path, console.allows_outside());
+  if (!roots) return tl::unexpected(roots.error());
+  return Told(CalibrateSession(path, InputSourcesWithin(*roots), settings), console);
 }
 
 std::string DefaultOutputDirectory(const Session& session) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 
 #include "commands.h"
 
@@ -57,6 +58,11 @@ TypedOption DescribeOption(const CLI::Option& option) {
   return typed;
 }
 
+// Commands that open what a session names.
+constexpr std::array<std::string_view, 12> kReadSessions = {"run",    "fit",  "explain", "simulate",
+                                                            "report", "plan", "check",   "tradeoff",
+                                                            "match",  "read", "watch",   "camera"};
+
 CLI::App& AddCommand(CLI::App& parser, const CommandRow& row, Console::Flags& flags) {
   CLI::App* sub = parser.add_subcommand(std::string(row.name), std::string(row.summary));
   if (!row.examples.empty()) sub->footer("Examples:\n" + std::string(row.examples));
@@ -64,6 +70,10 @@ CLI::App& AddCommand(CLI::App& parser, const CommandRow& row, Console::Flags& fl
   sub->add_flag("--quiet,-q", flags.quiet, "No notes on stderr");
   sub->add_flag("--verbose,-v", flags.verbose, "More on stderr");
   sub->add_flag("--strict", flags.strict, "Warnings refuse the answer (exit 3)");
+  if (std::ranges::find(kReadSessions, row.name) != kReadSessions.end()) {
+    sub->add_flag("--allow-outside", flags.allow_outside,
+                  "The session may name files outside of its folder");
+  }
   return *sub;
 }
 

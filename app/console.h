@@ -21,11 +21,13 @@ class Console {
     bool quiet = false;
     bool verbose = false;
     bool strict = false;
-    bool muted = false;  // not even warnings: for work done many times over
+    bool allow_outside = false;  // a session may name files outside of its folder
+    bool muted = false;          // not even warnings: for work done many times over
   };
   explicit Console(Flags flags) : flags_(flags) {}
 
   [[nodiscard]] bool json() const { return flags_.json; }
+  [[nodiscard]] bool allows_outside() const { return flags_.allow_outside; }
   [[nodiscard]] bool verbose() const { return flags_.verbose; }
 
   // Text for people on stdout; silent with --json.

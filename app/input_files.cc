@@ -3,6 +3,8 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <mutex>
 #include <set>
@@ -10,10 +12,14 @@
 #include <system_error>
 #include <utility>
 
+#include "lightcal/records/session_codec.h"
+#include "lightcal/records/toml_codec.h"
 #include "lightcal_devices/disk_sources.h"
 
 namespace lightcal::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct NotedFiles {
   std::mutex mutex;
@@ -78,6 +84,88 @@ Sources InputSources() {
     auto bracket = open(patterns, overrides);
     NoteFrames(bracket);
     return bracket;
+  };
+  return sources;
+}
+
+Result<FileRoots> RootsOfSession(const std::string& session_path, bool anywhere) {
+  FileRoots roots{anywhere, {}};
+  if (anywhere) return roots;
+  const fs::path own = fs::path(JournalPath(session_path)).parent_path();
+  roots.folders.push_back(own.empty() ? "." : own.string());
+  fs::path config;
+  if (const char* const settings = std::getenv("XDG_CONFIG_HOME"); settings && *settings) {
+    config = fs::path(settings) / "lightcal" / "config.toml";
+  } else if (const char* const home = std::getenv("HOME"); home && *home) {
+    config = fs::path(home) / ".config" / "lightcal" / "config.toml";
+  }
+  std::error_code error;
+  if (config.empty() || !fs::exists(config, error)) return roots;
+  const auto text = ReadInputFile(config.string());
+  if (!text) return tl::unexpected(text.error());
+  const auto bad = [&](const std::string& why) {
+    return Refused("bad_config", config.string(), why + "; it holds roots = [\"/folder\", ...]");
+  };
+  const auto document = records::ParseToml(*text);
+  if (!document) return bad(document.error().message);
+  const records::Node* const named = document->Find("roots");
+  if (named == nullptr) return roots;
+  for (const records::Node& folder : named->items) {
+    if (!fs::path(folder.text).is_absolute()) return bad("a root is a whole path");
+    roots.folders.push_back(folder.text);
+  }
+  return roots;
+}
+
+Sources InputSourcesWithin(const FileRoots& roots) {
+  Sources sources = InputSources();
+  if (roots.anywhere) return sources;
+  std::vector<fs::path> folders;
+  for (const std::string& folder : roots.folders) folders.emplace_back(WholePath(folder));
+  const auto check = [folders = std::move(folders)](const std::string& path) -> Result<void> {
+    const fs::path whole = WholePath(path);
+    const bool inside = std::ranges::any_of(folders, [&](const fs::path& folder) {
+      const fs::path below = whole.lexically_relative(folder);
+      return !below.empty() && *below.begin() != "..";
+    });
+    if (inside) return {};
+    return Refused("outside_session", path,
+                   "lies outside the session's folder, and a session may come from a stranger: put "
+                   "it inside, add --allow-outside, or name its folder in roots of "
+                   "~/.config/lightcal/config.toml");
+  };
+  const auto guard = [&check](auto& function) {
+    using Answer = decltype(function(std::string()));
+    function = [ask = std::move(function), check](const std::string& path) -> Answer {
+      if (auto inside = check(path); !inside) return tl::unexpected(inside.error());
+      return ask(path);
+    };
+  };
+  guard(sources.read_text);
+  guard(sources.sha256);
+  guard(sources.read_spectra);
+  guard(sources.read_photometric);
+  guard(sources.read_frame_info);
+  guard(sources.read_frame);
+  guard(sources.read_masked_frame);
+  sources.expand_files = [expand = std::move(sources.expand_files),
+                          check](std::span<const std::string> patterns) {
+    auto files = expand(patterns);
+    if (!files) return files;
+    for (const std::string& file : *files) {
+      if (auto inside = check(file); !inside) {
+        return Result<std::vector<std::string>>(tl::unexpected(inside.error()));
+      }
+    }
+    return files;
+  };
+  // The names first: a frame outside is not opened.
+  sources.open_bracket = [open = std::move(sources.open_bracket), expand = sources.expand_files](
+                             std::span<const std::string> patterns,
+                             const BracketOverrides& overrides) -> Result<Bracket> {
+    const auto files = expand(patterns);
+    if (!files) return tl::unexpected(files.error());
+    return open(patterns, overrides);
   };
   return sources;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/sources.h"
@@ -16,6 +17,18 @@ void NoteInput(const std::string& path);
 
 // devices::DiskSources(), noting every file they are asked for.
 [[nodiscard]] Sources InputSources();
+
+// The folders whose files a session may name: its own, and what the person allows.
+struct FileRoots {
+  bool anywhere = false;  // --allow-outside
+  std::vector<std::string> folders;
+};
+// The session's own folder and the `roots` of lightcal/config.toml in $XDG_CONFIG_HOME (~/.config
+// where that is not set). Refused: bad_config.
+[[nodiscard]] Result<FileRoots> RootsOfSession(const std::string& session_path, bool anywhere);
+// InputSources() for a session that may be a stranger's: what lies in none of the folders, links
+// followed, is refused (outside_session) before it is opened.
+[[nodiscard]] Sources InputSourcesWithin(const FileRoots& roots);
 
 // Whole file as bytes, noted. Fails: not_found, unreadable.
 [[nodiscard]] Result<std::string> ReadInputFile(const std::string& path);

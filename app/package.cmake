@@ -18,11 +18,9 @@ install(FILES ${shell}/_lightcal DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor
 install(FILES ${shell}/lightcal.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(FILES ${shell}/lightcal.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES app/debian/copyright README.md app/PICTURES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-# A session names its spectrum by a path from itself, so the folders stand as in sample_data.
+# A session holds every file that it names.
 install(DIRECTORY sample_data/sessions sample_data/tapes DESTINATION ${CMAKE_INSTALL_DATADIR}/lightcal
   PATTERN out EXCLUDE)
-install(DIRECTORY sample_data/spectra/uprtek_cv600
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/lightcal/spectra)
 
 # Everything `cmake --install` needs, without the tests.
 get_property(rooms GLOBAL PROPERTY LIGHTCAL_ROOMS)

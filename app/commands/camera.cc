@@ -91,7 +91,9 @@ Result<void> RunCamera(const CameraOptions& options, Console& console) {
     const PlannedOutput planned{options.output, "lightcal.camera"};
     if (auto free = CheckOutputs({planned}, options.force); !free) return free;
   }
-  auto profile = CalibrateCamera(session, InputSources(), warnings);
+  const auto roots = RootsOfSession(options.session, console.allows_outside());
+  if (!roots) return tl::unexpected(roots.error());
+  auto profile = CalibrateCamera(session, InputSourcesWithin(*roots), warnings);
   console.Warn(warnings);
   if (!profile) return Propagate(std::move(profile));
   auto provenance = ProvenanceOf(session, InputSources(), SourceDateIso8601().value_or(""));

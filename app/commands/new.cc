@@ -9,7 +9,10 @@
 #include "guide/lamp_interview.h"
 #include "guide/new_session.h"
 #include "guide/questions.h"
+#include "input_files.h"
 #include "interrupt.h"
+#include "lightcal/core/file_stem.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/light_kind.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
@@ -48,15 +51,31 @@ Node DocumentOf(const NewSession& session) {
           {"to", Node::UnlessEmpty(session.targets)}};
 }
 
+// A session that is copied elsewhere takes its lamp's file along.
+Result<std::vector<OutputFile>> TakeDistributionIn(NewSession& session) {
+  std::string& named = session.light.distribution_file;
+  if (named.empty()) return std::vector<OutputFile>();
+  const fs::path from = fs::path(session.directory) / named;
+  auto bytes = ReadInputFile(from.lexically_normal().string());
+  if (!bytes) return Propagate(std::move(bytes));
+  named = "captures/" + FileStem(session.light.name) + LowerAscii(from.extension().string());
+  const std::string to = (fs::path(session.directory) / named).string();
+  std::error_code error;
+  if (fs::equivalent(from, to, error)) return std::vector<OutputFile>();
+  return std::vector<OutputFile>{{to, *std::move(bytes)}};
+}
+
 Result<void> RunNew(const NewOptions& options, Console& console) {
   const InterruptGuard guard;  // Ctrl-C ends a question like the end of input does
   const Questions questions = Questions::Choose(options.yes);
   if (options.flags.directory) {
     if (auto free = CheckFree(*options.flags.directory, options.force); !free) return free;
   }
-  const auto session = InterviewAboutLamp(questions, options.flags);
-  if (!session) return tl::unexpected(session.error());
+  auto session = InterviewAboutLamp(questions, options.flags);
+  if (!session) return Propagate(std::move(session));
   if (auto free = CheckFree(session->directory, options.force); !free) return free;
+  const auto taken = TakeDistributionIn(*session);
+  if (!taken) return tl::unexpected(taken.error());
   const auto text = SessionText(*session);
   if (!text) return tl::unexpected(text.error());
   std::error_code error;
@@ -67,6 +86,7 @@ Result<void> RunNew(const NewOptions& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const std::string path = SessionFile(session->directory);
+  if (auto written = WriteOutputs(*taken, options.force); !written) return written;
   if (auto written = WriteOutputs({{path, *text}}, true); !written) return written;
   console.Print("\nwrote " + path + "\n");
   if (session->light.kind != LightKind::kDirectional) {

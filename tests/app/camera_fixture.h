@@ -43,11 +43,12 @@ class CameraFolder : public testing::Test {
   }
   [[nodiscard]] std::string ProfilePath() const { return folder_.path() + "/camera.json"; }
   nlohmann::json Profile(const std::string& frames) {
-    return LightcalJson("camera", {Session(frames), "-o", ProfilePath(), "--force"});
+    return LightcalJson("camera",
+                        {Session(frames), "--allow-outside", "-o", ProfilePath(), "--force"});
   }
   void ExpectRefused(const std::string& frames, const std::string& code) {
     std::filesystem::remove(ProfilePath());
-    ExpectRefusal({"camera", Session(frames), "-o", ProfilePath()}, code);
+    ExpectRefusal({"camera", Session(frames), "--allow-outside", "-o", ProfilePath()}, code);
     EXPECT_FALSE(std::filesystem::exists(ProfilePath()));
   }
   static void ExpectRefusal(merge::Words words, const std::string& code) {

@@ -31,7 +31,7 @@ usr/share/fish/vendor_completions.d/lightcal.fish
 usr/share/man/man1/lightcal.1
 usr/share/doc/lightcal/copyright
 usr/share/lightcal/sessions/three_real_lights/session.toml
-usr/share/lightcal/spectra/uprtek_cv600/LICENSE.MIT
+usr/share/lightcal/sessions/three_real_lights/captures/LICENSE.MIT
 """.split()
 # By dpkg-shlibdeps (program and modules), and those opened by name.
 DEPENDS = ["libc6", "libusb-1.0-0", "libraw20", "libopenimageio2.4", "libgphoto2-6", "libopencv-core406",

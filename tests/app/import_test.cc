@@ -312,7 +312,7 @@ TEST_F(Import, AnIlluminanceThatHeaderAndSpectrumDisputeIsRefusedByBothDoors) {
                                       "[[reading]]\nlight = \"key\"\ndistance_m = 0.5\n"
                                       "spectrum = \"" +
                                       InSession("captures/wrong.xls") + "\"\n" + more);
-    return RunLightcal({"fit", temp_.path() + "/t", "--json"});
+    return RunLightcal({"fit", temp_.path() + "/t", "--allow-outside", "--json"});
   };
   const CliResult unread = fit("");
   EXPECT_EQ(unread.exit_code, 3);

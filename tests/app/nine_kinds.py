@@ -77,7 +77,7 @@ class World:
 
     def write(self):
         path = pathlib.Path(self.folder) / "nine"
-        path.mkdir()
+        path.mkdir(exist_ok=True)
         (path / "session.toml").write_text(self.text + self.readings, encoding="utf-8")
         return path
 
@@ -141,9 +141,11 @@ def build(world):
 
     angles = np.arange(0, 91, 5.0)
     candela = 800 * np.cos(np.radians(angles)) ** 3
-    ies(pathlib.Path(world.folder) / "down.ies", angles, candela)
+    session = pathlib.Path(world.folder) / "nine"
+    session.mkdir(exist_ok=True)
+    ies(session / "down.ies", angles, candela)
     cans = Lamp("photometric", strength, [0, 0, 2.6], down, table=(angles, candela))
-    world.light("can", cans, position_m=cans.position, aim=down, distribution="../down.ies")
+    world.light("can", cans, position_m=cans.position, aim=down, distribution="down.ies")
     places = [np.array([u(-1, 1), u(-1, 1), u(0, 1)]) for _ in range(4)]
     world.at_places("can", cans, places, 0.02 * strength)
 

@@ -110,6 +110,56 @@ TEST_F(StrangersFiles, APresetThatIsOffIsExitOneAndOneThatIsRightIsZero) {
 
 // ---- names ----
 
+// A session names files of its own folder; more only where the person says so.
+TEST_F(StrangersFiles, ASessionOpensNothingOutsideOfItsFolder) {
+  const std::string secret = folder_.Write(
+      "home/secret.csv", "wavelength_nm,relative\n" + [] {
+        std::string rows;
+        for (int nm = 380; nm <= 780; nm += 5) rows += std::to_string(nm) + ",1\n";
+        return rows;
+      }());
+  const auto session = [&](const std::string& spectrum) {
+    folder_.Write("s/session.toml",
+                  "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n[[reading]]\n"
+                  "light = \"key\"\ndistance_m = 1\nilluminance_lx = 52\nspectrum = \"" +
+                      spectrum + "\"\n");
+    return folder_.path() + "/s";
+  };
+  fs::create_directories(folder_.path() + "/s/captures");
+  fs::create_symlink(secret, folder_.path() + "/s/captures/link.csv");
+  for (const std::string& spectrum :
+       {secret, std::string("../home/secret.csv"), std::string("captures/link.csv"),
+        std::string("captures/../../home/secret.csv")}) {
+    const std::string path = session(spectrum);
+    for (const char* command : {"fit", "run", "explain"}) {
+      const CliResult refused = Answer({command, path, "--json"}, 3);
+      EXPECT_THAT(refused.out, HasSubstr("outside_session")) << command << " " << spectrum;
+    }
+    Answer({"fit", path, "--allow-outside", "--force"}, 0);
+    Answer({"run", path, "--allow-outside", "--force"}, 0);
+  }
+  fs::copy_file(secret, folder_.path() + "/s/captures/own.csv");
+  Answer({"fit", session("captures/own.csv"), "--force"}, 0);
+  // A folder that the person's own settings name, and none that only begins like it.
+  folder_.Write("config/lightcal/config.toml", "roots = [\"" + folder_.path() + "/home\"]\n");
+  const std::vector<std::string> settings = {"XDG_CONFIG_HOME=" + folder_.path() + "/config"};
+  EXPECT_EQ(RunLightcal({"fit", session(secret), "--force"}, "", settings).exit_code, 0);
+  folder_.Write("config/lightcal/config.toml", "roots = [\"" + folder_.path() + "/ho\"]\n");
+  EXPECT_EQ(RunLightcal({"fit", session(secret), "--force"}, "", settings).exit_code, 3);
+  folder_.Write("config/lightcal/config.toml", "roots = [\"home\"]\n");
+  EXPECT_THAT(RunLightcal({"fit", session(secret), "--json"}, "", settings).out,
+              HasSubstr("bad_config"));
+}
+
+// `cp -r` of a sample is a session.
+TEST_F(StrangersFiles, EverySampleSessionRunsFromACopyOfItsFolder) {
+  for (const auto& entry : fs::directory_iterator(SampleData("sessions"))) {
+    const std::string copy = folder_.path() + "/" + entry.path().filename().string();
+    fs::copy(entry.path(), copy, fs::copy_options::recursive);
+    Answer({"fit", copy, "-o", copy + "/light.json"}, 0);
+  }
+}
+
 TEST_F(StrangersFiles, ANameIsNoPath) {
   const std::string deep = folder_.path() + "/a/b/p";
   for (const char* name : {"../../evil", "/tmp/lightcal-evil", "..", ".hidden"}) {

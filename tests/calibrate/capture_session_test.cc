@@ -55,12 +55,12 @@ class CaptureSession : public testing::Test {
  protected:
   // The first light of the fit of this session.toml.
   json Light(const std::string& toml) {
-    document_ = LightcalJson("fit", {folder_.Write("session.toml", toml), "-o",
+    document_ = LightcalJson("fit", {folder_.Write("session.toml", toml), "--allow-outside", "-o",
                                      folder_.path() + "/light.json", "--force"});
     return document_["lights"].at(0);
   }
   CliResult Fit(const std::string& toml) {
-    return RunLightcal({"fit", folder_.Write("session.toml", toml), "-o",
+    return RunLightcal({"fit", folder_.Write("session.toml", toml), "--allow-outside", "-o",
                         folder_.path() + "/light.json", "--force"});
   }
   [[nodiscard]] bool Warned(const std::string& code) const {
@@ -257,7 +257,7 @@ TEST_F(CaptureSession, WhatCannotBeReadIsRefusedByName) {
 
       {"bad_sensitivities", Capture("camera = \"session.toml\"\n")}};
   for (const Case& one : cases) {
-    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml),
+    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml), "--allow-outside",
                                           "-o", folder_.path() + "/light.json", "--json"});
     EXPECT_EQ(result.exit_code, 3) << one.code << result.err;
     const json answer = json::parse(result.out, nullptr, false);

@@ -62,7 +62,7 @@ class WallSession : public testing::Test {
       const auto begin = toml.find("\"" + folder);
       if (begin != std::string::npos) toml.insert(begin + 1, session + "/");
     }
-    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", toml), "-o",
+    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", toml), "--allow-outside", "-o",
                                           folder_.path() + "/light.json", "--json"});
     EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
     EXPECT_FALSE(fs::exists(folder_.path() + "/light.json"));
