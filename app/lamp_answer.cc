@@ -279,10 +279,16 @@ std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
   return answers;
 }
 
-std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers) {
+std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers,
+                                  const std::string& session) {
   std::vector<LightAdvice> out;
   for (const LampAnswer& answer : answers) {
-    const LabelAndText words = NextWords(answer);
+    LampAnswer named = answer;
+    if (named.next.reading) {
+      const std::string line = ReadCommand(session, named.light->name, *named.next.reading);
+      if (!line.empty()) named.better = line;
+    }
+    const LabelAndText words = NextWords(named);
     out.push_back({answer.light->name, words.label, words.text, EnoughOf(*answer.light)});
   }
   return out;

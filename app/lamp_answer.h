@@ -43,8 +43,10 @@ struct LampQuestion {
                                                        const std::string& path,
                                                        const std::vector<std::string>& targets);
 
-// What a report says of each.
-[[nodiscard]] std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers);
+// What a report says of each. `session` is its name, not where it was typed to lie: the same
+// session gives the same page from any folder.
+[[nodiscard]] std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers,
+                                                const std::string& session);
 
 // At most ten lines of 100 columns.
 [[nodiscard]] std::string LampAnswerText(const LampAnswer& answer, const Session& session);

@@ -135,7 +135,7 @@ Result<Source> FromSession(const std::string& path, Console& console) {
   auto calibrated = CalibrateAloud(path, {}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   ReportExtras extras = ExtrasOf(*calibrated);
-  extras.advice = AdviceOf(SessionAnswersOf(*calibrated, path, {}));
+  extras.advice = AdviceOf(SessionAnswersOf(*calibrated, path, {}), calibrated->session.stem);
   const Session& session = calibrated->session;
   extras.ladders = LaddersOf(session, {}, {});
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),

@@ -71,7 +71,7 @@ Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
   std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportHtml(calibrated, AdviceOf(answers))}};
+                                   {"report.html", ReportHtml(calibrated, AdviceOf(answers, session.stem))}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }

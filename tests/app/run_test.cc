@@ -92,6 +92,25 @@ TEST(RunCommand, WritesLightPresetsAndReportAndIsIdempotent) {
   }
 }
 
+// A farm types sessions/*/, a person session: one page of both (the Slurm bench found the slash).
+TEST(RunCommand, HowAPathWasTypedIsInNoFile) {
+  const TempDir dir;
+  for (const char* sample : {"grey_card_exr", "three_real_lights"}) {
+    const std::string copy = dir.path() + "/" + sample;
+    std::filesystem::copy(SampleData(std::string("sessions/") + sample), copy,
+                          std::filesystem::copy_options::recursive);
+    std::vector<std::string> pages;
+    for (const std::string& typed : {copy, copy + "/", copy + "/../" + sample}) {
+      const std::string out = dir.path() + "/out" + std::to_string(pages.size()) + sample;
+      ASSERT_EQ(RunLightcal({"run", typed, "-o", out}).exit_code, 0);
+      pages.push_back(ReadFile(out + "/report.html"));
+    }
+    EXPECT_EQ(pages[0], pages[1]) << sample;
+    EXPECT_EQ(pages[0], pages[2]) << sample;
+    EXPECT_EQ(pages[0].find(dir.path()), std::string::npos) << sample;
+  }
+}
+
 TEST(RunCommand, TheSpectrumsLampHasItsColorAndLuxButNoCandela) {
   const TempDir out;
   const json document = RunJson(SampleData("sessions/three_real_lights"), out.path());
