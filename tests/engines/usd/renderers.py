@@ -75,7 +75,7 @@ def export(folder, *arguments, names=LAMPS, distances=()):
         out.write(golden_lights.light_json(names, distances))
     subprocess.run([LIGHTCAL, "export", lamps, "--to", "usd,json", "-o", folder, *arguments],
                    check=True, capture_output=True)
-    return os.path.join(folder, "set.usda")
+    return os.path.join(folder, "set.rig.usda" if "--rig" in arguments else "set.usda")
 
 
 class Renderers(unittest.TestCase):
@@ -143,13 +143,13 @@ class Renderers(unittest.TestCase):
         for word, reader in readers.items():
             for lamp in ("sun", "tube", "green spot"):
                 with tempfile.TemporaryDirectory() as folder:
-                    path = export(folder, "--renderer", word, names=[lamp], distances=[2.0])
+                    path = export(folder, "--rig", "--renderer", word, names=[lamp], distances=[2.0])
                     scene = usdlux.Scene(path, None, reader)
                     picture = scene.render(150, 100) * 2.0 ** scene.camera[0]["exposure"]
                     usdlux.write_exr(os.path.join(folder, "a.exr"), picture)
                     verdict = json.loads(subprocess.run(
                         [LIGHTCAL, "check", "--render", os.path.join(folder, "a.exr"), "--rig",
-                         os.path.join(folder, "set.preset.json"), "--json"],
+                         os.path.join(folder, "set.rig.preset.json"), "--json"],
                         check=True, capture_output=True).stdout)
                     ratio = verdict["illuminance_lx"] / verdict["expected_lx"]
                     self.assertAlmostEqual(ratio, 1.0, delta=0.01 if lamp != "tube" else 0.02,
