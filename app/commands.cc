@@ -99,6 +99,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --to blender --rig -o presets --force\n"
      "  lightcal export out/light.json --to unreal,blender --into map.csv -o into", BuildExport},
+    {"engine", "What a renderer makes of each kind of light, learnt from its own pictures",
+     "  lightcal engine learn point.preset.json point.exr --pixels exposed -o mine.json\n"
+     "  lightcal export out/light.json --to usd --engine mine.json -o presets", BuildEngine},
     {"check", "A preset against the readings, or an engine's picture of the rig against the meter",
      "  lightcal check presets/light.gltf --session sample_data/sessions/amaran_200x_s_bare\n"
      "  lightcal check --render beauty.exr --rig presets/light.preset.json --engine blender",

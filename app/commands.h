@@ -27,6 +27,7 @@ Run BuildExplain(CLI::App& parser);
 Run BuildSimulate(CLI::App& parser);
 Run BuildTradeoff(CLI::App& parser);
 Run BuildExport(CLI::App& parser);
+Run BuildEngine(CLI::App& parser);
 Run BuildCheck(CLI::App& parser);
 Run BuildReport(CLI::App& parser);
 Run BuildDiff(CLI::App& parser);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "console.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"

@@ -133,13 +133,14 @@ struct Ending {
   std::string_view formats;  // between blanks; a name without one is no output of ours
 };
 constexpr std::array kEndings = {
-    Ending{".exr", " exr "},   Ending{".png", " png "},    Ending{".svg", " svg "},
-    Ending{".pdf", " pdf "},   Ending{".html", " html "},  Ending{".htm", " html "},
-    Ending{".ies", " ies "},   Ending{".ldt", " ldt "},    Ending{".csv", " csv "},
-    Ending{".gltf", " gltf "}, Ending{".usda", " usd "},   Ending{".json", " json "},
-    Ending{".toml", " "},      Ending{".jsonl", " tape "}, Ending{".py", " script "},
-    Ending{".jpg", " "},       Ending{".jpeg", " "},       Ending{".tif", " "},
-    Ending{".tiff", " "},      Ending{".hdr", " "},        Ending{".dng", " "},
+    Ending{".exr", " exr "},   Ending{".png", " png "},   Ending{".svg", " svg "},
+    Ending{".pdf", " pdf "},   Ending{".html", " html "}, Ending{".htm", " html "},
+    Ending{".ies", " ies "},   Ending{".ldt", " ldt "},   Ending{".csv", " csv "},
+    Ending{".gltf", " gltf "}, Ending{".usda", " usd "},  Ending{".json", " json "},
+    Ending{".zip", " zip "},   Ending{".toml", " "},      Ending{".jsonl", " tape "},
+    Ending{".py", " script "}, Ending{".jpg", " "},       Ending{".jpeg", " "},
+    Ending{".tif", " "},       Ending{".tiff", " "},      Ending{".hdr", " "},
+    Ending{".dng", " "},
 };
 
 }  // namespace
@@ -151,6 +152,10 @@ std::string OwnFormatOf(std::string_view contents) {
   if (head.starts_with(kExrMagic)) return OwnExr(head);
   if (head.starts_with("%PDF")) {
     return contents.find("/Creator (lightcal ") != std::string_view::npos ? "pdf" : "";
+  }
+  if (head.starts_with("PK")) {
+    return head.find("lightcal/__init__.py# Written by lightcal") != std::string_view::npos ? "zip"
+                                                                                            : "";
   }
   return OwnText(head);
 }

@@ -23,6 +23,7 @@ inline void SpellOutAll(std::vector<std::string>& targets, bool into_scene = fal
   if (std::ranges::find(targets, "all") == targets.end()) return;
   targets.clear();
   for (const PresetTarget& target : PresetTargets()) {
+    if (target.only_if_named) continue;
     if (target.into_scene || !into_scene) targets.emplace_back(target.name);
   }
 }

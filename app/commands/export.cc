@@ -31,7 +31,7 @@ struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
   std::string output = ".";
-  std::string space, white, range, spots = "auto", renderer, into;
+  std::string space, white, range, spots = "auto", renderer, into, engine;
   bool rig = false;
   bool bare = false;  // what is done anyway
   bool force = false;
@@ -72,6 +72,13 @@ Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   preset.spots = options.spots == "ies"    ? SpotForm::kIes
                  : options.spots == "cone" ? SpotForm::kCone
                                            : SpotForm::kAuto;
+  if (!options.engine.empty()) {
+    const auto text = ReadInputFile(options.engine);
+    if (!text) return tl::unexpected(text.error());
+    auto engine = EngineFrom(*text, options.engine);
+    if (!engine) return Propagate(std::move(engine));
+    preset.engine = std::make_shared<const LearntEngine>(*std::move(engine));
+  }
   for (const UsdReadingRow& row : UsdReadings()) {
     if (row.word == options.renderer) preset.usd_reading = row.reading;
   }
@@ -110,8 +117,22 @@ Result<std::vector<IntoRow>> IntoOf(const std::string& into, const LightFile& li
   return rows;
 }
 
+// Which lamps an engine file says nothing of, and what it cannot say.
+void WarnOfEngine(const LearntEngine& engine, const LightFile& lights, Console& console) {
+  for (const FittedLight& lamp : lights.lights) {
+    if (engine.Knows(lamp.kind) || lamp.kind == LightKind::kPhotometric) continue;
+    console.Warn({"kind_not_learnt", lamp.name,
+                  "is a " + std::string(LightKindName(lamp.kind)) +
+                      ", of which the engine file says nothing; written as it is"});
+  }
+  if (engine.absolute) return;
+  console.Warn({"ratios_only", std::string(LightKindName(engine.kinds.front().kind)),
+                "is what the engine file's factors are relative to: lamps stand right to one "
+                "another, not to the exposure"});
+}
+
 Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOptions& options,
-                                       const PresetOptions& preset) {
+                                       const PresetOptions& preset, Console& console) {
   const auto lights = LightsIn(input);
   if (!lights) return tl::unexpected(lights.error());
   std::error_code error;
@@ -123,6 +144,7 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
                                    : fs::path(input).stem();
   PresetOptions with_pictures = preset;
   const fs::path beside = folder ? fs::path(input) : fs::path(input).parent_path();
+  if (preset.engine) WarnOfEngine(*preset.engine, *lights, console);
   auto pictures = LoadEnvironments(*lights, beside.string(), devices::DiskSources());
   if (!pictures) return Propagate(std::move(pictures));
   with_pictures.environments = *std::move(pictures);
@@ -150,7 +172,7 @@ Result<void> RunExport(const ExportOptions& options, Console& console) {
   std::vector<OutputFile> all;
   std::vector<std::string> pastes;
   for (const std::string& input : options.inputs) {
-    auto presets = PresetsOfInput(input, options, *preset);
+    auto presets = PresetsOfInput(input, options, *preset, console);
     if (!presets) return Propagate(std::move(presets));
     console.Warn(presets->warnings);
     for (PresetFile& file : presets->files) {
@@ -196,6 +218,8 @@ Run BuildExport(CLI::App& parser) {
           "intensity")
       ->check(CLI::IsMember({"auto", "ies", "cone"}))
       ->capture_default_str();
+  parser.add_option("--engine", options->engine,
+                    "What the renderer makes of each kind of light, as engine learn found");
   parser
       .add_option("--renderer", options->renderer,
                   "The variant that a .usda opens with: who will render it [spec]")

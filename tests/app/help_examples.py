@@ -19,6 +19,8 @@ import tempfile
 from cli_help import commands_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/tools"))
+import usdlux
 SAMPLES = ROOT / "sample_data"
 LIGHTCAL = pathlib.Path(sys.argv[1]).resolve()
 # A meter or a camera must be plugged in.
@@ -78,6 +80,10 @@ def prepare(home):
     shutil.copy(SAMPLES / "spectra/jeti/spectral_Jeti_50pct.csv", home / "sweep.csv")
     shutil.copy(SAMPLES / "photometric/sample2.ldt", home / "lamp.ldt")
     lightcal("fit", "sample_data/sessions/amaran_200x_s_bare", "-o", "out/light.json")
+    lightcal("export", SAMPLES / "lights/desk_lamp_june.json", "--to", "usd,json", "--rig", "-o", ".rig")
+    scene = usdlux.Scene(str(home / ".rig/desk_lamp_june.rig.usda"))
+    usdlux.write_exr(home / "point.exr", scene.render(150, 100) * 2.0 ** scene.camera[0]["exposure"])
+    shutil.copy(home / ".rig/desk_lamp_june.preset.json", home / "point.preset.json")
 
 
 def run_examples(commands, home):

@@ -517,5 +517,6 @@ def write_png(path, picture):
         return (struct.pack(">I", len(body)) + kind + body +
                 struct.pack(">I", zlib.crc32(kind + body)))
     with open(path, "wb") as out:
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)) +
+        head = struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) +
                   chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(raw, 6)) + chunk(b"IEND", b""))

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "lightcal/core/crc32.h"
+
 namespace lightcal {
 namespace {
 
@@ -17,6 +19,8 @@ constexpr std::array<std::uint32_t, 256> kCrcOfByte = [] {
   return table;
 }();
 
+}  // namespace
+
 std::uint32_t Crc32(std::string_view bytes) {
   std::uint32_t crc = 0xFFFFFFFFU;
   for (const char byte : bytes) {
@@ -24,8 +28,6 @@ std::uint32_t Crc32(std::string_view bytes) {
   }
   return ~crc;
 }
-
-}  // namespace
 
 std::string BigEndian(std::uint32_t value) {
   std::string bytes;

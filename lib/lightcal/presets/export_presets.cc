@@ -19,8 +19,11 @@ namespace {
 
 Result<std::vector<PresetTarget>> ChosenTargets(const std::vector<std::string>& names) {
   const auto all = PresetTargets();
-  if (names.empty()) return std::vector<PresetTarget>(all.begin(), all.end());
   std::vector<PresetTarget> chosen;
+  if (names.empty()) {
+    std::ranges::copy_if(all, std::back_inserter(chosen),
+                         [](const PresetTarget& target) { return !target.only_if_named; });
+  }
   for (const std::string& name : names) {
     const auto target = FindPresetTarget(name);
     if (!target) return tl::unexpected(target.error());

@@ -10,7 +10,8 @@
 namespace lightcal {
 
 Exporter ExportGltf, ExportGodot, ExportMitsuba, ExportPbrt, ExportUnity, ExportUnreal, ExportUsd,
-    ExportJson, ExportBlender, ExportThree, ExportFilament, ExportIes, ExportLdt;
+    ExportJson, ExportBlender, ExportBlenderAddon, ExportThree, ExportFilament, ExportIes,
+    ExportLdt;
 
 PresetReader ReadGltf, ReadGodot, ReadUsd, ReadJson, ReadBlender, ReadThree, ReadFilament,
     ReadPhotometricTable;

@@ -33,10 +33,10 @@ constexpr double kIso = 100.0;
 // Three bands, as its shader has them: E/pi is their sum over 1, y, z, x, xy, yz, 3 z^2 - 1, xz,
 // x^2 - y^2, the basis' own factors and the cosine's already in them.
 Node IrradianceForFilament(const EnvironmentPicture& picture) {
-  constexpr double kPi = std::numbers::pi;
+  constexpr double kHalfTurn = std::numbers::pi;
   const Harmonics radiance = RadianceHarmonics(picture, &GltfFromZUp);
-  const double basis[] = {0.5 * std::sqrt(1.0 / kPi), std::sqrt(3.0 / (4.0 * kPi)),
-                          std::sqrt(15.0 / (4.0 * kPi)), 0.25 * std::sqrt(5.0 / kPi)};
+  const double basis[] = {0.5 * std::sqrt(1.0 / kHalfTurn), std::sqrt(3.0 / (4.0 * kHalfTurn)),
+                          std::sqrt(15.0 / (4.0 * kHalfTurn)), 0.25 * std::sqrt(5.0 / kHalfTurn)};
   Node list = Node::Array();
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     const double band = i == 0 ? 1.0 : i < 4 ? 2.0 / 3.0 : 0.25;  // the cosine's, over pi

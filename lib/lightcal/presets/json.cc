@@ -9,6 +9,7 @@
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
@@ -91,7 +92,7 @@ std::vector<Derivation> Derivations(const LightFile& file, const std::string& st
   PresetOptions figures = options;
   figures.figures_only = true;
   for (const PresetTarget& target : PresetTargets()) {
-    if (target.exporter == &ExportJson) continue;
+    if (target.exporter == &ExportJson || target.only_if_named) continue;
     auto preset = target.exporter(file, stem, figures);
     if (!preset || preset->derived.size() != file.lights.size()) continue;
     all.push_back({target.name, std::move(preset->derived)});
@@ -171,7 +172,9 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
   Warnings said_already;
-  const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_already);
+  PresetOptions of_lamps = options;  // as measured, whatever an engine makes of them
+  of_lamps.engine = nullptr;
+  const auto forms = PresetLightsFrom(lights, kEveryForm, of_lamps, said_already);
   if (!forms) return tl::unexpected(forms.error());
   const Rig rig = BuildRig(lights, *forms);
   const auto derivations = Derivations(lights, stem, options);

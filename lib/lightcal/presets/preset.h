@@ -13,6 +13,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/presets/derived_light.h"
 #include "lightcal/presets/environment_picture.h"
+#include "lightcal/presets/learnt_engine.h"
 #include "lightcal/presets/light_color.h"
 #include "lightcal/presets/usd_readings.h"
 #include "lightcal/records/fitted_light.h"
@@ -47,7 +48,9 @@ struct PresetOptions {
   // The pictures that domes name, one a light (null = none), or none at all: then domes are even.
   std::vector<std::shared_ptr<const EnvironmentPicture>> environments{};
   UsdReading usd_reading = UsdReading::kSpec;  // the variant a .usda opens with
-  bool figures_only = false;                   // pictures are not encoded: their files stay empty
+  // What the renderer makes of each kind: undone in every number that engines are given.
+  std::shared_ptr<const LearntEngine> engine{};
+  bool figures_only = false;  // pictures are not encoded: their files stay empty
 };
 
 struct PresetFile {

@@ -40,6 +40,7 @@ template <std::size_t N>
 [[nodiscard]] Rig Turned(Rig rig, Vec3 (*map)(const Vec3&));
 
 // Indented text with a final newline.   Fails: not_finite, rather than write null for a number.
-[[nodiscard]] Result<std::string> JsonText(const records::Node& document, const std::string& subject);
+[[nodiscard]] Result<std::string> JsonText(const records::Node& document,
+                                           const std::string& subject);
 
 }  // namespace lightcal

@@ -207,6 +207,40 @@ double TableLux(const PresetLight& light, const Vec3& to_point, const Vec3& norm
   return candela * std::max(0.0, -Dot(to_point, normal)) / (d2 * d);
 }
 
+// What the preset's own numbers give.
+Lux LuxAsWritten(const PresetLight& light, const Vec3& point, const Vec3& normal) {
+  if (light.form == LightForm::kDome && light.environment) {
+    const Vec3 rgb = IrradianceOn(*light.environment, normal);
+    return Lux(LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb));
+  }
+  if (light.form == LightForm::kDome) return Lux(light.lux);
+  const Vec3 to_point = point - light.position_m();
+  if (light.form == LightForm::kTable) return Lux(TableLux(light, to_point, normal));
+  const auto model = AreaModel(light);
+  if (!model) return IlluminanceAt(light.punctual, point, normal);
+  const SourceFrame frame = SourceFrame::Facing(light.aim(), light.axes.c0);
+  return Lux(light.candela *
+             LuxPerCandela(*model, Receiver<double>{frame.Of(to_point), frame.Of(normal)}));
+}
+
+// Divides everything the engine is told by what it multiplies with.
+void UndoEngine(double factor, PresetLight& light) {
+  const double k = 1.0 / factor;
+  light.engine_factor = factor;
+  for (double* value : {&light.candela, &light.lux, &light.nits, &light.lumens,
+                        &light.punctual.photometric, &light.punctual.intensity}) {
+    *value *= k;
+  }
+  for (auto* u95 : {&light.punctual.photometric_u95, &light.punctual.intensity_u95}) {
+    if (*u95) **u95 *= k;
+  }
+  if (!light.environment) return;
+  auto picture = std::make_shared<EnvironmentPicture>(*light.environment);
+  for (float& sample : picture->rgb) sample = static_cast<float>(sample * k);
+  for (double& sample : picture->small) sample *= k;
+  light.environment = std::move(picture);
+}
+
 }  // namespace
 
 Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const EngineForms& forms,
@@ -239,24 +273,14 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
       warnings.push_back(
           {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});
     }
+    if (options.engine) UndoEngine(options.engine->FactorOf(lamp.kind), light);
     lights.push_back(std::move(light));
   }
   return lights;
 }
 
 Lux IlluminanceAt(const PresetLight& light, const Vec3& point, const Vec3& normal) {
-  if (light.form == LightForm::kDome && light.environment) {
-    const Vec3 rgb = IrradianceOn(*light.environment, normal);
-    return Lux(LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb));
-  }
-  if (light.form == LightForm::kDome) return Lux(light.lux);
-  const Vec3 to_point = point - light.position_m();
-  if (light.form == LightForm::kTable) return Lux(TableLux(light, to_point, normal));
-  const auto model = AreaModel(light);
-  if (!model) return IlluminanceAt(light.punctual, point, normal);
-  const SourceFrame frame = SourceFrame::Facing(light.aim(), light.axes.c0);
-  return Lux(light.candela *
-             LuxPerCandela(*model, Receiver<double>{frame.Of(to_point), frame.Of(normal)}));
+  return Lux(light.engine_factor * LuxAsWritten(light, point, normal).value());
 }
 
 }  // namespace lightcal

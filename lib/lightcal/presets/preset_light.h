@@ -63,6 +63,8 @@ struct PresetLight {
   std::optional<BeamProfile> beam;
   EngineCone cone;
   std::shared_ptr<const EnvironmentPicture> environment{};  // form kDome; null = an even one
+  // What the renderer multiplies with: all values above are divided by it already.
+  double engine_factor = 1.0;
 
   [[nodiscard]] const std::string& name() const { return punctual.name; }
   [[nodiscard]] const EmittedColor& color() const { return punctual.color; }
@@ -80,7 +82,7 @@ struct PresetLight {
                                                                 Warnings& warnings);
 
 // Illuminance at a point on a surface of unit normal `normal`, by the law of the light's form (near
-// field of area forms included).
+// field of area forms included) and the renderer's factor.
 [[nodiscard]] Lux IlluminanceAt(const PresetLight& light, const Vec3& point, const Vec3& normal);
 
 }  // namespace lightcal

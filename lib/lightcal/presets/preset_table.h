@@ -47,8 +47,9 @@ struct KelvinSetting {
 struct PresetTarget {
   std::string_view name;  // the word it is asked for by
   Exporter* exporter;
-  std::string_view verified;  // how the output was checked, for people
-  bool into_scene = false;    // sets lights that are there (PresetOptions::into)
+  std::string_view verified;   // how the output was checked, for people
+  bool into_scene = false;     // sets lights that are there (PresetOptions::into)
+  bool only_if_named = false;  // left out where all targets are meant
 
   // The file that is read back: "" = none is.
   std::string_view ending{};

@@ -88,7 +88,8 @@ std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardP
     if (cards[0].clipped[c] || cards[1].clipped[c]) continue;
     if (!(cards[0].rgb[c] > 0.0) || !(cards[1].rgb[c] > 4.0 * cards[1].step[c])) continue;
     const double off = std::log(cards[0].rgb[c] / cards[1].rgb[c] / want);
-    if (std::abs(off) > std::abs(worst)) worst = off;
+    if (std::abs(off) <= std::abs(worst)) continue;
+    worst = off;
     raw = std::log(cards[0].raw[c] / cards[1].raw[c] / want);
   }
   if (std::abs(worst) < kCurveShows) return std::nullopt;
