@@ -33,6 +33,13 @@ constexpr CommandRow kCommands[] = {
      "  lightcal read -s my_lamp --light key --distance 0.5m --shadow-card --lux 3.1\n"
      "  lightcal read --device sekonic --once --json\n"
      "  lightcal read --replay sample_data/tapes/sekonic_c800_407lx_4995K.tape --once", BuildRead},
+    {"sweep", "A fixture's states one after another, set and read, into a session's journal",
+     "  lightcal sweep -s sample_data/sessions/dimmed_panels --light m9 --over dial=9,7,5,3,1,0\n"
+     "  lightcal sweep -s sample_data/sessions/dimmed_panels --light panel --over dimmer=100,50,25 "
+     "--over cct_K=3000,4000,5500 --typed\n"
+     "  lightcal sweep -s sample_data/sessions/dimmed_panels --light module "
+     "--over dimmer=100,80,60,40,30,20 --until 3%",
+     BuildSweep},
     {"watch", "A meter's readings as they come: colour, steadiness, the lamp's intensity",
      "  lightcal watch --device sekonic --for 10s\n"
      "  lightcal watch -s my_lamp --light key --distance 0.5m\n"
@@ -89,6 +96,11 @@ constexpr CommandRow kCommands[] = {
      "  lightcal ratio 17.8fc 5fc --meter 3%\n"
      "  lightcal ratio out/light.json --at 0,0,0 --key 5600K --fill 3200K --position 5600K=-1,0,2 "
      "--position 3200K=1,0,3", BuildRatio},
+    {"state", "A lamp at a state of its controls, read or between: labels are not light",
+     "  lightcal state sample_data/sessions/dimmed_panels\n"
+     "  lightcal state sample_data/sessions/dimmed_panels --light panel --at dimmer=37,cct_K=4000\n"
+     "  lightcal state sample_data/sessions/dimmed_panels --light module --at dimmer=40 --json",
+     BuildState},
     {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
      "  lightcal tradeoff sample_data/sessions/three_real_lights --tol 1% -o tradeoff\n"
      "  lightcal tradeoff my_lamp --budget 50ms\n"

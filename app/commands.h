@@ -42,6 +42,8 @@ Run BuildMan(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
 Run BuildRatio(CLI::App& parser);
+Run BuildState(CLI::App& parser);
+Run BuildSweep(CLI::App& parser);
 Run BuildRead(CLI::App& parser);
 Run BuildWatch(CLI::App& parser);
 

@@ -84,7 +84,8 @@ class Captures {
 class HeldReadings {
  public:
   explicit HeldReadings(const Session& session) {
-    for (const SessionReading& row : session.readings) ++held_[ReadingToJson(row.reading)];
+    VisitReadings(session,
+                  [this](const SessionReading& row) { ++held_[ReadingToJson(row.reading)]; });
   }
   // Whether the session holds this reading of the file: the n-th alike, if it holds n of them.
   bool Holds(const std::string& json) { return ++in_file_[json] <= held_[json]; }
@@ -212,6 +213,7 @@ class Planner {
     if (settings_.shadow_card) reading.shadow_card = true;
     if (settings_.color_only) reading.illuminance.reset();
     if (auto named = CheckNames(session_, reading.light, reading.meter); !named) return named;
+    if (auto fits = CheckState(session_, reading); !fits) return fits;
     return CheckDistance(reading, path);
   }
 

@@ -100,6 +100,7 @@ Reading PlacedIn(const Reading& frame, const Reading& measured) {
   reading.off_axis = frame.off_axis;
   reading.lamp = frame.lamp;
   reading.shadow_card = frame.shadow_card;
+  reading.state = frame.state;
   return reading;
 }
 
@@ -114,6 +115,7 @@ std::string SayReading(const TakenReading& taken) {
   if (reading.duv) text += ", Duv " + RoundedText(*reading.duv, 2);
   if (!reading.light.empty()) text += "  " + reading.light;
   if (reading.distance) text += " at " + ShortestText(reading.distance->value()) + " m";
+  if (!reading.state.empty()) text += ", " + StateText(reading.state);
   if (reading.shadow_card) text += ", shadow card";
   if (reading.lamp == LampState::kOff) text += ", lamp off";
   if (taken.summary.count > 1) {

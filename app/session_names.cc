@@ -24,4 +24,31 @@ Result<void> CheckNames(const Session& session, const std::string& light,
   return {};
 }
 
+Result<void> CheckState(const Session& session, const Reading& reading) {
+  if (reading.lamp == LampState::kOff) return {};
+  const FixtureState reference = ReferenceState(session, reading.light);
+  const bool read = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == reading.light && row.reading.lamp == LampState::kOn;
+  });
+  if (!read || (reference.empty() && reading.state.empty())) return {};
+  if (reading.state.empty()) {
+    return Refused("state_missing", reading.light,
+                   "its other readings say what its controls stood at (" + StateText(reference) +
+                       "); say it of this one, too");
+  }
+  if (reference.empty()) {
+    return Refused("state_controls", reading.light,
+                   "the session holds readings of it that do not say what its controls stood at; "
+                   "give those a state in session.toml and readings.jsonl, or begin a session");
+  }
+  const bool same = std::ranges::equal(
+      reference, reading.state, [](const ControlValue& one, const ControlValue& other) {
+        return one.name == other.name && one.IsWord() == other.IsWord();
+      });
+  if (same) return {};
+  return Refused("state_controls", reading.light,
+                 "its other readings say " + StateText(reference) + ", this one " +
+                     StateText(reading.state) + ": the same controls belong to every reading");
+}
+
 }  // namespace lightcal::app

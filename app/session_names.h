@@ -14,5 +14,8 @@ namespace lightcal::app {
 // Refused: unknown_light, unknown_meter, with what is meant instead.
 [[nodiscard]] Result<void> CheckNames(const Session& session, const std::string& light,
                                       const std::string& meter);
+// Whether a reading may join the others of its light: either all of them say what its controls
+// stood at, and the same controls, or none does.  Refused: state_missing, state_controls.
+[[nodiscard]] Result<void> CheckState(const Session& session, const Reading& reading);
 
 }  // namespace lightcal::app

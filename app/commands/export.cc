@@ -8,6 +8,7 @@
 #include "color_words.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lamp_state.h"
 #include "light_input.h"
 #include "lightcal/calibrate/environments.h"
 #include "lightcal/core/units_text.h"
@@ -30,6 +31,7 @@ namespace fs = std::filesystem;
 struct ExportOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> targets;
+  std::vector<std::string> states;
   std::string output = ".";
   std::string space, white, range, spots = "auto", renderer, into, engine;
   bool rig = false;
@@ -133,8 +135,10 @@ void WarnOfEngine(const LearntEngine& engine, const LightFile& lights, Console& 
 
 Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOptions& options,
                                        const PresetOptions& preset, Console& console) {
-  const auto lights = LightsIn(input);
-  if (!lights) return tl::unexpected(lights.error());
+  auto lights = LightsIn(input);
+  if (!lights) return Propagate(std::move(lights));
+  auto warnings = SetStates(options.states, *lights);
+  if (!warnings) return Propagate(std::move(warnings));
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(input, error);
   const bool folder = fs::is_directory(whole, error);
@@ -151,7 +155,11 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   auto into = IntoOf(options.into, *lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
-  return ExportPresets(*lights, options.targets, named.string(), with_pictures);
+  auto exported = ExportPresets(*lights, options.targets, named.string(), with_pictures);
+  if (exported) {
+    exported->warnings.insert(exported->warnings.end(), warnings->begin(), warnings->end());
+  }
+  return exported;
 }
 
 std::string WithDirectory(std::string line, const std::string& directory) {
@@ -232,6 +240,10 @@ Run BuildExport(CLI::App& parser) {
           "map.csv of lines lamp,object: none is made, none is moved")
       ->type_name("PATTERN|map.csv")
       ->excludes(parser.get_option("--rig"));
+  parser
+      .add_option("--state", options->states,
+                  "As the lights are where their controls say this: [LIGHT:]dimmer=18,cct_K=4500")
+      ->allow_extra_args(false);
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) -> Result<void> {
     if (auto parted = CheckNoTargetAmong(options->inputs); !parted) return parted;

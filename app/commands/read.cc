@@ -81,7 +81,9 @@ class ReadRun {
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);
-    return CheckNames(*session_, options_.frame.light, options_.frame.meter);
+    const Reading& frame = options_.frame;
+    if (auto named = CheckNames(*session_, frame.light, frame.meter); !named) return named;
+    return CheckState(*session_, frame);
   }
 
   [[nodiscard]] bool AsksQuestions() const { return CanAsk() && !console_.json(); }

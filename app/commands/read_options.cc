@@ -31,6 +31,11 @@ Result<Reading> FrameOf(const ReadArguments& arguments) {
     if (!off_axis) return tl::unexpected(off_axis.error());
     reading.off_axis = *off_axis;
   }
+  if (!arguments.state.empty()) {
+    auto state = ParseFixtureState(arguments.state);
+    if (!state) return Propagate(std::move(state));
+    reading.state = *std::move(state);
+  }
   return reading;
 }
 
@@ -93,6 +98,8 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   parser.add_option("--off-axis", a.off_axis,
                     "Between the lamp's axis and the meter, seen from the lamp, degrees: tells "
                     "its beam");
+  parser.add_option("--state", a.state,
+                    "What the fixture's controls say: dimmer=50,cct_K=4000 (any names)");
   parser.add_option("--meter", a.meter, "The session's [[meter]] that took the reading");
   auto* count = parser.add_option("-n", a.measurements, "Measurements to take the median of");
   count->check(CLI::Range(1, 1000))->default_str(std::to_string(kDefaultMeasurements));

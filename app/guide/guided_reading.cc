@@ -90,7 +90,9 @@ class Walk {
                                        DidYouMean(frame_.light, session.lights));
     }
     if (frame_.light.empty()) frame_.light = session.lights.front().name;
-    return CheckNames(session, frame_.light, frame_.meter);
+    if (auto named = CheckNames(session, frame_.light, frame_.meter); !named) return named;
+    if (frame_.state.empty()) frame_.state = ReferenceState(session, frame_.light);
+    return CheckState(session, frame_);
   }
 
   void Introduce(const Session& session) const {
@@ -99,6 +101,9 @@ class Walk {
                   "), until it is known within " + Within(options_.until_relative) + " (95 %).");
     if (light.kind != LightKind::kDirectional && light.kind != LightKind::kDome) {
       console_.Note("Measure distances from one point of the lamp that you can find again.");
+    }
+    if (!frame_.state.empty()) {
+      console_.Note("Its controls stay at " + StateText(frame_.state) + ".");
     }
     if (guide_->light()) console_.Note(Progress());
   }

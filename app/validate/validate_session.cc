@@ -30,7 +30,8 @@ std::vector<NamedFile> FilesNamedBy(const Session& session) {
     if (!name.empty()) files.push_back({name, where});
   };
   for (const LightDescription& light : session.lights) add(light.distribution_file, light.name);
-  for (const SessionReading& row : session.readings) add(row.reading.spectrum_file, row.where);
+  VisitReadings(session,
+                [&](const SessionReading& row) { add(row.reading.spectrum_file, row.where); });
   for (const CaptureDescription& capture : session.captures) {
     add(capture.frames, capture.where);
     add(capture.camera, capture.where);

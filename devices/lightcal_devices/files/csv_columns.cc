@@ -172,6 +172,10 @@ CsvColumn ColumnFromName(std::string_view name) {
     spectral->written = name;
     return *spectral;
   }
+  constexpr std::string_view kState = "state.";
+  if (simple.size() > kState.size() && LowerAscii(simple).starts_with(kState)) {
+    return {CsvQuantity::kState, 1.0, std::string(name), simple.substr(kState.size())};
+  }
   const std::string joined = Joined(tokens, "_", &Token::text);
   const KnownName* known = Lookup(kScalarNames, joined);
   if (known == nullptr) known = Lookup(kOtherNames, joined);
@@ -181,7 +185,8 @@ CsvColumn ColumnFromName(std::string_view name) {
 
 std::string KnownColumnNames() {
   return Joined(kScalarNames, ", ", &KnownName::name) +
-         " with irradiance_W_m2_nm, irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative";
+         " with irradiance_W_m2_nm, irradiance_mW_m2_nm, irradiance_uW_cm2_nm or relative; "
+         "state.dimmer, state.cct_K and the like of a fixture's controls";
 }
 
 std::string NearestColumnName(std::string_view name) {

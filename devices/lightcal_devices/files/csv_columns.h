@@ -26,6 +26,7 @@ enum class CsvQuantity {
   kTime,
   kLamp,
   kShadowCard,
+  kState,  // a control of the lamp, its name in series
   kWavelength,
   kIrradiance,
   kRelative,
@@ -35,7 +36,7 @@ struct CsvColumn {
   CsvQuantity quantity = CsvQuantity::kUnknown;
   double scale = 1.0;   // file value times scale = m, lx, K, degrees, nm, W m^-2 nm^-1
   std::string written;  // the name as written
-  std::string series;   // of a spectral column: what its name says beside the unit
+  std::string series;   // of a spectral column what its name says beside the unit; a control's name
 };
 
 [[nodiscard]] CsvColumn ColumnFromName(std::string_view name);

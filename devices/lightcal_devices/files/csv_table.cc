@@ -99,7 +99,7 @@ bool IsRowOfNumbers(const CsvTable& table, const Row& row) {
 bool IsWord(CsvQuantity quantity) {
   return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
          quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
-         quantity == CsvQuantity::kShadowCard;
+         quantity == CsvQuantity::kShadowCard || quantity == CsvQuantity::kState;
 }
 
 bool IsLeftOut(CsvQuantity quantity) {

@@ -53,7 +53,9 @@ Result<void> CheckNoQuantityTwice(const CsvTable& table, bool spectral) {
     const bool series = quantity == CsvQuantity::kIrradiance || quantity == CsvQuantity::kRelative;
     if (IsLeftOut(quantity) || (series && spectral)) continue;
     for (std::size_t j = 0; j < i; ++j) {
-      if (table.columns[j].quantity != quantity) continue;
+      const bool other_control =
+          quantity == CsvQuantity::kState && table.columns[j].series != table.columns[i].series;
+      if (table.columns[j].quantity != quantity || other_control) continue;
       return Refused("units_ambiguous", table.name,
                      "the columns " + table.columns[j].written + " and " +
                          table.columns[i].written + " both give the same quantity; keep one");
@@ -132,6 +134,10 @@ Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, 
   const CsvColumn& column = table.columns[i];
   const std::string cell(TrimBlanks(CellAt(row, i)));
   if (cell.empty() || IsLeftOut(column.quantity)) return {};
+  if (column.quantity == CsvQuantity::kState) {
+    taken.reading.state.push_back(ParseControl(column.series, cell));
+    return {};
+  }
   if (IsWord(column.quantity)) {
     if (TakeWord(taken.reading, column.quantity, cell)) return {};
     return Refused("bad_row", AtLine(table.name, row.line),
@@ -155,6 +161,10 @@ Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
     if (auto cell = TakeCell(taken, table, row, i); !cell) return Propagate(std::move(cell));
   }
   Reading& reading = taken.reading;
+  if (const std::string fault = FaultOfState(reading.state); !fault.empty()) {
+    return Refused("bad_row", AtLine(table.name, row.line), fault);
+  }
+  SortState(reading.state);
   if (taken.x && taken.y) {
     const Xy xy{*taken.x, *taken.y};
     if (!(xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0)) {

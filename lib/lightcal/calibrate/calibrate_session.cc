@@ -117,11 +117,13 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   session = AsSet(std::move(loaded->session), settings);
   evidence.files = std::move(session.input_files);
   Lap(settings, tradeoff::Stage::kLoad);
-  for (SessionReading& row : session.readings) {
-    auto resolved =
-        WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence);
-    if (!resolved) return Propagate(std::move(resolved));
-    row.reading = *std::move(resolved);
+  for (auto* const rows : {&session.readings, &session.state_readings}) {
+    for (SessionReading& row : *rows) {
+      auto resolved =
+          WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence);
+      if (!resolved) return Propagate(std::move(resolved));
+      row.reading = *std::move(resolved);
+    }
   }
   for (LightDescription& light : session.lights) {
     auto described =
@@ -265,16 +267,16 @@ Result<Provenance> ProvenanceOf(const Session& session, const Sources& sources,
     const fs::path relative = fs::path(path).lexically_proximate(session.directory);
     provenance.inputs.push_back({relative.generic_string(), *std::move(hash)});
   }
-  for (const SessionReading& row : session.readings) {
+  VisitReadings(session, [&](const SessionReading& row) {
     const std::string& device = row.reading.device;
     const bool new_one = std::ranges::find(provenance.devices, device) == provenance.devices.end();
     if (!device.empty() && new_one) provenance.devices.push_back(device);
-  }
+  });
   provenance.time = time;
   if (!time.empty()) return provenance;
-  for (const SessionReading& row : session.readings) {
+  VisitReadings(session, [&](const SessionReading& row) {
     provenance.time = std::max(provenance.time, row.reading.time);
-  }
+  });
   return provenance;
 }
 

@@ -120,11 +120,30 @@ class Comparer {
   LightChange& into_;
 };
 
+void CompareStates(const FittedLight& a, const FittedLight& b, Comparer& compare) {
+  for (const MeasuredState& one : a.states) {
+    const auto other = std::ranges::find_if(
+        b.states, [&](const MeasuredState& there) { return SameState(there.state, one.state); });
+    // The light itself tells of a reference that both share.
+    const bool reference = SameState(one.state, a.state) && SameState(a.state, b.state);
+    if (other == b.states.end() || reference) continue;
+    const std::string of = "states[" + StateText(one.state) + "].";
+    compare.Values(of + "intensity_cd", "cd", one.intensity_cd, other->intensity_cd);
+    compare.Values(of + "illuminance_lx", "lx", one.illuminance_lx, other->illuminance_lx);
+    compare.Values(of + "color.cct_K", "K", one.color.cct_K, other->color.cct_K);
+  }
+}
+
 LightChange Compared(const FittedLight& a, const FittedLight& b, double correlation) {
   LightChange change;
   change.name = a.name == b.name ? a.name : a.name + " -> " + b.name;
   change.kind_changed = a.kind != b.kind;
   Comparer compare(correlation, change);
+  // At different references the lights themselves are not one thing; their common states are.
+  if (!SameState(a.state, b.state) && !a.state.empty() && !b.state.empty()) {
+    CompareStates(a, b, compare);
+    return change;
+  }
   compare.Values("intensity_cd", "cd", a.intensity_cd, b.intensity_cd);
   compare.Values("flux_lm", "lm", a.flux_lm, b.flux_lm);
   compare.Values("illuminance_lx", "lx", a.illuminance_lx, b.illuminance_lx);
@@ -145,6 +164,7 @@ LightChange Compared(const FittedLight& a, const FittedLight& b, double correlat
   compare.Values("radius_m", "m", a.radius_m, b.radius_m);
   compare.Position(a, b);
   compare.Aim(a, b);
+  CompareStates(a, b, compare);
   return change;
 }
 

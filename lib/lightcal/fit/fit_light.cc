@@ -20,6 +20,7 @@
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/plan/plan_forward.h"
+#include "lightcal/fit/states/measure_states.h"
 
 namespace lightcal {
 namespace {
@@ -387,6 +388,12 @@ Result<FittedSession> FitSession(const Session& session, const FitSettings& sett
   for (const LightDescription& light : session.lights) {
     Result<FittedLight> fitted = FitOne(session, light, settings, out);
     if (fitted) {
+      fit::MeasureStates(session, light, settings.cct_method, *fitted, out.warnings);
+      if (fitted->states.size() > 1) {
+        out.notes.push_back(light.name + ": read at " + std::to_string(fitted->states.size()) +
+                            " states of its controls; its intensity is that at " +
+                            StateText(fitted->state));
+      }
       out.lights.lights.push_back(*std::move(fitted));
       continue;
     }

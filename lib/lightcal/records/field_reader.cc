@@ -207,6 +207,29 @@ void FieldReader::Texts(std::string_view key, std::vector<std::string>& out) {
   }
 }
 
+void FieldReader::Controls(std::string_view key, FixtureState& out) {
+  const Node* table = Take(key, Node::Kind::kTable);
+  if (table == nullptr) return;
+  FixtureState state;
+  for (const Member& member : table->members) {
+    const Node& value = member.value;
+    const bool word = value.kind == Node::Kind::kText && !value.text.empty();
+    if (!word && !value.IsNumber()) {
+      return Fail(key, std::string(key) + "." + member.key + " must be a number or a word, not " +
+                           std::string(KindName(value.kind)));
+    }
+    if (word) {
+      if (const std::string fault = FaultOfText(key, value.text); !fault.empty()) {
+        return Fail(key, fault);
+      }
+    }
+    state.push_back({member.key, word ? 0.0 : value.number, word ? value.text : std::string()});
+  }
+  if (const std::string fault = FaultOfState(state); !fault.empty()) return Fail(key, fault);
+  SortState(state);
+  out = std::move(state);
+}
+
 void FieldReader::Require(std::initializer_list<std::string_view> keys) {
   required_.insert(required_.end(), keys);
 }

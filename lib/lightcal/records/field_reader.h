@@ -19,6 +19,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/records/document.h"
 #include "lightcal/records/field_rules.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal::records {
 
@@ -91,6 +92,8 @@ class FieldReader {
   void Integers(std::string_view key, std::vector<int>& out);
   void Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule);
   void Texts(std::string_view key, std::vector<std::string>& out);
+  // A table of numbers and words under names of the person's own, each once: a fixture's state.
+  void Controls(std::string_view key, FixtureState& out);
   // A table of numbers under names of the person's own: { key = 2.0, fill = 1.5 }.
   template <class T>
   void NumbersByName(std::string_view key, std::vector<std::pair<std::string, T>>& out,

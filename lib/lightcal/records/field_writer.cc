@@ -26,6 +26,15 @@ double RoundestDegrees(Radians angle) {
 
 }  // namespace
 
+void FieldWriter::Controls(std::string_view key, const FixtureState& state) {
+  Node table = Node::Table();
+  for (const ControlValue& control : state) {
+    table.Put(control.name,
+              control.IsWord() ? Node(control.word) : Node(Unsigned0(control.number)));
+  }
+  if (!table.members.empty()) Put(key, std::move(table));
+}
+
 void FieldWriter::Degrees(std::string_view key, Radians value, const NumberRule& /*rule*/) {
   if (value.value() != 0.0) Put(key, RoundestDegrees(value));
 }

@@ -17,6 +17,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/records/document.h"
 #include "lightcal/records/field_rules.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal::records {
 
@@ -75,6 +76,8 @@ class FieldWriter {
   void Chromaticity(std::string_view key, const std::optional<Xy>& xy) {
     if (xy) PutNumbers(key, std::array{xy->x, xy->y});
   }
+  // As FieldReader::Controls; left out where there is none.
+  void Controls(std::string_view key, const FixtureState& state);
   void Integers(std::string_view key, const std::vector<int>& values) { Put(key, values); }
   void Texts(std::string_view key, const std::vector<std::string>& values) { Put(key, values); }
 

@@ -13,6 +13,7 @@
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/intensity_table.h"
 #include "lightcal/photometry/light_kind.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal {
 
@@ -64,7 +65,8 @@ struct ResidualRow {
   double relative = 0.0;  // measured/predicted - 1
   double sigma_relative = 0.0;
   bool used = true;
-  std::optional<double> walls_lx{};  // of predicted_lx, what came off the walls; where it was fitted
+  std::optional<double>
+      walls_lx{};  // of predicted_lx, what came off the walls; where it was fitted
 };
 
 // A lamp in its room, as one of the things that both may be: facing it a meter sees
@@ -124,6 +126,18 @@ struct MeterShare {
   double calibration_relative = 0.0;
 };
 
+// One state of a lamp's controls that was read. relative is its light over that of the state the
+// light itself is given at, everything the two share gone: the meter's scale, the offset, the
+// walls.
+struct MeasuredState {
+  FixtureState state;
+  Uncertain relative;
+  double repeatability = 0.0;  // 1 sigma, relative: of this state's readings alone
+  std::optional<Uncertain> intensity_cd{}, illuminance_lx{};
+  FittedColor color{};
+  int readings = 0;  // that told its light
+};
+
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
 // the model); flux integrates the model. d0 is positive when the effective source lies behind the
 // point the distance was measured from.
@@ -158,6 +172,8 @@ struct FittedLight {
   std::optional<Uncertain> of_file{};  // of a luminaire: its intensity over its photometric file's
   // Where walls shone in the readings: what a meter will see in that room. Empty = not known.
   std::vector<LampInRoom> in_room{};
+  FixtureState state{};                 // the light is given at, "reference"; empty = no controls
+  std::vector<MeasuredState> states{};  // the reference first
 };
 
 struct InputFile {

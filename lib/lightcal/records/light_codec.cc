@@ -144,6 +144,25 @@ constexpr auto kVisitMeter = [](auto& archive, auto& meter) {
   archive.Require({"calibration_relative"});
 };
 
+constexpr auto kVisitState = [](auto& archive, auto& one) {
+  archive.Controls("state", one.state);
+  archive.Object("intensity_cd", one.intensity_cd, kVisitUncertain);
+  archive.Object("illuminance_lx", one.illuminance_lx, kVisitUncertain);
+  archive.Group("relative", [&](auto& relative) { kVisitUncertain(relative, one.relative); });
+  archive.Number("repeatability", one.repeatability, kNotNegative);
+  archive.Group("color", [&](auto& color) { VisitColor(color, one.color); });
+  archive.Integer("readings", one.readings);
+  archive.Require({"state", "relative", "repeatability"});
+};
+
+// Absent of a lamp without controls.
+void VisitStates(FieldReader& reader, std::vector<MeasuredState>& states) {
+  reader.List("states", states, kVisitState);
+}
+void VisitStates(FieldWriter& writer, const std::vector<MeasuredState>& states) {
+  if (!states.empty()) writer.List("states", states, kVisitState);
+}
+
 // Absent where nothing is known of walls.
 void VisitRoom(FieldReader& reader, std::vector<LampInRoom>& in_room) {
   reader.List("in_room", in_room, kVisitInRoom);
@@ -210,6 +229,8 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Object("meter", light.meter, kVisitMeter);
   archive.Object("of_file", light.of_file, kVisitUncertain);
   VisitRoom(archive, light.in_room);
+  archive.Controls("state", light.state);
+  VisitStates(archive, light.states);
   archive.Require({"name", "kind"});
 };
 

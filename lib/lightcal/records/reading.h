@@ -8,6 +8,7 @@
 #include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal {
 
@@ -53,6 +54,7 @@ struct Reading {
   std::string device;  // driver and serial, "sekonic:..." , "" = by hand
   MeterQuality quality = MeterQuality::kUnknown;
   std::optional<double> calibration_factor;  // already in illuminance: shown value times this
+  FixtureState state{};                      // what the lamp's controls said, empty = it has none
 };
 
 // What is wrong with a reading: the key it is wrong at, and what to do.

@@ -34,6 +34,7 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Degrees("off_axis_deg", reading.off_axis, kOffAxisRule);
   archive.WordUnlessFirst("lamp", reading.lamp, kLampWords);
   archive.Flag("shadow_card", reading.shadow_card);
+  archive.Controls("state", reading.state);
   archive.Number("cct_K", reading.cct, kPositive);
   archive.Number("duv", reading.duv);
   archive.Chromaticity("xy", reading.xy);
@@ -72,6 +73,7 @@ class FieldChecker {
     if (xy) Keep(key, FaultOfChromaticity(key, *xy));
   }
   void Flag(const char* /*key*/, bool /*value*/) {}
+  void Controls(const char* key, const FixtureState& state) { Keep(key, FaultOfState(state)); }
   template <class Enum, class Words>
   void WordUnlessFirst(const char* /*key*/, Enum /*value*/, const Words& /*words*/) {}
 
@@ -135,6 +137,9 @@ void CheckLit(FieldReader& reader, const Reading& reading, const LitKeys& keys) 
       reader.Fail("distances_m", "distances_m goes with lit; beside light write distance_m");
     }
     return;
+  }
+  if (!reading.state.empty()) {
+    reader.Fail("state", "a reading of several lamps has no state; read the dimmed lamp by itself");
   }
   if (reader.Has("light") || reader.Has("lamp") || reading.shadow_card || reading.distance) {
     reader.Fail("lit",

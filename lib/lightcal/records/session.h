@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/fixture.h"
@@ -109,6 +110,9 @@ struct Session {
   std::vector<LightDescription> lights;
   std::vector<MeterDescription> meters;
   std::vector<SessionReading> readings;  // session.toml's first, then the journal's, then lit ones
+  // Of lamps with controls, what was read at other states than the one each is fitted at; of those
+  // `readings` holds none.
+  std::vector<SessionReading> state_readings{};
   std::vector<LitReading> lit_readings;
   std::vector<CaptureDescription> captures;
   CameraDescription camera;
@@ -135,6 +139,23 @@ struct Session {
 // lit lamps beside it and the distance from it. Readings at one position, or at the same distance
 // from a lamp both name, stand in one place and share their distances; where none says, all do.
 void SpreadLitReadings(Session& session);
+
+// The state that a lamp with controls is fitted at: of those its readings name, the one read at
+// most distances, of these the one of the highest dimmer, of these the first. Empty = it has no
+// controls.
+[[nodiscard]] FixtureState ReferenceState(const Session& session, std::string_view light);
+// Calls visit(row) of every reading, those of other states too.
+template <class SomeSession, class Visit>
+void VisitReadings(SomeSession& session, const Visit& visit) {
+  for (auto& row : session.readings) visit(row);
+  for (auto& row : session.state_readings) visit(row);
+}
+
+// Moves the readings of every other state from `readings` to `state_readings`: nobody who takes a
+// session's readings takes two states for one lamp. A reading with the lamp off holds for all.
+// Refused: state_missing (a lit reading of a lamp with controls that does not say them),
+// state_controls (a reading that names other controls than the lamp's first).
+[[nodiscard]] Result<void> SplitStates(Session& session);
 
 // Names in a session are relative to its directory.
 [[nodiscard]] std::string PathInSession(const Session& session, const std::string& name);

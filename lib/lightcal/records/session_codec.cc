@@ -326,6 +326,7 @@ Result<Session> ParseSessionToml(std::string_view text, std::string_view where) 
   auto loaded = records::ParseSession(text, where);
   if (!loaded) return Propagate(std::move(loaded));
   SpreadLitReadings(loaded->session);
+  if (auto split = SplitStates(loaded->session); !split) return Propagate(std::move(split));
   return std::move(loaded->session);
 }
 

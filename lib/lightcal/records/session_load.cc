@@ -212,6 +212,7 @@ Result<LoadedSession> LoadSession(const std::string& path, const TextReader& rea
     JournalReader(*loaded, paths.journal.filename().string()).Read(*journal);
   }
   SpreadLitReadings(session);
+  if (auto split = SplitStates(session); !split) return Propagate(std::move(split));
   return loaded;
 }
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lamp_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "lightcal/core/joined.h"
+#include "lightcal/fit/states/state_answer.h"
+
+namespace lightcal::app {
+namespace {
+
+struct WantedState {
+  std::string light;  // "" = every one that has states
+  FixtureState state;
+};
+
+Result<WantedState> ParseWanted(const std::string& text, const LightFile& file) {
+  WantedState wanted;
+  std::string controls = text;
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos && colon < text.find('=')) {
+    wanted.light = text.substr(0, colon);
+    controls = text.substr(colon + 1);
+    if (std::ranges::find(file.lights, wanted.light, &FittedLight::name) == file.lights.end()) {
+      return WrongUsage("--state", "\"" + wanted.light + "\" is no light here; there are " +
+                                       Joined(file.lights, ", ", &FittedLight::name));
+    }
+  }
+  auto state = ParseFixtureState(controls);
+  if (!state) return Propagate(std::move(state));
+  wanted.state = *std::move(state);
+  return wanted;
+}
+
+}  // namespace
+
+Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& file) {
+  Warnings warnings;
+  for (const std::string& text : texts) {
+    const auto wanted = ParseWanted(text, file);
+    if (!wanted) return tl::unexpected(wanted.error());
+    bool any = false;
+    for (FittedLight& light : file.lights) {
+      const bool named = light.name == wanted->light;
+      if (!wanted->light.empty() ? !named : light.states.empty()) continue;
+      any = true;
+      const auto answer = AnswerState(light, wanted->state);
+      if (!answer) return tl::unexpected(answer.error());
+      if (answer->basis == StateBasis::kCombined) {
+        warnings.push_back({"state_combined", light.name,
+                            StateText(wanted->state) +
+                                " was put together from states that differ from it in several "
+                                "controls; read it to be sure"});
+      }
+      auto there = LightAtState(light, wanted->state);
+      if (!there) return Propagate(std::move(there));
+      light = *std::move(there);
+    }
+    if (any) continue;
+    return Refused("no_states", text,
+                   "no light here was read at states of its controls; give its readings "
+                   "state = { dimmer = 50 } and the like, and fit again");
+  }
+  return warnings;
+}
+
+}  // namespace lightcal::app

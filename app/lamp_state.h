@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights of a file at the states of their controls that a person asks for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal::app {
+
+// Each text: "dimmer=18,cct_K=4500", of every light that has states, or of one, "key:dimmer=18".
+// The lights become what they are there; others stay. Warns of states that were put together from
+// others.  Wrong usage: no state, a light that there is not. Refused: no_states, and as
+// AnswerState.
+[[nodiscard]] Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& file);
+
+}  // namespace lightcal::app

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/states/control_curve.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace lightcal::fit {
+namespace {
+
+using Labels = std::vector<double>;
+
+// Colour against a level: the logarithm's zero, so that a label of 0 has a place.
+constexpr double kLevelFloor = 0.03;
+constexpr double kConstantVariance = 25.0;
+// Of exp(mean of ln evidence): a hypothesis that makes the readings less probable is left out.
+constexpr double kLeastEvidence = 7.0;
+constexpr std::size_t kFormsKept = 8;
+
+// How far each target may go for one unit of the rests' sizes, and by the slopes' priors.
+struct TargetScale {
+  double level_rest, other_rest, joint_rest;
+  double level_slope, other_slope;
+};
+constexpr std::array<TargetScale, 3> kScales = {
+    {{1.0, 1.0, 1.0, 0.0, 0.5}, {0.2, 0.3, 0.3, 0.3, 0.3}, {0.05, 0.03, 0.05, 0.002, 0.004}}};
+
+}  // namespace
+
+// Of ControlCurve alone; named, since what is not may not stand in a class.
+namespace control_curve {
+
+// ln E = power ln(x + zero) of one level; the zero within step, the power within power_sd.
+struct LevelForm {
+  int control = -1;
+  double zero = kLevelFloor;
+  double step = 0.0;
+  double power = 0.0, power_sd = 0.0;
+  double weight = 1.0;
+};
+
+struct Rests {
+  double level = 0.0, level_length = 1.0;
+  double other = 0.0, other_length = 1.0;
+  double joint = 0.0;
+  double weight = 1.0;
+};
+
+inline double Matern(double distance, double length) {
+  const double r = std::sqrt(3.0) * std::abs(distance) / length;
+  return (1.0 + r) * std::exp(-r);
+}
+
+// A point's labels as one hypothesis sees them.
+struct Seen {
+  std::vector<double> along;  // one coordinate a control
+  double mean = 0.0;
+  double ln_level = 0.0, by_zero = 0.0;  // of the formed level
+};
+
+}  // namespace control_curve
+
+using control_curve::LevelForm;
+using control_curve::Matern;
+using control_curve::Rests;
+using control_curve::Seen;
+
+struct ControlCurve::Hypotheses {
+  struct One {
+    LevelForm form;
+    Rests rests;
+    std::vector<Seen> seen;
+    double center = 0.0;
+    Eigen::LLT<Eigen::MatrixXd> solver;
+    Eigen::VectorXd weights;  // K^-1 (y - mean)
+    double evidence = -std::numeric_limits<double>::infinity();
+  };
+
+  std::vector<ControlKind> kinds;
+  CurveTarget target = CurveTarget::kLnLight;
+  std::vector<CurvePoint> points;
+  std::vector<double> middle, span;  // of each control's coordinate, over the points
+  std::vector<One> all;              // evidence holds their shares, which make 1
+
+  [[nodiscard]] const TargetScale& scale() const {
+    return kScales[static_cast<std::size_t>(target)];
+  }
+
+  [[nodiscard]] double Plain(std::size_t control, double label) const {
+    switch (kinds[control]) {
+      case ControlKind::kLevel:
+        return std::log(label + kLevelFloor);
+      case ControlKind::kTemperature:
+        return std::log(1e6 / label);
+      case ControlKind::kOther:
+        break;
+    }
+    return label;
+  }
+
+  [[nodiscard]] Seen See(const Labels& labels, const LevelForm& form) const {
+    Seen out;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const bool formed = static_cast<int>(i) == form.control;
+      double along = Plain(i, labels[i]);
+      if (formed) {
+        const double above = std::max(1e-6, labels[i] + form.zero);
+        along = out.ln_level = std::log(above);
+        out.by_zero = form.power / above;
+        out.mean += form.power * out.ln_level;
+      } else if (kinds[i] == ControlKind::kLevel) {
+        if (target == CurveTarget::kLnLight) out.mean += along;
+      } else {
+        if (kinds[i] == ControlKind::kTemperature && target == CurveTarget::kLnMired) {
+          out.mean += along;
+        }
+        along = (along - middle[i]) / span[i];
+      }
+      out.along.push_back(along);
+    }
+    return out;
+  }
+
+  [[nodiscard]] double Covariance(const One& one, const Seen& a, const Seen& b) const {
+    const TargetScale& by = scale();
+    double sum = kConstantVariance;
+    double joint = 1.0;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const double u = a.along[i];
+      const double v = b.along[i];
+      if (kinds[i] == ControlKind::kLevel) {
+        if (static_cast<int>(i) == one.form.control) {
+          sum += one.form.power_sd * one.form.power_sd * a.ln_level * b.ln_level +
+                 one.form.step * one.form.step * a.by_zero * b.by_zero;
+        } else {
+          sum += by.level_slope * by.level_slope * u * v;
+        }
+        const double size = by.level_rest * one.rests.level;
+        sum += size * size * Matern(u - v, one.rests.level_length);
+        joint *= Matern(u - v, 1.5);
+      } else {
+        const double size = by.other_rest * one.rests.other;
+        sum += by.other_slope * by.other_slope * u * v +
+               size * size * Matern(u - v, one.rests.other_length);
+        joint *= Matern(u - v, 0.7);
+      }
+    }
+    const double size = by.joint_rest * one.rests.joint;
+    return sum + size * size * joint;
+  }
+
+  [[nodiscard]] std::optional<One> Solve(const LevelForm& form, const Rests& rests) const {
+    One one;
+    one.form = form;
+    one.rests = rests;
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Eigen::VectorXd off(n);
+    for (const CurvePoint& point : points) one.seen.push_back(See(point.at, form));
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      off[i] = points[k].value - one.seen[k].mean;
+    }
+    one.center = off.mean();
+    off.array() -= one.center;
+    Eigen::MatrixXd covariance(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto a = static_cast<std::size_t>(i);
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        covariance(i, j) = Covariance(one, one.seen[a], one.seen[static_cast<std::size_t>(j)]);
+      }
+      covariance(i, i) += points[a].sd * points[a].sd;
+    }
+    one.solver.compute(covariance);
+    if (one.solver.info() != Eigen::Success) return std::nullopt;
+    one.weights = one.solver.solve(off);
+    double ln_determinant = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      ln_determinant += std::log(one.solver.matrixLLT()(i, i));
+    }
+    one.evidence =
+        -0.5 * off.dot(one.weights) - ln_determinant + std::log(form.weight * rests.weight);
+    if (!std::isfinite(one.evidence)) return std::nullopt;
+    return one;
+  }
+
+  // Zeros a fifth of (x_min + zero) apart; within a step the likeliest is found by the solve.
+  [[nodiscard]] std::vector<LevelForm> Forms() const {
+    const auto level = std::ranges::find(kinds, ControlKind::kLevel);
+    if (target != CurveTarget::kLnLight || level == kinds.end()) return {LevelForm{}};
+    const auto control = static_cast<std::size_t>(level - kinds.begin());
+    double least = std::numeric_limits<double>::infinity();
+    for (const CurvePoint& point : points) least = std::min(least, point.at[control]);
+    constexpr double kStep = 0.2;
+    const double smallest = std::max(least, 0.01);
+    const double end = std::log(12.0 * smallest + 0.3);
+    std::vector<LevelForm> forms;
+    for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kStep) {
+      const double above = std::exp(ln);
+      LevelForm form{static_cast<int>(control), above - least, 0.5 * kStep * above, 1.0, 0.02, 1.0};
+      forms.push_back(form);
+      form.power = 2.0;
+      form.power_sd = 1.2;
+      form.weight = 0.5;
+      forms.push_back(form);
+    }
+    return forms;
+  }
+
+  [[nodiscard]] std::vector<Rests> AllRests() const {
+    using Sized = std::pair<double, double>;  // size, weight
+    const bool level = std::ranges::count(kinds, ControlKind::kLevel) > 0;
+    const bool others =
+        std::ranges::any_of(kinds, [](ControlKind kind) { return kind != ControlKind::kLevel; });
+    const std::vector<Sized> none = {{0.0, 1.0}};
+    const std::vector<Sized> level_sizes =
+        level ? std::vector<Sized>{{0.003, 1.5}, {0.012, 2.0}, {0.05, 1.0}} : none;
+    const std::vector<Sized> other_sizes =
+        others ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 1.0}} : none;
+    const std::vector<Sized> joint_sizes =
+        kinds.size() > 1 ? std::vector<Sized>{{0.002, 1.5}, {0.015, 1.0}} : none;
+    const std::vector<double> level_lengths =
+        level ? std::vector<double>{0.4, 1.5} : std::vector<double>{1.0};
+    std::vector<Rests> out;
+    for (const auto& [a, by_a] : level_sizes) {
+      for (const double la : level_lengths) {
+        for (const auto& [b, by_b] : other_sizes) {
+          for (const auto& [c, by_c] : joint_sizes) {
+            out.push_back({a, la, b, 0.7, c, by_a * by_b * by_c});
+          }
+        }
+      }
+    }
+    return out;
+  }
+
+  void FindMiddles() {
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      double sum = 0.0;
+      for (const CurvePoint& point : points) {
+        const double along = Plain(i, point.at[i]);
+        least = std::min(least, along);
+        most = std::max(most, along);
+        sum += along;
+      }
+      middle.push_back(sum / static_cast<double>(points.size()));
+      span.push_back(most > least ? most - least : 1.0);
+    }
+  }
+
+  // The forms that the readings make likeliest under rests of middle size.
+  [[nodiscard]] std::vector<LevelForm> LikelyForms() const {
+    std::vector<LevelForm> forms = Forms();
+    if (forms.size() <= kFormsKept) return forms;
+    const Rests middling{0.02, 0.8, 0.05, 0.7, 0.01, 1.0};
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      const auto one = Solve(forms[i], middling);
+      if (one) order.emplace_back(-one->evidence, i);
+    }
+    std::ranges::sort(order);
+    std::vector<LevelForm> kept;
+    for (std::size_t i = 0; i < std::min(kFormsKept, order.size()); ++i) {
+      kept.push_back(forms[order[i].second]);
+    }
+    return kept;
+  }
+
+  void Average() {
+    FindMiddles();
+    const std::vector<Rests> rests = AllRests();
+    double best = -std::numeric_limits<double>::infinity();
+    for (const LevelForm& form : LikelyForms()) {
+      for (const Rests& one : rests) {
+        auto solved = Solve(form, one);
+        if (!solved || solved->evidence < best - kLeastEvidence) continue;
+        best = std::max(best, solved->evidence);
+        all.push_back(*std::move(solved));
+      }
+    }
+    std::erase_if(all, [&](const One& one) { return one.evidence < best - kLeastEvidence; });
+    double sum = 0.0;
+    for (One& one : all) sum += one.evidence = std::exp(one.evidence - best);
+    for (One& one : all) one.evidence /= sum;
+  }
+
+  // The mean and the variance of f(a), or of f(a) - f(b).
+  [[nodiscard]] CurveValue Of(const Labels& a, const Labels* b) const {
+    const auto n = static_cast<Eigen::Index>(points.size());
+    double mean = 0.0;
+    double square = 0.0;
+    for (const One& one : all) {
+      const Seen at = See(a, one.form);
+      const Seen from = b != nullptr ? See(*b, one.form) : Seen{};
+      Eigen::VectorXd row(n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Seen& point = one.seen[static_cast<std::size_t>(i)];
+        row[i] = Covariance(one, point, at) - (b != nullptr ? Covariance(one, point, from) : 0.0);
+      }
+      double value = at.mean + row.dot(one.weights);
+      double variance = Covariance(one, at, at);
+      if (b != nullptr) {
+        value -= from.mean;
+        variance += Covariance(one, from, from) - 2.0 * Covariance(one, at, from);
+      } else {
+        value += one.center;
+      }
+      variance -= row.dot(one.solver.solve(row));
+      mean += one.evidence * value;
+      square += one.evidence * (std::max(0.0, variance) + value * value);
+    }
+    return {mean, std::sqrt(std::max(0.0, square - mean * mean))};
+  }
+};
+
+ControlCurve::ControlCurve(std::vector<ControlKind> kinds, CurveTarget target,
+                           std::vector<CurvePoint> points)
+    : hypotheses_(std::make_unique<Hypotheses>()) {
+  hypotheses_->kinds = std::move(kinds);
+  hypotheses_->target = target;
+  hypotheses_->points = std::move(points);
+  hypotheses_->Average();
+}
+
+ControlCurve::~ControlCurve() = default;
+ControlCurve::ControlCurve(ControlCurve&& other) noexcept = default;
+ControlCurve& ControlCurve::operator=(ControlCurve&& other) noexcept = default;
+
+CurveValue ControlCurve::At(const std::vector<double>& labels) const {
+  return hypotheses_->Of(labels, nullptr);
+}
+
+CurveValue ControlCurve::Difference(const std::vector<double>& a,
+                                    const std::vector<double>& b) const {
+  return hypotheses_->Of(a, &b);
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/states/measure_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/colour/fit_color.h"
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/model/observations.h"
+
+namespace lightcal::fit {
+namespace {
+
+// Other lamps, of the dimmest reading, 1 sigma: what light/effects takes where none is stated.
+constexpr double kOtherLamps = 0.025;
+constexpr double kSamePlace_m = 0.005;
+constexpr double kSameAngle_rad = 1e-3;
+
+struct StateReadings {
+  FixtureState state;
+  std::vector<const SessionReading*> rows;
+};
+
+bool Counts(const Reading& reading) {
+  return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card &&
+         !reading.over_range && !reading.under_range && reading.illuminance->value() > 0.0;
+}
+
+bool SamePlace(const Reading& a, const Reading& b) {
+  if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) < kSamePlace_m;
+  if (a.distance && b.distance) {
+    return SameDistance(a.distance->value(), b.distance->value()) &&
+           std::abs(a.tilt.value() - b.tilt.value()) < kSameAngle_rad &&
+           std::abs(a.off_axis.value() - b.off_axis.value()) < kSameAngle_rad;
+  }
+  return !a.distance && !b.distance && !a.position_m && !b.position_m;
+}
+
+struct Background {
+  double lux = 0.0;
+  double sd = 0.0;
+};
+
+class Measuring {
+ public:
+  Measuring(const Session& session, FittedLight& light) : session_(session), light_(light) {
+    Note(session.readings);
+    Note(session.state_readings);
+    const bool surely_dark = session.surroundings == Surroundings::kDark;
+    unknown_sd_ = surely_dark || !std::isfinite(dimmest_) ? 0.0 : kOtherLamps * dimmest_;
+  }
+
+  [[nodiscard]] const std::vector<StateReadings>& states() const { return states_; }
+
+  // ln of this state's light over the reference's; nothing where no reading tells it.
+  struct Ratio {
+    double ln = 0.0;
+    double variance = 0.0, own_variance = 0.0;
+    int readings = 0;
+  };
+  [[nodiscard]] std::optional<Ratio> RatioOf(const StateReadings& state) const {
+    Ratio out;
+    double weights = 0.0;
+    double shared = 0.0;
+    for (const SessionReading* row : state.rows) {
+      if (!Counts(row->reading)) continue;
+      // What is behind a card holds the walls' light, which both sides have or neither.
+      const bool cards = CardsAt(state, row->reading) && CardsAt(OfReference(), row->reading);
+      const auto at_reference =
+          Reference(row->reading, SameState(state.state, light_.state), cards);
+      const auto own = Direct(*row, cards);
+      if (!at_reference || !own) continue;
+      const double weight = 1.0 / own->variance;
+      out.ln += weight * (own->ln - at_reference->ln);
+      shared += weight * at_reference->variance;
+      weights += weight;
+      ++out.readings;
+    }
+    if (!(weights > 0.0)) return std::nullopt;
+    out.ln /= weights;
+    out.own_variance = 1.0 / weights;
+    out.variance = out.own_variance + shared / weights;
+    return out;
+  }
+
+ private:
+  struct Log {
+    double ln = 0.0, variance = 0.0;
+  };
+
+  void Note(const std::vector<SessionReading>& rows) {
+    for (const SessionReading& row : rows) {
+      const Reading& reading = row.reading;
+      if (reading.light != light_.name) continue;
+      if (reading.state.empty() || reading.lamp == LampState::kOff) {
+        if (reading.illuminance) off_.push_back(&row);
+        continue;
+      }
+      auto known = std::ranges::find_if(
+          states_, [&](const StateReadings& one) { return SameState(one.state, reading.state); });
+      if (known == states_.end()) {
+        known = states_.insert(states_.end(), StateReadings{reading.state, {}});
+      }
+      known->rows.push_back(&row);
+      if (Counts(reading)) dimmest_ = std::min(dimmest_, reading.illuminance->value());
+    }
+  }
+
+  [[nodiscard]] const StateReadings& OfReference() const { return Of(light_.state); }
+  [[nodiscard]] const StateReadings& Of(const FixtureState& state) const {
+    return *std::ranges::find_if(
+        states_, [&](const StateReadings& one) { return SameState(one.state, state); });
+  }
+  [[nodiscard]] static bool CardsAt(const StateReadings& state, const Reading& place) {
+    return std::ranges::any_of(state.rows, [&](const SessionReading* row) {
+      const Reading& reading = row->reading;
+      return reading.shadow_card && reading.illuminance && SamePlace(reading, place);
+    });
+  }
+
+  // What else shone on the meter.
+  [[nodiscard]] Background BackgroundOf(const Reading& reading, bool cards) const {
+    double sum = 0.0;
+    int count = 0;
+    const auto add = [&](const std::vector<const SessionReading*>& rows, const auto& fits) {
+      for (const SessionReading* row : rows) {
+        if (!row->reading.illuminance || !fits(row->reading)) continue;
+        sum += row->reading.illuminance->value();
+        ++count;
+      }
+    };
+    const auto sigma = [&] { return count > 0 ? 0.02 * sum / count : 0.0; };
+    if (cards) {
+      add(Of(reading.state).rows,
+          [&](const Reading& r) { return r.shadow_card && SamePlace(r, reading); });
+      return {sum / count, sigma()};
+    }
+    add(off_, [&](const Reading& r) { return SamePlace(r, reading); });
+    if (count > 0) return {sum / count, sigma()};
+    add(off_, [](const Reading& /*any*/) { return true; });
+    if (count > 0) return {sum / count, 0.3 * sum / count};
+    const bool told = light_.ambient_lx && light_.ambient_lx->u95 > 0.0;
+    if (told) return {light_.ambient_lx->value, light_.ambient_lx->u95 / kZ95};
+    return {0.0, unknown_sd_};
+  }
+
+  [[nodiscard]] std::optional<Log> Direct(const SessionReading& row, bool cards) const {
+    const double lux = row.reading.illuminance->value();
+    const Background behind = BackgroundOf(row.reading, cards);
+    const double direct = lux - behind.lux;
+    const double repeat = RepeatabilityRelative(session_, row.reading) * lux;
+    const double sd = std::hypot(repeat, behind.sd);
+    if (!(direct > 2.0 * sd)) return std::nullopt;
+    return Log{std::log(direct), sd * sd / (direct * direct)};
+  }
+
+  // What a meter in that place shows of the lamp at the reference: read there, else predicted.
+  [[nodiscard]] std::optional<Log> Reference(const Reading& reading, bool is_reference,
+                                             bool cards) const {
+    Log mean;
+    int count = 0;
+    for (const SessionReading* row : OfReference().rows) {
+      if (!Counts(row->reading) || !SamePlace(row->reading, reading)) continue;
+      const auto direct = Direct(*row, cards);
+      if (!direct) continue;
+      mean.ln += direct->ln;
+      mean.variance += direct->variance;
+      ++count;
+    }
+    if (count > 0) {
+      if (is_reference) return Log{mean.ln / count, 0.0};
+      return Log{mean.ln / count, mean.variance / (count * count)};
+    }
+    if (!reading.distance) return std::nullopt;
+    const auto facing = PredictInRoom(light_, *reading.distance, 0.0);
+    const auto alone = PredictIlluminance(light_, *reading.distance, 0.0);
+    if (!facing || !alone) return std::nullopt;
+    const Uncertain& lux = *facing ? (*facing)->whole_lx : alone->model_lx;
+    const double ambient = light_.ambient_lx ? light_.ambient_lx->value : 0.0;
+    if (!(lux.value > ambient)) return std::nullopt;
+    const double own = light_.meter ? light_.meter->calibration_relative : 0.0;
+    const double sd = lux.u95 / kZ95 / lux.value;
+    const double variance = std::max(1e-4 * sd * sd, sd * sd - own * own);
+    return Log{std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance};
+  }
+
+  const Session& session_;
+  FittedLight& light_;
+  std::vector<StateReadings> states_;
+  std::vector<const SessionReading*> off_;
+  double dimmest_ = std::numeric_limits<double>::infinity();
+  double unknown_sd_ = 0.0;
+};
+
+FittedColor ColorOf(const StateReadings& state, const LightDescription& description,
+                    CctMethod method, Warnings& warnings) {
+  Session alone;
+  for (const SessionReading* row : state.rows) alone.readings.push_back(*row);
+  return FitColor(alone, description, warnings, method);
+}
+
+std::optional<Uncertain> Times(const std::optional<Uncertain>& reference, double ln, double sd) {
+  if (!reference) return std::nullopt;
+  Uncertain scaled = *reference;
+  const double factor = std::exp(ln);
+  scaled.value *= factor;
+  scaled.u95 *= factor;
+  if (scaled.low) *scaled.low *= factor;
+  if (scaled.high) *scaled.high *= factor;
+  if (scaled.low && scaled.high && *scaled.low > 0.0) {
+    WidenInLn(scaled, 1.0, sd);
+  } else {
+    scaled.u95 = std::hypot(scaled.u95, kZ95 * sd * scaled.value);
+  }
+  return scaled;
+}
+
+// Another front or another zoom may shine from elsewhere.
+bool OtherGeometry(const FixtureState& a, const FixtureState& b) {
+  const auto differs = [&](const ControlValue& control) {
+    const ControlValue* other = FindControl(b, control.name);
+    if (other == nullptr) return true;
+    if (control.IsWord()) return control.word != other->word;
+    return control.name == kZoomControl && control.number != other->number;
+  };
+  return std::ranges::any_of(a, differs);
+}
+
+}  // namespace
+
+void MeasureStates(const Session& session, const LightDescription& description,
+                   CctMethod cct_method, FittedLight& light, Warnings& warnings) {
+  light.state = ReferenceState(session, light.name);
+  if (light.state.empty()) return;
+  const Measuring measuring(session, light);
+  std::vector<MeasuredState> out;
+  bool other_geometry = false;
+  for (const StateReadings& state : measuring.states()) {
+    const bool reference = SameState(state.state, light.state);
+    const std::string subject = light.name + " at " + StateText(state.state);
+    const auto ratio = measuring.RatioOf(state);
+    if (!ratio) {
+      const bool any = std::ranges::any_of(
+          state.rows, [](const SessionReading* row) { return Counts(row->reading); });
+      warnings.push_back({any ? "state_dark" : "state_without_light", subject,
+                          any ? "no reading of this state can be compared with the reference's (" +
+                                    StateText(light.state) +
+                                    "): too dim, or at a place the fit cannot predict"
+                              : "no reading of this state holds illuminance; it is left out"});
+      continue;
+    }
+    MeasuredState one{state.state, {}, std::sqrt(ratio->own_variance)};
+    const double ln = reference ? 0.0 : ratio->ln;
+    const double sd = reference ? 0.0 : std::sqrt(ratio->variance);
+    one.relative = reference ? Uncertain{1.0, 0.0, {}, {}} : UncertainFromLog(ln, sd);
+    one.intensity_cd = Times(light.intensity_cd, ln, sd);
+    one.illuminance_lx = Times(light.illuminance_lx, ln, sd);
+    one.color = reference ? light.color : ColorOf(state, description, cct_method, warnings);
+    one.readings = ratio->readings;
+    other_geometry = other_geometry || OtherGeometry(state.state, light.state);
+    if (reference) {
+      out.insert(out.begin(), std::move(one));
+    } else {
+      out.push_back(std::move(one));
+    }
+  }
+  light.states = std::move(out);
+  if (other_geometry && light.intensity_cd) {
+    warnings.push_back({"offset_shared", light.name,
+                        "its states differ in zoom or modifier; where their light starts and how "
+                        "wide it shines is taken from " +
+                            StateText(light.state) +
+                            ": calibrate each as a light of its own where that matters"});
+  }
+}
+
+}  // namespace lightcal::fit

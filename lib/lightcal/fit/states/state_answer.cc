@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/states/state_answer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "lightcal/colorimetry/cct.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/states/control_curve.h"
+#include "lightcal/fit/states/mixing_line.h"
+
+namespace lightcal {
+namespace {
+
+using fit::ControlCurve;
+using fit::ControlKind;
+using fit::CurvePoint;
+using fit::CurveTarget;
+using fit::CurveValue;
+
+// More states than these nearest ones say nothing new of a place between them.
+constexpr std::size_t kNearestStates = 24;
+// A meter repeats a colour within this, 1 sigma; what its readings share is added afterwards.
+constexpr double kRepeatsLnMired = 0.001;
+constexpr double kRepeatsDuv = 2e-4;
+constexpr double kLeastRepeatability = 1e-4;
+
+bool SameNumbers(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+}
+
+double SdOfLn(const Uncertain& u) {
+  if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
+  return u.value > 0.0 ? u.u95 / (kZ95 * u.value) : 0.0;
+}
+
+// A control that took several numbers in the states that count.
+struct Axis {
+  std::string name;
+  ControlKind kind = ControlKind::kOther;
+  double least = 0.0, most = 0.0;
+};
+
+ControlKind KindOf(const std::string& name) {
+  if (name == kCctControl) return ControlKind::kTemperature;
+  const bool other = name == "tint" || name == kZoomControl || name == "hue" ||
+                     name == "saturation" || name.ends_with("_deg");
+  return other ? ControlKind::kOther : ControlKind::kLevel;
+}
+
+// The states that can tell of one asked for: its words, its controls.
+class States {
+ public:
+  States(const FittedLight& light, const FixtureState& at, std::size_t without)
+      : light_(light), at_(at) {
+    for (std::size_t i = 0; i < light.states.size(); ++i) {
+      if (i != without && SameWords(light.states[i].state)) kept_.push_back(&light.states[i]);
+    }
+    FindAxes();
+  }
+
+  [[nodiscard]] const std::vector<const MeasuredState*>& kept() const { return kept_; }
+  [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
+
+  [[nodiscard]] const MeasuredState* Exact(const FixtureState& state) const {
+    for (const MeasuredState* one : kept_) {
+      if (SameState(one->state, state)) return one;
+    }
+    return nullptr;
+  }
+
+  [[nodiscard]] Result<void> CheckInside() const {
+    for (const ControlValue& control : at_) {
+      if (control.IsWord()) continue;
+      double least = std::numeric_limits<double>::infinity();
+      double most = -least;
+      for (const MeasuredState* one : kept_) {
+        const double there = NumberOfControl(one->state, control.name).value_or(0.0);
+        least = std::min(least, there);
+        most = std::max(most, there);
+      }
+      const bool inside = (control.number >= least || SameNumbers(control.number, least)) &&
+                          (control.number <= most || SameNumbers(control.number, most));
+      if (inside) continue;
+      return Refused("outside_states", light_.name,
+                     control.name + "=" + ShortestText(control.number) +
+                         " lies outside of what was read (" + ShortestText(least) + " ... " +
+                         ShortestText(most) +
+                         "); how the fixture goes on there is not known: read it there");
+    }
+    return {};
+  }
+
+  // Whether two states that were read differ from it in one control alone, on both sides.
+  [[nodiscard]] bool BetweenTwo() const {
+    return std::ranges::any_of(axes_, [&](const Axis& axis) {
+      bool below = false;
+      bool above = false;
+      const double here = NumberOfControl(at_, axis.name).value_or(0.0);
+      for (const MeasuredState* one : kept_) {
+        if (!OthersAlike(one->state, axis.name)) continue;
+        const double there = NumberOfControl(one->state, axis.name).value_or(0.0);
+        below = below || (there < here && !SameNumbers(there, here));
+        above = above || (there > here && !SameNumbers(there, here));
+      }
+      return below && above;
+    });
+  }
+
+  [[nodiscard]] std::vector<double> LabelsOf(const FixtureState& state) const {
+    std::vector<double> labels;
+    for (const Axis& axis : axes_) {
+      const double number = NumberOfControl(state, axis.name).value_or(0.0);
+      const bool percent = axis.name == kDimmerControl;
+      const double unit = axis.kind != ControlKind::kLevel ? 1.0 : percent ? 100.0 : axis.most;
+      labels.push_back(unit > 0.0 ? number / unit : number);
+    }
+    return labels;
+  }
+
+  [[nodiscard]] std::vector<ControlKind> Kinds() const {
+    std::vector<ControlKind> kinds;
+    for (const Axis& axis : axes_) kinds.push_back(axis.kind);
+    return kinds;
+  }
+
+  // Keeps the nearest to the state asked for, by ranges.
+  void KeepNearest() {
+    if (kept_.size() <= kNearestStates) return;
+    const std::vector<double> here = LabelsOf(at_);
+    const auto far = [&](const MeasuredState* one) {
+      const std::vector<double> there = LabelsOf(one->state);
+      double sum = 0.0;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        const bool level = axes_[i].kind == ControlKind::kLevel;
+        const double off = level ? std::log((there[i] + 0.03) / (here[i] + 0.03)) / 3.0
+                                 : (there[i] - here[i]) / (axes_[i].most - axes_[i].least);
+        sum += off * off;
+      }
+      return sum;
+    };
+    std::ranges::stable_sort(kept_, {}, far);
+    kept_.resize(kNearestStates);
+  }
+
+  // The brightest this lamp is with the other controls as asked.
+  [[nodiscard]] FixtureState Full() const {
+    FixtureState full = at_;
+    for (ControlValue& control : full) {
+      if (control.name != kDimmerControl) continue;
+      for (const Axis& axis : axes_) {
+        if (axis.name == kDimmerControl) control.number = axis.most;
+      }
+      return full;
+    }
+    const auto brightest = std::ranges::max_element(
+        kept_, {}, [](const MeasuredState* one) { return one->relative.value; });
+    return (*brightest)->state;
+  }
+
+ private:
+  [[nodiscard]] bool SameWords(const FixtureState& state) const {
+    return std::ranges::all_of(at_, [&](const ControlValue& control) {
+      if (!control.IsWord()) return true;
+      const ControlValue* there = FindControl(state, control.name);
+      return there != nullptr && there->word == control.word;
+    });
+  }
+
+  [[nodiscard]] bool OthersAlike(const FixtureState& state, const std::string& but) const {
+    return std::ranges::all_of(axes_, [&](const Axis& axis) {
+      return axis.name == but || SameNumbers(NumberOfControl(state, axis.name).value_or(0.0),
+                                             NumberOfControl(at_, axis.name).value_or(0.0));
+    });
+  }
+
+  void FindAxes() {
+    for (const ControlValue& control : at_) {
+      if (control.IsWord()) continue;
+      Axis axis{control.name, KindOf(control.name), std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity()};
+      for (const MeasuredState* one : kept_) {
+        const double there = NumberOfControl(one->state, control.name).value_or(0.0);
+        axis.least = std::min(axis.least, there);
+        axis.most = std::max(axis.most, there);
+      }
+      if (axis.kind == ControlKind::kLevel && axis.least < 0.0) axis.kind = ControlKind::kOther;
+      if (axis.most > axis.least && !SameNumbers(axis.most, axis.least)) axes_.push_back(axis);
+    }
+  }
+
+  const FittedLight& light_;
+  const FixtureState& at_;
+  std::vector<const MeasuredState*> kept_;
+  std::vector<Axis> axes_;
+};
+
+std::optional<Uncertain> Scaled(const std::optional<Uncertain>& reference, double ln, double sd) {
+  if (!reference) return std::nullopt;
+  if (!(reference->value > 0.0)) return std::nullopt;
+  return UncertainFromLog(std::log(reference->value) + ln, std::hypot(SdOfLn(*reference), sd));
+}
+
+ControlCurve LightCurve(const States& states) {
+  std::vector<CurvePoint> points;
+  for (const MeasuredState* one : states.kept()) {
+    points.push_back({states.LabelsOf(one->state), std::log(one->relative.value),
+                      std::max(kLeastRepeatability, one->repeatability)});
+  }
+  return {states.Kinds(), CurveTarget::kLnLight, std::move(points)};
+}
+
+// What the nearest colour's interval holds beside repeatability: the meter's own error, which every
+// state of one lamp shares.
+double SharedSd(double sd, double repeatability) {
+  return std::sqrt(std::max(0.0, sd * sd - repeatability * repeatability));
+}
+
+FittedColor ColorBetween(const States& states, const FixtureState& at) {
+  std::vector<CurvePoint> mireds;
+  std::vector<CurvePoint> duvs;
+  std::vector<Xy> xys;
+  double shared_ln_mired = 0.0;
+  double shared_duv = 0.0;
+  for (const MeasuredState* one : states.kept()) {
+    const FittedColor& color = one->color;
+    if (!color.cct_K || !color.duv || !color.xy) continue;
+    const std::vector<double> labels = states.LabelsOf(one->state);
+    mireds.push_back({labels, std::log(1e6 / color.cct_K->value), kRepeatsLnMired});
+    duvs.push_back({labels, color.duv->value, kRepeatsDuv});
+    xys.push_back(*color.xy);
+    shared_ln_mired = std::max(shared_ln_mired, SharedSd(SdOfLn(*color.cct_K), kRepeatsLnMired));
+    shared_duv = std::max(shared_duv, SharedSd(color.duv->u95 / kZ95, kRepeatsDuv));
+  }
+  FittedColor out;
+  if (mireds.size() < 2) return out;
+  const std::vector<double> labels = states.LabelsOf(at);
+  const CurveValue ln_mired =
+      ControlCurve(states.Kinds(), CurveTarget::kLnMired, std::move(mireds)).At(labels);
+  CurveValue duv = ControlCurve(states.Kinds(), CurveTarget::kDuv, std::move(duvs)).At(labels);
+  const Kelvin cct(1e6 / std::exp(ln_mired.value));
+  if (const auto line = fit::MixingLineOf(xys)) {
+    // The line's Duv where it is the surer of the two.
+    if (const auto on_line = fit::DuvOnLine(*line, cct); on_line && line->sd_duv < duv.sd) {
+      duv = {*on_line, std::max(line->sd_duv, kRepeatsDuv)};
+    }
+  }
+  const double sd = std::hypot(ln_mired.sd, shared_ln_mired);
+  out.cct_K = UncertainFromLog(std::log(cct.value()), sd);
+  out.duv = UncertainFromNormal(duv.value, std::hypot(duv.sd, shared_duv));
+  out.xy = XyFromCct(cct, duv.value);
+  return out;
+}
+
+Result<void> CheckControlsOf(const FittedLight& light, const FixtureState& at) {
+  if (light.states.empty()) {
+    return Refused(
+        "no_states", light.name,
+        "was read at no state of its controls; give its readings state = { dimmer = 50 } "
+        "and the like, and fit again");
+  }
+  const FixtureState& known = light.states.front().state;
+  const bool same = std::ranges::equal(at, known, [](const ControlValue& a, const ControlValue& b) {
+    return a.name == b.name && a.IsWord() == b.IsWord();
+  });
+  if (same) return {};
+  return Refused("state_controls", light.name,
+                 "was read at states such as " + StateText(known) + "; " + StateText(at) +
+                     " does not say the same controls");
+}
+
+Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
+                               std::size_t without) {
+  States states(light, at, without);
+  if (states.kept().empty()) {
+    return Refused("state_word", light.name,
+                   StateText(at) + ": no state with these words was read; there are such as " +
+                       StateText(light.states.front().state));
+  }
+  if (auto inside = states.CheckInside(); !inside) return Propagate(std::move(inside));
+  StateAnswer answer;
+  answer.state = at;
+  answer.full = states.Full();
+  if (const auto dimmer = NumberOfControl(at, kDimmerControl)) {
+    const double full = NumberOfControl(answer.full, kDimmerControl).value_or(100.0);
+    if (full > 0.0) answer.promised_of_full = *dimmer / full;
+  }
+  answer.promised_cct_K = NumberOfControl(at, kCctControl);
+  const MeasuredState* read = states.Exact(at);
+  const MeasuredState* full = states.Exact(answer.full);
+  if (read != nullptr && full != nullptr) {
+    answer.basis = StateBasis::kMeasured;
+    answer.relative = read->relative;
+    answer.intensity_cd = read->intensity_cd;
+    answer.illuminance_lx = read->illuminance_lx;
+    answer.color = read->color;
+    const double sd = read == full ? 0.0 : std::hypot(read->repeatability, full->repeatability);
+    answer.relative_to_full =
+        read == full ? Uncertain{1.0, 0.0, {}, {}}
+                     : UncertainFromLog(std::log(read->relative.value / full->relative.value), sd);
+    return answer;
+  }
+  if (states.axes().empty()) {
+    return Refused("too_few_states", light.name,
+                   "one state alone was read; nothing tells what lies between");
+  }
+  const auto levels = std::ranges::count(states.axes(), ControlKind::kLevel, &Axis::kind);
+  if (read == nullptr && levels > 1) {
+    return Refused(
+        "several_levels", light.name,
+        "several of its controls each add light; what it is between the states that were "
+        "read is not known: read " +
+            StateText(at));
+  }
+  states.KeepNearest();
+  const ControlCurve curve = LightCurve(states);
+  const std::vector<double> labels = states.LabelsOf(at);
+  const CurveValue of_full = curve.Difference(labels, states.LabelsOf(answer.full));
+  answer.relative_to_full = UncertainFromLog(of_full.value, of_full.sd);
+  if (read != nullptr) {
+    answer.relative = read->relative;
+    answer.intensity_cd = read->intensity_cd;
+    answer.illuminance_lx = read->illuminance_lx;
+    answer.color = read->color;
+    return answer;
+  }
+  const CurveValue light_there = curve.At(labels);
+  answer.basis = states.BetweenTwo() ? StateBasis::kBetween : StateBasis::kCombined;
+  answer.relative = UncertainFromLog(light_there.value, light_there.sd);
+  answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, light_there.sd);
+  answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, light_there.sd);
+  answer.color = ColorBetween(states, at);
+  return answer;
+}
+
+}  // namespace
+
+Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at) {
+  if (auto fits = CheckControlsOf(light, at); !fits) return Propagate(std::move(fits));
+  return AnswerFrom(light, at, light.states.size());
+}
+
+Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at) {
+  const auto answer = AnswerState(light, at);
+  if (!answer) return tl::unexpected(answer.error());
+  FittedLight out = light;
+  const double ln = std::log(answer->relative.value);
+  const double sd = SdOfLn(answer->relative);
+  out.intensity_cd = answer->intensity_cd;
+  out.illuminance_lx = answer->illuminance_lx;
+  out.flux_lm = Scaled(light.flux_lm, ln, sd);
+  out.luminance_nits = Scaled(light.luminance_nits, ln, sd);
+  if (out.beam) out.beam->axial = Scaled(out.beam->axial, ln, sd);
+  if (out.distribution) out.distribution->table = out.distribution->table.Scaled(std::exp(ln));
+  out.color = answer->color;
+  out.state = at;
+  // Readings and their covariance are of the reference state.
+  out.residuals.clear();
+  out.covariance_lnI_d0_E0.reset();
+  out.in_room.clear();
+  out.budget.clear();
+  out.states.clear();
+  return out;
+}
+
+std::optional<StateAnswer> AnswerWithout(const FittedLight& light, std::size_t index) {
+  const FixtureState at = light.states[index].state;
+  const States others(light, at, index);
+  if (others.kept().size() < 2 || !others.CheckInside() || !others.BetweenTwo()) {
+    return std::nullopt;
+  }
+  auto answer = AnswerFrom(light, at, index);
+  if (!answer) return std::nullopt;
+  return *std::move(answer);
+}
+
+}  // namespace lightcal

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp at a state of its controls: one that was read, or one between those.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "lightcal/core/result.h"
+#include "lightcal/records/fitted_light.h"
+
+namespace lightcal {
+
+// How an answer stands to the states that were read.
+enum class StateBasis : std::uint8_t {
+  kMeasured,  // is one of them
+  kBetween,   // between two that differ from it in one control alone
+  kCombined,  // within the range of every control, but no two such: put together from others
+};
+
+struct StateAnswer {
+  FixtureState state;
+  StateBasis basis = StateBasis::kMeasured;
+  Uncertain relative;                                     // over the reference state
+  std::optional<Uncertain> intensity_cd, illuminance_lx;  // as the light gives it
+  // Over the brightest that the same lamp is at the highest dimmer that was read, other controls as
+  // asked; of a lamp without a dimmer over its brightest state that was read.
+  FixtureState full;
+  Uncertain relative_to_full;
+  FittedColor color;
+  std::optional<double> promised_of_full;  // by the label: dimmer/100
+  std::optional<double> promised_cct_K;
+};
+
+// Light and colour of `light` at a state. One that was read answers with what was read. Between
+// them: light by fit/states/control_curve.h; colour by the same law of ln mired and Duv, and where
+// the lamp mixes two emitters (its states' chromaticities lie on a line) the Duv of that line at
+// the CCT, so that no colour is answered that its emitters cannot make. Intervals hold what the
+// reference's intensity has.
+// Refused: no_states (the lamp has no controls), state_controls (other controls than were read),
+// outside_states (beyond what was read in a control: nothing tells how the fixture goes on),
+// state_word (a word that was never read), too_few_states (one state alone).
+[[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
+
+// The light as it is at that state: intensity, flux, luminance and colour; geometry as it was
+// fitted. Refused: as AnswerState.
+[[nodiscard]] Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at);
+
+// The measured state `index` as the others predict it, as if it had not been read; absent where it
+// is not between two others along one control. What leave-one-out judges the curves by.
+[[nodiscard]] std::optional<StateAnswer> AnswerWithout(const FittedLight& light, std::size_t index);
+
+}  // namespace lightcal

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// A session's readings by the states of their fixtures.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "lightcal/records/session.h"
+
+namespace lightcal {
+namespace {
+
+bool IsLit(const Reading& reading) { return reading.lamp == LampState::kOn; }
+
+// What was read of one lamp at one state.
+struct StateRows {
+  const FixtureState* state = nullptr;
+  std::set<long long> places;  // distances in half millimetres, positions by their sum
+};
+
+long long PlaceOf(const Reading& reading) {
+  if (reading.distance) return std::llround(2000.0 * reading.distance->value());
+  if (!reading.position_m) return 0;
+  const Vec3& p = *reading.position_m;
+  return std::llround(2000.0 * (p[0] + 31.0 * p[1] + 997.0 * p[2]));
+}
+
+std::vector<StateRows> StatesOf(const Session& session, std::string_view light) {
+  std::vector<StateRows> states;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light || reading.state.empty() || !IsLit(reading)) continue;
+    auto known = std::ranges::find_if(
+        states, [&](const StateRows& one) { return SameState(*one.state, reading.state); });
+    if (known == states.end()) known = states.insert(states.end(), StateRows{&reading.state, {}});
+    const bool bright = reading.illuminance || !reading.spectrum_file.empty();
+    if (bright && !reading.shadow_card) known->places.insert(PlaceOf(reading));
+  }
+  return states;
+}
+
+bool SameControls(const FixtureState& a, const FixtureState& b) {
+  return std::ranges::equal(a, b, [](const ControlValue& one, const ControlValue& other) {
+    return one.name == other.name && one.IsWord() == other.IsWord();
+  });
+}
+
+Result<void> CheckControls(const Session& session, const std::string& light,
+                           const FixtureState& reference) {
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light || !IsLit(reading)) continue;
+    if (reading.state.empty()) {
+      return Refused("state_missing", row.where,
+                     "other readings of \"" + light +
+                         "\" say what its controls stood at and this one does not; give it a "
+                         "state, such as state = { " +
+                         StateText(reference) + " }");
+    }
+    if (!SameControls(reading.state, reference)) {
+      return Refused("state_controls", row.where,
+                     "its state (" + StateText(reading.state) +
+                         ") names other controls than another reading of \"" + light + "\" (" +
+                         StateText(reference) + "); every reading of one lamp says the same ones");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+FixtureState ReferenceState(const Session& session, std::string_view light) {
+  const std::vector<StateRows> states = StatesOf(session, light);
+  if (states.empty()) return {};
+  const auto merit = [](const StateRows& one) {
+    return std::pair(one.places.size(), NumberOfControl(*one.state, kDimmerControl).value_or(0.0));
+  };
+  const auto best = std::ranges::max_element(states, {}, merit);
+  return *best->state;
+}
+
+Result<void> SplitStates(Session& session) {
+  for (const LightDescription& light : session.lights) {
+    const FixtureState reference = ReferenceState(session, light.name);
+    if (reference.empty()) continue;
+    if (auto fits = CheckControls(session, light.name, reference); !fits) return fits;
+    std::vector<SessionReading> kept;
+    for (SessionReading& row : session.readings) {
+      const Reading& reading = row.reading;
+      const bool other =
+          reading.light == light.name && IsLit(reading) && !SameState(reading.state, reference);
+      (other ? session.state_readings : kept).push_back(std::move(row));
+    }
+    session.readings = std::move(kept);
+  }
+  return {};
+}
+
+}  // namespace lightcal

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fixtures whose light and colour are known at every state of their controls, written without
+lightcal: CIE 1931 matching functions (CIE table), Planck's law, and how such lamps dim.
+
+  tungsten   flux ~ V^3.4 and CCT ~ flux^.12 (IES Lighting Handbook, 10th ed., 7.2), the dimmer's
+             label being the voltage or a power of it, with a threshold
+  pwm        light proportional to duty, which begins at some value or only above one
+  current    a few per cent more efficacy and another phosphor's share at low current
+  kinks      pieces of line, and a lamp that does not go out
+  bicolour   two banks crossed or both full in the middle, each dimmed as above, colour drifting
+  rgbw       red, green, blue and white mixed to each label by their largest white share
+"""
+import csv
+import pathlib
+
+import numpy as np
+
+TABLE = (pathlib.Path(__file__).resolve().parents[3] /
+         "lib/lightcal/colorimetry/cie_tables/cie_1931_2deg_cmf_1nm.csv")
+ROWS = np.array([[float(cell) for cell in row]
+                 for row in list(csv.reader(TABLE.open(encoding="utf-8")))[1:]])
+NM, CMF = ROWS[:, 0], ROWS[:, 1:4]
+C2 = 1.4388e7  # nm K
+
+KINDS = ["tungsten", "pwm", "current", "kinks", "bicolour", "rgbw"]
+
+
+def planck(kelvin):
+    xyz = CMF.T @ (NM**-5.0 / np.expm1(C2 / (NM * kelvin)))
+    return xyz / xyz[1]
+
+
+def band(nm, width):
+    xyz = CMF.T @ np.exp(-0.5 * ((NM - nm) / width)**2)
+    return xyz / xyz[1]
+
+
+LOCUS_MIRED = np.linspace(90.0, 900.0, 4051)
+LOCUS_UV = np.array([[4 * x, 6 * y] / (x + 15 * y + 3 * z)
+                     for x, y, z in (planck(1e6 / m) for m in LOCUS_MIRED)])
+
+
+def cct_of(xyz):
+    """Of the point of the locus nearest in CIE 1960 uv."""
+    x, y, z = xyz
+    uv = np.array([4 * x, 6 * y]) / (x + 15 * y + 3 * z)
+    square = ((LOCUS_UV - uv)**2).sum(axis=1)
+    i = int(np.clip(square.argmin(), 1, len(LOCUS_MIRED) - 2))
+    a, b, c = square[i - 1:i + 2]
+    step = LOCUS_MIRED[1] - LOCUS_MIRED[0]
+    return 1e6 / (LOCUS_MIRED[i] + 0.5 * step * (a - c) / (a - 2 * b + c))
+
+
+def pieces(random, count, spread):
+    at = np.concatenate([[0], np.sort(random.uniform(0.05, 0.95, count)), [1]])
+    slopes = np.exp(random.normal(0, spread, count + 1))
+    values = np.concatenate([[0], np.cumsum(slopes * np.diff(at))])
+    return lambda x: np.interp(x, at, values / values[-1])
+
+
+def dimmed(random, kind):
+    """-> light of a dimmer 0 ... 1, and how its colour follows: kelvin times 1 + this * ln light."""
+    if kind == "pwm":
+        offset = random.uniform(-0.04, 0.08)
+        return lambda d: offset + (1 - offset) * d, random.normal(0, 0.002)
+    if kind == "current":
+        offset, power = random.uniform(-0.04, 0.08), random.uniform(0.88, 1.0)
+        return lambda d: max(offset + (1 - offset) * d, 1e-4)**power, random.normal(0, 0.01)
+    curve, floor = pieces(random, random.integers(1, 4), 0.15), random.uniform(0, 0.06)
+    return lambda d: floor + (1 - floor) * curve(d), random.normal(0, 0.002)
+
+
+def mixed(random, kind):
+    """-> XYZ at full of a label in kelvin, and a factor on the emitters' kelvin."""
+    if kind == "bicolour":
+        warm, cool = random.uniform(2600, 3300), random.uniform(5300, 7000)
+        flux_warm, flux_cool = random.uniform(0.6, 1.1), random.uniform(0.7, 1.2)
+        crossed, bend = random.random() < 0.5, random.uniform(0.85, 1.15)
+
+        def of_label(kelvin, drift):
+            u = np.clip((1e6 / 2700 - 1e6 / kelvin) / (1e6 / 2700 - 1e6 / 6500), 0, 1)**bend
+            a, b = (1 - u, u) if crossed else (min(1, 2 * (1 - u)), min(1, 2 * u))
+            return a * flux_warm * planck(warm * drift) + b * flux_cool * planck(cool * drift)
+        return of_label
+    shift = random.uniform(-4, 4)
+    emitters = np.array([0.5 * band(625 + shift, 9), 1.1 * band(525 + shift, 14),
+                         0.12 * band(455 + shift, 10), 2.0 * planck(random.uniform(5000, 6500))]).T
+    error = np.exp(random.normal(0, 0.03, 4))
+
+    def of_rgbw(kelvin, drift):
+        target = planck(kelvin * drift)
+        # As much white as leaves red, green and blue at or above 0.
+        least, most = 0.0, 1.0
+        colors = np.linalg.inv(emitters[:, :3])
+        white = emitters[:, 3] / emitters[1, 3]
+        for _ in range(40):
+            share = 0.5 * (least + most)
+            ok = (colors @ (target - share * white) >= 0).all()
+            least, most = (share, most) if ok else (least, share)
+        amounts = np.append(colors @ (target - least * white), least / emitters[1, 3])
+        amounts = np.maximum(amounts, 0)
+        return emitters @ (amounts / amounts.max() * error)
+    return of_rgbw
+
+
+class Fixture:
+    """xyz(dimmer in percent, label in kelvin or None), read_at: the states a person would read."""
+
+    def __init__(self, random, kind):
+        self.kind, self.colored = kind, kind in ("bicolour", "rgbw")
+        if kind == "tungsten":
+            kelvin, power = random.uniform(2900, 3250), 3.4 + random.normal(0, 0.1)
+            label = 1.0 if random.random() < 0.5 else random.uniform(1, 2)
+            offset, exponent = random.uniform(-0.05, 0.05), 0.12 + random.normal(0, 0.006)
+
+            def xyz(dimmer, _):
+                volts = max(offset + (1 - offset) * dimmer / 100, 1e-3)**label
+                return volts**power * planck(kelvin * volts**(power * exponent))
+        elif self.colored:
+            of_label = mixed(random, kind)
+            light, drift = dimmed(random, random.choice(["pwm", "current", "kinks"]))
+
+            def xyz(dimmer, label):
+                y = max(light(dimmer / 100), 1e-4)
+                return y * of_label(label, 1 + 0.4 * drift * np.log(y))
+        else:
+            kelvin = random.uniform(2700, 6500)
+            light, drift = dimmed(random, kind)
+
+            def xyz(dimmer, _):
+                y = max(light(dimmer / 100), 1e-4)
+                return y * planck(kelvin * (1 + drift * np.log(y)))
+        self.xyz = xyz
+        levels = [85, 75, 65, 55, 45, 38, 32, 27] if kind == "tungsten" else [
+            75, 50, 35, 25, 18, 12, 8, 5]
+        count = int(random.integers(4, len(levels) + 1))
+        self.levels = sorted([100] + list(random.choice(levels, count, replace=False)))
+        self.labels = [None]
+        self.read_at = [(level, None) for level in self.levels]
+        if self.colored:
+            all_labels = [2700, 3200, 3800, 4300, 5000, 5600, 6500]
+            self.labels = sorted(random.choice(all_labels, int(random.integers(4, 7)),
+                                               replace=False))
+            middle = self.labels[len(self.labels) // 2]
+            grid = random.random() < 0.5
+            columns = self.labels[::2] if grid else [middle]
+            self.read_at = sorted({(level, label) for level in self.levels for label in columns} |
+                                  {(100, label) for label in self.labels})
+
+    def asked(self, random):
+        low = np.log(self.levels[0])
+        dimmer = round(float(np.exp(random.uniform(low, np.log(100)))), 2)
+        dimmer = min(max(dimmer, self.levels[0]), 100)
+        label = None
+        if self.colored:
+            label = round(float(random.uniform(self.labels[0], self.labels[-1])))
+        return dimmer, label
