@@ -75,7 +75,7 @@ TEST(StateCommand, ALabelIsNotLight) {
   const CliResult told =
       RunLightcal({"state", Panels(), "--light", "panel", "--at", "dimmer=5,cct_K=4000"});
   EXPECT_EQ(told.exit_code, 0) << told.err;
-  EXPECT_THAT(told.out, HasSubstr("label 5 %, +1 stop"));
+  EXPECT_THAT(told.out, HasSubstr("label 5.00 %, +1.0 stop"));
   EXPECT_THAT(told.out, HasSubstr("label 4000 K"));
 }
 

@@ -21,8 +21,8 @@ using fit::CurvePoint;
 using fit::CurveTarget;
 using fit::CurveValue;
 
-// More states than these nearest ones say nothing new of a place between them.
-constexpr std::size_t kNearestStates = 24;
+// More states than these, nearest to it and to full, say nothing new of a place between them.
+constexpr std::size_t kNearestStates = 20, kNearestToFull = 10;
 // A meter repeats a colour within this, 1 sigma; what its readings share is added afterwards.
 constexpr double kRepeatsLnMired = 0.001;
 constexpr double kRepeatsDuv = 2e-4;
@@ -127,23 +127,12 @@ class States {
     return kinds;
   }
 
-  // Keeps the nearest to the state asked for, by ranges.
+  // Keeps the nearest to the state asked for and to full, by ranges.
   void KeepNearest() {
-    if (kept_.size() <= kNearestStates) return;
-    const std::vector<double> here = LabelsOf(at_);
-    const auto far = [&](const MeasuredState* one) {
-      const std::vector<double> there = LabelsOf(one->state);
-      double sum = 0.0;
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        const bool level = axes_[i].kind == ControlKind::kLevel;
-        const double off = level ? std::log((there[i] + 0.03) / (here[i] + 0.03)) / 3.0
-                                 : (there[i] - here[i]) / (axes_[i].most - axes_[i].least);
-        sum += off * off;
-      }
-      return sum;
-    };
-    std::ranges::stable_sort(kept_, {}, far);
-    kept_.resize(kNearestStates);
+    if (kept_.size() <= kNearestStates + kNearestToFull) return;
+    SortByDistance(Full(), kept_.begin());
+    SortByDistance(at_, kept_.begin() + static_cast<std::ptrdiff_t>(kNearestToFull));
+    kept_.resize(kNearestStates + kNearestToFull);
   }
 
   // The brightest this lamp is with the other controls as asked.
@@ -174,6 +163,24 @@ class States {
     return std::ranges::all_of(axes_, [&](const Axis& axis) {
       return axis.name == but || SameNumbers(NumberOfControl(state, axis.name).value_or(0.0),
                                              NumberOfControl(at_, axis.name).value_or(0.0));
+    });
+  }
+
+  void SortByDistance(const FixtureState& from, std::vector<const MeasuredState*>::iterator begin) {
+    const std::vector<double> here = LabelsOf(from);
+    const auto far = [&](const MeasuredState* one) {
+      const std::vector<double> there = LabelsOf(one->state);
+      double sum = 0.0;
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        const bool level = axes_[i].kind == ControlKind::kLevel;
+        const double off = level ? std::log((there[i] + 0.03) / (here[i] + 0.03)) / 3.0
+                                 : (there[i] - here[i]) / (axes_[i].most - axes_[i].least);
+        sum += off * off;
+      }
+      return sum;
+    };
+    std::stable_sort(begin, kept_.end(), [&](const MeasuredState* a, const MeasuredState* b) {
+      return far(a) < far(b);
     });
   }
 
