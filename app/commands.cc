@@ -76,6 +76,7 @@ constexpr CommandRow kCommands[] = {
      "  lightcal inspect lobby.hdr --projection latlong\n"
      "  lightcal inspect lum.exr --rect 280,180,40,40 --json\n"
      "  lightcal inspect sky.exr --projection equisolid --fov 180\n"
+     "  lightcal inspect window.hdr --glare -o sources.png -o sources.csv\n"
      "  lightcal inspect IMG_0042.CR2 --rect 100,100,50,50", BuildInspect},
     {"fit", "The estimate of a session's lamps, as light.json",
      "  lightcal fit sample_data/sessions/amaran_200x_s_bare -o light.json\n"

@@ -31,6 +31,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"dome.shaded", "--lux-shaded"},
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
+    {"glare.task", "--task"},
     {"import.column", "--column"},
     {"light.aim", "aim"},
     {"light.beam", "beam_deg"},
@@ -64,6 +65,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"study.synthetic", "--synthetic"},
     {"study.tolerance", "--tol"},
     {"view.field_of_view", "--fov"},
+    {"view.projection", "--projection"},
 });
 
 }  // namespace

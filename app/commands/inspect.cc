@@ -13,6 +13,7 @@
 
 #include "commands.h"
 #include "input_files.h"
+#include "inspect/glare_words.h"
 #include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/colorimetry/camera_neutral.h"
 #include "lightcal/colorimetry/cct.h"
@@ -30,15 +31,17 @@ namespace {
 
 constexpr int kInspectDigits = 5;
 struct InspectOptions {
-  std::string image, projection, fov, convention = "photometric";
+  std::string image, projection, fov, convention;
   std::vector<int> rect;
   std::string exposure, f_number, iso;
+  GlareWords glare;
 };
 
 struct InspectAnswer {
   LuminanceStatistics statistics;
   std::optional<RegionIlluminance> illuminance;
   std::optional<Vec3> peak_direction;
+  std::optional<GlareAnswer> glare;
 };
 
 Result<double> Above0(const char* option, Result<double> number) {
@@ -70,7 +73,14 @@ Result<BracketOverrides> OverridesOf(const InspectOptions& options) {
 }
 
 Result<InspectedPicture> Inspect(const InspectOptions& options, Console& console) {
-  const auto convention = ParseConvention("--luminance-convention", options.convention);
+  std::string word = options.convention.empty() ? "photometric" : options.convention;
+  if (options.convention.empty() && options.glare.wanted) {
+    const auto info = InputSources().read_frame_info(options.image);
+    if (!info) return tl::unexpected(info.error());
+    // Those who make pictures for glare mean Radiance's own unit.
+    if (info->format == "hdr") word = "radiance";
+  }
+  const auto convention = ParseConvention("--luminance-convention", word);
   if (!convention) return tl::unexpected(convention.error());
   const auto overrides = OverridesOf(options);
   if (!overrides) return tl::unexpected(overrides.error());
@@ -117,6 +127,14 @@ Result<std::optional<PixelSolidAngles>> AnglesOf(const InspectOptions& options,
   PictureView view;
   view.width = inspected.luminance.width;
   view.height = inspected.luminance.height;
+  const bool own_view = options.projection.empty() && inspected.info.view.has_value();
+  if (own_view && options.fov.empty()) {
+    view.projection = inspected.info.view->projection;
+    view.field_of_view = inspected.info.view->field_of_view;
+    auto written = PixelSolidAngles::Create(view);
+    if (!written) return Propagate(std::move(written));
+    return std::optional(std::move(*written));
+  }
   if (options.projection.empty() && !inspected.info.environment_latlong) {
     if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
     return std::nullopt;
@@ -144,7 +162,7 @@ Result<InspectAnswer> MeasureInspected(const PictureLuminance& picture, const Re
                                        const std::optional<PixelSolidAngles>& angles) {
   auto statistics = MeasureRegion(picture.view(), region);
   if (!statistics) return Propagate(std::move(statistics));
-  InspectAnswer answer{*statistics, std::nullopt, std::nullopt};
+  InspectAnswer answer{*statistics, std::nullopt, std::nullopt, std::nullopt};
   if (!angles) return answer;
   const auto illuminance = MeasureIlluminance(picture.view(), *angles, region);
   if (!illuminance) return tl::unexpected(illuminance.error());
@@ -196,6 +214,7 @@ Node ToJson(const InspectedPicture& inspected, const Region& region, const Inspe
       {"solid_angle_sr", lux ? Node(lux->solid_angle) : Node()},
       {"peak", peak},
       {"as_shot", as_shot},
+      {"glare", answer.glare ? GlareNode(*answer.glare) : Node()},
       {"scale",
        {{"source", inspected.luminance.scale}, {"u95_relative", inspected.scale_u95_relative}}}};
 }
@@ -233,19 +252,31 @@ std::string Table(const InspectedPicture& inspected, const Region& region,
 }
 
 Result<void> RunInspect(const InspectOptions& options, Console& console) {
+  const auto glare_settings = GlareSettingsOf(options.glare);
+  if (!glare_settings) return tl::unexpected(glare_settings.error());
   const auto inspected = Inspect(options, console);
   if (!inspected) return tl::unexpected(inspected.error());
   const auto region = RegionOf(options, inspected->luminance);
   if (!region) return tl::unexpected(region.error());
   const auto angles = AnglesOf(options, *inspected);
   if (!angles) return tl::unexpected(angles.error());
-  const auto answer = MeasureInspected(inspected->luminance, *region, *angles);
+  auto answer = MeasureInspected(inspected->luminance, *region, *angles);
   if (!answer) return tl::unexpected(answer.error());
+  if (options.glare.wanted) {
+    auto glare = MeasureGlareOf(options.glare, *glare_settings, *inspected, *angles);
+    if (!glare) return Propagate(std::move(glare));
+    answer->glare = std::move(*glare);
+  }
   const std::size_t masked = WarnOfMasked(*inspected, *region, console);
   if (auto ok = console.RefuseIfStrict(); !ok) return ok;
   const bool is_latlong =
       angles->has_value() && (*angles)->view().projection == Projection::kLatLong;
+  if (answer->glare) {
+    if (auto ok = WriteGlare(options.glare, *inspected, *answer->glare); !ok) return ok;
+    for (const std::string& path : options.glare.outputs) console.Note("wrote " + path);
+  }
   console.Print(Table(*inspected, *region, *answer, is_latlong));
+  if (answer->glare) console.Print(GlareTable(*answer->glare));
   console.PrintDocument(ToJson(*inspected, *region, *answer, masked));
   return {};
 }
@@ -265,13 +296,16 @@ Run BuildInspect(CLI::App& parser) {
       ->check(OneOf(kProjectionWords));
   parser.add_option("--fov", options->fov,
                     "full angle, across the width (rect) or the image circle (fisheyes)");
-  parser.add_option("--luminance-convention", options->convention, kConventionHelp)
-      ->check(OneOf(kConventionWords))
-      ->capture_default_str();
+  parser
+      .add_option("--luminance-convention", options->convention,
+                  std::string(kConventionHelp) +
+                      " [photometric; with --glare of a Radiance picture radiance]")
+      ->check(OneOf(kConventionWords));
   parser.add_option("--exposure,--exposures", options->exposure,
                     "of a RAW that does not say it: 1/60");
   parser.add_option("--f-number", options->f_number, "likewise");
   parser.add_option("--iso", options->iso, "likewise");
+  AddGlareOptions(parser, options->glare);
   return [options](Console& console) { return RunInspect(*options, console); };
 }
 

@@ -66,6 +66,8 @@ def prepare(home):
     shutil.copy(SAMPLES / "pictures/latlong/lobby.hdr", home / "lobby.hdr")
     shutil.copy(SAMPLES / "pictures/latlong/sunset.hdr", home / "sky.hdr")
     shutil.copy(SAMPLES / "pictures/exr/Rec709.exr", home / "beauty.exr")
+    window = (SAMPLES / "vectors/glare/studio_60_10.hdr").read_bytes()
+    (home / "window.hdr").write_bytes(window.replace(b"\n", b"\nVIEW= -vta -vh 180 -vv 180\n", 1))
     lightcal("dome", "sky.hdr", "--lux", "98klx", "-o", "sky")
     shutil.copy(home / "sky/dome.exr", home / "sky.exr")
 

@@ -77,6 +77,9 @@ def main():
         shutil.copytree(PICTURES / "png_bracket", home / "bracket",
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
+        window = (ROOT / "sample_data/vectors/glare/studio_60_10.hdr").read_bytes()
+        (home / "window.hdr").write_bytes(
+            window.replace(b"\n", b"\nVIEW= -vta -vh 180 -vv 180\n", 1))
         shutil.copytree(CARD, home / "grey_card", ignore=shutil.ignore_patterns("out"))
         shutil.copytree(WALL, home / "lit_wall", ignore=shutil.ignore_patterns("out"))
         shutil.copytree(CARD / "captures", home / "my_camera/captures")

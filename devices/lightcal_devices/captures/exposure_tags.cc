@@ -13,6 +13,9 @@ namespace {
 
 // Labels stray from the grid by 6.7 % in time and 5.5 % in the square of the f-number.
 constexpr double kLabelsStrayStops = 0.12;
+// A place of the half stops and one of the thirds are up to a sixth apart, and cameras that turn
+// their dial in one write a tag in the other (f/4.5 and Av 4.5, which is 4.757): one value.
+constexpr double kGridsStrayStops = 1.0 / 6.0 + 0.01;
 // Within the digits of either tag both say the same number.
 constexpr double kSameNumberStops = 0.02;
 
@@ -44,6 +47,8 @@ struct Scale {
   Range range;
   std::function<double(double)> stops, from_stops;
   std::function<std::optional<double>(double)> of_label;
+  // Whether tags that contradict each other leave a value: what lies between them.
+  bool may_disagree = false;
 };
 
 Believed FromLabel(double label, const Scale& scale) {
@@ -67,6 +72,18 @@ Believed Believe(std::optional<double> written_label, std::optional<double> writ
   const double label_stops = scale.stops(*label);
   const double apart = has_apex ? std::abs(apex - label_stops) : 0.0;
   if (!has_apex || (apex_is_default && apart > kLabelsStrayStops)) return FromLabel(*label, scale);
+  if (apart > kLabelsStrayStops && apart <= kGridsStrayStops) {
+    return {scale.from_stops(ApexOnGrid(apex).value_or(apex)), false};
+  }
+  if (apart > kLabelsStrayStops && scale.may_disagree) {
+    warnings.push_back({"exposure_tags_disagree", subject,
+                        std::string("its two tags of the ") + scale.name + " say " +
+                            RoundedText(*label, 4) + " and " +
+                            RoundedText(scale.from_stops(apex), 4) +
+                            "; what lies between them is taken, and the absolute scale is as much "
+                            "wider: give it, or a spot reading ({merge.anchor})"});
+    return {scale.from_stops((apex + label_stops) / 2.0), true};
+  }
   if (apart > kLabelsStrayStops) {
     warnings.push_back({"exposure_tags_disagree", subject,
                         std::string("its two tags of the ") + scale.name + " say " +
@@ -125,19 +142,25 @@ void TakeTStop(const WrittenExposure& written, FrameExposure& exposure, const st
 }
 
 const Scale& TimeScale() {
-  static const Scale scale{"exposure time in seconds", kTimes,
+  static const Scale scale{"exposure time in seconds",
+                           kTimes,
                            [](double t) { return -std::log2(t); },
                            [](double tv) { return std::exp2(-tv); },
                            [](double t) -> std::optional<double> {
                              const auto truth = TimeOfLabel(Seconds(t));
                              return truth ? std::optional(truth->value()) : std::nullopt;
-                           }};
+                           },
+                           false};
   return scale;
 }
 
 const Scale& FNumberScale() {
-  static const Scale scale{"f-number", kFNumbers, [](double n) { return 2.0 * std::log2(n); },
-                           [](double av) { return std::exp2(av / 2.0); }, FNumberOfLabel};
+  static const Scale scale{"f-number",
+                           kFNumbers,
+                           [](double n) { return 2.0 * std::log2(n); },
+                           [](double av) { return std::exp2(av / 2.0); },
+                           FNumberOfLabel,
+                           true};
   return scale;
 }
 

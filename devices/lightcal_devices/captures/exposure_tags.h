@@ -10,9 +10,11 @@
 namespace lightcal::devices {
 
 // Exposure time and f-number from Tv and Av where they are on the grid of third or half stops, else
-// from the label's place on it, else as written; absent where a tag is missing, zero, nonsense or
-// (exposure_tags_disagree, appended to `warnings` about `subject`) contradicts the other by more
-// than labels do.
+// from the label's place on it, else as written; absent where a tag is missing, zero or nonsense.
+// Two tags up to a sixth of a stop apart are one value in half and third stops. Farther apart
+// (exposure_tags_disagree, appended to `warnings` about `subject`) an exposure time is absent,
+// since the frames' ratios lean on it; an f-number, which frames share, is the middle of the two,
+// and the absolute scale is wider by their distance (PictureScale).
 [[nodiscard]] FrameExposure ExposureFromTags(const WrittenExposure& written,
                                              const std::string& subject, Warnings& warnings);
 

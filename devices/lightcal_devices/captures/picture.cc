@@ -17,6 +17,7 @@
 #include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/picture_module.h"
 #include "lightcal_devices/captures/radiance_header.h"
+#include "lightcal_devices/captures/radiance_pixels.h"
 #include "lightcal_devices/captures/sample_check.h"
 
 namespace lightcal::devices {
@@ -81,6 +82,12 @@ Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
   info.radiance_exposure = header->exposure;
   info.chromaticities = header->primaries;
   if (header->xyz) info.channel_names = {"X", "Y", "Z"};
+  info.view = header->view;
+  if (header->unknown_view) {
+    info.warnings.push_back({"unknown_view", info.file,
+                             "its VIEW line names a projection other than -vta and -vtv; say how "
+                             "it was projected ({view.projection})"});
+  }
   return {};
 }
 
@@ -95,8 +102,23 @@ struct Opened {
   }
 };
 
+// Radiance's samples need no library, and OpenImageIO leaves out their half step.
+Result<OiioPicture> ReadRadiance(const Opened& opened, const std::string& path, bool with_samples) {
+  auto pixels = ReadRadiancePixels(opened.bytes(), path, with_samples);
+  if (!pixels) return Propagate(std::move(pixels));
+  OiioPicture picture;
+  picture.width = pixels->width;
+  picture.height = pixels->height;
+  picture.channels = 3;
+  picture.is_float = true;
+  picture.channel_names = {"R", "G", "B"};
+  picture.floats = std::move(pixels->samples);
+  return picture;
+}
+
 Result<OiioPicture> ReadThroughModule(const Opened& opened, const std::string& path,
                                       bool with_samples) {
+  if (opened.format == "hdr") return ReadRadiance(opened, path, with_samples);
   auto module = PictureModule();
   if (!module) return Propagate(std::move(module));
   OiioPicture picture;

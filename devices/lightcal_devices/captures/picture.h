@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are not camera RAW: OpenEXR, Radiance HDR, TIFF, PNG, JPEG, read through
-// OpenImageIO; and OpenEXR written. The libraries behind it cost 0.2 s to load, so they stand in a
-// module that is opened at the first call (see lib/DECISIONS.md).
+// Pictures that are not camera RAW: OpenEXR and Radiance HDR read here, TIFF, PNG, JPEG through
+// OpenImageIO; and OpenEXR written. The libraries behind that cost 0.2 s to load, so they stand in
+// a module that is opened at the first call (see lib/DECISIONS.md).
 #pragma once
 
 #include <optional>

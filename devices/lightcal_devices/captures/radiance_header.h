@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The text in front of a Radiance HDR picture. Pure. OpenImageIO reads the samples and drops this.
+// The text in front of a Radiance HDR picture. Pure.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/result.h"
+#include "lightcal/records/projection.h"
 
 namespace lightcal::devices {
 
@@ -14,6 +15,11 @@ struct RadianceHeader {
   double exposure = 1.0;  // product of all EXPOSURE lines: samples are radiance times this
   std::optional<RgbPrimaries> primaries;  // absent when none, or all zeros (Adobe Photoshop)
   bool xyz = false;                       // FORMAT=32-bit_rle_xyze
+  // The last VIEW line that says how the picture was projected, by its type and angles
+  // (-vta -vv 182: equidistant, -vtv: rect). Other types (-vth, -vts, -vtl, -vtc) are no projection
+  // lightcal knows.
+  std::optional<WrittenView> view;
+  bool unknown_view = false;
 };
 
 // `bytes` begin the file; the header ends at the first empty line.

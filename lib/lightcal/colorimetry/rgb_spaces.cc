@@ -21,8 +21,11 @@ constexpr Matrix3 kBradford = {
 constexpr Column3 ColumnOf(const Xyz& c) { return {c.X, c.Y, c.Z}; }
 constexpr Column3 UnitY(Xy c) { return ColumnOf(XyzFromXyAtUnitY(c)); }
 
+// The same direction as UnitY, where y may be 0: those of X and Z are.
+constexpr Column3 Towards(Xy c) { return {c.x, c.y, 1.0 - c.x - c.y}; }
+
 constexpr Matrix3 Derive(const RgbPrimaries& p) {
-  const Column3 red = UnitY(p.red), green = UnitY(p.green), blue = UnitY(p.blue);
+  const Column3 red = Towards(p.red), green = Towards(p.green), blue = Towards(p.blue);
   Matrix3 m{};
   for (std::size_t i = 0; i < 3; ++i) m[i] = {red[i], green[i], blue[i]};
   const Column3 luminance = Times(Inverse(m), UnitY(p.white));
@@ -55,11 +58,11 @@ bool SpanColors(const RgbPrimaries& p) {
   constexpr double kLeast = 1e-6, kMost = 100.0;  // the largest in use is below 2
   for (const Xy c : {p.red, p.green, p.blue, p.white}) {
     const bool ordinary = std::abs(c.x) < kMost && std::abs(c.y) < kMost;  // false for NaN
-    if (!ordinary || std::abs(c.y) < kLeast) return false;
+    if (!ordinary) return false;
   }
   const double area =
       (p.green.x - p.red.x) * (p.blue.y - p.red.y) - (p.blue.x - p.red.x) * (p.green.y - p.red.y);
-  return std::abs(area) > kLeast && p.white.y > 0.0;
+  return std::abs(area) > kLeast && p.white.y > kLeast;
 }
 
 Matrix3 RgbFromXyzMatrix(RgbSpace space) { return MatricesOf(space).from_xyz; }

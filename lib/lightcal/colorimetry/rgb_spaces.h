@@ -35,7 +35,8 @@ struct RgbPrimaries {
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(RgbSpace space);
 // The same of any primaries that SpanColors (a picture file's).
 [[nodiscard]] Matrix3 XyzFromRgbMatrix(const RgbPrimaries& primaries);
-// Whether primaries make a space: finite, not on one line, no y of 0, a white of positive y.
+// Whether primaries make a space: finite, not on one line, a white of positive y. A primary's
+// y may be 0: those of XYZ itself are (1, 0), (0, 1), (0, 0).
 [[nodiscard]] bool SpanColors(const RgbPrimaries& primaries);
 [[nodiscard]] Matrix3 RgbFromXyzMatrix(RgbSpace space);
 

@@ -18,6 +18,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/photometry/exposure.h"
+#include "lightcal/records/projection.h"
 
 namespace lightcal {
 
@@ -121,6 +122,7 @@ struct FrameInfo {
   std::optional<Nits> white_luminance;         // luminance of RGB (1,1,1): EXR whiteLuminance
   double radiance_exposure = 1.0;    // Radiance: product of EXPOSURE lines, divide samples by it
   bool environment_latlong = false;  // EXR envmap = latlong
+  std::optional<WrittenView> view;   // how it was projected: Radiance's VIEW lines
   // Text attributes the file carries that are ours ("lightcal:..."), without that prefix.
   std::vector<std::pair<std::string, std::string>> lightcal_attributes;
 

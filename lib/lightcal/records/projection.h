@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "lightcal/core/units.h"
+
 namespace lightcal {
 
 enum class Projection : std::uint8_t {
@@ -16,5 +18,11 @@ enum class Projection : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 4> kProjectionWords = {"rect", "latlong",
                                                                      "equidistant", "equisolid"};
+
+// What a picture's own file says of it.
+struct WrittenView {
+  Projection projection = Projection::kRectilinear;
+  Radians field_of_view{0.0};  // full angle: across the width (rect), the image circle (fisheyes)
+};
 
 }  // namespace lightcal

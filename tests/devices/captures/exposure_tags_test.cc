@@ -81,7 +81,25 @@ TEST(ExposureTags, NonsenseIsAbsent) {
   EXPECT_FALSE(Exposure({.shutter_apex = std::nan("")}).time);
 }
 
-TEST(ExposureTags, TagsThatContradictEachOtherAreNamedAndNeitherIsBelieved) {
+// A dial in half stops writes f/4.5 and Av 4.5, which is 4.757; one in thirds Av 4.333.
+TEST(ExposureTags, HalfAndThirdStopsOfOneApertureAreOneValue) {
+  EXPECT_DOUBLE_EQ(*Exposure({.f_number = 4.5, .aperture_apex = 4.5}).f_number, std::exp2(2.25));
+  EXPECT_DOUBLE_EQ(*Exposure({.f_number = 4.5, .aperture_apex = 4.333}).f_number,
+                   std::exp2(13.0 / 6.0));
+  EXPECT_DOUBLE_EQ(Exposure({.exposure_time_s = 1.0 / 45, .shutter_apex = 5.3333}).time->value(),
+                   std::exp2(-16.0 / 3.0));
+}
+
+TEST(ExposureTags, FNumbersThatContradictEachOtherLeaveWhatLiesBetween) {
+  Warnings warnings;
+  const FrameExposure exposure =
+      ExposureFromTags({.f_number = 4.0, .aperture_apex = 5.0}, "a.dng", warnings);
+  EXPECT_DOUBLE_EQ(*exposure.f_number, std::exp2(2.25));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0].code, "exposure_tags_disagree");
+}
+
+TEST(ExposureTags, TimesThatContradictEachOtherAreNamedAndNeitherIsBelieved) {
   Warnings warnings;
   const FrameExposure exposure =
       ExposureFromTags({.exposure_time_s = 1.0 / 60, .shutter_apex = 3.0}, "a.dng", warnings);

@@ -248,7 +248,7 @@ TEST(RadiancePictures, ExposureLinesMultiplyAndZeroPrimariesAreNone) {
   EXPECT_EQ(frame.info.format, "hdr");
   EXPECT_DOUBLE_EQ(frame.info.radiance_exposure, 0.5);
   EXPECT_FALSE(frame.info.chromaticities);
-  EXPECT_NEAR(Floats(frame)(3, 3, 0), 1.0, 0.01);  // 128/256 * 2^1
+  EXPECT_DOUBLE_EQ(Floats(frame)(3, 3, 0), 128.5 / 256.0 * 2.0);
 }
 
 TEST(RadiancePictures, AdobesHeaderIsReadAndPixelsAreWhereTheyAre) {
@@ -290,12 +290,69 @@ TEST(RadianceHeaders, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(code("EXPOSURE=1e300\nEXPOSURE=1e300"), "bad_picture");
   EXPECT_EQ(code("PRIMARIES=1 2 3"), "bad_picture");
   EXPECT_EQ(code("PRIMARIES=.3 .3 .3 .3 .3 .3 .3 .3"), "bad_picture");
-  EXPECT_EQ(code("PRIMARIES=.64 .33 .29 .6 .15 0 .333 .333"), "bad_picture");
+  EXPECT_EQ(code("PRIMARIES=.64 .33 .29 .6 .15 .06 .333 0"), "bad_picture");
+  EXPECT_EQ(code("PRIMARIES=1 0 0 1 0 0 .333 .333"), "read");  // XYZ's own
   EXPECT_EQ(code("COLORCORR=1 1 2"), "unsupported_picture");
   EXPECT_EQ(code("COLORCORR=1 1 1"), "read");
   EXPECT_EQ(code("# a remark\nVIEW= -vtv"), "read");
   EXPECT_EQ(ParseRadianceHeader("#?RADIANCE\nEXPOSURE=1\n", "a").error().code, "bad_picture");
   EXPECT_EQ(ParseRadianceHeader("", "a").error().code, "bad_picture");
+}
+
+// A pixel of the file is (m + 1/2) 2^(e - 136): 0 where e is 0, half a step where m is.
+TEST(RadiancePictures, ASampleIsHalfAStepAboveItsMantissaWhateverWayItIsWritten) {
+  const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n";
+  const TempDir dir;
+  const auto expect = [&](const char* name, const std::string& size, const std::string& rows,
+                          int width, int height, const std::vector<int>& mantissas) {
+    const Frame frame = Read(dir.Write(name, head + size + "\n" + rows));
+    ASSERT_EQ(frame.info.width, width) << name;
+    ASSERT_EQ(frame.info.height, height) << name;
+    for (int i = 0; i < width * height; ++i) {
+      const double step = std::ldexp(1.0, 130 - 136);
+      EXPECT_EQ(Floats(frame)(i % width, i / width, 0), (mantissas[i] + 0.5) * step) << name << i;
+      EXPECT_EQ(Floats(frame)(i % width, i / width, 2), 0.5 * step) << name << i;
+    }
+  };
+  const auto pixel = [](int m) { return std::string{static_cast<char>(m), 4, 0, '\x82'}; };
+  const std::string six = pixel(10) + pixel(20) + pixel(30) + pixel(40) + pixel(50) + pixel(60);
+  expect("flat.pic", "-Y 2 +X 3", six, 3, 2, {10, 20, 30, 40, 50, 60});
+  expect("up.hdr", "+Y 2 -X 3", six, 3, 2, {60, 50, 40, 30, 20, 10});
+  expect("turned.hdr", "+X 3 -Y 2", six, 3, 2, {10, 30, 50, 20, 40, 60});
+  const std::string again{1, 1, 1, 2};
+  expect("old.hdr", "-Y 2 +X 3", pixel(10) + again + pixel(40) + again, 3, 2,
+         {10, 10, 10, 40, 40, 40});
+  std::string runs{2, 2, 0, 8};  // red: a run of 5 and three alone; the others runs of 8
+  runs += std::string{'\x85', 7, 3, 1, 2, 3};
+  runs += std::string{'\x88', 4, '\x88', 0, '\x88', '\x82'};
+  expect("new.hdr", "-Y 1 +X 8", runs, 8, 1, {7, 7, 7, 7, 7, 1, 2, 3});
+
+  const Frame dark = Read(dir.Write("dark.hdr", head + "-Y 1 +X 1\n" + std::string(4, '\0')));
+  EXPECT_EQ(Floats(dark)(0, 0, 0), 0.0F);
+  for (const std::string& cut :
+       {runs.substr(0, 9), std::string{2, 2, 0, 9}, std::string("\x01\x01\x01\x02")}) {
+    const auto frame = ReadPicture(dir.Write("cut.hdr", head + "-Y 1 +X 8\n" + cut));
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().code, "bad_picture");
+  }
+}
+
+TEST(RadianceHeaders, ViewLinesSayHowThePictureWasProjected) {
+  const auto view = [](const std::string& lines) {
+    return *ParseRadianceHeader("#?RADIANCE\n" + lines + "\n\n", "a.hdr");
+  };
+  const auto fisheye = view("VIEW= -vta -vh 180 -vv 182 -vp 0 0 0");
+  ASSERT_TRUE(fisheye.view);
+  EXPECT_EQ(fisheye.view->projection, Projection::kEquidistant);
+  EXPECT_NEAR(DegreesFromRadians(fisheye.view->field_of_view), 180.0, 1e-12);
+  EXPECT_NEAR(DegreesFromRadians(view("VIEW= -vta -vv 182").view->field_of_view), 182.0, 1e-12);
+  const auto later = view("VIEW= -vta -vv 182\nVIEW= -vtv -vh 60 -vv 40");
+  EXPECT_EQ(later.view->projection, Projection::kRectilinear);
+  EXPECT_NEAR(DegreesFromRadians(later.view->field_of_view), 60.0, 1e-12);
+  EXPECT_FALSE(view("VIEW= -vth -vh 180 -vv 180").view);
+  EXPECT_TRUE(view("VIEW= -vth -vh 180 -vv 180").unknown_view);
+  EXPECT_FALSE(view("\tVIEW= -vta -vv 180").view);  // of an earlier picture
+  EXPECT_FALSE(view("EXPOSURE=1").unknown_view);
 }
 
 // All samples of either kind.

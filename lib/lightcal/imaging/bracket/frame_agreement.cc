@@ -11,6 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/imaging/bracket/frame_blocks.h"
+#include "lightcal/imaging/bracket/moved_shape.h"
 
 namespace lightcal {
 namespace {
@@ -80,18 +81,58 @@ Warning SceneMoved(const Differences& d, const Blocks& blocks, const std::string
               ": something moved or changed its brightness; sigma is wide there"};
 }
 
+struct FoundDifference {
+  Warning warning;
+  double size = 0.0;  // among those of its kind
+};
+
 // What is wrong between a frame and the one before it.
-std::optional<Warning> DifferenceOf(const Blocks& before, const Blocks& blocks,
-                                    const std::string& name, const std::string& other,
-                                    double tolerated_pixels) {
-  const Differences still = Compare(before, blocks, before.mean);
+std::optional<FoundDifference> DifferenceOf(const Blocks& before, const Blocks& blocks,
+                                            const SignalFrame& frame, const std::string& other,
+                                            double tolerated_pixels) {
+  const std::string& name = frame.name;
+  Differences still = Compare(before, blocks, before.mean);
   if (!Worth(still)) return std::nullopt;
   if (const auto found = FindShift(before, blocks, still, kLeastShiftPixels)) {
     if (found->length() <= tolerated_pixels) return std::nullopt;
-    return Misaligned(*found, name, other);
+    return FoundDifference{Misaligned(*found, name, other), found->length()};
+  }
+  if (frame.response != nullptr) {
+    still = WithShape(still, before);
+    if (still.disagreeing == 0) return std::nullopt;
   }
   const auto flicker = Flicker(still, blocks, name, other);
-  return flicker ? *flicker : SceneMoved(still, blocks, name, other);
+  if (flicker)
+    return FoundDifference{*flicker, ProfileRms(still, blocks.width, blocks.height, true)};
+  return FoundDifference{SceneMoved(still, blocks, name, other), still.share()};
+}
+
+// The worst of each kind, which counts and names the others.
+Warnings OneOfEachKind(const std::vector<FoundDifference>& found, std::size_t frames) {
+  constexpr std::size_t kMostNames = 3;
+  Warnings warnings;
+  for (const FoundDifference& first : found) {
+    const std::string& code = first.warning.code;
+    if (std::ranges::any_of(warnings, [&](const Warning& w) { return w.code == code; })) continue;
+    std::vector<const FoundDifference*> kind;
+    for (const FoundDifference& other : found) {
+      if (other.warning.code == code) kind.push_back(&other);
+    }
+    std::ranges::stable_sort(kind, [](const auto* a, const auto* b) { return a->size > b->size; });
+    Warning worst = kind.front()->warning;
+    for (std::size_t i = 1; i < kind.size() && i <= kMostNames; ++i) {
+      worst.message += (i == 1 ? ". So do, less, " : ", ") + kind[i]->warning.subject;
+    }
+    if (kind.size() > kMostNames + 1) {
+      worst.message += " and " + std::to_string(kind.size() - kMostNames - 1) + " more";
+    }
+    if (kind.size() > 1) {
+      worst.message +=
+          " (" + std::to_string(kind.size()) + " of " + std::to_string(frames) + " frames)";
+    }
+    warnings.push_back(std::move(worst));
+  }
+  return warnings;
 }
 
 }  // namespace
@@ -99,7 +140,7 @@ std::optional<Warning> DifferenceOf(const Blocks& before, const Blocks& blocks,
 Warnings CompareFrames(const BracketMerger& merger, double tolerated_pixels,
                        const FrameDone& done_with) {
   const std::size_t n = merger.frames().size();
-  Warnings warnings;
+  std::vector<FoundDifference> found;
   Blocks last;
   for (std::size_t first = 0; first < n; first += kAtOnce) {
     std::vector<Blocks> blocks(std::min(kAtOnce, n - first));
@@ -112,13 +153,13 @@ Warnings CompareFrames(const BracketMerger& merger, double tolerated_pixels,
       const std::size_t k = first + i;
       if (k == 0) continue;
       const Blocks& before = i == 0 ? last : blocks[i - 1];
-      auto warning = DifferenceOf(before, blocks[i], merger.frames()[k].name,
-                                  merger.frames()[k - 1].name, tolerated_pixels);
-      if (warning) warnings.push_back(*std::move(warning));
+      auto difference = DifferenceOf(before, blocks[i], merger.frames()[k],
+                                     merger.frames()[k - 1].name, tolerated_pixels);
+      if (difference) found.push_back(*std::move(difference));
     }
     last = std::move(blocks.back());
   }
-  return warnings;
+  return OneOfEachKind(found, n);
 }
 
 }  // namespace lightcal

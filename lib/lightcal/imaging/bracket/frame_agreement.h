@@ -15,7 +15,9 @@ namespace lightcal {
 // and 2 %. From 0.1 % of the comparable blocks on (and four of them) the frame is named:
 //   misaligned     a shift of more than `tolerated_pixels` explains more than half of the blocks
 //   flicker        whole rows differ, columns do not: a rolling shutter under a pulsed lamp
-//   moved_content  a part of the picture moved or changed its brightness (says where)
+//   moved_content  a part of the picture moved or changed its brightness (says where); of frames
+//                  whose codes came through a recovered curve only what has shape (moved_shape.h)
+// One warning a kind, about the frame that is worst; it counts and names the others.
 // The merged picture is still made: where frames contradict each other its sigma is wide.
 // `done_with` is called, from any thread, when all of a frame has been read.
 inline constexpr double kLeastShiftPixels = 0.4;

@@ -37,6 +37,17 @@ double PerExposure(const PreparedFrames& prepared) {
          std::exp(prepared.planned.ln_exposure.front());
 }
 
+// What two tags that say different f-numbers leave open about t/N^2 (1 sigma, relative): half of
+// their distance in stops. Labels stray from their grid by an eighth of a stop at most.
+double FNumberSpread(const FrameExposure& exposure) {
+  constexpr double kLabelStops = 0.12;
+  const auto& label = exposure.written.f_number;
+  const auto& apex = exposure.written.aperture_apex;
+  if (exposure.overridden || !label || !apex || !(*label > 0.0) || !(*apex > 0.0)) return 0.0;
+  const double stops = std::abs(2.0 * std::log2(*label) - *apex);
+  return stops > kLabelStops ? std::numbers::ln2 * stops / 2.0 : 0.0;
+}
+
 // Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
 Nits PriorScale(const PreparedFrames& prepared) {
   const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
@@ -225,6 +236,7 @@ Result<PictureScale> ScaleOf(const BracketMerger& merger, const PreparedFrames& 
              CameraScaleSigma(*request.camera, info), std::nullopt};
   }
   scale.sd_relative = std::hypot(scale.sd_relative, prepared.planned.gauge_sd);
+  scale.sd_relative = std::hypot(scale.sd_relative, FNumberSpread(info.exposure));
   if (request.lamp) {
     scale.nits_per_unit *= request.lamp->At(MiredsOfFrame(info, *request.lamp));
     scale.sd_relative = std::hypot(scale.sd_relative, request.lamp->sigma);

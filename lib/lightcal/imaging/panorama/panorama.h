@@ -36,8 +36,8 @@ class PixelSolidAngles {
   static Result<PixelSolidAngles> Create(const PictureView& view);
 
   // Omega = integral of dOmega over the pixel [sr]; 0 outside the image circle, part of it on its
-  // rim. Exact (closed form) but for kEquidistant, where Gauss' rule errs by less than 1e-7, and
-  // for pixels on a rim, which are sampled 16 x 16 times.
+  // rim. Exact (closed form) but for kEquidistant, where the rule errs by less than 1e-7, and for
+  // pixels on a rim, which are sampled 16 x 16 times.
   [[nodiscard]] double SolidAngle(int x, int y) const;
   // Integral of cos(theta) dOmega over the part of the pixel with theta < 90 degrees: the weight of
   // its luminance in the illuminance of the plane that faces the axis. The whole hemisphere gives
@@ -62,6 +62,7 @@ class PixelSolidAngles {
   [[nodiscard]] double LatLongRow(int y, Weight weight) const;
   [[nodiscard]] double Rectilinear(int x, int y, Weight weight) const;
   [[nodiscard]] double Fisheye(int x, int y, Weight weight) const;
+  [[nodiscard]] double SmoothMean(double r, Weight weight) const;
   [[nodiscard]] double Density(double r2, Weight weight) const;
   [[nodiscard]] double FisheyeTheta(double r) const;
 
