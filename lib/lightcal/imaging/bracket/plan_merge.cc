@@ -7,6 +7,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
+#include "lightcal/imaging/bracket/moved_shape.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
 namespace lightcal {
@@ -238,6 +239,9 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   planned.plan.fixed_pattern = EstimateFixedPattern(*merger, [&](std::size_t k) {
     if (request.done) request.done(planned.order[k]);
   });
+  if (frames.front().response != nullptr) {
+    planned.plan.fixed_pattern = std::hypot(planned.plan.fixed_pattern, CurveMisfit(*merger));
+  }
   return planned;
 }
 
