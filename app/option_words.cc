@@ -31,7 +31,6 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"dome.shaded", "--lux-shaded"},
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
-    {"glare.task", "--task"},
     {"import.column", "--column"},
     {"light.aim", "aim"},
     {"light.beam", "beam_deg"},
