@@ -54,6 +54,17 @@ inline LightFile FullLightFile() {
                             0.25};
   light.in_room = {{0.7, 6.8, -0.01, 0.1, -2.1, -1.0, -0.27, 0.07, 0.12, 0.09, {0.1}}};
   light.meter = MeterShare{"c800", 0.031};
+  light.state = {{"dimmer", 100.0}, {"cct_K", 4000.0}, {"modifier", 0.0, "softbox"}};
+  MeasuredState full{light.state, Uncertain{1.0, 0.0, 1.0, 1.0}, 0.01};
+  full.intensity_cd = light.intensity_cd;
+  full.color = light.color;
+  full.readings = 3;
+  MeasuredState dim{{{"dimmer", 12.5}, {"cct_K", 4000.0}, {"modifier", 0.0, "softbox"}},
+                    Uncertain{1.0 / 7.0, 0.01, 0.13, 0.15},
+                    0.02};
+  dim.illuminance_lx = Uncertain{12.3, 0.4, 11.9, 12.7};
+  dim.readings = 1;
+  light.states = {full, dim};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};
   light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true, 8.25},
                      {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};

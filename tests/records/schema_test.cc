@@ -227,6 +227,8 @@ TEST(Schemas, ReadingSchemaAndWriterKnowTheSameKeys) {
   ASSERT_TRUE(session) << session.error().message;
   session->readings[0].reading.shadow_card = true;
   session->readings[1].reading.lamp = LampState::kOff;
+  session->readings[1].reading.state =
+      ParseFixtureState("dimmer=50,cct_K=4000,zoom_deg=20,modifier=softbox").value();
   std::string journal;
   for (const SessionReading& row : session->readings) journal += ReadingToJson(row.reading) + "\n";
   // Written by hand only.

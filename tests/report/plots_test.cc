@@ -104,7 +104,7 @@ TEST(LuminanceFigure, FramesWhatWasMeasuredAndNamesTheUnit) {
 TEST(Plots, EveryNameGivesFilesOfTheLightsThatHaveIt) {
   EXPECT_THAT(report::PlotNames(),
               ElementsAre("room", "distance", "residuals", "luminance", "polar", "chromaticity",
-                          "spectrum", "tm30", "minutes", "gate"));
+                          "spectrum", "tm30", "minutes", "match", "gate"));
   const LightFile file = FileOf({WarmPoint(), Sun()});
   ReportExtras extras;
   extras.spectra = {Line(SpectralQuantity::kRelative)};
