@@ -70,7 +70,9 @@ TEST(ReportCommand, SaysWhatEveryEngineMakesOfALampWhereTheMeterStood) {
   const TempDir folder;
   const std::string page = folder.path() + "/page.html";
   const std::string session = SampleData("sessions/amaran_200x_s_bare");
-  const auto fitted = nlohmann::json::parse(RunLightcal({"fit", session, "--json"}).out);
+  const std::string lights = folder.path() + "/light.json";
+  const auto fitted =
+      nlohmann::json::parse(RunLightcal({"fit", session, "-o", lights, "--json"}).out);
   ASSERT_EQ(RunLightcal({"report", session, "-o", page}).exit_code, 0);
   const std::string html = ReadFile(page);
   const nlohmann::json& light = fitted["lights"][0];
