@@ -59,9 +59,9 @@ TypedOption DescribeOption(const CLI::Option& option) {
 }
 
 // Commands that open what a session names.
-constexpr std::array<std::string_view, 12> kReadSessions = {"run",    "fit",  "explain", "simulate",
-                                                            "report", "plan", "check",   "tradeoff",
-                                                            "match",  "read", "watch",   "camera"};
+constexpr std::array<std::string_view, 14> kReadSessions = {
+    "run",      "fit",   "explain", "simulate", "report", "plan",  "check",
+    "tradeoff", "match", "read",    "watch",    "camera", "state", "sweep"};
 
 CLI::App& AddCommand(CLI::App& parser, const CommandRow& row, Console::Flags& flags) {
   CLI::App* sub = parser.add_subcommand(std::string(row.name), std::string(row.summary));

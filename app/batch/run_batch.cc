@@ -209,6 +209,7 @@ Console Warned(const BatchRequest& request, const std::vector<Outcome>& outcomes
                   .quiet = false,
                   .verbose = false,
                   .strict = false,
+                  .allow_outside = false,
                   .muted = !in_full});
   bool shortened = false;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
@@ -254,8 +255,12 @@ std::vector<Outcome> RunAll(const BatchRequest& request) {
   plan.at_once =
       request.jobs > 0 ? request.jobs : static_cast<int>(std::thread::hardware_concurrency());
   plan.work = [&](int i) {
-    Console console(
-        {.json = true, .quiet = true, .verbose = false, .strict = request.strict, .muted = true});
+    Console console({.json = true,
+                     .quiet = true,
+                     .verbose = false,
+                     .strict = request.strict,
+                     .allow_outside = request.allow_outside,
+                     .muted = true});
     const Result<void> done = request.run(request.items[static_cast<std::size_t>(i)], console);
     if (done) return 0;
     PrintError(done.error(), true);

@@ -25,10 +25,11 @@ struct BatchItem {
 
 struct BatchRequest {
   std::vector<BatchItem> items;
-  int jobs = 0;          // at once; 0 = as many as the machine has processors
-  std::string summary;   // a file for the summary, "" = none
-  bool progress = true;  // on stderr, where that is a terminal
-  bool strict = false;   // warnings refuse a session
+  int jobs = 0;                // at once; 0 = as many as the machine has processors
+  std::string summary;         // a file for the summary, "" = none
+  bool progress = true;        // on stderr, where that is a terminal
+  bool strict = false;         // warnings refuse a session
+  bool allow_outside = false;  // sessions may name files outside of their folders
   // Runs one session in a process of its own and prints its JSON document, which holds
   // "up_to_date": true where nothing was to be done.
   std::function<Result<void>(const BatchItem&, Console&)> run;

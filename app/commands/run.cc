@@ -70,8 +70,9 @@ Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::
   auto presets = ExportPresets(lights, options.targets, session.stem, {.rig = options.rig});
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
-  std::vector<OutputFile> files = {{"light.json", std::move(*json)},
-                                   {"report.html", ReportHtml(calibrated, AdviceOf(answers, session.stem))}};
+  std::vector<OutputFile> files = {
+      {"light.json", std::move(*json)},
+      {"report.html", ReportHtml(calibrated, AdviceOf(answers, session.stem))}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }
@@ -163,6 +164,7 @@ Result<void> RunRun(const RunOptions& options, Console& console) {
   request.summary = options.summary;
   request.progress = !options.quiet;
   request.strict = options.strict;
+  request.allow_outside = console.allows_outside();
   request.run = [&](const BatchItem& item, Console& of_item) {
     return RunOfBatch(options, *settings, item, of_item);
   };

@@ -154,7 +154,12 @@ class Sweep {
 
   // Of the states that were not read, the one whose light is known least; its half width.
   Result<std::pair<std::size_t, double>> LeastSure(const std::vector<FixtureState>& candidates) {
-    Console muted({false, true, false, false, true});
+    Console muted({.json = false,
+                   .quiet = true,
+                   .verbose = false,
+                   .strict = false,
+                   .allow_outside = console_.allows_outside(),
+                   .muted = true});
     const auto fitted = CalibrateAloud(options_.session, CalibrationSettings{}, muted);
     if (!fitted) return tl::unexpected(fitted.error());
     const auto light = std::ranges::find(fitted->lights.lights, frame_.light, &FittedLight::name);

@@ -138,6 +138,13 @@ TEST_F(StrangersFiles, ASessionOpensNothingOutsideOfItsFolder) {
     Answer({"fit", path, "--allow-outside", "--force"}, 0);
     Answer({"run", path, "--allow-outside", "--force"}, 0);
   }
+  // Several sessions at once, each in a process of its own, as one alone.
+  const std::string both = session(secret);
+  fs::create_directory(folder_.path() + "/t");
+  fs::copy_file(both + "/session.toml", folder_.path() + "/t/session.toml");
+  Answer({"run", both, folder_.path() + "/t"}, 3);
+  Answer({"run", both, folder_.path() + "/t", "--allow-outside", "--force"}, 0);
+  EXPECT_THAT(Answer({"state", both, "--json"}, 3).out, HasSubstr("outside_session"));
   fs::copy_file(secret, folder_.path() + "/s/captures/own.csv");
   Answer({"fit", session("captures/own.csv"), "--force"}, 0);
   // A folder that the person's own settings name, and none that only begins like it.
