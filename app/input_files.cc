@@ -88,19 +88,23 @@ Sources InputSources() {
   return sources;
 }
 
+std::string SettingsFolder() {
+  if (const char* const settings = std::getenv("XDG_CONFIG_HOME"); settings && *settings) {
+    return (fs::path(settings) / "lightcal").string();
+  }
+  const char* const home = std::getenv("HOME");
+  return home && *home ? (fs::path(home) / ".config" / "lightcal").string() : "";
+}
+
 Result<FileRoots> RootsOfSession(const std::string& session_path, bool anywhere) {
   FileRoots roots{anywhere, {}};
   if (anywhere) return roots;
   const fs::path own = fs::path(JournalPath(session_path)).parent_path();
   roots.folders.push_back(own.empty() ? "." : own.string());
-  fs::path config;
-  if (const char* const settings = std::getenv("XDG_CONFIG_HOME"); settings && *settings) {
-    config = fs::path(settings) / "lightcal" / "config.toml";
-  } else if (const char* const home = std::getenv("HOME"); home && *home) {
-    config = fs::path(home) / ".config" / "lightcal" / "config.toml";
-  }
+  const std::string settings = SettingsFolder();
+  const fs::path config = fs::path(settings) / "config.toml";
   std::error_code error;
-  if (config.empty() || !fs::exists(config, error)) return roots;
+  if (settings.empty() || !fs::exists(config, error)) return roots;
   const auto text = ReadInputFile(config.string());
   if (!text) return tl::unexpected(text.error());
   const auto bad = [&](const std::string& why) {

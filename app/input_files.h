@@ -18,13 +18,17 @@ void NoteInput(const std::string& path);
 // devices::DiskSources(), noting every file they are asked for.
 [[nodiscard]] Sources InputSources();
 
+// Where the person keeps meters.toml and config.toml: lightcal in $XDG_CONFIG_HOME (~/.config where
+// that is not set); "" = neither it nor HOME is set.
+[[nodiscard]] std::string SettingsFolder();
+
 // The folders whose files a session may name: its own, and what the person allows.
 struct FileRoots {
   bool anywhere = false;  // --allow-outside
   std::vector<std::string> folders;
 };
-// The session's own folder and the `roots` of lightcal/config.toml in $XDG_CONFIG_HOME (~/.config
-// where that is not set). Refused: bad_config.
+// The session's own folder and the `roots` of config.toml in the settings folder. Refused:
+// bad_config.
 [[nodiscard]] Result<FileRoots> RootsOfSession(const std::string& session_path, bool anywhere);
 // InputSources() for a session that may be a stranger's: what lies in none of the folders, links
 // followed, is refused (outside_session) before it is opened.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lightcal/core/joined.h"
-#include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal::app {
 namespace {
@@ -35,6 +34,14 @@ Result<WantedState> ParseWanted(const std::string& text, const LightFile& file) 
 
 }  // namespace
 
+std::optional<Warning> CombinedWarning(const FittedLight& light, const StateAnswer& answer) {
+  if (answer.basis != StateBasis::kCombined) return std::nullopt;
+  return Warning{"state_combined", light.name,
+                 StateText(answer.state) +
+                     " was put together from states that differ from it in several controls; read "
+                     "it to be sure"};
+}
+
 Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& file) {
   Warnings warnings;
   for (const std::string& text : texts) {
@@ -47,11 +54,8 @@ Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& fil
       any = true;
       const auto answer = AnswerState(light, wanted->state);
       if (!answer) return tl::unexpected(answer.error());
-      if (answer->basis == StateBasis::kCombined) {
-        warnings.push_back({"state_combined", light.name,
-                            StateText(wanted->state) +
-                                " was put together from states that differ from it in several "
-                                "controls; read it to be sure"});
+      if (auto combined = CombinedWarning(light, *answer)) {
+        warnings.push_back(*std::move(combined));
       }
       auto there = LightAtState(light, wanted->state);
       if (!there) return Propagate(std::move(there));

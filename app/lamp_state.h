@@ -2,13 +2,20 @@
 // Lights of a file at the states of their controls that a person asks for.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/states/state_answer.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal::app {
+
+// state_combined, where the answer was put together from states that differ from it in several
+// controls.
+[[nodiscard]] std::optional<Warning> CombinedWarning(const FittedLight& light,
+                                                     const StateAnswer& answer);
 
 // Each text: "dimmer=18,cct_K=4500", of every light that has states, or of one, "key:dimmer=18".
 // The lights become what they are there; others stay. Warns of states that were put together from

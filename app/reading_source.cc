@@ -2,7 +2,6 @@
 #include "reading_source.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -22,17 +21,15 @@ namespace lightcal::app {
 namespace {
 
 // Where a person keeps meters.toml: beside the session ("" = none), whose word counts first, and in
-// $XDG_CONFIG_HOME/lightcal (~/.config/lightcal where that is not set).
+// the settings folder.
 std::vector<std::string> DirectoriesOfMeters(const std::string& session_path) {
   namespace fs = std::filesystem;
   std::vector<std::string> directories;
   if (!session_path.empty()) {
     directories.push_back(fs::path(JournalPath(session_path)).parent_path().string());
   }
-  if (const char* const settings = std::getenv("XDG_CONFIG_HOME"); settings && *settings) {
-    directories.push_back((fs::path(settings) / "lightcal").string());
-  } else if (const char* const home = std::getenv("HOME"); home && *home) {
-    directories.push_back((fs::path(home) / ".config" / "lightcal").string());
+  if (std::string settings = SettingsFolder(); !settings.empty()) {
+    directories.push_back(std::move(settings));
   }
   return directories;
 }

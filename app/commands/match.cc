@@ -39,14 +39,9 @@ struct MatchOptions {
 
 Result<match::MatchRequest> RequestOf(const MatchOptions& o, const MatchLight& lamp,
                                       const MatchLight& target) {
-  match::MatchRequest request;
-  request.lamp = lamp.spectrum;
-  request.target = target.spectrum;
-  request.lamp_measured = lamp.measured;
-  request.target_measured = target.measured;
   auto cameras = ReadCameras(o.camera);
   if (!cameras) return Propagate(std::move(cameras));
-  request.cameras = *std::move(cameras);
+  match::MatchRequest request = RequestBetween(lamp, target, *std::move(cameras));
   request.observer = o.observer == "10" ? ObserverAngle::kTenDegrees : ObserverAngle::kTwoDegrees;
   request.most_gels = o.most_gels;
   request.gap = o.air_gaps ? SheetGap::kAir : SheetGap::kNone;

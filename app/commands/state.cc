@@ -10,6 +10,7 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "lamp_state.h"
 #include "lamp_words.h"
 #include "light_input.h"
 #include "lightcal/core/joined.h"
@@ -234,12 +235,7 @@ Result<void> RunState(const StateOptions& options, Console& console) {
   if (!light) return tl::unexpected(light.error());
   const auto answer = AnswerState(**light, at);
   if (!answer) return tl::unexpected(answer.error());
-  if (answer->basis == StateBasis::kCombined) {
-    console.Warn({"state_combined", (*light)->name,
-                  StateText(at) +
-                      " was put together from states that differ from it in several controls; "
-                      "read it to be sure"});
-  }
+  if (const auto combined = CombinedWarning(**light, *answer)) console.Warn(*combined);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   console.Print(Told(**light, *answer));
   console.PrintDocument(AnswerNode(**light, *answer));

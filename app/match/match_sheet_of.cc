@@ -8,6 +8,17 @@
 
 namespace lightcal::app {
 
+match::MatchRequest RequestBetween(const MatchLight& lamp, const MatchLight& target,
+                                   std::vector<CameraSensitivities> cameras) {
+  match::MatchRequest request;
+  request.lamp = lamp.spectrum;
+  request.target = target.spectrum;
+  request.lamp_measured = lamp.measured;
+  request.target_measured = target.measured;
+  request.cameras = std::move(cameras);
+  return request;
+}
+
 Result<report::MatchSheet> SheetOf(const match::MatchRequest& request, const match::Match& match,
                                    const std::string& gels, const MatchLight& lamp,
                                    const MatchLight& target) {
@@ -38,12 +49,7 @@ Result<std::vector<report::MatchSheet>> SheetsOf(const std::vector<MatchLight>& 
   if (!cameras) return Propagate(std::move(cameras));
   std::vector<report::MatchSheet> sheets;
   for (const MatchLight& lamp : lamps) {
-    match::MatchRequest request;
-    request.lamp = lamp.spectrum;
-    request.target = target->spectrum;
-    request.lamp_measured = lamp.measured;
-    request.target_measured = target->measured;
-    request.cameras = *cameras;
+    match::MatchRequest request = RequestBetween(lamp, *target, *cameras);
     request.count = 1;
     request.reach = 1.0;  // the page shows the nearest, however far it is
     const auto answer = match::MatchLights(request, set->gels);

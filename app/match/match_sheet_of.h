@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "console.h"
 #include "lightcal/match/match_lights.h"
@@ -10,6 +11,10 @@
 #include "match/match_source.h"
 
 namespace lightcal::app {
+
+// The lamp, the target and the cameras; all else as it comes.
+[[nodiscard]] match::MatchRequest RequestBetween(const MatchLight& lamp, const MatchLight& target,
+                                                 std::vector<CameraSensitivities> cameras);
 
 // gels: the stack's title.   Refused: as match::ViewMatch.
 [[nodiscard]] Result<report::MatchSheet> SheetOf(const match::MatchRequest& request,

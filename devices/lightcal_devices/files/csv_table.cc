@@ -63,6 +63,13 @@ std::string TabsForBlanks(std::string_view text) {
   return tabbed;
 }
 
+// A row with more cells than there are columns; null where none has.
+const Row* RowTooWide(const CsvTable& table) {
+  const auto row = std::ranges::find_if(
+      table.rows, [&](const Row& one) { return one.cells.size() > table.columns.size(); });
+  return row == table.rows.end() ? nullptr : &*row;
+}
+
 Result<std::vector<CsvColumn>> ColumnsNamed(const std::vector<std::string>& names) {
   std::vector<CsvColumn> columns;
   for (const std::string& name : names) {
@@ -136,10 +143,9 @@ Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) 
   if (table.rows.empty()) {
     return Refused("no_rows", table.name, "has a header and no row under it");
   }
-  for (const Row& row : table.rows) {
-    if (row.cells.size() <= table.columns.size()) continue;
-    return Refused("bad_row", AtLine(table.name, row.line),
-                   "has " + std::to_string(row.cells.size()) + " cells, the header has " +
+  if (const Row* const wide = RowTooWide(table)) {
+    return Refused("bad_row", AtLine(table.name, wide->line),
+                   "has " + std::to_string(wide->cells.size()) + " cells, the header has " +
                        std::to_string(table.columns.size()) +
                        "; numbers with a decimal comma need ';' between the columns");
   }
@@ -176,10 +182,9 @@ Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
   if (table.rows.empty()) {
     return Refused("no_rows", table.name, "has no row of numbers in the columns named");
   }
-  for (const Row& row : table.rows) {
-    if (row.cells.size() <= table.columns.size()) continue;
-    return Refused("unknown_column", AtLine(table.name, row.line),
-                   "has " + std::to_string(row.cells.size()) + " cells, and " +
+  if (const Row* const wide = RowTooWide(table)) {
+    return Refused("unknown_column", AtLine(table.name, wide->line),
+                   "has " + std::to_string(wide->cells.size()) + " cells, and " +
                        std::to_string(table.columns.size()) +
                        " columns are named; write - for each that is to be left out");
   }

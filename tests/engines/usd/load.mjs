@@ -3,15 +3,10 @@
 //   node load.mjs MODULES FILE
 import fs from 'node:fs';
 import path from 'node:path';
-import { pathToFileURL } from 'node:url';
+import { openTinyUsdz } from './tinyusdz.mjs';
 
 const [modules, file] = process.argv.slice(2);
-globalThis.window = globalThis;
-Object.defineProperty(process, 'type', { value: 'renderer' });
-const folder = path.join(modules, 'node_modules', 'tinyusdz');
-const { default: init } = await import(pathToFileURL(path.join(folder, 'tinyusdz.js')));
-const wasmBinary = fs.readFileSync(path.join(folder, 'tinyusdz.wasm'));
-const usd = await init({ wasmBinary, print: console.log, printErr: console.error });
+const usd = await openTinyUsdz(modules);
 const bytes = new Uint8Array(fs.readFileSync(file));
 const layer = new usd.TinyUSDZLoaderNative();
 if (!layer.loadAsLayerFromBinary(bytes, path.basename(file))) {
