@@ -32,6 +32,7 @@
 #include "lightcal/core/joined.h"
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/memory_at_hand.h"
 
 namespace lightcal::devices {
 namespace {
@@ -322,6 +323,12 @@ Result<Frame> ReadExr(const std::string& path, const MappedFile& mapped, SampleS
       path, mapped,
       [&](Imf::InputFile& file, Imf::IStream& stream, const Chosen& chosen,
           FrameInfo info) -> Result<Frame> {
+        const double pixels = 1.0 * info.width * info.height;
+        const double held = store == SampleStore::kMemory ? sizeof(float) * info.channels : 0.0;
+        const double decoded = chosen.luminance_chroma ? sizeof(Imf::Rgba) : 0.0;
+        if (auto ok = CheckFitsMemory(pixels * (held + decoded), path); !ok) {
+          return Propagate(std::move(ok));
+        }
         auto room = Room(info, store);
         if (!room) return Propagate(std::move(room));
         if (chosen.luminance_chroma) {

@@ -46,14 +46,17 @@ bool ReadSamples(OIIO::ImageInput& input, OiioPicture& picture) {
   return true;
 }
 
-OiioOutcome ReadOpened(OIIO::ImageInput& input, bool with_samples, OiioPicture& picture,
-                       std::string& error) {
+OiioOutcome ReadOpened(OIIO::ImageInput& input, bool with_samples, double memory_bytes,
+                       OiioPicture& picture, std::string& error) {
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1 || spec.width < 1 || spec.height < 1) {
     return OiioOutcome::kNoColor;
   }
   const double samples = 1.0 * spec.width * spec.height * spec.nchannels;
   if (samples > kMostSamples) return OiioOutcome::kTooLarge;
+  // OpenImageIO unpacks some formats whole before it hands out what was asked for.
+  const double bytes = samples * static_cast<double>(spec.format.size() + sizeof(float));
+  if (with_samples && bytes > memory_bytes) return OiioOutcome::kNoMemory;
   picture = {};
   picture.width = spec.width;
   picture.height = spec.height;
@@ -76,7 +79,8 @@ OiioOutcome Read(const OiioBytes& file, bool with_samples, OiioPicture& picture,
   OIIO::Filesystem::IOMemReader reader(const_cast<void*>(file.bytes), file.size);  // only read
   const auto in_memory = OIIO::ImageInput::create(file.format);
   if (in_memory && in_memory->set_ioproxy(&reader) && in_memory->open(file.path, header, config)) {
-    const OiioOutcome outcome = ReadOpened(*in_memory, with_samples, picture, error);
+    const OiioOutcome outcome =
+        ReadOpened(*in_memory, with_samples, file.memory_bytes, picture, error);
     if (outcome != OiioOutcome::kBad || file.format == "png") return outcome;
   } else if (in_memory && file.format == "png") {
     error = in_memory->geterror();  // the same words as of a file; libpng speaks on stderr, too
@@ -84,7 +88,7 @@ OiioOutcome Read(const OiioBytes& file, bool with_samples, OiioPicture& picture,
   }
   // What is wrong in others is said in other words of memory than of a file.
   const auto on_disk = OIIO::ImageInput::open(file.path, &config);
-  if (on_disk) return ReadOpened(*on_disk, with_samples, picture, error);
+  if (on_disk) return ReadOpened(*on_disk, with_samples, file.memory_bytes, picture, error);
   error = OIIO::geterror();
   return OiioOutcome::kUnknownFormat;
 }

@@ -23,14 +23,15 @@ struct OiioPicture {
   std::vector<std::uint16_t> codes;  // else; 8 bit ones as 0..255
 };
 
-enum class OiioOutcome { kRead, kUnknownFormat, kTooLarge, kNoColor, kBad };
+enum class OiioOutcome { kRead, kUnknownFormat, kTooLarge, kNoMemory, kNoColor, kBad };
 
 // A file that was read or mapped.
 struct OiioBytes {
   const void* bytes = nullptr;
   std::size_t size = 0;
-  std::string path;    // for messages
-  std::string format;  // OpenImageIO's word: "png" "jpeg" "tiff" "hdr"
+  std::string path;           // for messages
+  std::string format;         // OpenImageIO's word: "png" "jpeg" "tiff" "hdr"
+  double memory_bytes = 0.0;  // what its samples may take
 };
 
 // Samples only where asked. `error` says what OpenImageIO says.

@@ -15,6 +15,7 @@
 #include "lightcal_devices/captures/exr.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/masked_picture.h"
+#include "lightcal_devices/captures/memory_at_hand.h"
 #include "lightcal_devices/captures/picture_module.h"
 #include "lightcal_devices/captures/radiance_header.h"
 #include "lightcal_devices/captures/radiance_pixels.h"
@@ -98,7 +99,7 @@ struct Opened {
     return {static_cast<const char*>(file.bytes.get()), file.size};
   }
   [[nodiscard]] OiioBytes ForModule(const std::string& path) const {
-    return {file.bytes.get(), file.size, path, format};
+    return {file.bytes.get(), file.size, path, format, MemoryAtHandBytes()};
   }
 };
 
@@ -128,6 +129,8 @@ Result<OiioPicture> ReadThroughModule(const Opened& opened, const std::string& p
       return picture;
     case OiioOutcome::kTooLarge:
       return Refused("too_large", path, "it has more than 5e8 samples");
+    case OiioOutcome::kNoMemory:
+      return Refused("too_large", path, kSamplesNeedMemory);
     case OiioOutcome::kNoColor:
       return Refused("unsupported_picture", path, "it is no flat picture with pixels");
     case OiioOutcome::kUnknownFormat:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal_devices/captures/memory_at_hand.h"
 
 namespace lightcal::devices {
 namespace {
@@ -153,6 +154,8 @@ Result<RadiancePixels> ReadRadiancePixels(std::string_view bytes, std::string_vi
   const std::array<float, 256> powers = PowersOfTwo();
   // A row costs at least a few bytes: a size that the file cannot hold is found before memory is.
   if (static_cast<std::size_t>(order->rows) * 4 > behind->size()) return DamagedRadiance(name);
+  const double held = 3.0 * sizeof(float) * pixels.width * pixels.height;
+  if (auto ok = CheckFitsMemory(held, std::string(name)); !ok) return Propagate(std::move(ok));
   pixels.samples.resize(static_cast<std::size_t>(pixels.width) * pixels.height * 3);
   std::vector<Rgbe> row(static_cast<std::size_t>(order->columns));
   RowReader reader(behind->substr(end + 1));

@@ -15,12 +15,17 @@
 #include <vector>
 
 #include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/memory_at_hand.h"
 #include "lightcal_devices/captures/raw_answer.h"
 
 namespace lightcal::devices {
 namespace {
 
-constexpr unsigned kMostDecodedMegabytes = 2048;
+// Samples stand once in LibRaw and once more in what is handed over.
+unsigned MostDecodedMegabytes() {
+  return static_cast<unsigned>(std::min(2048.0, MemoryAtHandBytes() / 2.0 / (1024.0 * 1024.0)));
+}
+
 // No RAW packs more pixels into a byte; one that says so is damaged, and would cost minutes.
 constexpr double kMostPixelsPerByte = 32.0;
 
@@ -44,7 +49,9 @@ Result<void> Checked(int error, const OpenRaw& open, const std::string& path) {
       return Refused("unknown_format", path, "no camera RAW that LibRaw knows");
     case LIBRAW_TOO_BIG:
     case LIBRAW_UNSUFFICIENT_MEMORY:
-      return Refused("too_large", path, "its samples would need more than 2 GiB");
+      return Refused("too_large", path,
+                     MostDecodedMegabytes() < 2048 ? std::string(kSamplesNeedMemory)
+                                                   : "its samples would need more than 2 GiB");
     case LIBRAW_REQUEST_FOR_NONEXISTENT_IMAGE:
     case LIBRAW_OUT_OF_ORDER_CALL:
     case LIBRAW_NOT_IMPLEMENTED:
@@ -69,7 +76,7 @@ Result<void> Open(const std::string& path, OpenRaw& open) {
   CollectTags(raw, open.walk);
   raw.imgdata.params.raw_processing_options &=
       ~static_cast<unsigned>(LIBRAW_PROCESSING_CONVERTFLOAT_TO_INT);
-  raw.imgdata.params.max_raw_memory_mb = kMostDecodedMegabytes;
+  raw.imgdata.params.max_raw_memory_mb = MostDecodedMegabytes();
   // LibRaw's own pick of a white level from the brightest pixel differs from frame to frame.
   raw.imgdata.params.adjust_maximum_thr = 0.0F;
   const int error =

@@ -82,6 +82,18 @@ std::string UriOf(const std::string& name) {
   return uri;
 }
 
+std::string UsdAssetPath(const std::string& path) {
+  constexpr std::string_view kDelimiter = "@@@";
+  if (path.find('@') == std::string::npos) return "@" + path + "@";
+  std::string escaped;
+  for (std::size_t i = 0; i < path.size();) {
+    const bool delimiter = std::string_view(path).substr(i).starts_with(kDelimiter);
+    escaped += delimiter ? "\\@@@" : std::string(1, path[i]);
+    i += delimiter ? kDelimiter.size() : 1;
+  }
+  return std::string(kDelimiter) + escaped + std::string(kDelimiter);
+}
+
 std::string GeneratorOf(const LightFile& file) {
   return file.provenance.generator.empty() ? "lightcal" : file.provenance.generator;
 }

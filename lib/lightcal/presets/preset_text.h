@@ -32,6 +32,10 @@ namespace lightcal::preset_text {
 // A file's name as a relative URI.
 [[nodiscard]] std::string UriOf(const std::string& name);
 
+// A file as USD's text names it: between @, or between @@@ where the name holds an @, with a
+// backslash before an @@@ of its own.   Source: OpenUSD, Sdf text file format, asset paths.
+[[nodiscard]] std::string UsdAssetPath(const std::string& path);
+
 // "lightcal 0.1.0"
 [[nodiscard]] std::string GeneratorOf(const LightFile& file);
 

@@ -174,8 +174,8 @@ std::string Variants(const std::vector<std::string>& prims,
 // Of a measured distribution; null = none.
 std::string IesFigures(const PresetFile* ies) {
   if (ies == nullptr) return {};
-  return "    asset inputs:shaping:ies:file = @./" + ies->name +
-         "@\n    bool inputs:shaping:ies:normalize = 0\n";
+  return "    asset inputs:shaping:ies:file = " + preset_text::UsdAssetPath("./" + ies->name) +
+         "\n    bool inputs:shaping:ies:normalize = 0\n";
 }
 
 std::string LightPrim(const std::string& name, const FittedLight& lamp, const PresetLight& light,
@@ -202,8 +202,8 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
   if (!picture.empty()) {
     // The middle of a lat-long picture looks along the dome's +Z, its right side along -X, +Y up.
     const ObjectFrame frame = {{-1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}, {}};
-    return text + "    asset inputs:texture:file = @./" + picture +
-           "@\n    token inputs:texture:format = \"latlong\"\n" + Matrix(frame) + "  }\n";
+    return text + "    asset inputs:texture:file = " + preset_text::UsdAssetPath("./" + picture) +
+           "\n    token inputs:texture:format = \"latlong\"\n" + Matrix(frame) + "  }\n";
   }
   return text + Matrix(FrameOfLight(EngineAxes::kZUp, light)) + "  }\n";
 }
@@ -394,8 +394,9 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
     auto layer = OverLayer(lights, *forms, preset.derived, *ies, options);
     if (!layer) return Propagate(std::move(layer));
     preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", *std::move(layer)});
-    preset.paste = "subLayers = [@" + std::string(kPasteDirectory) + "/" + stem +
-                   ".usda@, ...] first in your stage, in metres";
+    const std::string layer_path = std::string(kPasteDirectory) + "/" + stem + ".usda";
+    preset.paste = "subLayers = [" + preset_text::UsdAssetPath(layer_path) +
+                   ", ...] first in your stage, in metres";
     return preset;
   }
   if (options.rig) text += CardPrims(rig) + CameraPrim(rig);

@@ -42,6 +42,21 @@ class TinyUsdz(unittest.TestCase):
                     self.assertIn(prim, result.stdout)
                 self.assertEqual("rig_camera" in result.stdout, "--rig" in arguments)
 
+    def test_it_finds_the_file_of_a_name_that_holds_an_at(self):
+        with tempfile.TemporaryDirectory() as folder:
+            lamps = os.path.join(folder, "key@@@hall.json")
+            with open(lamps, "w") as out:
+                out.write(golden_lights.light_json(golden_lights.LAMPS))
+            subprocess.run([LIGHTCAL, "export", lamps, "--to", "usd", "-o", folder], check=True,
+                           capture_output=True)
+            scene = os.path.join(folder, "key@@@hall.usda")
+            with open(scene) as layer:
+                named = re.findall(r"shaping:ies:file = @@@(.*)@@@$", layer.read(), re.MULTILINE)
+            # The specification's grammar; tinyusdz reads it, but drops the last two characters.
+            self.assertEqual([name.replace("\\@@@", "@@@") for name in named],
+                             ["./" + name for name in os.listdir(folder) if name.endswith(".ies")])
+            self.assertEqual(load(scene).returncode, 0)
+
     def test_its_own_dump_of_the_layer_gives_the_same_residuals(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "session.toml"), "w") as out:
