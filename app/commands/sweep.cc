@@ -10,6 +10,7 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "guide/driven_fixture.h"
 #include "guide/sweep_plan.h"
 #include "input_files.h"
 #include "interrupt.h"
@@ -19,6 +20,7 @@
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_reader.h"
+#include "read_options.h"
 #include "reading_source.h"
 #include "session_names.h"
 #include "terminal.h"
@@ -28,12 +30,18 @@ namespace {
 
 // A lamp that gives this much less or more when it comes back to full is not yet steady.
 constexpr double kDrift = 0.02;
+// Light that changes by less than this many of the meter's repeatabilities stands still: six looks'
+// least-squares line alone changes by 1.2 of them, 1 sigma.
+constexpr double kStillSigmas = 2.5;
+constexpr double kUnknownRepeatability = 0.004, kLeastRepeatability = 0.001,
+                 kMostRepeatability = 0.01;
 
 struct SweepOptions {
-  std::string session, light, distance, tilt, meter, until;
-  std::vector<std::string> over;
+  std::string session, light, distance, meter, until, sacn, map, settle;
+  std::vector<std::string> over, settings;
   MeterRequest request;
   int measurements = 0;
+  std::uint64_t seed = 1;
   bool typed = false;
   bool in_order = false;
 };
@@ -80,8 +88,17 @@ class Sweep {
       if (!until) return tl::unexpected(until.error());
       until_ = *until;
     }
+    if (!options_.settle.empty()) {
+      const auto limit = ParseDuration(options_.settle);
+      if (!limit) return tl::unexpected(limit.error());
+      settle_limit_ = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * limit->value()));
+    }
     plan_.measurements = options_.measurements;
-    auto opened = ReadingSource::Open({options_.session, options_.typed, options_.request},
+    auto settings = DriverSettings(options_.settings);
+    if (!settings) return Propagate(std::move(settings));
+    MeterRequest request = options_.request;
+    request.settings = *std::move(settings);
+    auto opened = ReadingSource::Open({options_.session, options_.typed, std::move(request)},
                                       !console_.json() || options_.typed, console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
@@ -90,7 +107,26 @@ class Sweep {
     if (source_.meter() == nullptr && frame_.meter.empty() && session_.meters.size() == 1) {
       frame_.meter = session_.meters.front().name;
     }
+    return Drive();
+  }
+
+  // Once all else is known to be right: what is sent moves a fixture.
+  Result<void> Drive() {
+    if (options_.sacn.empty()) return {};
+    auto driven = DrivenFixture::Open(
+        options_.sacn, options_.map, options_.session,
+        options_.until.empty() ? SweepOrder(states_, Order()) : EndsOf(states_));
+    if (!driven) return Propagate(std::move(driven));
+    driven_ = *std::move(driven);
+    console_.Note("sACN universe " + std::to_string(driven_->universe()) + " to " +
+                  driven_->address() + ", priority " + std::to_string(driven_->map().priority) +
+                  "; Ctrl-C lets the fixture go.");
     return {};
+  }
+
+  [[nodiscard]] std::optional<std::uint64_t> Order() const {
+    if (options_.in_order) return std::nullopt;
+    return options_.seed;
   }
 
   Result<void> CheckPlace() const {
@@ -102,7 +138,7 @@ class Sweep {
 
   // The order is the same at every start, so that what the journal holds is not read again.
   Result<void> TakeAll() {
-    const std::vector<FixtureState> order = SweepOrder(states_, options_.in_order);
+    const std::vector<FixtureState> order = SweepOrder(states_, Order());
     const std::vector<FixtureState> left = NotYetRead(order, session_, frame_);
     skipped_ = order.size() - left.size();
     if (skipped_ > 0) {
@@ -178,7 +214,12 @@ class Sweep {
     if (!source_.HasMore() || InterruptGuard::StopRequest().Requested()) return false;
     const bool tape = source_.meter() != nullptr && source_.meter()->IsReplay();
     const std::string set = "[" + progress + "] set " + StateText(state);
-    if (tape) {
+    if (driven_) {
+      console_.Note(set);
+      const auto still = SetAndWait(state);
+      if (!still) return tl::unexpected(still.error());
+      if (!*still) return false;
+    } else if (tape) {
       console_.Note(set);
     } else if (source_.meter() != nullptr) {
       if (!Ask(set + ", press Enter. ")) return false;
@@ -193,14 +234,40 @@ class Sweep {
       if (no_more) return false;
       return Propagate(std::move(taken));
     }
+    if (driven_) {
+      if (auto heard = driven_->Trouble(); !heard) return Propagate(std::move(heard));
+    }
     if (auto kept = AppendToJournal(JournalPath(options_.session), taken->reading); !kept) {
       return tl::unexpected(std::move(kept).error());
     }
     ++taken_;
     console_.Print(SayReading(*taken));
     std::fflush(stdout);
+    if (taken->reading.illuminance) before_lx_ = taken->reading.illuminance->value();
+    if (taken->summary.count > 2) {
+      repeatability_ =
+          std::clamp(taken->summary.spread_relative, kLeastRepeatability, kMostRepeatability);
+    }
     WatchDrift(taken->reading);
     return true;
+  }
+
+  // False: the person stops here.
+  Result<bool> SetAndWait(const FixtureState& state) {
+    if (auto set = driven_->Set(state); !set) return Propagate(std::move(set));
+    if (source_.meter() == nullptr) return true;
+    SteadyRule rule;
+    rule.change_relative = kStillSigmas * repeatability_;
+    rule.before_lx = before_lx_;
+    rule.limit = settle_limit_;
+    const auto steady = WaitUntilSteady(*source_.meter(), rule);
+    if (!steady) return tl::unexpected(steady.error());
+    if (!*steady) {
+      console_.Warn({"not_settled", StateText(state),
+                     "its light still changed by more than " + PercentText(rule.change_relative) +
+                         " in half a second when the time to settle was over; read as it was"});
+    }
+    return !InterruptGuard::StopRequest().Requested();
   }
 
   void WatchDrift(const Reading& reading) {
@@ -223,6 +290,12 @@ class Sweep {
                  {"taken", static_cast<int>(taken_)},
                  {"held", static_cast<int>(skipped_)},
                  {"left", static_cast<int>(left_)}};
+    if (!options_.in_order) node.Put("seed", static_cast<std::int64_t>(options_.seed));
+    if (driven_) {
+      node.Put("sacn", Node{{"universe", driven_->universe()},
+                            {"address", driven_->address()},
+                            {"priority", driven_->map().priority}});
+    }
     if (worst_ && std::isfinite(*worst_)) node.Put("u95_relative", *worst_);
     console_.PrintDocument(std::move(node));
   }
@@ -234,6 +307,10 @@ class Sweep {
   Reading frame_;
   MeasuringPlan plan_;
   ReadingSource source_;
+  std::optional<DrivenFixture> driven_;
+  std::chrono::milliseconds settle_limit_ = SteadyRule{}.limit;
+  double repeatability_ = kUnknownRepeatability;
+  std::optional<double> before_lx_;
   double until_ = 0.0;
   std::optional<double> first_full_, worst_;
   std::size_t taken_ = 0, skipped_ = 0, left_ = 0;
@@ -261,13 +338,27 @@ Run BuildSweep(CLI::App& parser) {
   parser.add_option("--meter", o.meter, "The session's [[meter]] that takes the readings");
   parser.add_option("--until", o.until,
                     "Read only until every state is known within this: 3% [all of them]");
-  parser.add_flag("--in-order", o.in_order, "As written, not shuffled");
+  auto* in_order = parser.add_flag("--in-order", o.in_order, "As written, not shuffled");
+  parser.add_option("--seed", o.seed, "Of the order, which a sweep that goes on must keep [1]")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 53))
+      ->excludes(in_order);
+  auto* sacn = parser.add_option(
+      "--sacn", o.sacn, "Set the states by sACN: UNIVERSE@HOST, or UNIVERSE to multicast it");
+  auto* map = parser.add_option("--map", o.map, "Which slots move which control: map.toml");
+  sacn->needs(map);
+  map->needs(sacn);
+  parser.add_option("--settle", o.settle, "Of what --sacn sets: wait at most this long [15s]")
+      ->needs(sacn);
   parser.add_option("-n", o.measurements, "Measurements to take the median of")
       ->check(CLI::Range(1, 1000));
   auto* device = parser.add_option("--device", o.request.device, "A meter's id or driver's name");
   auto* replay =
       parser.add_option("--replay", o.request.replay_file, "Play a tape instead of a meter");
   replay->excludes(device);
+  parser.add_option("--set", o.settings, "Of the meter's driver: name=value; repeatable")
+      ->allow_extra_args(false);
+  parser.add_option("--record", o.request.record_file, "Write what the meter said to a tape")
+      ->excludes(replay);
   parser.add_flag("--typed", o.typed, "You type what the meter shows, whatever is plugged in")
       ->excludes(device)
       ->excludes(replay);

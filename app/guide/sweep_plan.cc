@@ -35,8 +35,8 @@ Result<std::vector<ControlValue>> ValuesOf(const std::string& text) {
 }
 
 // The same on every computer: no distribution of <random> is.
-void Shuffle(std::vector<FixtureState>& states) {
-  std::uint64_t seed = 1469598103934665603ULL;  // FNV-1a
+void Shuffle(std::vector<FixtureState>& states, std::uint64_t by) {
+  std::uint64_t seed = 1469598103934665603ULL ^ (by - 1);  // FNV-1a
   for (const FixtureState& state : states) {
     for (const char c : StateText(state)) {
       seed = (seed ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
@@ -84,13 +84,14 @@ FixtureState FullOf(const std::vector<FixtureState>& states) {
   return *std::ranges::max_element(states, {}, dimmer);
 }
 
-std::vector<FixtureState> SweepOrder(const std::vector<FixtureState>& states, bool in_order) {
+std::vector<FixtureState> SweepOrder(const std::vector<FixtureState>& states,
+                                     std::optional<std::uint64_t> seed) {
   const FixtureState full = FullOf(states);
   std::vector<FixtureState> others;
   for (const FixtureState& state : states) {
     if (!SameState(state, full)) others.push_back(state);
   }
-  if (!in_order) Shuffle(others);
+  if (seed) Shuffle(others, *seed);
   std::vector<FixtureState> order = {full};
   for (std::size_t i = 0; i < others.size(); ++i) {
     order.push_back(others[i]);

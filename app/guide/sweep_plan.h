@@ -2,6 +2,8 @@
 // Which states of a fixture a sweep reads, in which order, and which of them it holds already.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +20,10 @@ namespace lightcal::app {
 // after every eight others and ends with, so that a lamp which warms up or tires is seen.
 [[nodiscard]] FixtureState FullOf(const std::vector<FixtureState>& states);
 
-// Full, then the others (shuffled by what they are, so that warming up is no slope along a control;
-// or in order), and full again as above.
+// Full, then the others (shuffled by the seed and by what they are, so that warming up is no slope
+// along a control; without a seed in order), and full again as above.
 [[nodiscard]] std::vector<FixtureState> SweepOrder(const std::vector<FixtureState>& states,
-                                                   bool in_order);
+                                                   std::optional<std::uint64_t> seed);
 
 // What is left of `order` when each lit reading that the session holds of this light, at this
 // distance where one is given, has done one of it.
