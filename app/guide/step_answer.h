@@ -18,10 +18,9 @@ struct StepAnswer {
   std::optional<Metres> distance;  // kMoved, kTyped with @: where the meter stands instead
 };
 
-// "" (measure), "0.8m" or "at 0.8m" (moved), "s" or "skip", "u" or "undo", "q" or "quit"; of a
-// meter without a cable also "192", "17.8fc", "192,2900K" and "192lx@0.8m". A bare number is lux
-// where readings are typed, else metres.   Wrong usage: anything else, a distance that is not above
-// zero.
+// "" (measure), "0.8m" or "at 0.8m" (moved), "s" or "skip", "u" or "undo", "q" or "quit"; of a meter without a
+// cable also "192", "17.8fc", "192,2900K" and "192lx@0.8m". A bare number is lux where readings are
+// typed, else metres.   Wrong usage: anything else, a distance that is not above zero.
 [[nodiscard]] Result<StepAnswer> ParseStepAnswer(const std::string& text, bool typed);
 
 }  // namespace lightcal::app

@@ -27,7 +27,8 @@ struct TargetScale {
   double level_slope, other_slope;
 };
 constexpr std::array<TargetScale, 3> kScales = {
-    {{1.0, 1.0, 1.0, 0.0, 0.5}, {0.2, 0.3, 0.3, 0.3, 0.3}, {0.05, 0.03, 0.05, 0.002, 0.004}}};
+    {{1.0, 1.0, 1.0, 0.0, 0.5}, {0.2, 0.4, 0.3, 0.3, 0.3}, {0.05, 0.03, 0.05, 0.002, 0.004}}};
+constexpr double kOtherLength = 0.45;  // of a control's range
 
 }  // namespace
 
@@ -45,7 +46,8 @@ struct LevelForm {
 
 struct Rests {
   double level = 0.0, level_length = 1.0;
-  double other = 0.0, other_length = 1.0;
+  bool by_label = false;  // the length is of the label itself, not of its logarithm
+  double other = 0.0;
   double joint = 0.0;
   double weight = 1.0;
 };
@@ -57,7 +59,8 @@ inline double Matern(double distance, double length) {
 
 // A point's labels as one hypothesis sees them.
 struct Seen {
-  std::vector<double> along;  // one coordinate a control
+  std::vector<double> along;   // one coordinate a control
+  std::vector<double> labels;  // as they were said
   double mean = 0.0;
   double ln_level = 0.0, by_zero = 0.0;  // of the formed level
 };
@@ -104,6 +107,7 @@ struct ControlCurve::Hypotheses {
 
   [[nodiscard]] Seen See(const Labels& labels, const LevelForm& form) const {
     Seen out;
+    out.labels = labels;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const bool formed = static_cast<int>(i) == form.control;
       double along = Plain(i, labels[i]);
@@ -140,12 +144,12 @@ struct ControlCurve::Hypotheses {
           sum += by.level_slope * by.level_slope * u * v;
         }
         const double size = by.level_rest * one.rests.level;
-        sum += size * size * Matern(u - v, one.rests.level_length);
+        const double apart = one.rests.by_label ? a.labels[i] - b.labels[i] : u - v;
+        sum += size * size * Matern(apart, one.rests.level_length);
         joint *= Matern(u - v, 1.5);
       } else {
         const double size = by.other_rest * one.rests.other;
-        sum += by.other_slope * by.other_slope * u * v +
-               size * size * Matern(u - v, one.rests.other_length);
+        sum += by.other_slope * by.other_slope * u * v + size * size * Matern(u - v, kOtherLength);
         joint *= Matern(u - v, 0.7);
       }
     }
@@ -215,21 +219,27 @@ struct ControlCurve::Hypotheses {
     const bool level = std::ranges::count(kinds, ControlKind::kLevel) > 0;
     const bool others =
         std::ranges::any_of(kinds, [](ControlKind kind) { return kind != ControlKind::kLevel; });
+    struct Level {
+      double length = 1.0;
+      bool by_label = false;
+    };
     const std::vector<Sized> none = {{0.0, 1.0}};
     const std::vector<Sized> level_sizes =
-        level ? std::vector<Sized>{{0.003, 1.5}, {0.012, 2.0}, {0.05, 1.0}} : none;
+        level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 4.5}} : none;
     const std::vector<Sized> other_sizes =
-        others ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 1.0}} : none;
+        others ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
     const std::vector<Sized> joint_sizes =
         kinds.size() > 1 ? std::vector<Sized>{{0.002, 1.5}, {0.015, 1.0}} : none;
-    const std::vector<double> level_lengths =
-        level ? std::vector<double>{0.4, 1.5} : std::vector<double>{1.0};
+    // Drivers bend at labels; what lamps do goes with the logarithm.
+    const std::vector<Level> levels =
+        level ? std::vector<Level>{{0.25, false}, {1.5, false}, {0.3, true}}
+              : std::vector<Level>{Level{}};
     std::vector<Rests> out;
     for (const auto& [a, by_a] : level_sizes) {
-      for (const double la : level_lengths) {
+      for (const Level& one : levels) {
         for (const auto& [b, by_b] : other_sizes) {
           for (const auto& [c, by_c] : joint_sizes) {
-            out.push_back({a, la, b, 0.7, c, by_a * by_b * by_c});
+            out.push_back({a, one.length, one.by_label, b, c, by_a * by_b * by_c});
           }
         }
       }
@@ -257,7 +267,7 @@ struct ControlCurve::Hypotheses {
   [[nodiscard]] std::vector<LevelForm> LikelyForms() const {
     std::vector<LevelForm> forms = Forms();
     if (forms.size() <= kFormsKept) return forms;
-    const Rests middling{0.02, 0.8, 0.05, 0.7, 0.01, 1.0};
+    const Rests middling{0.02, 0.8, false, 0.05, 0.01, 1.0};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < forms.size(); ++i) {
       const auto one = Solve(forms[i], middling);
@@ -271,13 +281,25 @@ struct ControlCurve::Hypotheses {
     return kept;
   }
 
+  // The rests that did not fall behind under the likeliest form, all of which `all` still holds in
+  // their order.
+  void KeepLikely(std::vector<Rests>& rests, double best) const {
+    std::vector<Rests> kept;
+    for (const One& one : all) {
+      if (one.evidence >= best - kLeastEvidence) kept.push_back(one.rests);
+    }
+    rests = std::move(kept);
+  }
+
   void Average() {
     FindMiddles();
-    const std::vector<Rests> rests = AllRests();
+    std::vector<Rests> rests = AllRests();
     double best = -std::numeric_limits<double>::infinity();
-    for (const LevelForm& form : LikelyForms()) {
+    const std::vector<LevelForm> forms = LikelyForms();
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      if (i == 1) KeepLikely(rests, best);
       for (const Rests& one : rests) {
-        auto solved = Solve(form, one);
+        auto solved = Solve(forms[i], one);
         if (!solved || solved->evidence < best - kLeastEvidence) continue;
         best = std::max(best, solved->evidence);
         all.push_back(*std::move(solved));

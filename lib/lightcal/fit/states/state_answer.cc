@@ -220,18 +220,34 @@ ControlCurve LightCurve(const States& states) {
   return {states.Kinds(), CurveTarget::kLnLight, std::move(points)};
 }
 
-// What the nearest colour's interval holds beside repeatability: the meter's own error, which every
-// state of one lamp shares.
+// What a colour's interval holds beside repeatability: the meter's own error, which every state of
+// one lamp shares.
 double SharedSd(double sd, double repeatability) {
   return std::sqrt(std::max(0.0, sd * sd - repeatability * repeatability));
+}
+
+struct SharedColor {
+  double ln_mired = 0.0;
+  double sd_ln_mired = 0.0, sd_duv = 0.0;
+};
+
+// At a colour between those that were read: one chromaticity error is more kelvin to a cold lamp.
+SharedColor SharedAt(std::vector<SharedColor> read, double ln_mired) {
+  std::ranges::sort(read, {}, &SharedColor::ln_mired);
+  const auto above = std::ranges::lower_bound(read, ln_mired, {}, &SharedColor::ln_mired);
+  if (above == read.begin()) return read.front();
+  if (above == read.end()) return read.back();
+  const SharedColor& a = *(above - 1);
+  const double share = (ln_mired - a.ln_mired) / (above->ln_mired - a.ln_mired);
+  return {ln_mired, a.sd_ln_mired + share * (above->sd_ln_mired - a.sd_ln_mired),
+          a.sd_duv + share * (above->sd_duv - a.sd_duv)};
 }
 
 FittedColor ColorBetween(const States& states, const FixtureState& at) {
   std::vector<CurvePoint> mireds;
   std::vector<CurvePoint> duvs;
   std::vector<Xy> xys;
-  double shared_ln_mired = 0.0;
-  double shared_duv = 0.0;
+  std::vector<SharedColor> shared;
   for (const MeasuredState* one : states.kept()) {
     const FittedColor& color = one->color;
     if (!color.cct_K || !color.duv || !color.xy) continue;
@@ -239,8 +255,8 @@ FittedColor ColorBetween(const States& states, const FixtureState& at) {
     mireds.push_back({labels, std::log(1e6 / color.cct_K->value), kRepeatsLnMired});
     duvs.push_back({labels, color.duv->value, kRepeatsDuv});
     xys.push_back(*color.xy);
-    shared_ln_mired = std::max(shared_ln_mired, SharedSd(SdOfLn(*color.cct_K), kRepeatsLnMired));
-    shared_duv = std::max(shared_duv, SharedSd(color.duv->u95 / kZ95, kRepeatsDuv));
+    shared.push_back({mireds.back().value, SharedSd(SdOfLn(*color.cct_K), kRepeatsLnMired),
+                      SharedSd(color.duv->u95 / kZ95, kRepeatsDuv)});
   }
   FittedColor out;
   if (mireds.size() < 2) return out;
@@ -255,9 +271,10 @@ FittedColor ColorBetween(const States& states, const FixtureState& at) {
       duv = {*on_line, std::max(line->sd_duv, kRepeatsDuv)};
     }
   }
-  const double sd = std::hypot(ln_mired.sd, shared_ln_mired);
+  const SharedColor meter = SharedAt(std::move(shared), ln_mired.value);
+  const double sd = std::hypot(ln_mired.sd, meter.sd_ln_mired);
   out.cct_K = UncertainFromLog(std::log(cct.value()), sd);
-  out.duv = UncertainFromNormal(duv.value, std::hypot(duv.sd, shared_duv));
+  out.duv = UncertainFromNormal(duv.value, std::hypot(duv.sd, meter.sd_duv));
   out.xy = XyFromCct(cct, duv.value);
   return out;
 }
