@@ -96,7 +96,7 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kPartWords = {
     {{"room_bounce", "walls"},
      {"meter_calibration", "meter"},
      {"readings", "reading by reading"},
@@ -105,6 +105,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kPartWor
      {"unknown_lamp", "what lamp it is"},
      {"finite_source", "its size"},
      {"ambient", "other light"},
+     {"shadow_card", "what the card hides"},
      {"cone", "the beam's shape"},
      {"meter_tilt", "how the meter was turned"},
      {"distance_error", "the tape measure"},

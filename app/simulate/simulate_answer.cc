@@ -104,7 +104,7 @@ EffectRow BounceRow(const Simulated& s, const PlacedLamp& lamp, const LampAccoun
   if (IsEverywhere(lamp.source)) {
     row.reason = "part of what this kind of light is";
   } else if (!s.settings.room) {
-    row.reason = "no [room] or --room given; indoors the walls add 25 % in the median";
+    row.reason = "no [room] or --room given: the lamp alone; indoors walls add 25 % in the median";
   } else if (s.settings.room_bounce == EffectChoice::kNever) {
     row.reason = "switched off by name";
   } else {
@@ -205,8 +205,11 @@ std::string PointTable(const Simulated& s) {
     if (in_room) row.push_back(RoomText(RoomTotal(point, s.ambient_lx)));
     rows.push_back(std::move(row));
   }
+  const bool alone = !walls && !std::ranges::all_of(s.lamps, [](const PlacedLamp& lamp) {
+    return IsEverywhere(lamp.source);
+  });
   std::vector<std::string> header = {"at x, y, z (m)", "light",
-                                     in_room ? "lamp alone (95 %)" : "illuminance (95 %)", "share"};
+                                     alone ? "lamp alone (95 %)" : "illuminance (95 %)", "share"};
   if (walls) header.emplace_back("from walls");
   if (in_room) header.emplace_back("in the room it was measured in");
   return TextTable(header, rows);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "lightcal/light/effects/effect_table.h"
+#include "lightcal/light/gate_ladder.h"
 #include "lightcal/light/intensity_table.h"
 
 namespace lightcal {
@@ -111,13 +112,18 @@ TEST(Gate, AnUnknownRoomIsNamedWithTheCureAndWidens) {
   EXPECT_THAT(bounce.reason, HasSubstr("shadow-card"));
 }
 
-TEST(Gate, AShadowCardTakesBounceAndAmbientAway) {
+TEST(Gate, AShadowCardTakesAmbientAwayAndTheBounceButForTheWallItHides) {
   Scene scene = OneReading();
   scene.room = RoomBox{{5, 4, 2.6}, 0.8};
   EXPECT_EQ(Named(Gate(scene), "room_bounce").state, GateState::kOn);
   scene.poses.front().differenced = true;
-  EXPECT_EQ(Named(Gate(scene), "room_bounce").finding.bound, 0.0);
+  const GatedEffect hidden = Named(Gate(scene), "room_bounce");
+  EXPECT_EQ(hidden.state, GateState::kOn);
+  EXPECT_LT(hidden.finding.bound, 0.06);
+  EXPECT_LT(*hidden.finding.sd, 0.011);
   EXPECT_EQ(Named(Gate(scene), "ambient").finding.bound, 0.0);
+  scene.no_walls = true;
+  EXPECT_EQ(Named(Gate(scene), "room_bounce").finding.bound, 0.0);
 }
 
 TEST(Gate, OverridesSwitchByName) {
@@ -197,6 +203,20 @@ TEST(Gate, AnEffectThatIsOnStaysOnUntilItsBoundIsWellBelow) {
   after = RegateEffects(off, at(near), 0.0112, "auto");
   ASSERT_TRUE(after.has_value());
   EXPECT_TRUE(OutgrewShare(off, *after));
+}
+
+// The errors of the ladder are against brute force; what the gate leaves off changes the answer of
+// every effect by no more than it says.
+TEST(GateLadder, NoAnswerIsTheTruthAndTheGateKeepsWithinItsBoundOfEveryEffect) {
+  for (const NamedScene& named : LadderScenes()) {
+    for (const double tolerance : {0.003, 0.01, 0.1}) {
+      const GateStep step = StepOf(named, tolerance);
+      EXPECT_GT(step.error_all, 0.0) << named.name;
+      EXPECT_LT(step.error_all, 0.12) << named.name;
+      EXPECT_LE(std::abs(step.error_gate - step.error_all), step.bound * 1.2 + 1e-12) << named.name;
+      EXPECT_LE(step.cost_gate_ns, step.cost_all_ns) << named.name;
+    }
+  }
 }
 
 TEST(Effects, DistanceErrorBoundsWhatFiveMillimetresDo) {

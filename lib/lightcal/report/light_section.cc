@@ -118,8 +118,7 @@ std::string Hero(const FittedLight& light) {
   std::string line = Interval(u, headline.unit) + " · " + RelativePlusMinus(u) + " (95 %) · ";
   const std::string decided = DecidedBy(light.fit, "intensity");
   line += decided == "prior" ? "held by a prior" : "from";
-  line += decided == "prior" ? ""
-                             : " " + UsedOfReadings(light.fit) + " readings";
+  line += decided == "prior" ? "" : " " + UsedOfReadings(light.fit) + " readings";
   return html + "<p class=\"soft\">" + line + "</p>\n";
 }
 
@@ -137,7 +136,7 @@ std::string PartsBar(const FittedLight& light) {
                                      {"part-offset", "where the light starts"},
                                      {"part-other", "other"}}};
   for (const BudgetPart& part : light.budget) {
-    const std::size_t at = part.name == "room_bounce"                                    ? 0
+    const std::size_t at = part.name == "room_bounce" || part.name == "shadow_card"      ? 0
                            : part.name == "readings" || part.name == "meter_calibration" ? 1
                            : part.name == "distance_offset"                              ? 2
                                                                                          : 3;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
@@ -27,6 +27,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 27> kCures =
     {"meter_tilt", "point the meter within 1.5 degrees of the lamp, or state tilt_deg"},
     {"distance_error", "read distances to 2.5 mm, or stand twice as far away"},
     {"room_bounce", "a shadow-card reading; or stand half as far from the lamp"},
+    {"shadow_card", "a card 0.7 times as wide that still hides the lamp"},
     {"detector_size", "stand 1.4 times as far away, or state head_radius_m"},
     {"spectral_mismatch", "a meter of half the f1', or a spectrometer"},
     {"cosine_response", "face the lamp, or a meter of half the f2"},

@@ -10,6 +10,7 @@
 #include "lightcal/fit/plan/scene_of_session.h"
 #include "lightcal/light/effect_cost.h"
 #include "lightcal/light/effects/detector_size.h"
+#include "lightcal/light/effects/room_bounce.h"
 #include "lightcal/light/gate.h"
 #include "lightcal/light/room_bounce.h"
 
@@ -24,8 +25,10 @@ EffectState StateOf(GateState state) {
 // An influence of relative size sd at the farthest reading.
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
-  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(effect.name),
-          effect.finding.own_lamp, effect.name == "ambient"};
+  const bool card = effect.name == "room_bounce" && effects::AllBehindCards(scene);
+  return {sd / std::pow(FarthestDistance(scene), power), power,
+          card ? "shadow_card" : std::string(effect.name), effect.finding.own_lamp,
+          effect.name == "ambient"};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
@@ -69,14 +72,17 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
     model.judge_misfit = model.fit_offset || effect.ignored;
   }
   // Behind cards alone no wall is left to fit, but a lamp of unknown kind may still be a panel.
-  if (effect.name == "room_bounce" && (effect.state == GateState::kFitted || bound == 0.0)) {
+  if (effect.name == "room_bounce" &&
+      (effect.state == GateState::kFitted || bound == 0.0 || effects::AllBehindCards(scene))) {
     model.walls = scene.walls;
   }
   if (effect.name == "ambient" && effect.state == GateState::kOff) model.fit_ambient = false;
   if (effect.state == GateState::kOff) {
-    // A rectangular distribution of half width `bound`.
+    // A rectangular distribution of half width `bound`, unless more is known.
     if (effect.ignored && bound > 0.0) {
-      model.considered.push_back(Widening(scene, effect, bound / std::numbers::sqrt3));
+      const double most = bound / std::numbers::sqrt3;
+      model.considered.push_back(
+          Widening(scene, effect, std::min(most, effect.finding.sd.value_or(most))));
     }
     return;
   }
