@@ -119,7 +119,6 @@ class Walk {
       }
       if (advice->kind != GuideAdvice::Kind::kMeasure) {
         ending_ = advice->kind == GuideAdvice::Kind::kReached ? Ending::kReached : Ending::kNoGain;
-        best_left_ = advice->step.u95_relative;
         return {};
       }
       if (!source_.HasMore()) {
@@ -338,11 +337,7 @@ class Walk {
         return "That is within the " + Within(options_.until_relative) +
                " you wanted: enough is enough.\n";
       case Ending::kNoGain: {
-        const auto now = guide_->u95_relative();
-        const bool gains = best_left_ > 0.0 && now && best_left_ < *now;
-        std::string text = "Enough with this meter: ";
-        text += gains ? "the best further reading would leave " + Within(best_left_)
-                      : std::string("no further reading helps");
+        std::string text = "Enough with this meter: no further reading is worth its minutes";
         const auto& light = guide_->light();
         if (light && !light->budget.empty()) {
           text += ".\nMost of what is left is " + light->budget.front().name +
@@ -385,7 +380,6 @@ class Walk {
   ReadingSource source_;
   std::optional<ReadingGuide> guide_;
   Ending ending_ = Ending::kPerson;
-  double best_left_ = 0.0;  // relative, by the step that was not worth taking
   bool typed_ = false;
   bool drawn_ = false;
   std::vector<std::string> told_;  // codes of the fit's warnings that were shown

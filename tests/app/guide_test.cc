@@ -84,11 +84,14 @@ int RunIn(const std::string& folder, const std::vector<std::string>& arguments) 
   return code;
 }
 
-void ExpectTheLampInTheEngines(const std::string& folder, const LampInRoom& truth) {
+// `most`: relative; what is left of the room where the meter alone is most of the interval.
+void ExpectTheLampInTheEngines(const std::string& folder, const LampInRoom& truth,
+                               double most = 0.02) {
   const json light = json::parse(ReadFile(folder + "/desk_lamp/out/light.json"))["lights"][0];
   const double candela = light["intensity_cd"]["value"];
   EXPECT_NEAR(candela, truth.candela, double(light["intensity_cd"]["u95"]));
-  EXPECT_NEAR(candela, truth.candela, 0.02 * truth.candela);
+  EXPECT_NEAR(candela, truth.candela, most * truth.candela);
+  EXPECT_LT(double(light["intensity_cd"]["u95"]), 0.13 * candela);
   EXPECT_TRUE(fs::exists(folder + "/desk_lamp/out/report.html"));
   EXPECT_TRUE(fs::exists(folder + "/desk_lamp/out/desk_lamp.gltf"));
   EXPECT_TRUE(fs::exists(folder + "/desk_lamp/out/desk_lamp.blender.py"));
@@ -97,6 +100,45 @@ void ExpectTheLampInTheEngines(const std::string& folder, const LampInRoom& trut
   EXPECT_TRUE(fs::exists(folder + "/presets/light.tscn"));
   const json preset = json::parse(ReadFile(folder + "/presets/light.preset.json"));
   EXPECT_THAT(preset.dump(), HasSubstr("desk"));
+}
+
+// What quick, run, plan and the walk say comes next is one step.
+TEST(GuidedSession, AsksForTheStepThatQuickRunAndPlanName) {
+  const NoUsb machine;
+  const TempDir home;
+  home.Write("lamp/session.toml",
+             "lightcal = 1\n[[light]]\nname = \"bulb\"\nkind = \"point\"\nfixture = \"bulb\"\n"
+             "[[meter]]\nname = \"m\"\nsigma_relative = 0.025\n");
+  std::string readings;
+  for (const auto& [distance, lux] : {std::pair("0.5", "203"), std::pair("1", "58")}) {
+    readings += std::string("[[reading]]\nlight = \"bulb\"\nmeter = \"m\"\ndistance_m = ") +
+                distance + "\nilluminance_lx = " + lux + "\n";
+    home.Write("lamp/session.toml",
+               "lightcal = 1\n[[light]]\nname = \"bulb\"\nkind = \"point\"\nfixture = \"bulb\"\n"
+               "[[meter]]\nname = \"m\"\nsigma_relative = 0.025\n" +
+                   readings);
+    const std::string lamp = home.path() + "/lamp";
+    const CliResult plan = RunLightcal({"plan", lamp, "--json", "-q"});
+    const std::string next = json::parse(plan.out)["lights"][0]["next"];
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(next, found, std::regex("at ([0-9.]+) m"))) << next;
+    const bool card = next.find("shadow-card") != std::string::npos;
+    const double at = std::stod(found[1]);
+    TerminalDialogue walk({"read", "-s", "lamp", "--light", "bulb", "--guided", "--typed"},
+                          home.path());
+    const auto asked = walk.WaitFor(kPromptEnd);
+    ASSERT_TRUE(asked) << walk.transcript();
+    const Step step = StepIn(*asked);
+    EXPECT_EQ(step.card, card) << next << "\n" << *asked;
+    EXPECT_NEAR(step.distance_m, at, 1e-6) << next << "\n" << *asked;
+    walk.Type("q");
+    walk.Finish();
+    std::ostringstream place;
+    place << at << " m";
+    const CliResult run = RunLightcal({"run", lamp, "-o", home.path() + "/out"});
+    EXPECT_THAT(run.out, HasSubstr(place.str())) << next;
+    EXPECT_THAT(run.out, HasSubstr(card ? "with a card" : "read at")) << next;
+  }
 }
 
 TEST(GuidedSession, FromNothingToPresetsWithATypedMeter) {
@@ -194,13 +236,15 @@ TEST(GuidedSession, FromNothingToPresetsWithAMeterOnAUsbCable) {
   EXPECT_THAT(walk.transcript(), HasSubstr("4995 K"));
   EXPECT_FALSE(meter.remote());
   RunIn(home.path(), {"run", "desk_lamp", "--to", "gltf,blender"});
-  ExpectTheLampInTheEngines(home.path(), truth);
+  // A third of the meter's own 1 sigma of 5 %: the walk stops where no step is worth its minutes.
+  ExpectTheLampInTheEngines(home.path(), truth, 0.03);
 }
 
 TEST(GuidedSession, WrongAnswersAreExplainedAndAskedAgain) {
   const NoUsb machine;
   const TempDir home;
-  home.Write("s/session.toml", "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+  home.Write("s/session.toml",
+             "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = \"bulb\"\n");
   TerminalDialogue walk({"read", "-s", "s"}, home.path());
   const LampInRoom truth;
   ASSERT_TRUE(walk.WaitFor(kPromptEnd)) << walk.transcript();

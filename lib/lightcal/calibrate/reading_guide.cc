@@ -7,12 +7,10 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/plan/next_step.h"
 
 namespace lightcal {
 namespace {
-
-constexpr double kOtherLightMatters = 0.005;
-constexpr double kLeastGain = 0.05;
 
 bool IsLit(const Reading& reading) {
   return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
@@ -84,39 +82,39 @@ const Reading* ReadingGuide::LitAtPlaceOf(const Reading& card) const {
   return nullptr;
 }
 
-std::optional<PlannedReading> ReadingGuide::PendingCard() const {
-  if (!shadow_cards_ || !uncarded_) return std::nullopt;
-  const double lux = uncarded_->illuminance->value();
-  if (other_lux_ && *other_lux_ < kOtherLightMatters * lux) return std::nullopt;
-  PlannedReading card{PlannedAction::kShadowCard, uncarded_->distance, uncarded_->position_m,
-                      uncarded_->normal};
-  if (uncarded_->off_axis.value() != 0.0) card.off_axis = uncarded_->off_axis;
-  return card;
-}
-
-bool ReadingGuide::IsSkipped(const PlannedReading& step) const {
-  if (step.action == PlannedAction::kShadowCard && !shadow_cards_) return true;
-  return std::ranges::any_of(skipped_, [&](const PlannedReading& one) {
-    return one.action == step.action && one.distance == step.distance &&
-           one.position_m == step.position_m && one.off_axis == step.off_axis;
-  });
+std::vector<PlannedReading> ReadingGuide::Skipped() const {
+  std::vector<PlannedReading> out = skipped_;
+  if (shadow_cards_) return out;
+  for (const SessionReading& row : session_.readings) {
+    const Reading& reading = row.reading;
+    if (!IsLit(reading)) continue;
+    out.push_back(
+        {PlannedAction::kShadowCard, reading.distance, reading.position_m, reading.normal});
+    if (reading.off_axis.value() != 0.0) out.back().off_axis = reading.off_axis;
+  }
+  return out;
 }
 
 Result<GuideAdvice> ReadingGuide::Next() const {
-  if (const auto card = PendingCard()) return GuideAdvice{GuideAdvice::Kind::kMeasure, *card};
   const std::optional<double> now = u95_relative();
   if (now && *now <= until_relative_) return GuideAdvice{GuideAdvice::Kind::kReached};
-  auto plan = PlanReadings(session_, session_.lights.front().name, {}, 1);
-  if (!plan) return Propagate(std::move(plan));
-  const auto best = std::ranges::find_if(
-      plan->candidates, [this](const PlannedReading& step) { return !IsSkipped(step); });
-  if (best == plan->candidates.end()) return GuideAdvice{GuideAdvice::Kind::kNoGain};
-  const auto open = [](double u95, const std::optional<double>& beam) {
-    return u95 * beam.value_or(1.0);
-  };
-  const bool helps = !now || open(best->u95_relative, best->beam_u95_deg) <
-                                 (1.0 - kLeastGain) * open(*now, plan->beam_u95_deg);
-  return GuideAdvice{helps ? GuideAdvice::Kind::kMeasure : GuideAdvice::Kind::kNoGain, *best};
+  if (fitted_) {
+    NextStepAdvice advice = AdviseNext(session_, *fitted_, Skipped());
+    using Kind = NextStepAdvice::Kind;
+    if (advice.kind == Kind::kReading) {
+      return GuideAdvice{GuideAdvice::Kind::kMeasure, *std::move(advice.reading)};
+    }
+    if (advice.kind != Kind::kSay) return GuideAdvice{GuideAdvice::Kind::kNoGain};
+  }
+  // Before any reading, and where only words tell more.
+  LadderWishes wishes;
+  wishes.reach_m = ReachIn(session_);
+  wishes.steps = 1;
+  wishes.skip = Skipped();
+  auto ladder = PlanMinutes(session_, session_.lights.front().name, {}, wishes);
+  if (!ladder) return Propagate(std::move(ladder));
+  if (ladder->steps.empty()) return GuideAdvice{GuideAdvice::Kind::kNoGain};
+  return GuideAdvice{GuideAdvice::Kind::kMeasure, std::move(ladder->steps.front().reading)};
 }
 
 std::string ReadingGuide::DoubtAbout(const Reading& reading) const {
@@ -141,18 +139,9 @@ std::string ReadingGuide::DoubtAbout(const Reading& reading) const {
 
 void ReadingGuide::Add(const Reading& reading) {
   session_.readings.push_back({reading, "readings.jsonl"});
-  if (IsLit(reading)) {
-    const bool carded = std::ranges::any_of(session_.readings, [&](const SessionReading& row) {
-      return row.reading.shadow_card && SamePlace(row.reading, reading);
-    });
-    if (!carded) uncarded_ = reading;
-  } else {
-    const Reading* const lit = reading.shadow_card ? LitAtPlaceOf(reading) : nullptr;
-    if (lit != nullptr && lit->illuminance->value() > 0.0) {
-      other_lux_ = reading.illuminance->value();
-      other_share_ = *other_lux_ / lit->illuminance->value();
-    }
-    if (reading.shadow_card) uncarded_.reset();
+  const Reading* const lit = reading.shadow_card ? LitAtPlaceOf(reading) : nullptr;
+  if (lit != nullptr && lit->illuminance->value() > 0.0) {
+    other_share_ = reading.illuminance->value() / lit->illuminance->value();
   }
   FitAll();
 }
@@ -162,9 +151,7 @@ bool ReadingGuide::TakeBack() {
   const std::vector<SessionReading> added(session_.readings.begin() + std::ptrdiff_t(given_),
                                           session_.readings.end() - 1);
   session_.readings.resize(given_);
-  uncarded_.reset();
   other_share_.reset();
-  other_lux_.reset();
   FitAll();
   for (const SessionReading& row : added) Add(row.reading);
   return true;

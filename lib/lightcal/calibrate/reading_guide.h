@@ -18,7 +18,7 @@ struct GuideAdvice {
   enum class Kind : std::uint8_t {
     kMeasure,
     kReached,  // the wanted uncertainty
-    kNoGain,   // `step` is the best there is, and it would hardly help
+    kNoGain,   // no step would help enough to be worth its minutes
   };
   Kind kind = Kind::kMeasure;
   PlannedReading step{};
@@ -30,10 +30,9 @@ class ReadingGuide {
   ReadingGuide(const Session& session, const std::string& light, double until_relative,
                bool shadow_cards);
 
-  // A card goes before each new reading's lamp while other light matters: more than
-  // kOtherLightMatters of the reading, by the last card. Else the reading that PlanReadings finds
-  // best, until it would lower the uncertainty by less than kLeastGain.
-  // Refused: as PlanReadings.
+  // The step that AdviseNext names, which quick, run and plan name too; before any reading the
+  // first of PlanMinutes.
+  // Refused: as PlanMinutes.
   [[nodiscard]] Result<GuideAdvice> Next() const;
 
   // The lamp as the readings so far and this one say.  Refused: as FitSession, no_readings.
@@ -57,20 +56,19 @@ class ReadingGuide {
  private:
   [[nodiscard]] Result<FittedSession> FitOf(const std::vector<SessionReading>& readings) const;
   void FitAll();
-  [[nodiscard]] std::optional<PlannedReading> PendingCard() const;
   // The lit reading of the same place, the newest; null = none.
   [[nodiscard]] const Reading* LitAtPlaceOf(const Reading& card) const;
-  [[nodiscard]] bool IsSkipped(const PlannedReading& step) const;
+  // What was skipped, and where cards are not wanted those of every reading.
+  [[nodiscard]] std::vector<PlannedReading> Skipped() const;
 
   Session session_;  // this light only
   double until_relative_;
   bool shadow_cards_;
   std::vector<PlannedReading> skipped_;
-  std::optional<Reading> uncarded_;  // the newest lit reading without a card
-  std::size_t given_ = 0;            // readings that the session came with
+  std::size_t given_ = 0;  // readings that the session came with
   std::optional<FittedLight> fitted_;
   Warnings warnings_;
-  std::optional<double> other_share_, other_lux_;
+  std::optional<double> other_share_;
 };
 
 }  // namespace lightcal

@@ -104,16 +104,10 @@ std::optional<NextStepAdvice> AboutBeam(const Session& session, const FittedLigh
   return advice;
 }
 
-// From anywhere in a room one can stand half of its longest side away.
-double ReachIn(const Session& session) {
-  constexpr double kOpen_m = 4.0;
-  constexpr double kUnknownRoom_m = 2.0;
-  if (session.room) return 0.5 * std::max(session.room->size_m[0], session.room->size_m[1]);
-  return session.surroundings == Surroundings::kIndoors ? kUnknownRoom_m : kOpen_m;
-}
-
-NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light) {
+NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light,
+                              const std::vector<PlannedReading>& skip) {
   LadderWishes wishes;
+  wishes.skip = skip;
   wishes.reach_m = ReachIn(session);
   wishes.steps = 1;
   auto ladder = PlanMinutes(session, light.name, {}, wishes);
@@ -142,13 +136,27 @@ NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light) 
 
 }  // namespace
 
+// From anywhere in a room one can stand half of its longest side away.
+double ReachIn(const Session& session) {
+  constexpr double kOpen_m = 4.0;
+  constexpr double kUnknownRoom_m = 2.0;
+  if (session.room) return 0.5 * std::max(session.room->size_m[0], session.room->size_m[1]);
+  return session.surroundings == Surroundings::kIndoors ? kUnknownRoom_m : kOpen_m;
+}
+
 std::string NextStep(const Session& session, const FittedLight& light) {
   return AdviseNext(session, light).say;
 }
 
-NextStepAdvice AdviseNext(const Session& session, const FittedLight& light) {
-  if (auto angle = AboutBeam(session, light)) return *std::move(angle);
-  if (auto place = AboutPlace(session, light)) return *place;
+NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
+                          const std::vector<PlannedReading>& skip) {
+  const auto wanted = [&](const std::optional<NextStepAdvice>& advice) {
+    return advice && std::ranges::none_of(skip, [&](const PlannedReading& one) {
+             return SameStep(one, *advice->reading);
+           });
+  };
+  if (auto angle = AboutBeam(session, light); wanted(angle)) return *std::move(angle);
+  if (auto place = AboutPlace(session, light); wanted(place)) return *std::move(place);
   const Taken taken = TakenOf(session, light);
   if (taken.distances_m.empty()) {
     return Say(
@@ -168,7 +176,7 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light) {
     return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
                " m: so far only the manufacturer's figures speak");
   }
-  NextStepAdvice bought = WhatMinutesBuy(session, light);
+  NextStepAdvice bought = WhatMinutesBuy(session, light, skip);
   // A step that leaves the interval down to nothing tells the lamp as little as none: nearer, the
   // lamp outshines the rest.
   if (bought.reading && bought.reading->u95_relative >= 1.0) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/reading_plan.h"
@@ -27,7 +28,12 @@ struct NextStepAdvice {
 
 // The first step of PlanMinutes within the room: half of its longest side away, or 4 m where no
 // walls are, 2 m in a room nobody described, or as far as readings already stand. Before it comes
-// what no plan holds: a light that only its data sheet speaks of, a reading thrown out.
-[[nodiscard]] NextStepAdvice AdviseNext(const Session& session, const FittedLight& light);
+// what no plan holds: a light that only its data sheet speaks of, a reading thrown out. `skip`:
+// steps that the person cannot or will not do.
+[[nodiscard]] NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
+                                        const std::vector<PlannedReading>& skip = {});
+
+// How far from a lamp a meter can stand, in metres.
+[[nodiscard]] double ReachIn(const Session& session);
 
 }  // namespace lightcal

@@ -36,6 +36,18 @@ Reading LikeTheLast(const Session& session) {
   return like;
 }
 
+// Of the meter: a tenth of a lux, as of most that people own, or the finest digit that its readings
+// show.
+double LastDigit(const Session& session) {
+  double digit = 0.1;
+  for (const SessionReading& row : session.readings) {
+    if (!row.reading.illuminance || row.reading.meter == kDataSheetMeter) continue;
+    const double lux = row.reading.illuminance->value();
+    while (digit > 1e-6 && std::abs(lux / digit - std::round(lux / digit)) > 1e-6) digit *= 0.1;
+  }
+  return digit;
+}
+
 // Of a beam's full angle; none where there is no beam to be known.
 std::optional<double> BeamOf(const FittedLight& light) {
   if (!light.beam || !light.beam->beam_deg) return std::nullopt;
@@ -76,7 +88,10 @@ class Planner {
         reach_m_(reach_m),
         only_(only),
         only_angles_(only_angles),
-        like_(LikeTheLast(session_)) {}
+        like_(LikeTheLast(session_)),
+        last_digit_lx_(LastDigit(session_)) {}
+
+  void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
 
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
@@ -165,9 +180,22 @@ class Planner {
          fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
       if (only_ && candidate.action != *only_) continue;
       if (only_angles_ && !candidate.off_axis) continue;
-      if (Judge(candidate)) out.push_back(std::move(candidate));
+      if (IsSkipped(candidate)) continue;
+      if (Judge(candidate) && IsReadable(candidate)) out.push_back(std::move(candidate));
     }
     return out;
+  }
+
+  [[nodiscard]] bool IsSkipped(const PlannedReading& candidate) const {
+    return std::ranges::any_of(skip_,
+                               [&](const PlannedReading& one) { return SameStep(one, candidate); });
+  }
+
+  // Whether the meter's last digit is at most 2 % of what it will show.
+  [[nodiscard]] bool IsReadable(const PlannedReading& candidate) const {
+    constexpr double kMostOfDigit = 0.02;
+    const bool lit = candidate.action == PlannedAction::kRead;
+    return !now_ || !lit || last_digit_lx_ <= kMostOfDigit * candidate.expected.value();
   }
 
   [[nodiscard]] double MinutesOf(const PlannedReading& planned,
@@ -360,6 +388,8 @@ class Planner {
   std::optional<PlannedAction> only_;
   bool only_angles_;
   Reading like_;
+  double last_digit_lx_;
+  std::vector<PlannedReading> skip_;
   std::optional<FittedLight> now_;
   std::optional<PlannedReading> stands_;  // where the meter does
 };
@@ -392,6 +422,11 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
 
 }  // namespace
 
+bool SameStep(const PlannedReading& a, const PlannedReading& b) {
+  return a.action == b.action && a.distance == b.distance && a.position_m == b.position_m &&
+         a.off_axis == b.off_axis;
+}
+
 Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                  const FitSettings& settings, int steps) {
   auto alone = AloneIn(session, light);
@@ -419,7 +454,9 @@ Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& lig
                                   const FitSettings& settings, const LadderWishes& wishes) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, wishes.reach_m).Ladder(wishes);
+  Planner planner(*std::move(alone), settings, wishes.reach_m);
+  planner.Skip(wishes.skip);
+  return planner.Ladder(wishes);
 }
 
 }  // namespace lightcal

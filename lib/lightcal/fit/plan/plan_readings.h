@@ -34,6 +34,9 @@ struct ReadingPlan {
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                                const FitSettings& settings, int steps);
 
+// Whether they ask for the same: what to do, and where.
+[[nodiscard]] bool SameStep(const PlannedReading& a, const PlannedReading& b);
+
 // The same of angles off the axis alone, one step, of a lamp whose beam readings told.
 [[nodiscard]] Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
                                             const FitSettings& settings);
@@ -46,6 +49,7 @@ struct LadderWishes {
   MeasuringMinutes minutes{};
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has
   int steps = 6;         // at most
+  std::vector<PlannedReading> skip{};  // what the person cannot or will not do
 };
 
 // The ladder of those readings that shorten the interval most for their minutes: greatest decrease

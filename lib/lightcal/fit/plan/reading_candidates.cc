@@ -13,6 +13,7 @@ namespace lightcal::fit {
 namespace {
 
 constexpr double kNearest = 0.25;             // metres a person holds a meter from a lamp
+constexpr double kNearestUnknown = 0.5;       // from one of unknown make and size
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
@@ -36,9 +37,13 @@ class Candidates {
  public:
   Candidates(const Session& session, const LightDescription& light, const FittedLight* fitted,
              double reach_m)
-      : light_(light), fitted_(fitted), reach_(reach_m) {
+      : light_(light), fitted_(fitted), room_(session.room), reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
     for (const double d : distances_) reach_ = std::max(reach_, d);
+    const bool known = light.fixture || light.kind != LightKind::kPoint || SizeOf(light) > 0.0;
+    if (known) return;
+    nearest_ = kNearestUnknown;
+    for (const double d : distances_) nearest_ = std::min(nearest_, d);
   }
 
   [[nodiscard]] std::vector<PlannedReading> List() const {
@@ -98,7 +103,7 @@ class Candidates {
   }
 
   void AddDistances(std::vector<PlannedReading>& out) const {
-    const double clear = std::max(kNearest, 0.5 * SizeOf(light_));
+    const double clear = std::max(nearest_, 0.5 * SizeOf(light_));
     std::vector<double> distances;
     if (distances_.empty()) {
       const double near = std::max(0.5, 2.0 * SizeOf(light_));
@@ -166,12 +171,13 @@ class Candidates {
   void AddPlace(const Vec3& at, std::vector<PlannedReading>& out) const {
     const auto round = [](double x) { return std::round(x * 100.0) / 100.0; };
     const Vec3 place{round(at[0]), round(at[1]), round(at[2])};
+    if (room_ && !IsInRoom(place, room_->size_m)) return;
     const std::optional<Vec3> lamp = LampPlace();
     std::optional<Vec3> normal = CommonNormal();
     if (lamp) {
       const Vec3 to_lamp = *lamp - place;
       const double distance = Length(to_lamp);
-      if (!(distance > std::max(kNearest, 0.5 * SizeOf(light_)))) return;
+      if (!(distance > std::max(nearest_, 0.5 * SizeOf(light_)))) return;
       if (!normal) normal = to_lamp * (1.0 / distance);
       if (!(Dot(*normal, to_lamp) > 0.1 * distance)) return;
     }
@@ -243,7 +249,9 @@ class Candidates {
 
   const LightDescription& light_;
   const FittedLight* fitted_;
+  std::optional<Room> room_;
   double reach_;
+  double nearest_ = kNearest;
   std::vector<double> distances_, angles_;
   std::vector<Place> places_;
   std::vector<Reading> lit_, carded_;
