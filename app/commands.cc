@@ -126,6 +126,9 @@ constexpr CommandRow kCommands[] = {
      "  lightcal report out/light.json -o report.html\n"
      "  lightcal report sample_data/sessions/lit_wall --plot polar=polar.svg,luminance=wall.png",
      BuildReport},
+    {"page", "One file that calculates in a browser: on a phone, without a network",
+     "  lightcal page -o lightcal.html\n"
+     "  lightcal page out/light.json -o hall.html", BuildPage},
     {"diff", "Whether lamps changed between two calibrations, beyond what both are unsure of",
      "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json\n"
      "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json "

@@ -39,6 +39,7 @@ Run BuildExposure(CLI::App& parser);
 Run BuildReference(CLI::App& parser);
 Run BuildCompletion(CLI::App& parser);
 Run BuildMan(CLI::App& parser);
+Run BuildPage(CLI::App& parser);
 Run BuildColor(CLI::App& parser);
 Run BuildDevices(CLI::App& parser);
 Run BuildRatio(CLI::App& parser);

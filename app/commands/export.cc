@@ -20,6 +20,7 @@
 #include "lightcal_devices/files/delimited_text.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "page_file.h"
 #include "preset_flags.h"
 #include "target_words.h"
 
@@ -50,6 +51,13 @@ Result<void> CheckStems(const std::vector<std::string>& inputs) {
     }
   }
   return {};
+}
+
+// Presets of engines, and the page that carries the lights along.
+std::vector<std::string> ExportWords() {
+  std::vector<std::string> words = TargetWords();
+  words.emplace_back(kPageTarget);
+  return words;
 }
 
 std::vector<std::string> UsdRenderers() {
@@ -155,7 +163,17 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   auto into = IntoOf(options.into, *lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
-  auto exported = ExportPresets(*lights, options.targets, named.string(), with_pictures);
+  std::vector<std::string> targets = options.targets;
+  const bool page = std::erase(targets, std::string(kPageTarget)) > 0;
+  Result<ExportedPresets> exported = ExportedPresets{};
+  if (!targets.empty() || !page) {
+    exported = ExportPresets(*lights, targets, named.string(), with_pictures);
+  }
+  if (exported && page) {
+    auto html = PageWith(*lights, fs::path(input).filename().string());
+    if (!html) return Propagate(std::move(html));
+    exported->files.push_back({named.string() + ".page.html", *std::move(html)});
+  }
   if (exported) {
     exported->warnings.insert(exported->warnings.end(), warnings->begin(), warnings->end());
   }
@@ -207,7 +225,7 @@ Run BuildExport(CLI::App& parser) {
   parser.add_option("lights", options->inputs, "light.json files, as fit and run write them")
       ->required();
   parser.add_option("--to", options->targets, "Presets to write [all]")
-      ->check(OneOf(TargetWords()))
+      ->check(OneOf(ExportWords()))
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Directory of the presets")

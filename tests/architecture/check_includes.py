@@ -28,7 +28,7 @@ DEVICE_ROOMS_SEE = {"core", *LAWS, "records"}
 DOORS = [
     (r"ceres/tiny_solver.h", r"lib/lightcal/fit/|imaging/scene/board_camera\.cc$"),
     (r"ceres/(?!tiny_solver\.h)", r"lib/lightcal/fit/"),
-    (r"Eigen/", r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/"),
+    (r"Eigen/", r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/|^app/wasm/overlay/ceres/"),
     (r"OpenImageIO/|libraw/|OpenEXR/", r"devices/lightcal_devices/captures/"),
     (r"opencv2/", r"lib/lightcal/imaging/"),
     (r"nlohmann/", r"(_codec\.cc$)|(lib/lightcal/presets/.*\.cc$)|(^app/)"),
