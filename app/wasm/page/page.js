@@ -54,7 +54,8 @@ function showFault(target, error) {
   target.replaceChildren(make('p', text, { class: 'fault' }));
 }
 function showTable(target, text) {  // the command's own table: quantity, value, unit
-  showRows(target, labelled(text).slice(1));
+  const rows = text.split('\n').filter((line) => line.trim() !== '').slice(1);
+  showRows(target, rows.map((line) => /^(.*?)\s{2,}(?=[-+.\d])(.*)$/.exec(line)?.slice(1) ?? labelled(line)[0]));
 }
 function save(name, text, type = 'text/plain') {
   const link = make('a', '', { download: name, href: URL.createObjectURL(new Blob([text], { type })) });
