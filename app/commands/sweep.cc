@@ -174,11 +174,19 @@ class Sweep {
       if (!more) return tl::unexpected(more.error());
       if (!*more) return {};
     }
+    std::size_t others = ends.size();
     while (!candidates.empty()) {
+      if (others >= kBackToFull) {
+        const auto more = Take(FullOf(states_), "back to full");
+        if (!more) return tl::unexpected(more.error());
+        if (!*more) return {};
+        others = 0;
+      }
       const auto worst = LeastSure(candidates);
       if (!worst) return tl::unexpected(worst.error());
       worst_ = worst->second;
       if (worst->second <= until_) break;
+      ++others;
       const auto more =
           take(candidates[worst->first], "± " + PercentText(worst->second) + " until it is read");
       if (!more) return tl::unexpected(more.error());
