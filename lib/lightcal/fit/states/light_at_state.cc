@@ -6,19 +6,18 @@
 #include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal {
-using fit::Scaled;
-using fit::SdOfLn;
 
 bool HasItsGeometry(const FittedLight& light, const FixtureState& at) {
   return !light.distance_offset_m || fit::SameGeometry(light.state, at);
 }
 
 Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at) {
+  using fit::Scaled;
   const auto answer = AnswerState(light, at);
   if (!answer) return tl::unexpected(answer.error());
   FittedLight out = light;
   const double ln = std::log(answer->relative.value);
-  const double sd = SdOfLn(answer->relative);
+  const double sd = fit::SdOfLn(answer->relative);
   out.intensity_cd = answer->intensity_cd;
   out.illuminance_lx = answer->illuminance_lx;
   out.flux_lm = Scaled(light.flux_lm, ln, sd);
