@@ -113,9 +113,8 @@ class Sweep {
   // Once all else is known to be right: what is sent moves a fixture.
   Result<void> Drive() {
     if (options_.sacn.empty()) return {};
-    auto driven = DrivenFixture::Open(
-        options_.sacn, options_.map, options_.session,
-        options_.until.empty() ? SweepOrder(states_, Order()) : EndsOf(states_));
+    auto driven = DrivenFixture::Open(options_.sacn, options_.map, options_.session,
+                                      SweepOrder(states_, Order()));
     if (!driven) return Propagate(std::move(driven));
     driven_ = *std::move(driven);
     console_.Note("sACN universe " + std::to_string(driven_->universe()) + " to " +
