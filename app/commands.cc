@@ -115,6 +115,7 @@ constexpr CommandRow kCommands[] = {
     {"export", "Engine presets of fitted lights, for the scene that is there; --rig for one of its own",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --to blender --rig -o presets --force\n"
+     "  lightcal export out/light.json --to blender,json --rig --rig-at 20 --rig-at 20/90 -o rigs\n"
      "  lightcal export out/light.json --to unreal,blender --into map.csv -o into", BuildExport},
     {"engine", "What a renderer makes of each kind of light, learnt from its own pictures",
      "  lightcal engine learn point.preset.json point.exr --pixels exposed -o mine.json\n"

@@ -54,6 +54,8 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"preset.into", "--into"},
     {"preset.json", "--to json"},
     {"preset.range", "--range"},
+    {"preset.rig_at", "--rig-at"},
+    {"preset.spots", "--spots"},
     {"preset.target", "--to"},
     {"reading.illuminance", "--lux"},
     {"render.engine", "--engine"},
