@@ -42,9 +42,9 @@ class Host {
     this.out = { 1: [], 2: [] };
     this.open = new Map([
       [0, { stream: 0, at: 0 }], [1, { stream: 1 }], [2, { stream: 2 }],
-      [3, { folder: '/', root: '/' }], [4, { folder: here, root: '.' }],
+      [3, { folder: '/', root: '/' }],
     ]);
-    this.next = 5;
+    this.next = 4;
   }
   get view() { return new DataView(this.memory.buffer); }
   bytes(at, size) { return new Uint8Array(this.memory.buffer, at, size); }

@@ -41,6 +41,12 @@ void Report(int error_number, error_code* ec, const char* what, const path& p) {
   }
 }
 
+// wasi-libc begins at "/"; relative names are meant from where the host is.
+[[gnu::constructor]] void GoWhereTheHostIs() {
+  const char* const here = std::getenv("PWD");
+  if (here != nullptr) static_cast<void>(::chdir(here));
+}
+
 std::size_t LastSlash(View text) { return text.find_last_of('/'); }
 
 // "/a//b/" -> "/" "a" "b" "" (31.12.6.6)

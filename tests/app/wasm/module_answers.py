@@ -17,8 +17,8 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 WITHIN = 1e-9
-# Numbers near zero are held to this much of nothing: a Duv, an offset.
-FLOOR = 1e-9
+# Numbers nearer to zero are held to 1e-15 of nothing: a Duv, an offset.
+FLOOR = 1e-6
 
 
 def quick(rng):
@@ -87,7 +87,9 @@ def difference(a, b, where):
         return max(parts, default=(0.0, where))
     if not isinstance(b, (int, float)):
         return float("inf"), where
-    return abs(a - b) / max(abs(a), abs(b), FLOOR / WITHIN * 1e-3), f"{where}: {a!r} and {b!r}"
+    # What walls may add is kept as logarithms and their covariances: there absolute is relative.
+    floor = 1.0 if ".in_room[" in where else FLOOR
+    return abs(a - b) / max(abs(a), abs(b), floor), f"{where}: {a!r} and {b!r}"
 
 
 def main():
