@@ -37,8 +37,12 @@ export function ofFolder(folder, windows = process.platform === 'win32') {
 
 export class NodeFiles {
   kind(path) {
-    const found = fs.statSync(ofHost(path), { throwIfNoEntry: false });
-    return found && (found.isDirectory() ? 'folder' : 'file');
+    try {
+      return fs.statSync(ofHost(path)).isDirectory() ? 'folder' : 'file';
+    } catch (error) {  // nothing there, or what it would lie in is a file
+      if (['ENOENT', 'ENOTDIR'].includes(error.code)) return undefined;
+      throw { wasi: codes[error.code] ?? errno.io };
+    }
   }
   size(path) { return tried(() => fs.statSync(ofHost(path)).size); }
   read(path) { return tried(() => new Uint8Array(fs.readFileSync(ofHost(path)))); }
