@@ -57,10 +57,14 @@ std::string StoredZip(const std::array<Entry, N>& entries) {
 
 Result<Preset> ExportBlenderAddon(const LightFile&, const std::string&, const PresetOptions&) {
   // An extension's manifest stands at the archive's root or in its one folder.
-  const std::array<Entry, 3> entries = {
-      Entry{"lightcal/__init__.py", Script("blender_addon/__init__.py")},
-      Entry{"lightcal/laws.py", Script("blender_addon/laws.py")},
-      Entry{"lightcal/blender_manifest.toml", Script("blender_addon/blender_manifest.toml")}};
+  constexpr std::array<const char*, 8> kFiles = {
+      "__init__.py", "blender_manifest.toml", "cards.py", "lamps.py", "laws.py",
+      "panel.py",    "pictures.py",           "states.py"};
+  std::array<Entry, kFiles.size()> entries;
+  for (std::size_t i = 0; i < kFiles.size(); ++i) {
+    const std::string file = kFiles[i];
+    entries[i] = {"lightcal/" + file, Script("blender_addon/" + file)};
+  }
   Preset preset;
   preset.files.push_back({"lightcal-blender-addon.zip", StoredZip(entries)});
   preset.paste = "Edit > Preferences > Add-ons > Install: " + std::string(kPasteDirectory) +

@@ -18,6 +18,9 @@ import golden_lights
 LIGHTCAL = sys.argv[1]
 HERE = os.path.dirname(os.path.abspath(__file__))
 LAMPS = golden_lights.LAMPS
+SAMPLES = os.path.join(HERE, os.pardir, os.pardir, os.pardir, "sample_data")
+XYZ = ((0.4123908, 0.3575843, 0.1804808), (0.2126390, 0.7151687, 0.0721923),
+       (0.0193308, 0.1191948, 0.9505322))  # of linear sRGB, IEC 61966-2-1
 
 # Facing each at 2 m on its axis; areas by their closed forms, a tube as the point Blender has for it.
 def expected(lamp):
@@ -58,10 +61,13 @@ class Addon(unittest.TestCase):
         with open(cls.archive, "rb") as second:
             assert second.read() == before
         os.makedirs(os.path.join(here, "scripts", "addons"))
+        subprocess.run([LIGHTCAL, "run", os.path.join(SAMPLES, "sessions", "dimmed_panels"), "--to",
+                        "json", "-o", os.path.join(here, "dimmed")], check=True, capture_output=True)
+        cls.dimmed = os.path.join(here, "dimmed", "light.json")
         answers = os.path.join(here, "answers.json")
         subprocess.run(["blender", "-b", "--factory-startup", "-P",
                         os.path.join(HERE, "addon_probe.py"), "--", cls.archive, lamps,
-                        os.path.join(here, "next.json"), answers], check=True,
+                        os.path.join(here, "next.json"), cls.dimmed, answers], check=True,
                        capture_output=True,
                        env=dict(os.environ, BLENDER_USER_SCRIPTS=os.path.join(here, "scripts")))
         with open(answers) as text:
@@ -75,13 +81,14 @@ class Addon(unittest.TestCase):
         with zipfile.ZipFile(self.archive) as archive:
             self.assertIsNone(archive.testzip())
             code = {n: archive.read(n).decode() for n in archive.namelist()}
-        self.assertEqual(sorted(code), ["lightcal/__init__.py", "lightcal/blender_manifest.toml",
-                                        "lightcal/laws.py"])
+        python = ["lightcal/%s.py" % name for name in (
+            "__init__", "cards", "lamps", "laws", "panel", "pictures", "states")]
+        self.assertEqual(sorted(code), sorted(python + ["lightcal/blender_manifest.toml"]))
         self.assertIn("bl_info = {", code["lightcal/__init__.py"])
         manifest = dict(re.findall(r'^(\w+) = "([^"]*)"', code["lightcal/blender_manifest.toml"], re.M))
         self.assertEqual((manifest["schema_version"], manifest["id"], manifest["type"]),
                          ("1.0.0", "lightcal", "add-on"))
-        for name in ("lightcal/__init__.py", "lightcal/laws.py"):
+        for name in python:
             ast.parse(code[name])
             flakes = subprocess.run([sys.executable, "-m", "pyflakes"], input=code[name],
                                     capture_output=True, text=True)
@@ -122,10 +129,50 @@ class Addon(unittest.TestCase):
         self.assertAlmostEqual(seen["exposure"], math.log2(math.pi / 250 * 683), delta=1e-5)
         self.assertAlmostEqual(seen["exposure_kept"], seen["exposure"], delta=1e-6)
         self.assertEqual(seen["links"], ["set.json", "b.json"])
-        self.assertEqual(seen["unlinked"], [1, 8, 16])  # both files' lamps stay in the scene
+        self.assertEqual(seen["unlinked"], [1, 0, 8])  # the file's lamps stay in the scene
         self.assertTrue(seen["timer"])
         self.assertFalse(seen["timer_after"] or seen["state_after"] or seen["folder_after"])
         self.assertEqual(seen["classes_after"], seen["classes_before"])
+
+
+    def test_a_folder_is_a_list_with_pictures_and_one_is_placed(self):
+        seen = self.seen
+        self.assertEqual(seen["folder"], ["FINISHED"])
+        self.assertEqual(len(seen["listed"]), 2 * len(LAMPS))
+        self.assertIn(["b.json", "key", "2000 cd (1996 to 2004)"], seen["listed"])
+        self.assertEqual(seen["only_listed"], 8)  # the first file's
+        self.assertEqual(seen["placed"], ["FINISHED"])
+        self.assertEqual(seen["placed_lamp"], ["key", [1.0, 2.0, 3.0]])
+        self.assertEqual(seen["thumbnail"][0], [64, 64])
+        self.assertGreater(seen["thumbnail"][1], 1.1)  # alpha alone is 1
+        self.assertIn("choose a grey card", seen["refused"][0])
+
+    def test_sliders_give_what_lightcal_state_gives(self):
+        states = self.seen["states"]
+        self.assertEqual(self.seen["slider"], [18.0, 100.0, 100.0])
+
+        def lux_and_xy(look):
+            xyz = [sum(m * c for m, c in zip(row, look["color"])) for row in XYZ]
+            return look["energy"] * 683 * xyz[1], [xyz[0] / sum(xyz), xyz[1] / sum(xyz)]
+
+        for name, light, at in (("module 60", "module", "dimmer=60"),
+                                ("module 25", "module", "dimmer=25"),
+                                ("frame 11", "module", "dimmer=40"),
+                                ("frame 1", "module", "dimmer=100"),
+                                ("panel 40 4700", "panel", "dimmer=40,cct_K=4700")):
+            told = json.loads(subprocess.run(
+                [LIGHTCAL, "state", self.dimmed, "--light", light, "--at", at, "--json"], check=True,
+                capture_output=True, text=True).stdout)
+            lux, xy = lux_and_xy(states[name])
+            self.assertAlmostEqual(lux / told["illuminance_lx"]["value"], 1.0, delta=2e-4, msg=name)
+            for got, want in zip(xy, told["xy"]):
+                self.assertAlmostEqual(got, want, delta=5e-4, msg=name)
+            ends = [float(end) for end in re.findall(r"\((\S+) to (\S+)\)",
+                                                     states[name]["interval"])[0]]
+            for end, key in zip(ends, ("low95", "high95")):
+                self.assertAlmostEqual(end / told["illuminance_lx"][key], 1.0, delta=1e-3, msg=name)
+        self.assertEqual(states["module 10"]["interval"], "dimmer was read from 18 to 100")
+        self.assertEqual(states["module 10"]["energy"], states["module 25"]["energy"])
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""blender -b --factory-startup -P addon_probe.py -- ADDON.zip LIGHT.json NEXT.json ANSWERS.json
+"""blender -b --factory-startup -P addon_probe.py -- ADDON.zip LIGHT.json NEXT.json DIMMED.json ANSWERS.json
 Installs the add-on as a person would, links the file, changes it and looks what became of it."""
 import json
 import math
@@ -10,7 +10,7 @@ import sys
 import bpy
 from mathutils import Matrix, Vector
 
-archive, path, following, answers = sys.argv[sys.argv.index('--') + 1:]
+archive, path, following, dimmed, answers = sys.argv[sys.argv.index('--') + 1:]
 seen = {}
 
 
@@ -105,6 +105,67 @@ with open(os.path.join(folder, 'other.json'), 'w') as out:
     out.write('{"schema": "something"}')
 seen['folder'] = sorted(bpy.ops.lightcal.link(filepath=folder))
 seen['links'] = [os.path.basename(link.path) for link in scene.lightcal.links]
+seen['listed'] = [(os.path.basename(item.path), item.name, item.interval)
+                  for item in scene.lightcal.lamps]
+seen['only_listed'] = len([t for t in scene.objects if t.type == 'LIGHT'])
+
+# One of the list at the cursor, with a picture of it.
+scene.lightcal.chosen_lamp = max(i for i, one in enumerate(scene.lightcal.lamps)
+                                 if one.name == 'key')
+item = scene.lightcal.lamps[scene.lightcal.chosen_lamp]
+scene.cursor.location = (1, 2, 3)
+seen['placed'] = sorted(bpy.ops.lightcal.place())
+thing = bpy.context.view_layer.objects.active
+bpy.context.view_layer.update()
+seen['placed_lamp'] = thing['lightcal_light'], list(thing.matrix_world.translation)
+addon.panel.thumbnail(item)
+preview = next(iter(addon.panel.PREVIEWS['all'].values()))
+seen['thumbnail'] = list(preview.image_size), sum(preview.image_pixels_float[:]) / 64 ** 2
+bpy.data.objects.remove(thing)
+
+# Sliders of a lamp that was read at states, and an animation of one.
+bpy.ops.lightcal.link(filepath=dimmed)
+thing, two = (next(t for t in scene.objects if t.get('lightcal_file') == dimmed and
+                   t['lightcal_light'] == name) for name in ('module', 'panel'))
+ends = thing.id_properties_ui('lightcal dimmer').as_dict()
+seen['slider'] = ends['min'], ends['max'], thing['lightcal dimmer']
+seen['states'] = {}
+
+
+def look(name, one):
+    seen['states'][name] = {'energy': one.data.energy, 'color': list(one.data.color),
+                            'interval': one['lightcal_interval']}
+
+
+look('as read', thing)
+for dimmer in (60.0, 25.0, 10.0):
+    thing['lightcal dimmer'] = dimmer
+    addon.poll()
+    look('module %g' % dimmer, thing)
+two['lightcal dimmer'], two['lightcal cct_K'] = 40.0, 4700.0
+addon.poll()
+look('panel 40 4700', two)
+thing['lightcal dimmer'] = 100.0
+thing.keyframe_insert('["lightcal dimmer"]', frame=1)
+thing['lightcal dimmer'] = 40.0
+thing.keyframe_insert('["lightcal dimmer"]', frame=11)
+scene.frame_set(1)
+look('frame 1', thing)
+scene.frame_set(11)
+look('frame 11', thing)
+scene.lightcal.chosen = len(scene.lightcal.links) - 1
+bpy.ops.lightcal.unlink()
+for one in list(scene.objects):
+    if one.type == 'LIGHT' and 'lightcal_light' not in one:
+        bpy.data.objects.remove(one)
+seen['refused'] = []
+for act in (bpy.ops.lightcal.measure_card,):
+    bpy.context.view_layer.objects.active = None
+    try:
+        act()
+    except RuntimeError as fault:
+        seen['refused'].append(str(fault))
+
 os.remove(path)
 addon.poll()
 seen['gone'] = scene.lightcal.links[0].message

@@ -55,6 +55,15 @@ def figure(light):
     return None
 
 
+def locus_uv(t):
+    """CIE 1960 uv of a black body of t kelvin, 1000 to 15000 K (Krystek 1985)."""
+    u = (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) / (
+        1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t)
+    v = (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) / (
+        1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t)
+    return u, v
+
+
 def color_of(light):
     """(linear Rec. 709 with its largest component 1, luminance of it)"""
     xy = light.get('color', {}).get('xy')
@@ -62,11 +71,7 @@ def color_of(light):
         cct = light.get('color', {}).get('cct_K', {}).get('value')
         if not cct:
             return [1.0, 1.0, 1.0], 1.0
-        t = float(cct)  # Krystek 1985, CIE 1960 uv
-        u = (0.860117757 + 1.54118254e-4 * t + 1.28641212e-7 * t * t) / (
-            1 + 8.42420235e-4 * t + 7.08145163e-7 * t * t)
-        v = (0.317398726 + 4.22806245e-5 * t + 4.20481691e-8 * t * t) / (
-            1 - 2.89741816e-5 * t + 1.61456053e-7 * t * t)
+        u, v = locus_uv(float(cct))
         xy = [3 * u / (2 * u - 8 * v + 4), 2 * v / (2 * u - 8 * v + 4)]
     x, y = xy
     xyz = (x / y, 1.0, (1 - x - y) / y)

@@ -1,0 +1,397 @@
+# Written by lightcal: a lamp at a state of its controls. Nothing here needs Blender itself.
+# SPDX-License-Identifier: Apache-2.0
+"""Light against a level x follows ln E = c + p ln(x + x0) + rest(x), p = 1 (a driver that does not
+end at zero) or free (tungsten, a gamma); colour follows ln x by a slope, and its own control one to
+one. `rest` is a Gaussian process (Matern 3/2), one a control and one of all together. x0, sizes and
+lengths are averaged over by how probable each makes the readings (Rasmussen and Williams 2006, 2.2,
+5.4)."""
+import functools
+import math
+
+import numpy as np
+
+from . import laws
+
+Z95 = 1.959963984540054
+LEVEL_FLOOR = 0.03
+CONSTANT_VARIANCE = 25.0
+LEAST_EVIDENCE = 7.0
+FORMS_KEPT = 8
+NEAREST, NEAREST_TO_FULL = 20, 10
+# level rest, other rest, joint rest, level slope, other slope
+SCALES = {'light': (1.0, 1.0, 1.0, 0.0, 0.5), 'mired': (0.2, 0.4, 0.3, 0.3, 0.3),
+          'duv': (0.05, 0.03, 0.05, 0.002, 0.004)}
+OTHER_LENGTH = 0.45  # of a control's range
+REPEATS = {'mired': 0.001, 'duv': 2e-4}
+
+
+class Unknown(Exception):
+    """A state that the readings do not tell of; the message is for people."""
+
+
+def kind_of(name):
+    if name == 'cct_K':
+        return 'temperature'
+    other = name in ('tint', 'zoom_deg', 'hue', 'saturation') or name.endswith('_deg')
+    return 'other' if other else 'level'
+
+
+def same(a, b):
+    return abs(a - b) <= 1e-9 * max(abs(a), abs(b))
+
+
+def alike(a, b):
+    return a.keys() == b.keys() and all(
+        a[k] == b[k] if isinstance(a[k], str) or isinstance(b[k], str) else same(a[k], b[k])
+        for k in a)
+
+
+def matern(distance, length):
+    r = math.sqrt(3.0) * np.abs(distance) / length
+    return (1.0 + r) * np.exp(-r)
+
+
+def sd_of_ln(u):
+    if u.get('low95', 0.0) > 0.0 and 'high95' in u:
+        return math.log(u['high95'] / u['low95']) / (2.0 * Z95)
+    return u.get('u95', 0.0) / (Z95 * u['value']) if u['value'] > 0.0 else 0.0
+
+
+def from_ln(ln, sd):
+    low, high = math.exp(ln - Z95 * sd), math.exp(ln + Z95 * sd)
+    return {'value': math.exp(ln), 'u95': (high - low) / 2, 'low95': low, 'high95': high}
+
+
+class Curve:
+    """One number of a lamp from the states that were read; `at` is a row a state."""
+
+    def __init__(self, kinds, target, at, values, sds):
+        self.kinds, self.target = kinds, target
+        self.points = np.array(at, float)
+        self.values, self.sds = np.array(values), np.array(sds)
+        plain = np.stack([self.plain(i, self.points[:, i]) for i in range(len(kinds))], axis=1)
+        self.middle = plain.mean(axis=0)
+        span = plain.max(axis=0) - plain.min(axis=0)
+        self.span = np.where(span > 0.0, span, 1.0)
+        self.average()
+
+    def plain(self, control, labels):
+        kind = self.kinds[control]
+        if kind == 'level':
+            return np.log(labels + LEVEL_FLOOR)
+        return np.log(1e6 / labels) if kind == 'temperature' else labels
+
+    def see(self, labels, form):
+        """(coordinates, mean, ln of the formed level, its slope by the zero, labels), a row a
+        state."""
+        control, zero, _, power, _, _ = form
+        along, count = [], len(labels)
+        mean, ln_level, by_zero = np.zeros(count), np.zeros(count), np.zeros(count)
+        for i, kind in enumerate(self.kinds):
+            x = self.plain(i, labels[:, i])
+            if i == control:
+                above = np.maximum(1e-6, labels[:, i] + zero)
+                x = ln_level = np.log(above)
+                by_zero = power / above
+                mean = mean + power * ln_level
+            elif kind == 'level':
+                mean = mean + (x if self.target == 'light' else 0.0)
+            else:
+                if kind == 'temperature' and self.target == 'mired':
+                    mean = mean + x
+                x = (x - self.middle[i]) / self.span[i]
+            along.append(x)
+        return np.stack(along, axis=1), mean, ln_level, by_zero, labels
+
+    def covariance(self, form, rests, a, b):
+        level_rest, other_rest, joint_rest, level_slope, other_slope = SCALES[self.target]
+        control, _, step, _, power_sd, _ = form
+        level, level_length, by_label, other, joint, _ = rests
+        total = np.full((len(a[1]), len(b[1])), CONSTANT_VARIANCE)
+        together = np.ones_like(total)
+        for i, kind in enumerate(self.kinds):
+            u, v = a[0][:, i][:, None], b[0][:, i][None, :]
+            if kind == 'level':
+                if i == control:
+                    total += power_sd ** 2 * np.outer(a[2], b[2]) + step ** 2 * np.outer(a[3], b[3])
+                else:
+                    total += level_slope ** 2 * u * v
+                apart = a[4][:, i][:, None] - b[4][:, i][None, :] if by_label else u - v
+                total += (level_rest * level) ** 2 * matern(apart, level_length)
+                together *= matern(u - v, 1.5)
+            else:
+                total += other_slope ** 2 * u * v + (other_rest * other) ** 2 * matern(
+                    u - v, OTHER_LENGTH)
+                together *= matern(u - v, 0.7)
+        return total + (joint_rest * joint) ** 2 * together
+
+    def solve(self, form, rests):
+        """(ln evidence, what answers need), None where the matrix is none."""
+        seen = self.see(self.points, form)
+        off = self.values - seen[1]
+        center = off.mean()
+        off = off - center
+        matrix = self.covariance(form, rests, seen, seen) + np.diag(self.sds ** 2)
+        try:
+            root = np.linalg.cholesky(matrix)
+        except np.linalg.LinAlgError:
+            return None
+        inverse = np.linalg.inv(root)
+        weights = inverse.T @ (inverse @ off)
+        evidence = (-0.5 * off @ weights - np.log(np.diag(root)).sum() +
+                    math.log(form[5] * rests[5]))
+        return (evidence, form, rests, seen, center, inverse, weights)
+
+    def forms(self):
+        """(control, zero, its step, power, its sd, weight): zeros a fifth of x_min + zero apart."""
+        level = next((i for i, k in enumerate(self.kinds) if k == 'level'), None)
+        if self.target != 'light' or level is None:
+            return [(-1, LEVEL_FLOOR, 0.0, 0.0, 0.0, 1.0)]
+        least = self.points[:, level].min()
+        smallest = max(least, 0.01)
+        forms, ln = [], math.log(max(0.04 * smallest, 2e-3))
+        while ln < math.log(12.0 * smallest + 0.3):
+            above = math.exp(ln)
+            forms.append((level, above - least, 0.1 * above, 1.0, 0.02, 1.0))
+            forms.append((level, above - least, 0.1 * above, 2.0, 1.2, 0.5))
+            ln += 0.2
+        if len(forms) <= FORMS_KEPT:
+            return forms
+        order = sorted(((-one[0], i) for i, one in enumerate(
+            self.solve(form, (0.02, 0.8, False, 0.05, 0.01, 1.0)) for form in forms) if one))
+        return [forms[i] for _, i in order[:FORMS_KEPT]]
+
+    def rests(self):
+        """(level, its length, whether that is of the label, other, joint, weight): drivers bend at
+        labels; what lamps do goes with the logarithm."""
+        level = 'level' in self.kinds
+        others = any(kind != 'level' for kind in self.kinds)
+        none = ((0.0, 1.0),)
+        lengths = ((0.25, False), (1.5, False), (0.3, True)) if level else ((1.0, False),)
+        for a, by_a in ((0.003, 0.7), (0.012, 1.5), (0.03, 4.5)) if level else none:
+            for length, by_label in lengths:
+                for b, by_b in ((0.008, 1.0), (0.04, 2.0), (0.16, 2.0)) if others else none:
+                    for c, by_c in ((0.002, 1.5), (0.015, 1.0)) if len(self.kinds) > 1 else none:
+                        yield (a, length, by_label, b, c, by_a * by_b * by_c)
+
+    def average(self):
+        """Rests that fall behind under the likeliest form are not tried with the others."""
+        forms, rests, solved = self.forms(), list(self.rests()), []
+        for form in forms:
+            found = [one for one in (self.solve(form, one) for one in rests) if one]
+            if form is forms[0]:
+                best = max(one[0] for one in found)
+                rests = [one[2] for one in found if one[0] >= best - LEAST_EVIDENCE]
+            solved += found
+        best = max(one[0] for one in solved)
+        self.all = [one for one in solved if one[0] >= best - LEAST_EVIDENCE]
+        shares = np.exp([one[0] - best for one in self.all])
+        self.shares = shares / shares.sum()
+
+    def at(self, labels):
+        """(value, 1 sigma)"""
+        mean = square = 0.0
+        for share, (_, form, rests, seen, center, inverse, weights) in zip(self.shares, self.all):
+            here = self.see(np.array([labels], float), form)
+            row = self.covariance(form, rests, seen, here)[:, 0]
+            value = here[1][0] + center + row @ weights
+            down = inverse @ row
+            variance = self.covariance(form, rests, here, here)[0, 0] - down @ down
+            mean += share * value
+            square += share * (max(0.0, variance) + value * value)
+        return mean, math.sqrt(max(0.0, square - mean * mean))
+
+
+@functools.lru_cache(maxsize=64)  # a slider asks one curve many times
+def curve_of(kinds, target, at, values, sds):
+    return Curve(kinds, target, at, values, sds)
+
+
+# ---- colour ----
+
+LOCUS_MIRED = np.linspace(1e6 / 25000, 1e6 / 1000, 2000)
+LOCUS = np.array([laws.locus_uv(1e6 / m) for m in LOCUS_MIRED])
+
+
+def uv_of(xy):
+    x, y = xy
+    return np.array([4 * x, 6 * y]) / (-2 * x + 12 * y + 3)
+
+
+def nearest_locus(xy):
+    """(mired, Duv): along the straight pieces between points of the locus."""
+    uv = uv_of(xy)
+    a, d = LOCUS[:-1], np.diff(LOCUS, axis=0)
+    t = np.clip(((uv - a) * d).sum(axis=1) / (d * d).sum(axis=1), 0.0, 1.0)
+    off = uv - (a + t[:, None] * d)
+    far = (off * off).sum(axis=1)
+    i = int(far.argmin())
+    sign = 1.0 if off[i] @ np.array([-d[i][1], d[i][0]]) * -d[i][0] <= 0 else -1.0
+    return LOCUS_MIRED[i] + t[i] * (LOCUS_MIRED[1] - LOCUS_MIRED[0]), sign * math.sqrt(far[i])
+
+
+def xy_at(mired, duv):
+    i = int(np.clip(np.searchsorted(LOCUS_MIRED, mired) - 1, 0, len(LOCUS) - 2))
+    d = LOCUS[i + 1] - LOCUS[i]
+    normal = np.array([-d[1], d[0]]) / math.hypot(*d)
+    normal = normal if normal[1] > 0 else -normal
+    u, v = np.array(laws.locus_uv(1e6 / mired)) + duv * normal
+    return [3 * u / (2 * u - 8 * v + 4), 2 * v / (2 * u - 8 * v + 4)]
+
+
+def duv_on_line(xys, mired):
+    """(Duv, its sd) where two emitters mix: on the line through what was read; None = no line."""
+    xys = np.array(xys)
+    if len(xys) < 3:
+        return None
+    middle = xys.mean(axis=0)
+    _, _, axes = np.linalg.svd(xys - middle)
+    along, beside = (xys - middle) @ axes[0], (xys - middle) @ axes[1]
+    scatter = math.sqrt((beside ** 2).sum() / (len(xys) - 2))
+    if along.max() - along.min() < 0.005 or scatter > 0.0015:
+        return None
+    low, high = along.min(), along.max()
+    found = nearest_locus(middle + low * axes[0])[0], nearest_locus(middle + high * axes[0])[0]
+    if not min(found) <= mired <= max(found):
+        return None
+    for _ in range(50):
+        half = 0.5 * (low + high)
+        if (nearest_locus(middle + half * axes[0])[0] < mired) == (found[1] > found[0]):
+            low = half
+        else:
+            high = half
+    return (nearest_locus(middle + 0.5 * (low + high) * axes[0])[1],
+            0.67 * scatter * math.sqrt(1 + 1 / len(xys)))
+
+
+# ---- a light at a state ----
+
+def controls_of(light):
+    """{name: (least, most)} of what took several numbers, in the file's order; a word: ()."""
+    states = light.get('states', [])
+    if not states:
+        return {}
+    found = {}
+    for name, value in states[0]['state'].items():
+        if isinstance(value, str):
+            found[name] = ()
+            continue
+        numbers = [one['state'][name] for one in states]
+        if not same(min(numbers), max(numbers)):
+            found[name] = (min(numbers), max(numbers))
+    return found
+
+
+def labels_of(state, axes):
+    """Levels as parts of their largest, a dimmer of 100."""
+    out = []
+    for name, (_, most) in axes.items():
+        unit = 1.0 if kind_of(name) != 'level' else 100.0 if name == 'dimmer' else most
+        out.append(state[name] / unit if unit > 0 else state[name])
+    return tuple(out)
+
+
+def nearest(kept, axes, at):
+    """The states nearest to full and to what is asked, as many as tell something."""
+    def far_from(state):
+        here = labels_of(state, axes)
+
+        def far(one):
+            total = 0.0
+            for (name, (low, high)), a, b in zip(axes.items(), labels_of(one['state'], axes), here):
+                level = kind_of(name) == 'level'
+                off = (math.log((a + 0.03) / (b + 0.03)) / 3.0 if level else (a - b) / (high - low))
+                total += off * off
+            return total
+        return far
+    if len(kept) <= NEAREST + NEAREST_TO_FULL:
+        return kept
+    full = dict(at)
+    if 'dimmer' in at:
+        full['dimmer'] = axes.get('dimmer', (0, at['dimmer']))[1]
+    else:
+        full = max(kept, key=lambda one: one['relative']['value'])['state']
+    kept = sorted(kept, key=far_from(full))
+    rest = sorted(kept[NEAREST_TO_FULL:], key=far_from(at))
+    return (kept[:NEAREST_TO_FULL] + rest)[:NEAREST + NEAREST_TO_FULL]
+
+
+def color_between(kept, axes, at):
+    with_color = [one for one in kept if {'cct_K', 'duv', 'xy'} <= one.get('color', {}).keys()]
+    if len(with_color) < 2:
+        return {}
+    labels = tuple(labels_of(one['state'], axes) for one in with_color)
+    kinds = tuple(kind_of(name) for name in axes)
+    colors = [one['color'] for one in with_color]
+    here = labels_of(at, axes)
+    count = len(colors)
+    mireds = tuple(math.log(1e6 / c['cct_K']['value']) for c in colors)
+    ln_mired, sd = curve_of(kinds, 'mired', labels, mireds, (REPEATS['mired'],) * count).at(here)
+    # What the meter errs alike at every state; one chromaticity error is more kelvin to a cold lamp
+    order = sorted(range(count), key=lambda i: mireds[i])
+    shared = [np.interp(ln_mired, [mireds[i] for i in order], [
+        math.sqrt(max(0.0, sds[i] ** 2 - REPEATS[what] ** 2)) for i in order]) for what, sds in (
+            ('mired', [sd_of_ln(c['cct_K']) for c in colors]),
+            ('duv', [c.get('duv_u95', 0.0) / Z95 for c in colors]))]
+    duv = curve_of(kinds, 'duv', labels, tuple(c['duv'] for c in colors),
+                   (REPEATS['duv'],) * count).at(here)
+    mired = math.exp(ln_mired)
+    # What Krystek's locus leaves is taken from the nearest colour that was read.
+    near = min(colors, key=lambda c: abs(1e6 / c['cct_K']['value'] - mired))
+    line = duv_on_line([c['xy'] for c in colors], mired)
+    if line and line[1] < duv[1]:
+        past_locus = near['duv'] - nearest_locus(near['xy'])[1]
+        duv = line[0] + past_locus, max(line[1], REPEATS['duv'])
+    past_krystek = [a - b for a, b in zip(near['xy'], xy_at(1e6 / near['cct_K']['value'],
+                                                            near['duv']))]
+    return {'cct_K': from_ln(math.log(1e6) - ln_mired, math.hypot(sd, shared[0])), 'duv': duv[0],
+            'duv_u95': Z95 * math.hypot(duv[1], shared[1]), 'xy': [a + b for a, b in zip(
+                xy_at(mired, duv[0]), past_krystek)]}
+
+
+def light_at(light, at):
+    """The light as it is there: a state that was read, or one between. Raises Unknown."""
+    states = light.get('states', [])
+    if not states or alike(at, light.get('state', {})):
+        return light
+    kept = [one for one in states
+            if all(one['state'].get(k) == v for k, v in at.items() if isinstance(v, str))]
+    if not kept:
+        raise Unknown('no state with these words was read')
+    exact = next((one for one in kept if alike(one['state'], at)), None)
+    axes = {}
+    for name, value in at.items():
+        if isinstance(value, str):
+            continue
+        numbers = [one['state'][name] for one in kept]
+        low, high = min(numbers), max(numbers)
+        if not (low <= value <= high or same(value, low) or same(value, high)):
+            raise Unknown('%s was read from %g to %g' % (name, low, high))
+        if not same(low, high):
+            axes[name] = (low, high)
+    changed = dict(light, state=dict(at))
+    if exact:
+        ln = math.log(exact['relative']['value'])
+        changed.update({k: exact[k] for k in ('intensity_cd', 'illuminance_lx', 'color')
+                        if k in exact})
+    else:
+        if not axes:
+            raise Unknown('one state alone was read')
+        if sum(kind_of(name) == 'level' for name in axes) > 1:
+            raise Unknown('between its levels nothing is known')
+        kept = nearest(kept, axes, at)
+        curve = curve_of(tuple(kind_of(name) for name in axes), 'light',
+                         tuple(labels_of(one['state'], axes) for one in kept),
+                         tuple(math.log(one['relative']['value']) for one in kept),
+                         tuple(max(1e-4, one['repeatability']) for one in kept))
+        ln, sd = curve.at(labels_of(at, axes))
+        for key in ('intensity_cd', 'illuminance_lx', 'luminance_nits'):
+            if key in light:
+                changed[key] = from_ln(math.log(light[key]['value']) + ln,
+                                       math.hypot(sd_of_ln(light[key]), sd))
+        changed['color'] = color_between(kept, axes, at) or light.get('color', {})
+    if 'distribution' in light:
+        scale = math.exp(ln)
+        table = light['distribution']
+        changed['distribution'] = dict(table, candela=[scale * x for x in table['candela']])
+    return changed
