@@ -29,6 +29,8 @@ class Console {
   [[nodiscard]] bool json() const { return flags_.json; }
   [[nodiscard]] bool allows_outside() const { return flags_.allow_outside; }
   [[nodiscard]] bool verbose() const { return flags_.verbose; }
+  // What it was warned of so far.
+  [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
   // Text for people on stdout; silent with --json.
   void Print(std::string_view text);

@@ -25,6 +25,7 @@ struct NotedFiles {
   std::mutex mutex;
   std::set<std::string> paths;
   std::set<std::pair<dev_t, ino_t>> files;
+  int answers = 0;  // at work, where a process answers more than once
 };
 
 NotedFiles& Noted() {
@@ -53,6 +54,20 @@ void NoteInput(const std::string& path) {
   const std::lock_guard lock(noted.mutex);
   noted.paths.insert(WholePath(path));
   if (there) noted.files.insert({status.st_dev, status.st_ino});
+}
+
+InputsOfOneAnswer::InputsOfOneAnswer() {
+  NotedFiles& noted = Noted();
+  const std::lock_guard lock(noted.mutex);
+  ++noted.answers;
+}
+
+InputsOfOneAnswer::~InputsOfOneAnswer() {
+  NotedFiles& noted = Noted();
+  const std::lock_guard lock(noted.mutex);
+  if (--noted.answers > 0) return;
+  noted.paths.clear();
+  noted.files.clear();
 }
 
 bool IsInput(const std::string& path) {

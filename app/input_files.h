@@ -15,6 +15,15 @@ namespace lightcal::app {
 void NoteInput(const std::string& path);
 [[nodiscard]] bool IsInput(const std::string& path);
 
+// For a process that answers more than once: when the last of these goes, inputs are forgotten.
+class InputsOfOneAnswer {
+ public:
+  InputsOfOneAnswer();
+  ~InputsOfOneAnswer();
+  InputsOfOneAnswer(const InputsOfOneAnswer&) = delete;
+  InputsOfOneAnswer& operator=(const InputsOfOneAnswer&) = delete;
+};
+
 // devices::DiskSources(), noting every file they are asked for.
 [[nodiscard]] Sources InputSources();
 

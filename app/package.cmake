@@ -13,6 +13,9 @@ lightcal_says("man" lightcal.1)
 add_custom_target(lightcal_shell_files ALL
   DEPENDS ${shell}/lightcal ${shell}/_lightcal ${shell}/lightcal.fish ${shell}/lightcal.1)
 
+if(TARGET lightcal_python)
+  add_dependencies(lightcal_shell_files lightcal_python)
+endif()
 install(FILES ${shell}/lightcal DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${shell}/_lightcal DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES ${shell}/lightcal.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
@@ -28,6 +31,17 @@ add_custom_target(lightcal_installed
   DEPENDS ${rooms} lightcal lightcal_board lightcal_pictures lightcal_tether lightcal_shell_files)
 
 set(CPACK_GENERATOR DEB)
+# Two packages of one build: lightcal, and python3-lightcal where Python's headers and pybind11 are.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL Unspecified)
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_NAME lightcal)
+set(CPACK_COMPONENT_UNSPECIFIED_DESCRIPTION ${PROJECT_DESCRIPTION})
+if(TARGET lightcal_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-lightcal)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "lightcal (= ${PROJECT_VERSION}), ${LIGHTCAL_PYTHON_DEPENDS}")
+endif()
 set(CPACK_PACKAGE_CONTACT "The lightcal authors <lightcal@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_PACKAGE_DESCRIPTION "lightcal takes readings of lux meters, spectrometers and cameras, fits
@@ -41,12 +55,12 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Opened while running, so that dpkg-shlibdeps does not see them: PNG pictures, HID meters.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "librsvg2-2, libhidapi-hidraw0, libhidapi-libusb0")
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_DEPENDS "librsvg2-2, libhidapi-hidraw0, libhidapi-libusb0")
 # spotread; then what find_package(lightcal) finds its own dependencies in.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "argyll, libexpected-dev, libceres-dev, libopencv-dev, \
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_SUGGESTS "argyll, libexpected-dev, libceres-dev, libopencv-dev, \
 libopencv-contrib-dev, nlohmann-json3-dev, libtomlplusplus-dev, libarchive-dev, libpugixml-dev, \
 libopenexr-dev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+set(CPACK_DEBIAN_UNSPECIFIED_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/app/debian/postinst ${PROJECT_SOURCE_DIR}/app/debian/postrm)
 include(CPack)

@@ -2,28 +2,22 @@
 // lightcal quick: no session needed. Typed readings or a data sheet's figures become a session in
 // memory and go through the same fit.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
 
 #include "commands.h"
 #include "lamp_answer.h"
 #include "lamp_words.h"
 #include "light_table.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/plan/reading_candidates.h"
-#include "lightcal/match/gelled_light.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
-#include "lightcal/records/light_codec.h"
 #include "match/behind_gels.h"
 #include "minutes_answer.h"
 #include "one_of.h"
 #include "output_files.h"
 #include "preset_flags.h"
+#include "quick/quick_answer.h"
 #include "quick/quick_session.h"
 #include "quick/quick_table.h"
 #include "target_words.h"
@@ -31,35 +25,12 @@
 namespace lightcal::app {
 namespace {
 
-struct Prediction {
-  Metres distance;
-  PredictedIlluminance predicted;
-  std::optional<IlluminanceInRoom> in_room;
-};
-
-Result<std::vector<Prediction>> Predict(const QuickOptions& options, const FittedLight& light) {
-  std::vector<Prediction> predictions;
-  const auto asked = SigmaAsked(options);
-  if (!asked) return tl::unexpected(asked.error());
-  const double sigma = asked->value_or(kSigmaUnnamedMeter);
-  for (const std::string& text : options.predict_at) {
-    const auto distance = ParseLength(text);
-    if (!distance) return tl::unexpected(distance.error());
-    auto predicted = PredictIlluminance(light, *distance, sigma);
-    if (!predicted) return Propagate(std::move(predicted));
-    auto in_room = PredictInRoom(light, *distance, sigma);
-    if (!in_room) return Propagate(std::move(in_room));
-    predictions.push_back({*distance, *predicted, *std::move(in_room)});
-  }
-  return predictions;
-}
-
 std::string ValueAndRange(const Uncertain& lx) { return ValueText(lx) + " lx   " + RangeText(lx); }
 
 // "at 3 m   lamp alone 5.2 lx   4.6 … 5.9   in the room 12 lx   8 … 17"
-std::string PredictionLines(const std::vector<Prediction>& predictions) {
+std::string PredictionLines(const std::vector<QuickPrediction>& predictions) {
   std::string text;
-  for (const Prediction& p : predictions) {
+  for (const QuickPrediction& p : predictions) {
     std::string line = "a meter reads " + ValueAndRange(p.predicted.reading_lx);
     if (p.in_room) {
       line = "lamp alone " + ValueAndRange(p.predicted.reading_lx) + "   in the room " +
@@ -93,104 +64,16 @@ Result<void> PlanFromNone(const QuickOptions& options, const Session& session,
   return {};
 }
 
-// The fitted light behind its gels. Without a spectrum its colour stands for a black body or
-// daylight, which is said.
-Result<BehindGels> PutGelBefore(const QuickOptions& options, FittedLight& light, Console& console) {
-  MatchLightWords words;
-  words.source = options.spectrum;
-  if (options.spectrum.empty()) {
-    if (!light.color.cct_K) {
-      return Refused("no_spectrum", "--gel",
-                     "what a gel makes of a lamp depends on its spectrum; give --spectrum FILE, or "
-                     "at least --cct 3200K");
-    }
-    words.source = ShortestText(std::round(light.color.cct_K->value)) + "K";
-    console.Warn({"spectrum_assumed", "--gel",
-                  "a black body or daylight of " + words.source +
-                      " stands for the lamp; give its own with --spectrum FILE"});
-  }
-  auto lamp = ReadMatchLight(words, console);
-  if (!lamp) return Propagate(std::move(lamp));
-  auto behind = PutBehindGels(lamp->spectrum, lamp->measured, options.gel, options.gels, console);
-  if (!behind) return Propagate(std::move(behind));
-  if (behind->size() != 1) return WrongUsage("--gel", "name one gel, or a stack: L204+L298");
-  light = match::LightBehind(light, behind->front().match);
-  light.in_room.clear();  // of the lamp without it
-  return std::move(behind->front());
-}
-
-// "20lx@2m,card=LUX": the reading a person typed there, and what to add to it.
-std::string TypedStep(const Session& session, const PlannedReading& step) {
-  std::string before;
-  for (const SessionReading& row : session.readings) {
-    const bool there = row.reading.distance == step.distance &&
-                       row.reading.off_axis == step.off_axis.value_or(Radians(0.0));
-    if (fit::IsLit(row.reading) && there) before = row.where;
-  }
-  const std::string metres =
-      step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) : "";
-  const std::string at = metres + " m";
-  switch (step.action) {
-    case PlannedAction::kShadowCard:
-      return "block the direct beam at " + at + " with a card, type what is left: " + before +
-             ",card=LUX";
-    case PlannedAction::kLampOff:
-      return "switch the lamp off, type what is left: " +
-             (session.readings.empty() ? before : session.readings.back().where) + ",off=LUX";
-    case PlannedAction::kRead:
-      break;
-  }
-  const std::string degrees = step.off_axis ? DegreesText(*step.off_axis) : "";
-  const std::string place =
-      degrees.empty() ? "read at " + at : "read " + degrees + " degrees off the axis, at " + at;
-  return place + (before.empty() ? " too, facing the lamp" : " once more") + ": add LUX@" + metres +
-         "m" + (degrees.empty() ? "" : "," + degrees + "deg");
-}
-
-std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& session,
-                                  const LightFile& lights, bool gelled) {
-  LampQuestion question;
-  question.lights = &lights;
-  question.session = &session;
-  question.targets = options.targets;
-  question.typed_color = !gelled;
-  question.by_name = options.name != QuickOptions().name;
-  question.syntax = [&](const FittedLight&, const PlannedReading& step) {
-    return TypedStep(session, step);
-  };
-  return LampAnswersOf(question);
-}
-
-void PrintAnswer(const QuickOptions& options, const Session& session, const FittedSession& fitted,
-                 const std::vector<Prediction>& predictions,
-                 const std::vector<MinutesLadder>& ladders, const std::optional<BehindGels>& behind,
-                 Console& console) {
-  const std::vector<LampAnswer> answers =
-      AnswersOf(options, session, fitted.lights, behind.has_value());
-  if (behind) console.Print(ThroughText(*behind) + "\n\n");
-  console.Print(LampAnswersText(answers, session));
-  console.Print(PredictionLines(predictions));
+void PrintAnswer(const QuickOptions& options, const QuickAnswer& answer, Console& console) {
+  const LightFile& lights = answer.fitted.lights;
+  if (answer.behind) console.Print(ThroughText(*answer.behind) + "\n\n");
+  console.Print(LampAnswersText(answer.answers, answer.session));
+  console.Print(PredictionLines(answer.predictions));
   if (console.verbose()) {
-    console.Print("\n" + LightTable(fitted.lights) + "\n" + FitTable(fitted.lights) + "\n" +
-                  BudgetTable(fitted.lights.lights.front()));
+    console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n" +
+                  BudgetTable(lights.lights.front()));
   }
-  Node document = DocumentOf(fitted.lights);
-  document.Put("next_step", answers.front().next.say);
-  if (behind) document.Put("through", ThroughNode(*behind));
-  document.Put("predictions",
-               Node::UnlessEmpty(Node::List(predictions, [](const Prediction& p) -> Node {
-                 Node node = {{"distance_m", p.distance},
-                              {"model_lx", DocumentOf(p.predicted.model_lx)},
-                              {"reading_lx", DocumentOf(p.predicted.reading_lx)}};
-                 if (p.in_room) {
-                   node.Put("in_room_lx", DocumentOf(p.in_room->whole_lx));
-                   node.Put("in_room_reading_lx", DocumentOf(p.in_room->reading_lx));
-                   node.Put("walls_lx", DocumentOf(p.in_room->walls_lx));
-                 }
-                 return node;
-               })));
-  document.Put("minutes", Node::UnlessEmpty(Node::List(ladders, MinutesNode)));
-  console.PrintDocument(std::move(document));
+  console.PrintDocument(DocumentOf(answer));
   if (options.targets.empty()) {
     console.Note("add --to gltf,json -o DIR to write presets");
   }
@@ -198,31 +81,19 @@ void PrintAnswer(const QuickOptions& options, const Session& session, const Fitt
 
 Result<void> RunQuick(const QuickOptions& options, Console& console) {
   if (!options.table.empty()) return RunQuickTable(options, console);
-  auto session = SessionFromOptions(options);
-  if (!session) return Propagate(std::move(session));
-  const auto wishes = LadderWishesOf(options.minutes);
-  if (!wishes) return tl::unexpected(wishes.error());
   if (options.readings.empty() && options.lumens.empty()) {
+    auto session = SessionFromOptions(options);
+    if (!session) return Propagate(std::move(session));
+    const auto wishes = LadderWishesOf(options.minutes);
+    if (!wishes) return tl::unexpected(wishes.error());
     return PlanFromNone(options, *session, *wishes, console);
   }
-  auto fitted = FitSession(*session, FitSettings{});
-  if (!fitted) return Propagate(std::move(fitted));
-  fitted->lights.provenance.generator = GeneratorName();
-  std::optional<BehindGels> behind;
-  if (!options.gel.empty()) {
-    auto put = PutGelBefore(options, fitted->lights.lights.front(), console);
-    if (!put) return Propagate(std::move(put));
-    behind = *std::move(put);
-  }
-  const FittedLight& light = fitted->lights.lights.front();
-  const auto predictions = Predict(options, light);
-  if (!predictions) return tl::unexpected(predictions.error());
-  if (const auto json = LightFileToJson(fitted->lights); !json) return tl::unexpected(json.error());
-  console.Warn(fitted->warnings);
+  const auto answer = AnswerQuick(options, console);
+  if (!answer) return tl::unexpected(answer.error());
   std::vector<OutputFile> files;
   if (!options.targets.empty()) {
-    auto presets =
-        ExportPresets(fitted->lights, options.targets, session->stem, {.rig = options.rig});
+    auto presets = ExportPresets(answer->fitted.lights, options.targets, answer->session.stem,
+                                 {.rig = options.rig});
     if (!presets) return Propagate(std::move(presets));
     console.Warn(presets->warnings);
     for (PresetFile& file : presets->files) {
@@ -232,11 +103,9 @@ Result<void> RunQuick(const QuickOptions& options, Console& console) {
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(files, options.force); !written) return written;
-  std::vector<MinutesLadder> ladders;
-  if (options.plan) ladders = LaddersOf(*session, {}, *wishes);
-  PrintAnswer(options, *session, *fitted, *predictions, ladders, behind, console);
+  PrintAnswer(options, *answer, console);
   if (options.plan) {
-    if (auto printed = PrintMinutes(options, ladders, console); !printed) return printed;
+    if (auto printed = PrintMinutes(options, answer->ladders, console); !printed) return printed;
   }
   if (const std::string wrote = WroteLine(files, options.output); !wrote.empty()) {
     console.Note(wrote);

@@ -15,14 +15,11 @@
 #include "input_files.h"
 #include "lamp_answer.h"
 #include "light_table.h"
-#include "lightcal/core/numbers_text.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
-#include "lightcal/records/light_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
 #include "preset_flags.h"
-#include "report_html.h"
+#include "session_answer.h"
 #include "target_words.h"
 
 namespace lightcal::app {
@@ -59,53 +56,24 @@ OutputFile StampFile(RunStamp stamp, const std::string& directory, const LightFi
   return {(fs::path(directory) / kRunStampFile).string(), RunStampToJson(stamp)};
 }
 
-Result<std::vector<OutputFile>> OutputsOf(const RunOptions& options, const std::string& directory,
-                                          const CalibratedSession& calibrated,
-                                          const std::vector<LampAnswer>& answers,
-                                          Console& console) {
-  const LightFile& lights = calibrated.lights;
-  auto json = LightFileToJson(lights);
-  if (!json) return Propagate(std::move(json));
-  const Session& session = calibrated.session;
-  auto presets = ExportPresets(lights, options.targets, session.stem, {.rig = options.rig});
-  if (!presets) return Propagate(std::move(presets));
-  console.Warn(presets->warnings);
-  std::vector<OutputFile> files = {
-      {"light.json", std::move(*json)},
-      {"report.html", ReportHtml(calibrated, AdviceOf(answers, session.stem))}};
-  for (PresetFile& file : presets->files) {
-    files.push_back({std::move(file.name), std::move(file.contents)});
-  }
-  PlaceUnder(directory, files);
-  return files;
-}
-
 Result<void> RunSession(const RunOptions& options, const StampSeed& stamp, Console& console) {
-  auto calibrated = Calibrate(options.calibration, console);
-  if (!calibrated) return Propagate(std::move(calibrated));
-  const LightFile& lights = calibrated->lights;
+  const auto run = AnswerSession(options.calibration, options.targets, console);
+  if (!run) return tl::unexpected(run.error());
+  const LightFile& lights = run->calibrated.lights;
   const std::string directory =
-      options.output.empty() ? DefaultOutputDirectory(calibrated->session) : options.output;
-  const std::vector<LampAnswer> answers =
-      SessionAnswersOf(*calibrated, options.calibration.session, options.targets);
-  auto files = OutputsOf(options, directory, *calibrated, answers, console);
+      options.output.empty() ? DefaultOutputDirectory(run->calibrated.session) : options.output;
+  auto files = SessionOutputs(*run, directory, options.targets, options.rig, console);
   if (!files) return Propagate(std::move(files));
-  if (stamp) files->push_back(StampFile(*stamp, directory, calibrated->lights, *files));
+  if (stamp) files->push_back(StampFile(*stamp, directory, lights, *files));
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
-  console.Print(LampAnswersText(answers, calibrated->session));
+  console.Print(LampAnswersText(run->answers, run->calibrated.session));
   if (console.verbose()) {
     console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n");
   }
-  Node next = Node::Table();
-  for (const LampAnswer& answer : answers) {
-    if (answer.light->fit.readings == 0) continue;  // a wall or a data sheet measured it
-    next.Put(answer.light->name, answer.next.say);
-  }
   console.Print(WroteLine(*files, directory) + "\n");
-  Node document = DocumentOf(lights);
-  document.Put("next_steps", std::move(next));
+  Node document = DocumentOf(*run);
   document.Put("files", PathsOf(*files));
   console.PrintDocument(std::move(document));
   return {};

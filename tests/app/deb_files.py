@@ -46,6 +46,27 @@ def run(*words, **more):
     return done.stdout
 
 
+def of_python(module, root):
+    """The Python package of the same build, unpacked beside the program's: it answers, and finds the
+    modules that pictures are read by."""
+    problems = []
+    run("dpkg-deb", "-x", module, root)
+    depends = run("dpkg-deb", "-f", module, "Depends")
+    problems += [f"{module.name} does not depend on {name}"
+                 for name in ("lightcal (= ", "python3 (<< ", "python3-numpy", "libraw20")
+                 if name not in depends]
+    listed = run("dpkg-deb", "-c", module)
+    problems += [f"{line} is not Python's" for line in listed.splitlines()
+                 if not line.endswith("/") and "/python3/dist-packages/lightcal/" not in line]
+    said = run("/usr/bin/python3", "-c",
+               "import sys; sys.path.insert(0, sys.argv[1]); import lightcal; "
+               "print(lightcal.run(sys.argv[2])['lights'][0]['name'], lightcal.__version__)",
+               root / "usr/lib/python3/dist-packages",
+               root / "usr/share/lightcal/sessions/grey_card_exr")
+    print(f"{module.name}: {module.stat().st_size / 1e6:.1f} MB; {said.strip()}")
+    return problems
+
+
 def main():
     problems = []
     with tempfile.TemporaryDirectory() as folder:
@@ -67,6 +88,9 @@ def main():
         run("dpkg-deb", "-e", package, home / "control")
         for script in ("postinst", "postrm"):
             run("sh", "-n", home / "control" / script)
+
+        for module in home.glob("python3-lightcal_*.deb"):
+            problems += of_python(module, root)
 
         lightcal = root / "usr/bin/lightcal"
         if not run(lightcal, "--version").startswith("lightcal "):

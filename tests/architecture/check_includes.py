@@ -38,6 +38,7 @@ DOORS = [
     (r"gphoto2/", r"devices/lightcal_devices/captures/gphoto_module\.cc$"),
     (r"hidapi|libusb", r"devices/lightcal_devices/transport/.*\.cc$"),
     (r"CLI/", r"^app/"),
+    (r"pybind11/|Python\.h", r"^app/python/"),
     (r"openssl/", r"devices/lightcal_devices/disk_sources\.cc$"),
     (r"librsvg/|cairo(-pdf)?\.h", r"^app/picture_file\.cc$"),
 ]

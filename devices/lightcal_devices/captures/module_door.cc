@@ -3,20 +3,39 @@
 
 #include <dlfcn.h>
 
-#include <array>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 namespace lightcal::devices {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// The folder of the file that this code was loaded from: the program's, or a module's that lightcal
+// is part of.
+fs::path OwnFolder() {
+  Dl_info own{};
+  std::error_code ignored;
+  if (dladdr(reinterpret_cast<const void*>(&OpenModule), &own) == 0 || own.dli_fname == nullptr) {
+    return {};
+  }
+  return fs::weakly_canonical(own.dli_fname, ignored).parent_path();
+}
+
+}  // namespace
+
 Result<void*> OpenModule(const std::string& name, const char* symbol, const std::string& code,
                          const std::string& what) {
   std::error_code ignored;
   const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  const std::array<std::string, 3> places = {
-      (beside / name).string(), (beside / LIGHTCAL_MODULE_DIR_FROM_BIN / name).string(), name};
+  std::vector<std::string> places = {(beside / name).string(),
+                                     (beside / LIGHTCAL_MODULE_DIR_FROM_BIN / name).string()};
+  if (const fs::path own = OwnFolder(); own != beside) {  // part of a Python package
+    places.push_back((own / LIGHTCAL_MODULE_DIR_FROM_PYTHON / name).string());
+  }
+  places.push_back(name);
   std::string said;
   for (const std::string& place : places) {
     if (place.find('/') != std::string::npos && !fs::exists(place, ignored)) continue;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "session_answer.h"
+
+#include <utility>
+
+#include "lightcal/presets/export_presets.h"
+#include "lightcal/records/light_codec.h"
+#include "report_html.h"
+
+namespace lightcal::app {
+
+Result<AnsweredSession> AnswerSession(const CalibrationOptions& options,
+                                      const std::vector<std::string>& targets, Console& console) {
+  auto calibrated = Calibrate(options, console);
+  if (!calibrated) return Propagate(std::move(calibrated));
+  AnsweredSession run;
+  run.calibrated = *std::move(calibrated);
+  run.answers = SessionAnswersOf(run.calibrated, options.session, targets);
+  return run;
+}
+
+Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
+                                               const std::string& directory,
+                                               const std::vector<std::string>& targets, bool rig,
+                                               Console& console) {
+  const LightFile& lights = run.calibrated.lights;
+  auto json = LightFileToJson(lights);
+  if (!json) return Propagate(std::move(json));
+  const Session& session = run.calibrated.session;
+  auto presets = ExportPresets(lights, targets, session.stem, {.rig = rig});
+  if (!presets) return Propagate(std::move(presets));
+  console.Warn(presets->warnings);
+  std::vector<OutputFile> files = {
+      {"light.json", std::move(*json)},
+      {"report.html", ReportHtml(run.calibrated, AdviceOf(run.answers, session.stem))}};
+  for (PresetFile& file : presets->files) {
+    files.push_back({std::move(file.name), std::move(file.contents)});
+  }
+  PlaceUnder(directory, files);
+  return files;
+}
+
+Node DocumentOf(const AnsweredSession& run) {
+  Node next = Node::Table();
+  for (const LampAnswer& answer : run.answers) {
+    if (answer.light->fit.readings == 0) continue;  // a wall or a data sheet measured it
+    next.Put(answer.light->name, answer.next.say);
+  }
+  Node document = DocumentOf(run.calibrated.lights);
+  document.Put("next_steps", std::move(next));
+  return document;
+}
+
+}  // namespace lightcal::app
