@@ -2,9 +2,11 @@
 #include "report_html.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/rendering_input.h"
 #include "lightcal/presets/check/engine_answers.h"
@@ -47,6 +49,9 @@ LuminancePicture InFalseColors(const RecordedPicture& picture) {
 ReportExtras ExtrasOf(const LightFile& lights) {
   ReportExtras extras;
   extras.engines = EngineAnswersOf(lights);
+  for (const FittedLight& light : lights.lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(extras.sweeps));
+  }
   return extras;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal export: fitted lights in, engine presets out.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -11,6 +13,7 @@
 #include "lamp_state.h"
 #include "light_input.h"
 #include "lightcal/calibrate/environments.h"
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/into_scene.h"
@@ -174,6 +177,10 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
     if (!html) return Propagate(std::move(html));
     exported->files.push_back({named.string() + ".page.html", *std::move(html)});
   }
+  for (const FittedLight& light : lights->lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(with_pictures.sweeps));
+  }
+  auto exported = ExportPresets(*lights, options.targets, named.string(), with_pictures);
   if (exported) {
     exported->warnings.insert(exported->warnings.end(), warnings->begin(), warnings->end());
   }
