@@ -14,6 +14,7 @@
 
 #include "lightcal/core/crc32.h"
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/light_kind.h"
 #include "lightcal/presets/exporters.h"
@@ -25,7 +26,7 @@ namespace {
 
 constexpr double kHalfPeak = 0.5, kTenthPeak = 0.1;
 constexpr double kRoughProfile = 0.05;  // of the light at its highest dimmer
-constexpr std::string_view kBeamName = "Beam", kBodyName = "Body";
+constexpr std::string_view kBeamName = "Beam";
 constexpr std::string_view kDimmerProfile = "Dimmer measured";
 
 // An identifier made of what it identifies, in the form of RFC 9562 version 8.
@@ -234,12 +235,6 @@ Result<Described> FixtureOf(const FittedLight& lamp, const Provenance& provenanc
   }
   fixture.modes = {std::move(mode)};
   fixture.id = IdOf(lamp.name + fixture.description);
-  out.warnings.push_back(
-      {"gdtf_slots_assumed", lamp.name,
-       "nobody said which DMX slots its controls have: dimmer on 1 and 2" +
-           std::string(fixture.modes[0].channels.size() > 1 ? ", colour temperature on 3 and 4"
-                                                            : "") +
-           ", coarse and fine; set the mode to your fixture's"});
   return out;
 }
 
@@ -249,12 +244,11 @@ Result<Preset> ExportGdtf(const LightFile& lights, const std::string& stem,
                           const PresetOptions& /*options*/) {
   Preset preset;
   std::set<std::string> taken;
+  std::vector<std::string> without;
   for (const FittedLight& lamp : lights.lights) {
     const bool fits = lamp.intensity_cd && lamp.intensity_cd->value > 0.0;
     if (!fits) {
-      preset.warnings.push_back({"no_fixture", lamp.name,
-                                 "a " + std::string(LightKindName(lamp.kind)) +
-                                     " light has no candela: no .gdtf is written for it"});
+      without.push_back(lamp.name);
       continue;
     }
     auto described = FixtureOf(lamp, lights.provenance);
@@ -266,6 +260,16 @@ Result<Preset> ExportGdtf(const LightFile& lights, const std::string& stem,
     preset.files.push_back({name + ".gdtf", StoredZip(entries)});
     preset.warnings.insert(preset.warnings.end(), described->warnings.begin(),
                            described->warnings.end());
+  }
+  if (!without.empty()) {
+    preset.warnings.push_back(
+        {"no_fixture", Joined(without), "no candela is known of it: no .gdtf is written"});
+  }
+  if (!preset.files.empty()) {
+    // Nobody can read off a lamp which slots it listens to.
+    preset.paste = "a console's or visualiser's own import: " + std::string(kPasteDirectory) + "/" +
+                   preset.files.front().name +
+                   " (slots assumed: dimmer 1 and 2, CCT 3 and 4, coarse and fine)";
   }
   return preset;
 }
