@@ -166,6 +166,9 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   auto into = IntoOf(options.into, *lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
+  for (const FittedLight& light : lights->lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(with_pictures.sweeps));
+  }
   std::vector<std::string> targets = options.targets;
   const bool page = std::erase(targets, std::string(kPageTarget)) > 0;
   Result<ExportedPresets> exported = ExportedPresets{};
@@ -177,10 +180,6 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
     if (!html) return Propagate(std::move(html));
     exported->files.push_back({named.string() + ".page.html", *std::move(html)});
   }
-  for (const FittedLight& light : lights->lights) {
-    std::ranges::move(ControlSweepsOf(light), std::back_inserter(with_pictures.sweeps));
-  }
-  auto exported = ExportPresets(*lights, options.targets, named.string(), with_pictures);
   if (exported) {
     exported->warnings.insert(exported->warnings.end(), warnings->begin(), warnings->end());
   }

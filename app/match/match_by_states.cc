@@ -30,6 +30,15 @@ std::string ValueOf(const std::optional<Uncertain>& value, const std::string& un
   return ValueText(*value) + unit;
 }
 
+// Hundredths: "-1.04", "0.05".
+std::string StopsOf(double stops) { return ShortestText(std::round(100.0 * stops) / 100.0 + 0.0); }
+
+// "-1.04 (-1.15 … -0.93)"
+std::string StopsRange(const Uncertain& stops) {
+  if (!stops.low || !stops.high) return StopsOf(stops.value);
+  return StopsOf(stops.value) + " (" + StopsOf(*stops.low) + " … " + StopsOf(*stops.high) + ")";
+}
+
 // "dimmer=37 ± 2.1, cct_K=4000"
 std::string SettingText(const LampSetting& setting) {
   return Joined(setting.state, ", ", [&](const ControlValue& control) {
@@ -49,8 +58,8 @@ std::vector<std::string> RowOfSetting(const StateMatch& match) {
       RoundedText(match.delta_uv.value, 2),
       ValueOf(match.cct_K, " K"),
       match.duv ? RoundedText(match.duv->value, 2) + " ± " + RoundedText(match.duv->u95, 2) : kNone,
-      match.stops_lost ? RoundedText(*match.stops_lost, 2) : kNone,
-      match.dimmer_stops ? ValueOf(match.dimmer_stops, "") : kNone};
+      match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
+      match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
 }
 
 void PutInterval(const std::string& key, const std::optional<Uncertain>& value, Node& u95,
@@ -149,7 +158,7 @@ std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& 
   text += ValueOf(mix.cct_K, " K");
   if (mix.duv) text += ", Duv " + RoundedText(mix.duv->value, 2);
   text += ", Δu'v' " + RoundedText(mix.delta_uv.value, 2) + " from the target";
-  if (mix.dimmer_stops) text += ", " + ValueOf(mix.dimmer_stops, " stops") + " over it";
+  if (mix.dimmer_stops) text += ", " + StopsRange(*mix.dimmer_stops) + " stops" + " over it";
   return text + "\n";
 }
 
