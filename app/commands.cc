@@ -73,7 +73,9 @@ constexpr CommandRow kCommands[] = {
     {"dome", "A panorama in cd/m2 by one lux reading; its sun and lamps taken out as lights",
      "  lightcal dome lobby.hdr --lux 420 --extract 3 -o lobby_dome\n"
      "  lightcal dome sky.exr --lux 98klx --extract 1 --plate-exposure f/8,1/60,100 -o sky_dome\n"
-     "  lightcal dome sky.hdr --lux 98klx --lux-shaded 15klx --extract 1 -o sky_dome", BuildDome},
+     "  lightcal dome sky.hdr --lux 98klx --lux-shaded 15klx --extract 1 -o sky_dome\n"
+     "  lightcal dome ball.exr --projection mirrorball --ball 36,36,228,228 --fov 25 "
+     "--plate plate.exr --grey-ball 36,36,228,228 -o set_dome", BuildDome},
     {"inspect", "Luminance statistics of a picture or panorama; the illuminance it gives",
      "  lightcal inspect lobby.hdr --projection latlong\n"
      "  lightcal inspect lum.exr --rect 280,180,40,40 --json\n"
@@ -113,6 +115,7 @@ constexpr CommandRow kCommands[] = {
     {"export", "Engine presets of fitted lights, for the scene that is there; --rig for one of its own",
      "  lightcal export out/light.json --to gltf,json -o presets\n"
      "  lightcal export out/light.json --to blender --rig -o presets --force\n"
+     "  lightcal export out/light.json --to blender,json --rig --rig-at 20 --rig-at 20/90 -o rigs\n"
      "  lightcal export out/light.json --to unreal,blender --into map.csv -o into", BuildExport},
     {"engine", "What a renderer makes of each kind of light, learnt from its own pictures",
      "  lightcal engine learn point.preset.json point.exr --pixels exposed -o mine.json\n"

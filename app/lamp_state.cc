@@ -42,6 +42,14 @@ std::optional<Warning> CombinedWarning(const FittedLight& light, const StateAnsw
                      "it to be sure"};
 }
 
+std::optional<Warning> SharedGeometryWarning(const FittedLight& light, const FixtureState& at) {
+  if (HasItsGeometry(light, at)) return std::nullopt;
+  return Warning{"state_geometry", light.name,
+                 StateText(at) + ": where its light starts and how wide it shines is taken from " +
+                     StateText(light.state) +
+                     "; calibrate this zoom or modifier as a light of its own to have them"};
+}
+
 Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& file) {
   Warnings warnings;
   for (const std::string& text : texts) {
@@ -56,6 +64,9 @@ Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& fil
       if (!answer) return tl::unexpected(answer.error());
       if (auto combined = CombinedWarning(light, *answer)) {
         warnings.push_back(*std::move(combined));
+      }
+      if (auto shared = SharedGeometryWarning(light, wanted->state)) {
+        warnings.push_back(*std::move(shared));
       }
       auto there = LightAtState(light, wanted->state);
       if (!there) return Propagate(std::move(there));

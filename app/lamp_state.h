@@ -17,6 +17,10 @@ namespace lightcal::app {
 [[nodiscard]] std::optional<Warning> CombinedWarning(const FittedLight& light,
                                                      const StateAnswer& answer);
 
+// state_geometry, where another zoom or modifier lends it the offset and the beam.
+[[nodiscard]] std::optional<Warning> SharedGeometryWarning(const FittedLight& light,
+                                                           const FixtureState& at);
+
 // Each text: "dimmer=18,cct_K=4500", of every light that has states, or of one, "key:dimmer=18".
 // The lights become what they are there; others stay. Warns of states that were put together from
 // others.  Wrong usage: no state, a light that there is not. Refused: no_states, and as

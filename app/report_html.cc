@@ -46,9 +46,10 @@ LuminancePicture InFalseColors(const RecordedPicture& picture) {
 
 }  // namespace
 
-ReportExtras ExtrasOf(const LightFile& lights) {
+ReportExtras ExtrasOf(const LightFile& lights,
+                      const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments) {
   ReportExtras extras;
-  extras.engines = EngineAnswersOf(lights);
+  extras.engines = EngineAnswersOf(lights, environments);
   for (const FittedLight& light : lights.lights) {
     std::ranges::move(ControlSweepsOf(light), std::back_inserter(extras.sweeps));
   }

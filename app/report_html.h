@@ -2,17 +2,23 @@
 // The report page with everything that stands beside the lights, as `report` and `run` write it.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lightcal/calibrate/calibrate_session.h"
+#include "lightcal/presets/environment_picture.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/report/report_extras.h"
 
 namespace lightcal::app {
 
-// What engines make of the lights (of those presets can export).
-[[nodiscard]] ReportExtras ExtrasOf(const LightFile& lights);
+// What engines make of the lights (of those presets can export); with the pictures that domes name,
+// one a light, of those too.
+[[nodiscard]] ReportExtras ExtrasOf(
+    const LightFile& lights,
+    const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments = {});
 // With the session's spectra and pictures.
 [[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated);
 

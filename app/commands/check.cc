@@ -2,6 +2,7 @@
 // lightcal check: a preset file against the readings, or a rendered picture against the meter.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "lightcal/presets/check/compare_readings.h"
 #include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/check/render_cause.h"
+#include "lightcal/presets/check/render_shape.h"
 #include "lightcal/presets/check/rig_file.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal_devices/captures/picture.h"
@@ -28,7 +30,8 @@ namespace lightcal::app {
 namespace {
 
 struct CheckOptions {
-  std::string preset, session, render, rig, engine, max_error = "5%";
+  std::string preset, session, engine, max_error = "5%";
+  std::vector<std::string> renders, rigs;
 };
 
 // ---- a picture ----
@@ -43,7 +46,10 @@ std::vector<std::string> Renderers() {
 }
 
 Node CauseNode(const RenderCause& cause) {
-  return {{"code", cause.code}, {"message", cause.message}, {"factor", cause.factor}};
+  return {{"code", cause.code},
+          {"message", cause.message},
+          {"factor", cause.factor},
+          {"turn_deg", cause.turn_deg}};
 }
 
 void PrintVerdict(const CheckedRig& rig, const RenderVerdict& verdict, Console& console) {
@@ -63,23 +69,27 @@ void PrintVerdict(const CheckedRig& rig, const RenderVerdict& verdict, Console& 
   }
 }
 
-Result<void> CheckRender(const CheckOptions& options, Console& console) {
-  if (options.rig.empty()) {
-    return WrongUsage("--rig", "is missing: the STEM.preset.json that was exported with the rig");
-  }
-  const auto text = ReadInputFile(options.rig);
+struct SeenPicture {
+  CheckedRig rig;
+  std::array<CardPixels, 2> cards;
+  RenderVerdict verdict;
+};
+
+Result<SeenPicture> SeePicture(const std::string& render, const std::string& rig_file,
+                               const CheckOptions& options, Console& console) {
+  const auto text = ReadInputFile(rig_file);
   if (!text) return tl::unexpected(text.error());
-  const auto rig = RigFromPreset(*text, options.rig);
-  if (!rig) return tl::unexpected(rig.error());
-  NoteInput(options.render);
-  const auto picture = devices::ReadPicture(options.render);
+  auto rig = RigFromPreset(*text, rig_file);
+  if (!rig) return Propagate(std::move(rig));
+  NoteInput(render);
+  const auto picture = devices::ReadPicture(render);
   if (!picture) return tl::unexpected(picture.error());
   const bool linear = picture->info.meaning == SampleMeaning::kLinear;
   const PixelUnit unit = linear ? LinearPixelsOf(options.engine) : PixelUnit::kExposed;
   const auto cards = MeasureCards(*picture, *rig);
   if (!cards) return tl::unexpected(cards.error());
-  const auto verdict = JudgeRender(*rig, *cards, unit, options.render);
-  if (!verdict) return tl::unexpected(verdict.error());
+  auto verdict = JudgeRender(*rig, *cards, unit, render);
+  if (!verdict) return Propagate(std::move(verdict));
   for (std::size_t i = 0; i < 2; ++i) {
     const CardPixels& card = (*cards)[i];
     if (card.clipped[0] || card.clipped[1] || card.clipped[2]) {
@@ -91,21 +101,76 @@ Result<void> CheckRender(const CheckOptions& options, Console& console) {
                     "is uneven where the rig says it is: another camera, or too few samples"});
     }
   }
-  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  PrintVerdict(*rig, *verdict, console);
+  return SeenPicture{*std::move(rig), *cards, *std::move(verdict)};
+}
+
+Node NodeOf(const SeenPicture& seen) {
   Node measured = Node::Array();
   for (std::size_t i = 0; i < 2; ++i) {
-    measured.items.push_back({{"name", rig->cards[i].name},
-                              {"expected_lx", rig->cards[i].expected_lx},
-                              {"illuminance_lx", verdict->card_lx[i]},
-                              {"pixel", (*cards)[i].rgb}});
+    measured.items.push_back({{"name", seen.rig.cards[i].name},
+                              {"expected_lx", seen.rig.cards[i].expected_lx},
+                              {"illuminance_lx", seen.verdict.card_lx[i]},
+                              {"pixel", seen.cards[i].rgb}});
   }
-  console.PrintDocument({{"illuminance_lx", verdict->lux},
-                         {"expected_lx", verdict->expected_lx},
-                         {"stops_off", std::log2(verdict->lux / verdict->expected_lx)},
-                         {"cause", CauseNode(verdict->cause)},
-                         {"alternatives", Node::List(verdict->alternatives, CauseNode)},
-                         {"cards", measured}});
+  const RenderVerdict& verdict = seen.verdict;
+  return {{"illuminance_lx", verdict.lux},
+          {"expected_lx", verdict.expected_lx},
+          {"stops_off", std::log2(verdict.lux / verdict.expected_lx)},
+          {"cause", CauseNode(verdict.cause)},
+          {"alternatives", Node::List(verdict.alternatives, CauseNode)},
+          {"cards", measured}};
+}
+
+std::string PlaceText(const CheckedRig& rig) {
+  std::string text = RoundedText(rig.off_axis_deg, 4) + " deg";
+  if (rig.round_deg != 0.0) text += " / " + RoundedText(rig.round_deg, 4);
+  return text;
+}
+
+// One scene, its cards at several places: one cause for all.
+void SayTogether(const std::vector<SeenPicture>& pictures, Console& console) {
+  std::vector<SeenRig> seen;
+  std::vector<std::vector<std::string>> rows;
+  Node list = Node::Array();
+  for (const SeenPicture& picture : pictures) {
+    const RenderVerdict& verdict = picture.verdict;
+    seen.push_back({&picture.rig, &picture.verdict});
+    list.items.push_back(NodeOf(picture));
+    rows.push_back({PlaceText(picture.rig), RoundedText(verdict.expected_lx, 4) + " lx",
+                    RoundedText(verdict.lux, 4) + " lx",
+                    RoundedText(std::log2(verdict.lux / verdict.expected_lx), 2)});
+  }
+  const std::vector<RenderCause> causes = JudgeTogether(seen);
+  console.Print(TextTable({"cards at", "meter", "picture", "stops"}, rows));
+  console.Print("\n" + causes.front().code + "\n  " + causes.front().message + "\n");
+  const std::vector<RenderCause> others(causes.begin() + 1, causes.end());
+  for (const RenderCause& other : others) {
+    console.Print("or " + other.code + ": " + other.message + "\n");
+  }
+  console.PrintDocument({{"cause", CauseNode(causes.front())},
+                         {"alternatives", Node::List(others, CauseNode)},
+                         {"pictures", std::move(list)}});
+}
+
+Result<void> CheckRender(const CheckOptions& options, Console& console) {
+  if (options.rigs.size() != options.renders.size()) {
+    return WrongUsage("--rig",
+                      "is the STEM.preset.json that was exported with the rig: one for each "
+                      "--render, in their order");
+  }
+  std::vector<SeenPicture> pictures;
+  for (std::size_t i = 0; i < options.renders.size(); ++i) {
+    auto seen = SeePicture(options.renders[i], options.rigs[i], options, console);
+    if (!seen) return Propagate(std::move(seen));
+    pictures.push_back(*std::move(seen));
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  if (pictures.size() > 1) {
+    SayTogether(pictures, console);
+    return {};
+  }
+  PrintVerdict(pictures.front().rig, pictures.front().verdict, console);
+  console.PrintDocument(NodeOf(pictures.front()));
   return {};
 }
 
@@ -188,7 +253,7 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
 }
 
 Result<void> RunCheck(const CheckOptions& options, Console& console) {
-  if (!options.render.empty()) return CheckRender(options, console);
+  if (!options.renders.empty()) return CheckRender(options, console);
   if (options.preset.empty() || options.session.empty()) {
     return WrongUsage("check",
                       "needs PRESET --session SESSION, or --render PICTURE --rig PRESET.json");
@@ -206,8 +271,13 @@ Run BuildCheck(CLI::App& parser) {
       .add_option("--max-error", options->max_error,
                   "Exit 1 where the rms over the readings is beyond this")
       ->default_str(options->max_error);
-  parser.add_option("--render", options->render, "A picture an engine rendered of the rig");
-  parser.add_option("--rig", options->rig, "The STEM.preset.json of that rig");
+  parser
+      .add_option("--render", options->renders,
+                  "A picture an engine rendered of the rig; several, each with its --rig (export "
+                  "--rig-at), show what one cannot: a cone law, a turned or mirrored panorama")
+      ->allow_extra_args(false);
+  parser.add_option("--rig", options->rigs, "The STEM.preset.json of that rig")
+      ->allow_extra_args(false);
   parser
       .add_option("--engine", options->engine,
                   "Who rendered it: an EXR of blender holds watts, one of three cd/m2; any other "

@@ -35,6 +35,7 @@ struct DomeCommandOptions {
 struct Plan {
   DomeRequest request;
   DomeSettings settings;
+  std::optional<GreyPlate> grey;
 };
 
 Result<std::size_t> ParseExtract(const std::string& text) {
@@ -59,6 +60,9 @@ Result<Plan> PlanOf(const DomeCommandOptions& options) {
     if (!plate) return tl::unexpected(plate.error());
     plan.settings.plate = *plate;
   }
+  auto grey = GreyPlateOf(options.dome, plan.request, plan.settings.plate);
+  if (!grey) return Propagate(std::move(grey));
+  plan.grey = *std::move(grey);
   const auto colors = ParseColorWords(options.space, options.white);
   if (!colors) return tl::unexpected(colors.error());
   plan.settings.space = colors->space;
@@ -129,6 +133,20 @@ Node ViewNode(const DomeViewScale& view) {
   return {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}};
 }
 
+Node BlindCapNode(const BlindCap& cap, Radians north) {
+  const AzimuthElevation at = AnglesOf(TurnedNorth(cap.direction, north));
+  return {{"azimuth_deg", at.azimuth_deg},
+          {"elevation_deg", at.elevation_deg},
+          {"half_angle_deg", DegreesFromRadians(cap.half_angle)}};
+}
+
+Node GreyNode(const DomeInput::Grey& grey) {
+  return {{"factor", grey.factor},
+          {"u95_relative", grey.u95_relative},
+          {"misfit_sd_relative", grey.misfit_sd},
+          {"ball_reflectance", grey.ball_reflectance}};
+}
+
 std::string ViewsTable(const DomeInput& input) {
   if (input.views.size() < 2) return "";
   std::vector<std::vector<std::string>> rows;
@@ -172,6 +190,8 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
           {"views", Node::UnlessEmpty(Node::List(input.views, ViewNode))},
           {"rim_transmission", several ? Node(input.rim_transmission) : Node()},
           {"agreement_sd_relative", several ? Node(input.agreement_sd) : Node()},
+          {"grey", input.grey ? GreyNode(*input.grey) : Node()},
+          {"blind_cap", input.blind_cap ? BlindCapNode(*input.blind_cap, measured.north) : Node()},
           {"seen_fraction", input.views.empty() ? Node() : Node(input.seen_share)},
           {"files", written}};
 }
@@ -180,7 +200,7 @@ Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
   const auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
   const Sources sources = InputSources();
-  auto measured = MeasureDome(plan->request, sources);
+  auto measured = MeasureDome(plan->request, sources, plan->grey);
   if (!measured) return Propagate(std::move(measured));
   console.Warn(measured->warnings);
   const auto made = MakeDome(*std::move(measured), plan->request, sources, plan->settings);

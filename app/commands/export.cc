@@ -2,6 +2,7 @@
 // lightcal export: fitted lights in, engine presets out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <map>
@@ -37,6 +38,7 @@ struct ExportOptions {
   std::vector<std::string> targets;
   std::vector<std::string> states;
   std::string output = ".";
+  std::vector<std::string> rig_at;
   std::string space, white, range, spots = "auto", renderer, into, engine;
   bool rig = false;
   bool bare = false;  // what is done anyway
@@ -69,9 +71,28 @@ std::vector<std::string> UsdRenderers() {
   return words;
 }
 
+// "20" or "90/180": off the axis, and round it.
+Result<RigPlace> RigPlaceFrom(const std::string& word) {
+  const auto slash = word.find('/');
+  const auto off = ParseNumber(word.substr(0, slash));
+  const auto round =
+      slash == std::string::npos ? std::optional(0.0) : ParseNumber(word.substr(slash + 1));
+  if (!off || !round || !(*off > 0.0 && *off <= 180.0) || !(std::abs(*round) <= 360.0)) {
+    return WrongUsage("--rig-at", "\"" + word +
+                                      "\" is no angle off the axis, above 0 to 180, with or "
+                                      "without one round it: 20 or 90/180");
+  }
+  return RigPlace{*off, *round};
+}
+
 Result<PresetOptions> OptionsOf(const ExportOptions& options) {
   PresetOptions preset;
   preset.rig = options.rig;
+  for (const std::string& word : options.rig_at) {
+    const auto place = RigPlaceFrom(word);
+    if (!place) return tl::unexpected(place.error());
+    preset.more_rigs.push_back(*place);
+  }
   if (!options.space.empty()) {
     const auto space = ParseSpace("--space", options.space);
     if (!space) return tl::unexpected(space.error());
@@ -258,12 +279,20 @@ Run BuildExport(CLI::App& parser) {
       ->check(OneOf(UsdRenderers()));
   AddSceneFlags(parser, options->rig, options->bare);
   parser
+      .add_option("--rig-at", options->rig_at,
+                  "A rig more, its cards so many degrees off the lamp's axis and round it, facing "
+                  "the lamp; of a dome the way they face, from above and from front to right: 20 "
+                  "or 90/180. Pictures of several show a cone law or a turned panorama")
+      ->type_name("OFF[/ROUND]")
+      ->allow_extra_args(false);
+  parser
       .add_option(
           "--into", options->into,
           "Set lights that are in your scene, by name (* any letters, ? one), or those of a "
           "map.csv of lines lamp,object: none is made, none is moved")
       ->type_name("PATTERN|map.csv")
-      ->excludes(parser.get_option("--rig"));
+      ->excludes(parser.get_option("--rig"))
+      ->excludes(parser.get_option("--rig-at"));
   parser
       .add_option("--state", options->states,
                   "As the lights are where their controls say this: [LIGHT:]dimmer=18,cct_K=4500")

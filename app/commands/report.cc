@@ -10,12 +10,14 @@
 #include "commands.h"
 #include "input_files.h"
 #include "lamp_answer.h"
+#include "lightcal/calibrate/environments.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
 #include "lightcal/report/plots.h"
+#include "lightcal_devices/disk_sources.h"
 #include "match/match_sheet_of.h"
 #include "minutes_answer.h"
 #include "output_files.h"
@@ -121,12 +123,19 @@ Result<void> CheckDistinct(const std::vector<OutputFile>& files) {
 
 // ---- the input ----
 
-Result<Source> FromLightFile(const std::string& path) {
+Result<Source> FromLightFile(const std::string& path, Console& console) {
   const auto text = ReadInputFile(path);
   if (!text) return tl::unexpected(text.error());
   auto lights = LightFileFromJson(*text, path);
   if (!lights) return Propagate(std::move(lights));
-  ReportExtras extras = ExtrasOf(*lights);
+  // What cannot be read is no reason for no report: the dome is then an even one.
+  const auto pictures =
+      LoadEnvironments(*lights, fs::path(path).parent_path().string(), devices::DiskSources());
+  if (!pictures) {
+    console.Warn({"environment_unread", pictures.error().subject, pictures.error().message});
+  }
+  using Pictures = std::vector<std::shared_ptr<const EnvironmentPicture>>;
+  ReportExtras extras = ExtrasOf(*lights, pictures ? *pictures : Pictures{});
   return Source{std::move(*lights), std::move(extras), fs::path(path).stem().string(),
                 (fs::path(path).parent_path() / "report.html").string()};
 }
@@ -202,7 +211,8 @@ Result<void> RunReport(const ReportOptions& options, Console& console) {
   const auto plots = ParsePlots(options.plots);
   if (!plots) return tl::unexpected(plots.error());
   const bool is_light_file = fs::path(options.input).extension() == ".json";
-  auto source = is_light_file ? FromLightFile(options.input) : FromSession(options.input, console);
+  auto source =
+      is_light_file ? FromLightFile(options.input, console) : FromSession(options.input, console);
   if (!source) return Propagate(std::move(source));
   if (auto known = CheckLight(options.light, source->lights); !known) return known;
   if (auto added = AddCameraViews(options, *source, console); !added) return added;

@@ -236,6 +236,7 @@ Result<void> RunState(const StateOptions& options, Console& console) {
   const auto answer = AnswerState(**light, at);
   if (!answer) return tl::unexpected(answer.error());
   if (const auto combined = CombinedWarning(**light, *answer)) console.Warn(*combined);
+  if (const auto shared = SharedGeometryWarning(**light, at)) console.Warn(*shared);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   console.Print(Told(**light, *answer));
   console.PrintDocument(AnswerNode(**light, *answer));

@@ -113,9 +113,8 @@ class Sweep {
   // Once all else is known to be right: what is sent moves a fixture.
   Result<void> Drive() {
     if (options_.sacn.empty()) return {};
-    auto driven = DrivenFixture::Open(
-        options_.sacn, options_.map, options_.session,
-        options_.until.empty() ? SweepOrder(states_, Order()) : EndsOf(states_));
+    auto driven = DrivenFixture::Open(options_.sacn, options_.map, options_.session,
+                                      SweepOrder(states_, Order()));
     if (!driven) return Propagate(std::move(driven));
     driven_ = *std::move(driven);
     console_.Note("sACN universe " + std::to_string(driven_->universe()) + " to " +
@@ -174,11 +173,19 @@ class Sweep {
       if (!more) return tl::unexpected(more.error());
       if (!*more) return {};
     }
+    std::size_t others = ends.size();
     while (!candidates.empty()) {
+      if (others >= kBackToFull) {
+        const auto more = Take(FullOf(states_), "back to full");
+        if (!more) return tl::unexpected(more.error());
+        if (!*more) return {};
+        others = 0;
+      }
       const auto worst = LeastSure(candidates);
       if (!worst) return tl::unexpected(worst.error());
       worst_ = worst->second;
       if (worst->second <= until_) break;
+      ++others;
       const auto more =
           take(candidates[worst->first], "± " + PercentText(worst->second) + " until it is read");
       if (!more) return tl::unexpected(more.error());

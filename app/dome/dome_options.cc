@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/panorama/turn_north.h"
 #include "one_of.h"
 #include "picture_words.h"
 
@@ -64,7 +65,20 @@ Result<std::optional<DomeReading>> ReadingOf(const DomeOptions& options) {
   return std::optional(reading);
 }
 
-Result<ViewAim> ParseAim(const std::string& text) {
+// Absent where anything between the commas is no number.
+std::optional<std::vector<double>> NumbersBetweenCommas(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto number = ParseNumber(TrimBlanks(text.substr(0, comma)));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == text.size()) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+Result<ViewAim> ParseAim(const char* option, const std::string& text) {
   std::array<double, 3> degrees{};
   std::string_view rest = text;
   std::size_t count = 0;
@@ -77,29 +91,110 @@ Result<ViewAim> ParseAim(const std::string& text) {
     rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   if (!whole || !rest.empty() || count < 2 || std::abs(degrees[1]) > 90.0) {
-    return WrongUsage("--aim", "\"" + text +
-                                   "\" is not YAW,PITCH[,ROLL] in degrees (right of +Y, above the "
-                                   "horizon, leaning right), such as 45,0 or 0,90");
+    return WrongUsage(option, "\"" + text +
+                                  "\" is not YAW,PITCH[,ROLL] in degrees (right of +Y, above the "
+                                  "horizon, leaning right), such as 45,0 or 0,90");
   }
   return ViewAim{RadiansFromDegrees(degrees[0]), RadiansFromDegrees(degrees[1]),
                  RadiansFromDegrees(degrees[2])};
 }
 
+constexpr const char* kMirrorBallWord = "mirrorball";
+
+std::vector<std::string_view> DomeProjectionWords() {
+  std::vector<std::string_view> words(kProjectionWords.begin(), kProjectionWords.end());
+  words.emplace_back(kMirrorBallWord);
+  return words;
+}
+
+// "X,Y,W,H".
+Result<std::array<double, 4>> ParsePixelBox(const std::string& option, const std::string& text) {
+  const auto numbers = NumbersBetweenCommas(text);
+  if (!numbers || numbers->size() != 4 || !((*numbers)[2] > 0.0 && (*numbers)[3] > 0.0)) {
+    return WrongUsage(
+        option, "\"" + text + "\" is not X,Y,WIDTH,HEIGHT in pixels, such as 812,430,310,310");
+  }
+  return std::array{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
+}
+
+// A share of light that something sends back, and its sigma: "R" (known) or "R,SIGMA".
+Result<std::array<double, 2>> ParseMirrorReflectance(const std::string& option,
+                                                     const std::string& text) {
+  const auto numbers = NumbersBetweenCommas(text);
+  const bool fits = numbers && !numbers->empty() && numbers->size() <= 2 && (*numbers)[0] > 0.0 &&
+                    (*numbers)[0] <= 1.0 && numbers->back() >= 0.0;
+  if (!fits) {
+    return WrongUsage(option, "\"" + text +
+                                  "\" is not a reflectance above 0 and up to 1, such as "
+                                  "0.62 or 0.62,0.05 (1 sigma)");
+  }
+  return std::array{(*numbers)[0], numbers->size() == 2 ? (*numbers)[1] : 0.0};
+}
+
+Result<std::vector<BallView>> BallsOf(const DomeOptions& options) {
+  const std::size_t pictures = options.files.size();
+  if (options.balls.size() != 1 && options.balls.size() != pictures) {
+    return WrongUsage("--ball",
+                      "--projection mirrorball needs --ball X,Y,WIDTH,HEIGHT, the box "
+                      "around the ball in pixels: once for each picture in their order, "
+                      "or once for all");
+  }
+  BallView ball;
+  if (!options.fov.empty()) {
+    const auto fov = ParseAngle(options.fov);
+    if (!fov) return tl::unexpected(fov.error());
+    ball.field_of_view = *fov;
+  }
+  if (!options.ball_distance.empty()) {
+    const auto diameters = ParseNumber(options.ball_distance);
+    if (!diameters || !(*diameters > 0.5)) {
+      return WrongUsage("--ball-distance", "\"" + options.ball_distance +
+                                               "\" is not a count of the ball's diameters above "
+                                               "0.5: 1.5 m from a ball of 76 mm is 20");
+    }
+    ball.distance_diameters = *diameters;
+  }
+  if (!options.ball_reflectance.empty()) {
+    const auto reflectance = ParseMirrorReflectance("--ball-reflectance", options.ball_reflectance);
+    if (!reflectance) return tl::unexpected(reflectance.error());
+    ball.reflectance = (*reflectance)[0];
+    ball.reflectance_sd = (*reflectance)[1];
+  }
+  std::vector<BallView> balls(pictures, ball);
+  for (std::size_t i = 0; i < pictures; ++i) {
+    const auto box = ParsePixelBox("--ball", options.balls[options.balls.size() == 1 ? 0 : i]);
+    if (!box) return tl::unexpected(box.error());
+    balls[i].outline = *box;
+  }
+  return balls;
+}
+
 Result<void> TakeViews(const DomeOptions& options, DomeInputRequest& request) {
-  const auto projection = ParseProjection("--projection", options.projection);
-  if (!projection) return tl::unexpected(projection.error());
-  request.projection = *projection;
+  const bool mirror = options.projection == kMirrorBallWord;
+  if (mirror) {
+    auto balls = BallsOf(options);
+    if (!balls) return Propagate(std::move(balls));
+    request.balls = std::move(*balls);
+  } else if (options.projection.empty()) {
+    request.projection_of_file = true;
+    if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
+  } else {
+    const auto projection = ParseProjection("--projection", options.projection);
+    if (!projection) return tl::unexpected(projection.error());
+    request.projection = *projection;
+  }
   if (!options.fov.empty()) {
     const auto fov = ParseAngle(options.fov);
     if (!fov) return tl::unexpected(fov.error());
     request.field_of_view = *fov;
   }
   for (const std::string& text : options.aims) {
-    const auto aim = ParseAim(text);
+    const auto aim = ParseAim("--aim", text);
     if (!aim) return tl::unexpected(aim.error());
     request.aims.push_back(*aim);
   }
-  const bool one = options.files.size() == 1 && request.projection != Projection::kRectilinear;
+  const bool one =
+      options.files.size() == 1 && (mirror || request.projection != Projection::kRectilinear);
   if (request.aims.size() != options.files.size() && !(one && request.aims.empty())) {
     return WrongUsage("--aim", std::to_string(options.files.size()) +
                                    " pictures are views and need --aim YAW,PITCH[,ROLL] once each, "
@@ -146,17 +241,45 @@ void AddDomeOptions(CLI::App& parser, DomeOptions& w) {
                     "Azimuth in degrees, right of the picture's centre, that becomes +Y [0]");
   parser
       .add_option("--projection", w.projection,
-                  "Of the pictures: a panorama, fisheyes (looking up unless aimed) or an ordinary "
-                  "lens (rect)")
-      ->check(OneOf(kProjectionWords))
-      ->capture_default_str();
+                  "Of the pictures: a panorama, fisheyes (looking up unless aimed), an ordinary "
+                  "lens (rect), or its pictures of a mirror ball, which show all around but what "
+                  "is behind the ball (mirrorball) [as Radiance's VIEW line says, else latlong]")
+      ->check(OneOf(DomeProjectionWords()));
   parser.add_option("--fov", w.fov,
-                    "Full angle in degrees: across a fisheye's circle, across a rect's width");
+                    "Full angle in degrees: across a fisheye's circle, across a rect's width; of "
+                    "a mirror ball's picture it tells how far the camera was [far away]");
   parser
       .add_option("--aim", w.aims,
                   "Where a view looks, once for each picture in their order: YAW,PITCH[,ROLL] in "
                   "degrees, right of +Y, above the horizon, leaning right")
       ->allow_extra_args(false);
+  parser
+      .add_option("--ball", w.balls,
+                  "X,Y,W,H in pixels: the box that touches the mirror ball's outline, once for "
+                  "each picture in their order, or once for all")
+      ->allow_extra_args(false);
+  parser.add_option("--ball-reflectance", w.ball_reflectance,
+                    "R or R,SIGMA: what the ball sends back of the light, looking straight at it "
+                    "[0.62,0.05]");
+  parser.add_option("--ball-distance", w.ball_distance,
+                    "From the camera to the ball's middle, in diameters of the ball, for a picture "
+                    "cut out of a larger one, where --fov says nothing [far away]");
+  parser.add_option("--plate", w.plate,
+                    "A linear picture or RAW that shows a grey ball or card where the dome was "
+                    "taken, in its light: gives the dome the plate's own scale");
+  parser.add_option("--grey-ball", w.grey_ball,
+                    "X,Y,W,H in pixels: the box around the grey ball's outline in the --plate");
+  parser.add_option("--grey-card", w.grey_card,
+                    "X,Y,W,H in pixels: a box on a grey card in the --plate");
+  parser.add_option("--card-direction", w.card_direction,
+                    "Where the card faced: up, down or AZIMUTH,ELEVATION [the plate's camera]");
+  parser.add_option("--grey-reflectance", w.grey_reflectance,
+                    "R or R,SIGMA of the grey ball or card [0.18,0.006]");
+  parser.add_option("--plate-fov", w.plate_fov,
+                    "Full angle of the plate's lens across its width [a mirror ball's --fov]");
+  parser.add_option("--plate-aim", w.plate_aim,
+                    "Where the plate's camera looked: YAW,PITCH[,ROLL] [as the first mirror ball's "
+                    "--aim, else 0,0]");
   parser.add_option("--width", w.width,
                     "Pixels across the dome made of views [the finest view's detail]");
 }
@@ -186,6 +309,57 @@ Result<DomeRequest> DomeRequestOf(const DomeOptions& options) {
   if (!reading) return Propagate(std::move(reading));
   request.reading = *reading;
   return request;
+}
+
+Result<std::optional<GreyPlate>> GreyPlateOf(const DomeOptions& options, const DomeRequest& request,
+                                             const std::optional<CameraSettings>& exposure) {
+  const bool ball = !options.grey_ball.empty(), card = !options.grey_card.empty();
+  if (options.plate.empty()) {
+    if (ball) return WrongUsage("--grey-ball", "lies in a --plate FILE");
+    if (card) return WrongUsage("--grey-card", "lies in a --plate FILE");
+    return std::nullopt;
+  }
+  if (ball == card) {
+    return WrongUsage("--plate",
+                      "needs what is grey in it: --grey-ball X,Y,WIDTH,HEIGHT, the box "
+                      "around a ball in pixels, or --grey-card X,Y,WIDTH,HEIGHT, a box "
+                      "on a card");
+  }
+  GreyPlate plate;
+  plate.exposure = exposure;
+  GreyTarget& target = plate.target;
+  target.file = options.plate;
+  target.ball = ball;
+  const auto box = ball ? ParsePixelBox("--grey-ball", options.grey_ball)
+                        : ParsePixelBox("--grey-card", options.grey_card);
+  if (!box) return tl::unexpected(box.error());
+  target.box = *box;
+  if (!options.card_direction.empty()) {
+    const auto normal = ParseDirection("--card-direction", options.card_direction);
+    if (!normal) return tl::unexpected(normal.error());
+    target.card_normal = TurnedNorth(*normal, -request.north);
+  }
+  if (!options.grey_reflectance.empty()) {
+    const auto grey = ParseMirrorReflectance("--grey-reflectance", options.grey_reflectance);
+    if (!grey) return tl::unexpected(grey.error());
+    target.reflectance = (*grey)[0];
+    target.reflectance_sd = (*grey)[1];
+  }
+  const std::string& fov =
+      options.plate_fov.empty() && !request.input.balls.empty() ? options.fov : options.plate_fov;
+  if (!fov.empty()) {
+    const auto angle = ParseAngle(fov);
+    if (!angle) return tl::unexpected(angle.error());
+    target.field_of_view = *angle;
+  }
+  if (!options.plate_aim.empty()) {
+    const auto aim = ParseAim("--plate-aim", options.plate_aim);
+    if (!aim) return tl::unexpected(aim.error());
+    target.aim = *aim;
+  } else if (!request.input.balls.empty() && !request.input.aims.empty()) {
+    target.aim = request.input.aims.front();
+  }
+  return std::optional(std::move(plate));
 }
 
 Result<CameraSettings> ParsePlateExposure(const std::string& option, const std::string& text) {

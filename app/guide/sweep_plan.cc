@@ -12,7 +12,6 @@ namespace lightcal::app {
 namespace {
 
 constexpr std::size_t kMostStates = 10000;
-constexpr std::size_t kBackToFull = 8;
 
 Result<std::vector<ControlValue>> ValuesOf(const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -12,6 +12,9 @@
 
 namespace lightcal::app {
 
+// So many others are read before full again.
+inline constexpr std::size_t kBackToFull = 8;
+
 // Every state of "dimmer=100,50,25" and "cct_K=3200,5600" together, 6 of these two.
 // Wrong usage: no value, a control twice, a value that no control can have, over 10000 states.
 [[nodiscard]] Result<std::vector<FixtureState>> StatesOver(const std::vector<std::string>& over);

@@ -20,6 +20,7 @@ from cli_help import commands_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/tools"))
+import mirror_ball_world
 import usdlux
 SAMPLES = ROOT / "sample_data"
 LIGHTCAL = pathlib.Path(sys.argv[1]).resolve()
@@ -72,6 +73,7 @@ def prepare(home):
     shutil.copy(SAMPLES / "pictures/latlong/lobby.hdr", home / "lobby.hdr")
     shutil.copy(SAMPLES / "pictures/latlong/sunset.hdr", home / "sky.hdr")
     shutil.copy(SAMPLES / "pictures/exr/Rec709.exr", home / "beauty.exr")
+    mirror_ball_world.examples(home, SAMPLES / "pictures/latlong/lobby.hdr")
     window = (SAMPLES / "vectors/glare/studio_60_10.hdr").read_bytes()
     (home / "window.hdr").write_bytes(window.replace(b"\n", b"\nVIEW= -vta -vh 180 -vv 180\n", 1))
     lightcal("dome", "sky.hdr", "--lux", "98klx", "-o", "sky")

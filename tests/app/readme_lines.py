@@ -19,6 +19,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/tools"))
+import mirror_ball_world  # noqa: E402
+
 DOCUMENTS = [ROOT / "README.md", ROOT / "app/PICTURES.md", ROOT / "sample_data/README.md"]
 PICTURE = ROOT / "app/first_lamp.svg"
 PICTURES = ROOT / "sample_data/pictures"
@@ -77,6 +80,7 @@ def main():
         shutil.copytree(PICTURES / "png_bracket", home / "bracket",
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
+        mirror_ball_world.examples(home, PICTURES / "latlong/lobby.hdr")
         window = (ROOT / "sample_data/vectors/glare/studio_60_10.hdr").read_bytes()
         (home / "window.hdr").write_bytes(
             window.replace(b"\n", b"\nVIEW= -vta -vh 180 -vv 180\n", 1))

@@ -478,7 +478,7 @@ class Scene:
         return picture
 
 
-def write_exr(path, picture, half=False):
+def write_exr(path, picture, half=False, white_luminance=None):
     """Scan lines, no compression. Source: the OpenEXR file layout."""
     height, width, _ = picture.shape
     kind, dtype = (1, "<f2") if half else (2, "<f4")
@@ -494,7 +494,10 @@ def write_exr(path, picture, half=False):
         attribute(b"lineOrder", b"lineOrder", b"\0"),
         attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1.0)),
         attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0)),
-        attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1.0))]) + b"\0"
+        attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1.0))])
+    if white_luminance is not None:
+        head += attribute(b"whiteLuminance", b"float", struct.pack("<f", white_luminance))
+    head += b"\0"
     size = width * 3 * np.dtype(dtype).itemsize
     offsets = [len(head) + 8 * height + y * (8 + size) for y in range(height)]
     with open(path, "wb") as out:

@@ -20,6 +20,7 @@
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/plan/plan_forward.h"
+#include "lightcal/fit/states/geometry.h"
 #include "lightcal/fit/states/measure_states.h"
 
 namespace lightcal {
@@ -380,6 +381,18 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   return out;
 }
 
+// Each zoom and front that tells where its light starts is a lamp of its own, and its states too.
+Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescription& light,
+                           const FitSettings& settings, FittedLight& fitted, FittedSession& out) {
+  for (const Session& part : parts.others) {
+    Result<FittedLight> own = FitOne(part, light, settings, out);
+    if (!own) return Propagate(std::move(own));
+    fit::MeasureStates(part, light, settings.cct_method, *own, out.warnings);
+    fit::TakeGeometry(*own, fitted);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
@@ -388,7 +401,11 @@ Result<FittedSession> FitSession(const Session& session, const FitSettings& sett
   for (const LightDescription& light : session.lights) {
     Result<FittedLight> fitted = FitOne(session, light, settings, out);
     if (fitted) {
-      fit::MeasureStates(session, light, settings.cct_method, *fitted, out.warnings);
+      const fit::GeometryParts parts = fit::SplitGeometries(session, light);
+      const Session& read = parts.others.empty() ? session : parts.main;
+      fit::MeasureStates(read, light, settings.cct_method, *fitted, out.warnings);
+      auto added = AddGeometries(parts, light, settings, *fitted, out);
+      if (!added) return Propagate(std::move(added));
       if (fitted->states.size() > 1) {
         out.notes.push_back(light.name + ": read at " + std::to_string(fitted->states.size()) +
                             " states of its controls; its intensity is that at " +

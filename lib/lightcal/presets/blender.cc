@@ -116,15 +116,12 @@ Node Shape(const PresetLight& light) {
 
 Node BlenderNode(const FittedLight& lamp, const PresetLight& light) {
   const PunctualLight& p = light.punctual;
-  Node document = {{"name", p.name},
-                   {"type", BlenderType(light.form)},
-                   {"color", NodeOf(p.color.max_normalised)}};
+  Node document = {
+      {"name", p.name}, {"type", BlenderType(light.form)}, {"color", ColorNode(light)}};
   if (light.form == LightForm::kDome) {
-    document.Put("strength", light.nits / (kLumensPerWatt * p.color.luminance));
-    if (light.environment)
-      document.Put({{"strength", 1.0 / kLumensPerWatt},
-                    {"color", NodeOf(Rgb{1.0, 1.0, 1.0})},
-                    {"upward_lx", light.lux}});
+    const double nits = light.environment ? 1.0 : light.nits / p.color.luminance;  // of a texel
+    document.Put("strength", nits / kLumensPerWatt);
+    if (light.environment) document.Put("upward_lx", light.lux);
   } else {
     document.Put({{"energy_W", WattsOf(light)},
                   {"axes", Axes(light)},
@@ -177,7 +174,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   able.spots_by_table = options.into.empty();  // a light that is there has a cone of its own
   const auto forms = PresetLightsFrom(lights, able, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   std::vector<PresetFile> pictures;

@@ -149,6 +149,21 @@ Column3 PictureTowards(const EnvironmentPicture& picture, const Vec3& w) {
   return out;
 }
 
+// The nine of Harmonics, in a direction.
+std::array<double, 9> BasisOf(const Vec3& d) {
+  const double k0 = 0.5 * std::sqrt(1.0 / kPi), k1 = std::sqrt(3.0 / (4.0 * kPi));
+  const double k2 = std::sqrt(15.0 / (4.0 * kPi)), k20 = 0.25 * std::sqrt(5.0 / kPi);
+  return {k0,
+          k1 * d[1],
+          k1 * d[2],
+          k1 * d[0],
+          k2 * d[0] * d[1],
+          k2 * d[1] * d[2],
+          k20 * (3.0 * d[2] * d[2] - 1.0),
+          k2 * d[0] * d[2],
+          0.5 * k2 * (d[0] * d[0] - d[1] * d[1])};
+}
+
 }  // namespace
 
 void EnvironmentPicture::Reduce() {
@@ -176,38 +191,34 @@ void EnvironmentPicture::Reduce() {
 }
 
 Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal) {
-  Vec3 sum{};
+  return IrradianceOn(picture, std::span(&normal, 1)).front();
+}
+
+std::vector<Vec3> IrradianceOn(const EnvironmentPicture& picture, std::span<const Vec3> normals) {
+  std::vector<Vec3> sums(normals.size());
   const int w = picture.small_width, h = picture.small_height;
   for (int y = 0; y < h; ++y) {
     const double omega = PixelSolidAngle(y, w, h);
     for (int x = 0; x < w; ++x) {
-      const double cosine = Dot(normal, DirectionOfPixel(x + 0.5, y + 0.5, w, h));
-      if (cosine <= 0.0) continue;
+      const Vec3 direction = DirectionOfPixel(x + 0.5, y + 0.5, w, h);
       const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += omega * cosine * p[c];
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const double cosine = Dot(normals[i], direction);
+        if (cosine <= 0.0) continue;
+        for (std::size_t c = 0; c < 3; ++c) sums[i][c] += omega * cosine * p[c];
+      }
     }
   }
-  return sum;
+  return sums;
 }
 
 Harmonics RadianceHarmonics(const EnvironmentPicture& picture, Vec3 (*turn)(const Vec3&)) {
   Harmonics out{};
-  const double k0 = 0.5 * std::sqrt(1.0 / kPi), k1 = std::sqrt(3.0 / (4.0 * kPi));
-  const double k2 = std::sqrt(15.0 / (4.0 * kPi)), k20 = 0.25 * std::sqrt(5.0 / kPi);
   const int w = picture.small_width, h = picture.small_height;
   for (int y = 0; y < h; ++y) {
     const double omega = PixelSolidAngle(y, w, h);
     for (int x = 0; x < w; ++x) {
-      const Vec3 d = turn(DirectionOfPixel(x + 0.5, y + 0.5, w, h));
-      const double basis[] = {k0,
-                              k1 * d[1],
-                              k1 * d[2],
-                              k1 * d[0],
-                              k2 * d[0] * d[1],
-                              k2 * d[1] * d[2],
-                              k20 * (3.0 * d[2] * d[2] - 1.0),
-                              k2 * d[0] * d[2],
-                              0.5 * k2 * (d[0] * d[0] - d[1] * d[1])};
+      const auto basis = BasisOf(turn(DirectionOfPixel(x + 0.5, y + 0.5, w, h)));
       const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
       for (std::size_t i = 0; i < out.size(); ++i) {
         for (std::size_t c = 0; c < 3; ++c) out[i][c] += omega * basis[i] * p[c];
@@ -215,6 +226,16 @@ Harmonics RadianceHarmonics(const EnvironmentPicture& picture, Vec3 (*turn)(cons
     }
   }
   return out;
+}
+
+Vec3 IrradianceOn(const Harmonics& radiance, const Vec3& normal) {
+  Vec3 sum{};
+  const auto basis = BasisOf(normal);
+  for (std::size_t i = 0; i < radiance.size(); ++i) {
+    const double band = i == 0 ? kPi : i < 4 ? 2.0 * kPi / 3.0 : kPi / 4.0;
+    sum = sum + radiance[i] * (band * basis[i]);
+  }
+  return sum;
 }
 
 EncodedPicture RadianceFile(const EnvironmentPicture& picture, const ColorTarget& color) {

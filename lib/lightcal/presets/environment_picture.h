@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ inline constexpr int kSmallWidth = 512;
 
 // On a plane of unit normal n in the middle, per channel: the integral of L max(0, n . w) dOmega.
 [[nodiscard]] Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal);
+[[nodiscard]] std::vector<Vec3> IrradianceOn(const EnvironmentPicture& picture,
+                                             std::span<const Vec3> normals);
 
 // Of its radiance, in the basis 1, y, z, x, xy, yz, 3 z^2 - 1, xz, x^2 - y^2 (normalised on the
 // sphere) of an engine's axes, to which `turn` takes ours. Irradiance has them times pi, 2 pi/3 and
@@ -36,6 +39,9 @@ inline constexpr int kSmallWidth = 512;
 using Harmonics = std::array<Vec3, 9>;
 [[nodiscard]] Harmonics RadianceHarmonics(const EnvironmentPicture& picture,
                                           Vec3 (*turn)(const Vec3&));
+
+// What a plane of unit normal n (in the harmonics' axes) gets of them.
+[[nodiscard]] Vec3 IrradianceOn(const Harmonics& radiance, const Vec3& normal);
 
 // As an engine of that colour gets it. What an encoding cannot hold is cut, and how much of the
 // whole luminance that was: below zero (out of the space's gamut), beyond the greatest number.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -12,7 +13,9 @@
 #include "lightcal/core/joined.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/presets/into_scene.h"
+#include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
+#include "lightcal/presets/rig.h"
 
 namespace lightcal {
 namespace {
@@ -62,8 +65,9 @@ void AddOnce(const Warnings& from, Warnings& to) {
 // A format nobody asked for says nothing of the lights it cannot hold, and what another has said of
 // a substituted lamp is not said again by each: it stands in every file and under `derived`.
 void DropUnasked(const Warnings& said, Warnings& warnings) {
-  constexpr std::array<std::string_view, 5> kOfOneFormat = {
-      "no_distribution", "cone_profile", "cone_clipped", "ies_not_portable", "ies_by_script_only"};
+  constexpr std::array<std::string_view, 6> kOfOneFormat = {
+      "no_distribution",  "cone_profile",       "cone_clipped",
+      "ies_not_portable", "ies_by_script_only", "picture_by_script_only"};
   std::erase_if(warnings, [&](const Warning& w) {
     if (std::ranges::find(kOfOneFormat, w.code) != kOfOneFormat.end()) return true;
     return w.code == "substituted" && std::ranges::any_of(said, [&](const Warning& earlier) {
@@ -76,6 +80,24 @@ void DropUnasked(const Warnings& said, Warnings& warnings) {
 void KeepFirstOfEachName(std::vector<PresetFile>& files) {
   std::set<std::string> names;
   std::erase_if(files, [&](const PresetFile& file) { return !names.insert(file.name).second; });
+}
+
+// Absent: the lights alone. All places are tried on the lamps as they are before anything is
+// written.
+Result<std::vector<std::optional<RigPlace>>> RigsOf(const LightFile& lights,
+                                                    const PresetOptions& options) {
+  std::vector<std::optional<RigPlace>> rigs = {std::nullopt};
+  if (options.rig) rigs.emplace_back(options.rig_place);
+  rigs.insert(rigs.end(), options.more_rigs.begin(), options.more_rigs.end());
+  if (options.more_rigs.empty()) return rigs;
+  Warnings said_by_targets;
+  const auto forms = PresetLightsFrom(lights, kEveryForm, options, said_by_targets);
+  if (!forms) return tl::unexpected(forms.error());
+  for (const RigPlace& place : options.more_rigs) {
+    auto checked = CheckRigPlace(lights, BuildRig(lights, *forms, place));
+    if (!checked) return Propagate(std::move(checked));
+  }
+  return rigs;
 }
 
 }  // namespace
@@ -99,12 +121,13 @@ Result<ExportedPresets> ExportPresets(const LightFile& all_lights,
     return Refused("bad_name", stem, "is no stem of file names: a path, hidden, or unprintable");
   }
   ExportedPresets all;
-  std::vector<bool> scenes = {false};
-  if (options.rig) scenes.push_back(true);
+  auto rigs = RigsOf(lights, options);
+  if (!rigs) return Propagate(std::move(rigs));
   for (const PresetTarget& target : *chosen) {
-    for (const bool rig : scenes) {
+    for (const std::optional<RigPlace>& rig : *rigs) {
       PresetOptions one = options;
-      one.rig = rig;
+      one.rig = rig.has_value();
+      one.rig_place = rig.value_or(RigPlace{});
       auto preset = target.exporter(lights, stem, one);
       if (!preset) return Propagate(std::move(preset));
       if (targets.empty()) DropUnasked(all.warnings, preset->warnings);

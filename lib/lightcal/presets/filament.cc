@@ -53,9 +53,10 @@ Node IrradianceForFilament(const EnvironmentPicture& picture) {
 Node FilamentFigures(const PresetLight& light, const FalloffRefit& refit) {
   const PunctualLight& p = light.punctual;
   if (light.form == LightForm::kDome) {
-    Node figures = {{"type", "INDIRECT"}, {"intensity", light.nits / p.color.luminance}};
+    Node figures = {{"type", "INDIRECT"},
+                    {"intensity", light.environment ? 1.0 : light.nits / p.color.luminance}};
     if (light.environment) {
-      figures.Put({{"intensity", 1.0}, {"upward_lx", light.lux}});
+      figures.Put("upward_lx", light.lux);
       figures.Put("irradiance", IrradianceForFilament(*light.environment));
     }
     return figures;
@@ -83,11 +84,10 @@ Node FilamentNode(const FittedLight& lamp, const PresetLight& light, const Fallo
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name}};
   document.Put(FilamentFigures(light, refit));
-  document.Put({{"color", NodeOf(p.color.max_normalised)},
+  document.Put({{"color", ColorNode(light)},
                 {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                 {"direction", NodeOf(GltfFromZUp(p.aim))},
                 {"measured", MeasuredNode(lamp, light)}});
-  if (light.environment) document.Put("color", NodeOf(Rgb{1.0, 1.0, 1.0}));
   return document;
 }
 
@@ -184,7 +184,7 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
       RefitLights(lights, *forms,
                   {.falloff = kFilamentFalloff, .far_range = kFarFalloff, .fixed = options.range},
                   preset.warnings);
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     list.items.push_back(FilamentNode(lights.lights[i], (*forms)[i], refits[i]));

@@ -341,7 +341,7 @@ void AddImageBasedScene(Gltf& gltf, const LightFile& file, const std::vector<Pun
 Gltf WithLights(const LightFile& file, const std::string& stem,
                 const std::vector<PunctualLight>& lights, const std::vector<FalloffRefit>& refits,
                 const PresetOptions& options) {
-  const Rig rig = BuildRig(file, lights);
+  const Rig rig = BuildRig(file, lights, options.rig_place);
   Gltf gltf;
   gltf.generator = preset_text::GeneratorOf(file);
   gltf.extensions_used = {"KHR_lights_punctual"};

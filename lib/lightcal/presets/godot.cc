@@ -246,7 +246,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
                        const std::vector<PresetLight>& lights,
                        const std::vector<DerivedLight>& derived, const PresetOptions& options,
                        const std::string& picture) {
-  const Rig rig = BuildRig(file, lights);
+  const Rig rig = BuildRig(file, lights, options.rig_place);
   const DerivedLight* dome = nullptr;
   std::string nodes;
   std::set<std::string> taken;
@@ -298,7 +298,7 @@ Result<Preset> ExportGodot(const LightFile& lights, const std::string& stem,
       RefitLights(lights, *forms,
                   {.falloff = kGodotFalloff, .far_range = kGodotFarRange, .fixed = options.range},
                   preset.warnings);
-  const double exposure = BuildRig(lights, *forms).exposure.scale;
+  const double exposure = BuildRig(lights, *forms, options.rig_place).exposure.scale;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(DeriveGodot((*forms)[i], refits[i], exposure, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());

@@ -2,6 +2,7 @@
 // <stem>.preset.json, schema lightcal.preset/1: the canonical record of the lights with every
 // number other targets are given, so that a reader can audit them. schemas/preset.schema.json
 // describes it.
+#include <algorithm>
 #include <utility>
 
 #include "lightcal/photometry/half_range.h"
@@ -10,6 +11,7 @@
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/turned_panorama.h"
 
 namespace lightcal {
 namespace {
@@ -143,6 +145,32 @@ Node Distribution(const PresetLight& form) {
           {"angles", grid.vertical_deg.size()}};
 }
 
+// What the cards would get of a panorama that an engine turns or mirrors, for whoever looks at a
+// picture.
+Node PanoramaNode(const Rig& rig, const std::vector<PresetLight>& lights) {
+  const auto dome = std::ranges::find_if(
+      lights, [](const PresetLight& light) { return light.environment != nullptr; });
+  if (dome == lights.end()) return {};
+  Vec3 rest{};
+  for (const PresetLight& light : lights) {
+    if (&light == &*dome) continue;
+    const double lux = IlluminanceAt(light, rig.cards[0].centre_m, rig.normal).value();
+    const EmittedColor& color = light.color();
+    const Rgb& rgb = color.max_normalised;
+    rest = rest + Vec3{rgb.r, rgb.g, rgb.b} * (lux / color.luminance);
+  }
+  Node turns = Node::Table();
+  const auto ways = MistakenTurns();
+  const auto seen = IrradianceIfTurned(*dome->environment, rig.normal);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    Node list = Node::Array();
+    for (const Vec3& rgb : seen[i]) list.items.push_back(NodeOf(rgb * dome->engine_factor));
+    turns.Put(ways[i].word, std::move(list));
+  }
+  return {
+      {"light", dome->name()}, {"others_rgb_lx", NodeOf(rest)}, {"if_rgb_lx", std::move(turns)}};
+}
+
 Node PresetNode(const FittedLight& lamp, const PresetLight& form, std::size_t index,
                 const std::vector<Derivation>& derivations, double exposure) {
   Node derived = Node::Table();
@@ -160,10 +188,6 @@ Node PresetNode(const FittedLight& lamp, const PresetLight& form, std::size_t in
           {"derived", Node::UnlessEmpty(std::move(derived))}};
 }
 
-// The rig's illuminances are those of the lamps themselves, whatever an engine makes of them.
-constexpr EngineForms kEveryForm{
-    .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
-
 }  // namespace
 
 Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
@@ -176,7 +200,9 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   of_lamps.engine = nullptr;
   const auto forms = PresetLightsFrom(lights, kEveryForm, of_lamps, said_already);
   if (!forms) return tl::unexpected(forms.error());
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
+  Node rig_node = NodeOf(rig);
+  rig_node.Put("panorama", PanoramaNode(rig, *forms));
   const auto derivations = Derivations(lights, stem, options);
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
@@ -189,7 +215,7 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
                         {"name", name},
                         {"lights", std::move(list)},
                         {"exposure", NodeOf(rig.exposure)},
-                        {"rig", NodeOf(rig)},
+                        {"rig", std::move(rig_node)},
                         {"provenance", NodeOf(lights.provenance)}},
                        name + ".preset.json");
   if (!text) return Propagate(std::move(text));

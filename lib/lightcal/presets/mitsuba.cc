@@ -182,7 +182,7 @@ Result<Preset> ExportMitsuba(const LightFile& lights, const std::string& stem,
   const PresetOptions options = preset_text::InRec709(asked, "mitsuba", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kMitsubaForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const double exposure = options.rig ? rig.exposure.scale : 1.0;
   const std::string name = preset_text::SceneStem(stem, options);
   std::string text =

@@ -189,7 +189,7 @@ Result<Preset> ExportPbrt(const LightFile& lights, const std::string& stem,
       known ? asked : preset_text::InRec709(asked, "pbrt", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kPbrtForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const std::string name = preset_text::SceneStem(stem, options);
   std::string text = "# " + preset_text::GeneratorOf(lights) +
                      ", not executed in pbrt: schema-checked. cd, lx and nits; ev100 " +

@@ -40,6 +40,8 @@ Node NodeOf(const Rig& rig) {
           {"row", NodeOf(rig.row)},
           {"side_m", rig.side},
           {"cards", Node::List(rig.cards, NodeOfCard)},
+          {"off_axis_deg", rig.place.OnAxis() ? Node() : Node(rig.place.off_axis_deg)},
+          {"round_deg", rig.place.OnAxis() ? Node() : Node(rig.place.round_deg)},
           {"camera", Node{{"position_m", NodeOf(camera.position_m)},
                           {"target_m", NodeOf(camera.target_m)},
                           {"up", NodeOf(camera.up)},
@@ -56,6 +58,10 @@ Node NodeOf(const Provenance& provenance) {
 }
 
 Node NodeOf(const std::optional<Uncertain>& value) { return value ? DocumentOf(*value) : Node(); }
+
+Node ColorNode(const PresetLight& light) {
+  return NodeOf(light.environment ? Rgb{1.0, 1.0, 1.0} : light.color().max_normalised);
+}
 
 Node MeasuredNode(const FittedLight& lamp, const PresetLight& light) {
   return {{"kind", LightKindName(lamp.kind)},

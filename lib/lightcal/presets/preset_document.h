@@ -30,6 +30,10 @@ template <std::size_t N>
 // Absent where there is none.
 [[nodiscard]] records::Node NodeOf(const std::optional<Uncertain>& value);
 
+// What an engine multiplies with: the lamp's colour at most 1; white of a picture, which has its
+// own.
+[[nodiscard]] records::Node ColorNode(const PresetLight& light);
+
 // What a person who opens the file in an engine can still read of the measurement.
 [[nodiscard]] records::Node MeasuredNode(const FittedLight& lamp, const PresetLight& light);
 

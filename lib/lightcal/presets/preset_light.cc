@@ -261,10 +261,11 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     // A tube without aim hangs as its axis says, shining to its side.
     if (lamp.axis && !lamp.aim) light.punctual.aim = AxesOfAim(along, light.punctual.aim).c0;
     light.axes = AxesOfAim(light.punctual.aim, along);
-    ChooseForm(lamp, forms, options.spots, light);
-    if (light.form == LightForm::kDome && i < options.environments.size()) {
-      light.environment = options.environments[i];
-    }
+    const auto picture = i < options.environments.size() ? options.environments[i] : nullptr;
+    EngineForms able = forms;
+    able.dome = forms.dome || (forms.pictured_dome && picture && options.into.empty());
+    ChooseForm(lamp, able, options.spots, light);
+    if (light.form == LightForm::kDome) light.environment = picture;
     if (auto measured = Measure(lamp, light); !measured) {
       return Propagate(std::move(measured));
     }

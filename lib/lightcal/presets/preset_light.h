@@ -35,9 +35,14 @@ enum class LightForm : std::uint8_t {
 // The forms an engine has beside point, spot and directional light, and how its spots fall off.
 struct EngineForms {
   bool sphere = false, disk = false, rect = false, tube = false, table = false, dome = false;
+  bool pictured_dome = false;  // a dome that has a picture; an even one is a light from above
   EngineConeLaw cone = EngineConeLaw::kSquared;
   bool spots_by_table = false;  // its tables are absolute wherever it runs: SpotForm::kAuto may
 };
+
+// The lamp itself, whatever engines make of it.
+inline constexpr EngineForms kEveryForm{
+    .sphere = true, .disk = true, .rect = true, .tube = true, .table = true, .dome = true};
 
 // All photometric values are those the engine must emit, before the division by color.luminance
 // that a max-normalised colour needs:

@@ -3,6 +3,7 @@
 // file in this room and one row here.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,13 @@ struct KelvinSetting {
   std::string_view krystek{};  // its name where the setting is on Krystek's locus
 };
 
+// How an engine lights a matt surface with a panorama.
+enum class PanoramaLaw : std::uint8_t {
+  kNotKnown,
+  kTraced,        // the integral of the picture itself
+  kNineHarmonics  // of its harmonics to the second order: a sun left inside is up to a quarter off
+};
+
 struct PresetTarget {
   std::string_view name;  // the word it is asked for by
   Exporter* exporter;
@@ -57,7 +65,8 @@ struct PresetTarget {
 
   // In reports, from 1 on in the order people look for engines; 0 = not there.
   int place_in_report = 0;
-  std::string_view title{};         // "Unreal Engine"
+  std::string_view title{};  // "Unreal Engine"
+  PanoramaLaw panorama = PanoramaLaw::kNotKnown;
   EmissionLaw* emission = nullptr;  // absent: what the file says that is read back
   std::span<const TypedNumber> numbers{};
   std::span<const TypedNote> notes{};

@@ -170,7 +170,14 @@ std::string SubstitutionNote(const DerivedLight& derived) {
 }
 
 std::string SceneStem(const std::string& stem, const PresetOptions& options) {
-  return options.rig ? stem + ".rig" : stem;
+  if (!options.rig) return stem;
+  std::string name = stem + ".rig";
+  if (options.rig_place.OnAxis()) return name;
+  name += "_" + ShortestText(options.rig_place.off_axis_deg);
+  if (options.rig_place.round_deg != 0.0) {
+    name += "_" + ShortestText(options.rig_place.round_deg);
+  }
+  return name;
 }
 
 Result<void> CheckFinite(const DerivedLight& light, const std::string& subject) {

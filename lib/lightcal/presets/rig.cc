@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/lambert.h"
 
@@ -37,11 +38,17 @@ Vec3 HorizontalAcross(const Vec3& aim) {
   return Length(across) > 1e-9 ? Unit(across) : Vec3{1.0, 0.0, 0.0};
 }
 
-Metres SideFor(const PunctualLight& light, double separation) {
+Metres SideFor(const PunctualLight& light, double separation, bool off_axis) {
   double side = std::min(kLargestSide_m, kSideShareOfDistance * separation);
   if (light.type == PunctualType::kSpot) {
     const double angle = kConeShare * light.cone.outer.value();
     side = std::min(side, separation * std::tan(angle) / kCentreShareOfSide);
+    // Their middle half, which is measured, spans a sixteenth of the penumbra: its mean is its
+    // middle within .3 %.
+    const double penumbra = light.cone.outer.value() - light.cone.inner.value();
+    if (off_axis && penumbra > 1e-3) {
+      side = std::min(side, separation * 4.0 * std::tan(penumbra / 32.0));
+    }
   }
   return Metres(side);
 }
@@ -75,6 +82,7 @@ RigCard CardAt(const char* name, double reflectance, const Vec3& centre, const V
 }
 
 RigExposure ExposureFor(Lux white) {
+  if (!(white.value() > 0.0)) return {};  // CheckRigPlace says so
   const Nits shown_as_one = LuminanceOfLitSurface(white, 1.0);
   const Nits saturating_at_ev0 =
       MaximumLuminance({.f_number = 1.0, .shutter = Seconds(1.0), .iso = 100.0});
@@ -84,14 +92,45 @@ RigExposure ExposureFor(Lux white) {
 const PunctualLight& PunctualOf(const PunctualLight& light) { return light; }
 const PunctualLight& PunctualOf(const PresetLight& light) { return light.punctual; }
 
+// The way from the lamp to the cards, and what runs along their row.
+struct CardsWay {
+  Vec3 aim, across;
+};
+
+// `apart`: of each card from the middle of the pair, over their distance from the lamp.
+CardsWay WayTo(const FittedLight& lamp, const Vec3& aim, const RigPlace& place, double apart) {
+  double off = RadiansFromDegrees(place.off_axis_deg).value();
+  const double round = RadiansFromDegrees(place.round_deg).value();
+  if (place.OnAxis()) return {aim, HorizontalAcross(aim)};
+  if (lamp.kind == LightKind::kDome) {
+    const Vec3 facing = {std::sin(off) * std::sin(round), std::sin(off) * std::cos(round),
+                         std::cos(off)};
+    return {facing * -1.0, HorizontalAcross(facing)};
+  }
+  const LampAxes axes = AxesOfAim(aim, lamp.axis.value_or(Vec3{}));
+  const Vec3 aside = axes.c0 * std::cos(round) + axes.c90 * std::sin(round);
+  // Along a circle round the axis: both cards see the beam at one angle, which is the one asked
+  // for.
+  off = std::acos(std::clamp(std::cos(off) * std::hypot(1.0, apart), -1.0, 1.0));
+  return {aim * std::cos(off) + aside * std::sin(off), Unit(Cross(aim, aside))};
+}
+
+// Of a place whose sun was taken out as a light, the place.
+std::size_t WithAnAxis(const LightFile& file) {
+  const auto lamp = std::ranges::find_if(
+      file.lights, [](const FittedLight& one) { return one.kind != LightKind::kDirectional; });
+  return lamp == file.lights.end() ? 0 : static_cast<std::size_t>(lamp - file.lights.begin());
+}
+
 template <class Light>
-Rig RigUnder(const LightFile& file, std::span<const Light> lights) {
+Rig RigUnder(const LightFile& file, std::span<const Light> lights, const RigPlace& place) {
   std::size_t chosen = 0;
   std::optional<double> distance;
   for (std::size_t i = 0; i < lights.size() && !distance; ++i) {
     distance = MedianUsedDistance(file.lights[i]);
     if (distance) chosen = i;
   }
+  if (!distance && !place.OnAxis()) chosen = WithAnAxis(file);
   const PunctualLight& light = PunctualOf(lights[chosen]);
   Rig rig;
   rig.light = light.name;
@@ -99,10 +138,13 @@ Rig RigUnder(const LightFile& file, std::span<const Light> lights) {
   rig.distance = Metres(distance.value_or(1.0));
   const double separation = rig.distance.value() + EffectiveOffset_m(file.lights[chosen]);
   rig.separation = Metres(separation > 0.0 ? separation : rig.distance.value());
-  rig.normal = light.aim * -1.0;
-  rig.side = SideFor(light, rig.separation.value());
-  const Vec3 middle = light.position_m + light.aim * rig.separation.value();
-  rig.camera = CameraFor(middle, rig.normal, HorizontalAcross(light.aim), rig.side.value());
+  rig.place = place;
+  rig.side = SideFor(light, rig.separation.value(), !place.OnAxis());
+  const double apart = kCentreShareOfSide * rig.side.value() / rig.separation.value();
+  const CardsWay way = WayTo(file.lights[chosen], light.aim, place, apart);
+  rig.normal = way.aim * -1.0;
+  const Vec3 middle = light.position_m + way.aim * rig.separation.value();
+  rig.camera = CameraFor(middle, rig.normal, way.across, rig.side.value());
   rig.row = Cross(Unit(rig.camera.target_m - rig.camera.position_m), rig.camera.up);
   const Vec3 half = rig.row * (kCentreShareOfSide * rig.side.value());
   rig.cards = {CardAt("white card", kWhiteCardReflectance, middle - half, rig.normal, lights),
@@ -113,12 +155,25 @@ Rig RigUnder(const LightFile& file, std::span<const Light> lights) {
 
 }  // namespace
 
-Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights) {
-  return RigUnder(file, lights);
+Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights, const RigPlace& place) {
+  return RigUnder(file, lights, place);
 }
 
-Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights) {
-  return RigUnder(file, lights);
+Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights, const RigPlace& place) {
+  return RigUnder(file, lights, place);
+}
+
+Result<void> CheckRigPlace(const LightFile& file, const Rig& rig) {
+  if (rig.place.OnAxis()) return {};
+  const auto lamp = std::ranges::find(file.lights, rig.light, &FittedLight::name);
+  if (lamp != file.lights.end() && lamp->kind == LightKind::kDirectional) {
+    return Refused("rig_place", rig.light,
+                   "shines from far away and has no axis to stand off; leave out {preset.rig_at}");
+  }
+  if (rig.cards[0].illuminance.value() > 0.0 && rig.cards[1].illuminance.value() > 0.0) return {};
+  return Refused("rig_place", rig.light,
+                 "casts no light " + RoundedText(rig.place.off_axis_deg, 4) +
+                     " degrees off its axis; give {preset.rig_at} an angle inside its beam");
 }
 
 std::array<Vec3, 4> CornersOf(const Rig& rig, const RigCard& card) {

@@ -48,6 +48,7 @@ struct Rig {
   Vec3 normal{0.0, 0.0, 1.0};  // of both cards
   Vec3 row{1.0, 0.0, 0.0};     // from the white card to the grey one
   Metres side{0.1};
+  RigPlace place{};
   std::array<RigCard, 2> cards;  // white, grey
   RigCamera camera;
   RigExposure exposure;
@@ -59,9 +60,15 @@ inline constexpr double kGreyCardReflectance = 0.18;
 // The cards stand on the axis of the first light with a used reading at a distance (the median
 // one), else of the first light at 1 m. Their sides are a tenth of that, at most 0.2 m, and within
 // a quarter of the cone. `lights` are those of `file`, in order, at least one.
-[[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights);
-// The same place; illuminance and exposure are those of the forms the engine is given.
-[[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights);
+[[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PunctualLight> lights,
+                           const RigPlace& place = {});
+// The same place, or off the axis (of a spot then so small that its penumbra is even across them);
+// illuminance and exposure are those of the forms the engine is given.
+[[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights,
+                           const RigPlace& place = {});
+
+// Refused: rig_place (a light from far away has no axis to stand off; the cards would be dark).
+[[nodiscard]] Result<void> CheckRigPlace(const LightFile& file, const Rig& rig);
 
 // A card's corners, counter-clockwise seen from the lamp, the first at minus row and lowest.
 [[nodiscard]] std::array<Vec3, 4> CornersOf(const Rig& rig, const RigCard& card);

@@ -162,7 +162,6 @@ Node DomeNode(const PresetLight& light) {
   return {{"type", "dome"},
           {"intensity", 1.0},
           {"unit", "cd/m2"},
-          {"color", NodeOf(Rgb{1.0, 1.0, 1.0})},
           {"upward_lx", light.lux},
           {"harmonics", Node::List(harmonics, [](const Vec3& v) { return NodeOf(v); })},
           {"above", NodeOf(halved(1.0))},
@@ -189,7 +188,7 @@ Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::str
                SpotForm spots, const ThreeRange& range) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name},
-                   {"color", NodeOf(p.color.max_normalised)},
+                   {"color", ColorNode(light)},
                    {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                    {"direction", NodeOf(GltfFromZUp(p.aim))}};
   document.Put(ThreeFigures(light, ies, spots, range));
@@ -207,7 +206,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   const auto ies = IesFiles(lights, stem);
   if (!ies) return tl::unexpected(ies.error());
   const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   std::vector<PresetFile> pictures;

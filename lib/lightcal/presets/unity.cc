@@ -3,9 +3,13 @@
 // Left-handed, Y up, metres, lights along +Z; cone angles are full angles. HDRP gets physical
 // units; URP, whose Lambert surfaces lack the 1/pi, gets cd and lx times
 // exposure/pi. HDRP takes the inner cone in percent of the outer angle; the built-in pipeline,
-// which has no inverse-square falloff, is refused by the importer.   Sources: Unity Graphics
-// LightUnitUtils.cs, HDAdditionalLightData, URP Lighting.hlsl.
+// which has no inverse-square falloff, is refused by the importer. A dome's picture becomes HDRP's
+// HDRI sky in lux mode; URP gets a light from above.   Sources: Unity Graphics LightUnitUtils.cs,
+// HDAdditionalLightData, SkyRenderer.GetSkyIntensity, URP Lighting.hlsl; the faces of its Cubemap
+// are Direct3D's.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "lightcal/presets/exporters.h"
@@ -42,6 +46,12 @@ DerivedLight DeriveUnity(const PresetLight& light, const FalloffRefit& refit, do
                          Warnings& warnings) {
   DerivedLight out;
   out.substitution = light.substitution;
+  if (light.form == LightForm::kDome) {  // of the picture's texels, which are cd/m2
+    out.type = "Sky";
+    out.Put("intensity", 1.0);
+    out.Put("upward_lx", light.lux);
+    return out;
+  }
   const double per_luminance = scale / light.color().luminance;
   if (light.form == LightForm::kDirectional) {
     out.type = "Directional";
@@ -109,8 +119,8 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                            const PresetOptions& asked) {
   Preset preset;
   const PresetOptions options = preset_text::InRec709(asked, "unity", preset.warnings);
-  const auto forms =
-      PresetLightsFrom(lights, {.sphere = true, .rect = true}, options, preset.warnings);
+  const auto forms = PresetLightsFrom(lights, {.sphere = true, .rect = true, .pictured_dome = true},
+                                      options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   Warnings of_urp;  // what HDRP's do not say is said by each light's "substituted"
   const auto plain = PresetLightsFrom(lights, {.sphere = true}, options, of_urp);
@@ -118,14 +128,21 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
   const RefitRequest request = {
       .falloff = kUnityFalloff, .far_range = kUnityFarRange, .fixed = options.range};
   const auto refits = RefitLights(lights, *forms, request, preset.warnings);
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const double unitless = rig.exposure.scale / std::numbers::pi;
   Node list = Node::Array();
+  std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     preset.derived.push_back(DeriveUnity((*forms)[i], refits[i], 1.0, preset.warnings));
     NoteRefit(refits[i], preset.derived.back());
     const DerivedLight urp = DeriveUnity((*plain)[i], refits[i], unitless, of_urp);
     list.items.push_back(UnityNode((*forms)[i], preset.derived.back(), urp));
+    if ((*forms)[i].form == LightForm::kDome) {
+      pictures.push_back(preset_text::PictureFileOf(
+          (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      list.items.back().Put({{"picture", pictures.back().name}, {"upward_lx", (*forms)[i].lux}});
+      preset_text::WarnOfHalfFloats((*forms)[i], "Unity", preset.warnings);
+    }
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
     const Rgb& c = (*forms)[i].color().max_normalised;
     preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
@@ -143,14 +160,18 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
   if (!text) return Propagate(std::move(text));
   preset.files = {{name + ".unity.json", *std::move(text)},
                   {"LightcalImporter.cs", std::string(Script("LightcalImporter.cs"))}};
-  preset.paste = "copy " + name + ".unity.json and LightcalImporter.cs from " +
-                 std::string(kPasteDirectory) +
+  const std::string with = pictures.empty()
+                               ? " and LightcalImporter.cs from "
+                               : ", " + pictures.front().name + " and LightcalImporter.cs from ";
+  std::ranges::move(pictures, std::back_inserter(preset.files));
+  preset.paste = "copy " + name + ".unity.json" + with + std::string(kPasteDirectory) +
                  " into Assets/Editor, then Tools > lightcal > Import preset" +
                  (options.rig ? ": opens a scene of its own" : "");
   return preset;
 }
 
 Emission EmittedInUnity(const DerivedLight& light, LightKind /*kind*/, double /*axial_part*/) {
+  if (light.type == "Sky") return {.lux = NumberIn(light, "upward_lx")};
   const double emitted = NumberIn(light, "intensity") * LuminanceIn(light, "color");
   if (light.type == "Directional") return {.lux = emitted};
   Emission out{.candela = emitted, .falloff = kUnityFalloff, .range_m = NumberIn(light, "range_m")};

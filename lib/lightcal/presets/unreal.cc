@@ -2,8 +2,9 @@
 // <stem>.unreal.py, an editor script, and <stem>.t3d to paste into a level, for Unreal Engine 5:
 // left-handed, Z up, centimetres, lights along +X. Candelas and lux, never lumens or nits, whose
 // meaning depends on the light. Neither ran in the engine: the script runs against a strict
-// stand-in of the documented names, the T3D is parsed. Sources: Unreal 5.6 Python API and
-// LightComponent.h.
+// stand-in of the documented names, the T3D is parsed. A dome's picture is a sky light's cubemap.
+// Sources: Unreal 5.6 Python API, LightComponent.h, SkyLightComponent.h,
+// TextureCompressorModule.cpp (which way a lat-long picture lies in a cubemap).
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -58,7 +59,7 @@ OrderedJson PoseJson(const std::string& name, const Pose& pose) {
 // ---- the script ----
 
 OrderedJson LightJson(const PresetLight& light, const UnrealLight& unreal,
-                      const std::optional<PresetFile>& ies) {
+                      const std::optional<PresetFile>& ies, const std::string& picture) {
   OrderedJson json = PoseJson(light.name(), PoseOf(light));
   json["class"] = unreal.derived.type;
   json["use_temperature"] = unreal.use_temperature;
@@ -69,6 +70,7 @@ OrderedJson LightJson(const PresetLight& light, const UnrealLight& unreal,
   json["properties"] = std::move(properties);
   json["light_color"] = unreal.color_srgb8;
   if (light.form == LightForm::kTable && ies) json["ies"] = ies->name;
+  if (!picture.empty()) json["picture"] = picture;
   if (!light.substitution.empty()) json["substituted"] = light.substitution;
   return json;
 }
@@ -159,6 +161,7 @@ std::string T3dText(const std::vector<PresetLight>& lights,
   std::string text = "Begin Map\n  Begin Level\n";
   std::set<std::string> taken;
   for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (lights[i].form == LightForm::kDome) continue;
     text += ActorText("lightcal_" + preset_text::Identifier(lights[i].name(), taken), lights[i],
                       unreal[i]);
   }
@@ -187,7 +190,16 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
     unreal.push_back(UnrealLightFrom((*forms)[i], refits[i], preset.warnings));
     preset.derived.push_back(unreal.back().derived);
     NoteRefit(refits[i], preset.derived.back());
-    data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i]));
+    std::string picture;
+    if ((*forms)[i].form == LightForm::kDome) {
+      preset.files.push_back(preset_text::PictureFileOf(
+          (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+      picture = preset.files.back().name;
+      preset_text::WarnOfHalfFloats((*forms)[i], "Unreal", preset.warnings);
+      preset.warnings.push_back({"picture_by_script_only", (*forms)[i].name(),
+                                 "a .t3d imports no picture: run the script"});
+    }
+    data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i], picture));
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);
     if (!options.into.empty()) continue;
@@ -198,7 +210,7 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
   for (const IntoRow& row : options.into) {
     data["into"].push_back({{"lamp", row.lamp}, {"object", row.object}});
   }
-  if (options.rig) data["rig"] = RigJson(BuildRig(lights, *forms));
+  if (options.rig) data["rig"] = RigJson(BuildRig(lights, *forms, options.rig_place));
   auto script = ScriptText(data, name + ".unreal.py");
   if (!script) return Propagate(std::move(script));
   const bool sets = !options.into.empty();

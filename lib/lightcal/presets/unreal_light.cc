@@ -62,6 +62,12 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
   UnrealLight out;
   DerivedLight& derived = out.derived;
   derived.substitution = light.substitution;
+  if (light.form == LightForm::kDome) {  // of the picture's texels, which are cd/m2
+    derived.type = "SkyLight";
+    derived.Put("intensity", 1.0);
+    derived.Put("upward_lx", light.lux);
+    return out;
+  }
   double luminance = 1.0;
   if (const auto kelvin = PlanckianTemperature(light)) {
     out.use_temperature = true;
@@ -96,6 +102,7 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
 
 Emission EmittedInUnreal(const DerivedLight& light, LightKind /*kind*/, double axial_part) {
   double emitted = NumberIn(light, "intensity");
+  if (light.type == "SkyLight") return {.lux = emitted * NumberIn(light, "upward_lx")};
   if (const DerivedField* color = light.Find("light_color")) {
     const std::vector<double>& c = color->values;
     emitted *= Rec709Luminance(

@@ -12,7 +12,8 @@
 
 namespace lightcal {
 
-inline constexpr EngineForms kUnrealForms = {.sphere = true, .rect = true, .table = true};
+inline constexpr EngineForms kUnrealForms = {
+    .sphere = true, .rect = true, .table = true, .pictured_dome = true};
 
 // Engine lights without a range get this; the editor's slider ends here.
 inline constexpr Metres kUnrealFarRange{163.84};
@@ -20,7 +21,8 @@ inline constexpr Metres kUnrealFarRange{163.84};
 inline constexpr EngineFalloff kUnrealFalloff{&UnrealFalloff};
 
 struct UnrealLight {
-  DerivedLight derived;          // type "PointLight", "SpotLight", "RectLight", "DirectionalLight"
+  DerivedLight
+      derived;  // type "PointLight", "SpotLight", "RectLight", "DirectionalLight", "SkyLight"
   bool use_temperature = false;  // else the colour is baked into 8 bits, whose luminance is known
   int color_srgb8[3] = {255, 255, 255};
 };

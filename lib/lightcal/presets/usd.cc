@@ -359,7 +359,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
   if (!forms) return tl::unexpected(forms.error());
   auto ies = IesFiles(lights, stem);
   if (!ies) return Propagate(std::move(ies));
-  const Rig rig = BuildRig(lights, *forms);
+  const Rig rig = BuildRig(lights, *forms, options.rig_place);
   std::string text = Head(lights, rig, options);
   std::set<std::string> taken = {"card_0", "card_1", "card_material_0", "card_material_1",
                                  "rig_camera"};

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lightcal {
@@ -16,6 +17,13 @@ struct EngineFigure {
   std::string value;   // "1934.2", plain digits that can be pasted
   std::string unit;    // "cd"; "" where the engine's number has none
   std::string note;    // what must be set with it; may be empty
+};
+
+// A white card under a panorama, facing one way.
+struct WayLux {
+  std::string_view way;  // "up", "down", "front", "right", "back", "left"
+  double expected_lx = 0.0;
+  double engine_lx = 0.0;
 };
 
 // What an engine makes of a light where a meter stood.
@@ -32,6 +40,7 @@ struct ParityRow {
   // intensity, and where.
   std::optional<double> off_axis;
   double off_axis_deg = 0.0;
+  std::vector<WayLux> around{};  // of a dome with a picture, where the engine's law is published
 };
 
 struct EngineAnswers {

@@ -271,8 +271,8 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
   html += Below(CameraView(light, extras));
   const std::string tables =
       Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
-      Below(BudgetTable(light.budget)) + Below(DistributionBudgetTable(light)) +
-      Below(EffectTable(light.effects));
+      Below(AroundTable(light.name, extras.engines.parity)) + Below(BudgetTable(light.budget)) +
+      Below(DistributionBudgetTable(light)) + Below(EffectTable(light.effects));
   if (!tables.empty()) {
     html +=
         "<details class=\"rest\"><summary>Every reading, every engine's lux, every effect"

@@ -83,8 +83,7 @@ std::string PairTable(std::string_view heading,
 }
 
 std::string FitTable(const FitDiagnostics& fit) {
-  std::vector<std::pair<std::string, std::string>> rows = {
-      {"Readings used", UsedOfReadings(fit)}};
+  std::vector<std::pair<std::string, std::string>> rows = {{"Readings used", UsedOfReadings(fit)}};
   if (!fit.rejected.empty()) {
     rows.emplace_back("Rejected", "<span class=\"off\">no. " + Numbers(fit.rejected) + "</span>");
   }
@@ -117,6 +116,39 @@ std::string ReadingTable(const std::vector<ResidualRow>& rows) {
         "</tr>\n";
   }
   return html + "</tbody></table></div>\n";
+}
+
+// A dome's picture six ways, where the pictures were given.
+std::string AroundTable(std::string_view light, const std::vector<ParityRow>& rows) {
+  std::string head, expected, body;
+  for (const ParityRow& row : rows) {
+    if (row.light != light || row.around.empty()) continue;
+    const bool first = body.empty();
+    body += "<tr><th scope=\"row\">" + Escaped(row.engine) + "</th>";
+    for (const WayLux& way : row.around) {
+      const std::string word(way.way);
+      if (first) {
+        head += "<th class=\"n\" scope=\"col\">" + word + "</th>";
+        expected += "<td class=\"n\" data-label=\"" + word + " \">" + Illuminance(way.expected_lx) +
+                    "\u00A0lx</td>";
+      }
+      body += "<td class=\"n\" data-label=\"" + word + " \">" +
+              Residual(way.engine_lx / way.expected_lx - 1.0) + "</td>";
+    }
+    body += "<td data-label=\"law \">" + Escaped(row.law) +
+            (row.rendered ? "" : ", <span class=\"notrun\">by its published law, not run</span>") +
+            "</td></tr>\n";
+  }
+  if (body.empty()) return "";
+  return "<div class=\"block\"><h3>The place in every engine, six ways</h3><p class=\"small "
+         "soft\">A "
+         "white card that faces each way under the picture alone, and how far off it each engine "
+         "is: "
+         "those that keep nine harmonics of it cannot hold a sun, which is better taken out as a "
+         "lamp.</p><table class=\"stack parity\"><thead><tr><th scope=\"col\">a card facing</th>" +
+         head +
+         "<th scope=\"col\">by</th></tr></thead><tbody>\n<tr><th scope=\"row\">the picture</th>" +
+         expected + "<td>its own integral</td></tr>\n" + body + "</tbody></table></div>\n";
 }
 
 std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows) {

@@ -4,6 +4,7 @@ import math
 
 COLORS = {'2700K': (2700, 0.0), '6500K': (6500, 0.0), 'green': (5000, 0.02)}
 D = 2.0
+RECT = (0.6, 0.3)
 
 
 def unit(v):
@@ -83,19 +84,43 @@ def session_toml(kind, color):
             f'cct_K = {cct}\nduv = {duv}\n')
 
 
+def rect_at(normal_towards, steps=120):
+    """Lux over that on the axis, at D towards there and facing back: the integral over the lamp's face of
+    even luminance, written out. In the lamp's own axes: C0, C90, aim."""
+    width, height = RECT
+    total = 0.0
+    place = [D * x for x in normal_towards]
+    for i in range(steps):
+        x = width * ((i + 0.5) / steps - 0.5)
+        for j in range(steps):
+            y = height * ((j + 0.5) / steps - 0.5)
+            to = [place[0] - x, place[1] - y, place[2]]
+            d2 = sum(v * v for v in to)
+            total += to[2] * sum(a * b for a, b in zip(to, normal_towards)) / (d2 * d2)
+    return total
+
+
 def probes(kind):
-    """[{point, normal, lux}]: first the reading itself; of measured lamps five angles more."""
+    """[{point, normal, lux}]: first the reading itself; of measured lamps five angles all the way round, of
+    flat ones two angles more, each along and across it."""
     lux = KINDS[kind][1]
     if kind == 'dome':
         return [{'point': [0, 0, -1.0], 'normal': [0, 0, 1.0], 'lux': lux}]
     out = [{'point': along(POSITION, AIM, D), 'normal': [-x for x in AIM], 'lux': lux}]
     if kind == 'ies':
-        for c, gamma in [(0, 20), (90, 35), (180, 50), (270, 40), (0, 60)]:
-            out.append(off_axis(c, gamma, lux * table_at(c, gamma) / 1000.0))
+        for gamma in (10, 20, 35, 50, 60):
+            for c in (0, 90, 180, 270):
+                out.append(off_axis(c, gamma, lux * table_at(c, gamma) / 1000.0))
+    if kind == 'rect':
+        axial = rect_at((0.0, 0.0, 1.0))
+        for gamma, c in ((30, 0), (30, 90), (60, 180), (60, 270)):
+            g, a = math.radians(gamma), math.radians(c)
+            towards = (math.sin(g) * math.cos(a), math.sin(g) * math.sin(a), math.cos(g))
+            out.append(off_axis(c, gamma, lux * rect_at(towards) / axial))
     if kind == 'axial':
-        for gamma in (10, 20, 30, 45, 60):
+        for n, gamma in enumerate((10, 20, 30, 45, 60)):
             i = gamma // 5
-            out.append(off_axis(30.0, gamma, lux * round(1000 * math.cos(math.radians(5 * i)) ** 4, 4) / 1000.0))
+            out.append(off_axis(30.0 + 72.0 * n, gamma, lux * round(1000 * math.cos(math.radians(5 * i)) ** 4, 4) / 1000.0))
     return out
 
 

@@ -12,6 +12,7 @@ import sys
 import tempfile
 
 import gate
+import panorama
 
 ALL_LAMPS = 'for l in lamps: l.energy *= '
 EACH = 'built.lights.forEach((l, i) => { %s });'
@@ -49,6 +50,18 @@ FAULTS = [
     ('three', 'rect_green', 'exr', '', 'none', 1.0),
     ('filament', 'sun_6500K', 'png', '', 'none', 1.0),
 ]
+# In Cycles, cards off the axis and facing four ways beside those of the rig: (rigs, edit, cause, words, turn)
+CONE = ("import math\nci, co = math.cos(math.radians(15)), math.cos(math.radians(25))\n"
+        "for l in lamps:\n    l.spot_size, l.spot_blend = math.radians(50), (ci - co) / (1 - co)")
+TURN = ("node = [n for n in scene.world.node_tree.nodes if n.type == 'MAPPING'][0]\n"
+        "node.inputs['%s'].default_value[%d] %s")
+TOGETHER = [
+    ('spot', CONE, 'other_cone_law', 'Cycles before 4.0', None),
+    ('spot', '', 'cone_as_exported', 'Cycles before 4.0', None),
+    ('place', '', 'none', '', None),
+    ('place', TURN % ('Rotation', 2, '+= 3.14159265 / 2'), 'panorama_turned', '', 90),
+    ('place', TURN % ('Scale', 0, '= -1.0'), 'panorama_mirrored', '', 0),
+]
 LUX_BAR = {'blender': .005, 'three': .005, 'filament': .02}
 
 
@@ -83,6 +96,43 @@ def render(args, work):
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
 
+def together(args, work):
+    """What did not come out as TOGETHER has it."""
+    lines = {'spot': ['--rig-at', '18', '--rig-at', '21.5/90'],
+             'place': ['--rig-at', '90', '--rig-at', '90/90', '--rig-at', '90/180']}
+    sources = {'spot': f'{work}/spot_6500K/out/light.json', 'place': f'{work}/beside/light.json'}
+    truth = panorama.irradiance()
+    panorama.export(args.lightcal, work, truth)
+    jobs, rigs = [], {}
+    for name, words in lines.items():
+        out = f'{work}/off_{name}'
+        subprocess.run([args.lightcal, 'export', sources[name], '--to', 'blender,json', '--spots', 'cone', '--rig',
+                        *words, '-o', out, '--force', '--quiet'], check=True, stdout=subprocess.DEVNULL)
+        rigs[name] = sorted(file for file in os.listdir(out) if '.rig' in file and file.endswith('.preset.json'))
+    for number, (name, edit, *_) in enumerate(TOGETHER):
+        for rig in rigs[name]:
+            jobs.append({'script': f'{work}/off_{name}/' + rig.replace('.preset.json', '.blender.py'), 'probes': [],
+                         'percent': 30, 'samples': 64, 'exr_bits': 32, 'edit': edit,
+                         'rig_exr': f'{work}/off_{name}/{number}_{rig}.exr'})
+    with open(f'{work}/together.json', 'w') as f:
+        json.dump(jobs, f)
+    subprocess.run(['blender', '-b', '--factory-startup', '-P', f'{gate.HERE}/blender_probe.py', '--',
+                    f'{work}/together.json', f'{work}/together_out.json'], check=True, stdout=subprocess.DEVNULL)
+    failures = []
+    for number, (name, _, cause, word, turn) in enumerate(TOGETHER):
+        words = [w for rig in rigs[name] for w in ('--render', f'{work}/off_{name}/{number}_{rig}.exr', '--rig',
+                                                   f'{work}/off_{name}/{rig}')]
+        done = subprocess.run([args.lightcal, 'check', *words, '--engine', 'blender', '--json'], capture_output=True,
+                              text=True)
+        said = json.loads(done.stdout).get('cause', {'code': done.stdout, 'message': ''})
+        print(f'Cycles, {len(rigs[name])} pictures of {name}: {cause:20} said {said["code"]} '
+              f'{said.get("turn_deg", "")}')
+        off = 0 if turn is None else (said.get('turn_deg', 999) - turn + 180) % 360 - 180
+        if said['code'] != cause or word not in said['message'] or abs(off) > 2:
+            failures.append(f'{name}, {cause}: {said}')
+    return failures
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument('--lightcal', required=True)
@@ -96,6 +146,7 @@ def main():
         args.lightcal = os.path.abspath(args.lightcal)
         gate.export(args.lightcal, work)
         render(args, work)
+        failures += together(args, work)
         for number, (engine, lamp, kind, edit, cause, factor) in enumerate(FAULTS):
             picture = f'{work}/fault{number}.' + ('png' if kind == 'png' else 'exr')
             rig = f'{work}/{lamp}/out/{lamp}.rig.preset.json'

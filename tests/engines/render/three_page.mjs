@@ -45,6 +45,27 @@ function showRig(renderer, module, built, job) {
   return { png, target };
 }
 
+// A chrome and a grey ball in the panorama, seen as `view` says, instead of the cards.
+async function placeBalls(module, built, { balls, view }) {
+  const { HDRLoader } = await import('three/addons/loaders/HDRLoader.js');
+  const panorama = await module.panoramaOf(THREE, HDRLoader);
+  built.scene.background = panorama;
+  built.cards.forEach((card) => { card.visible = false; });
+  for (const { at, radius, chrome } of balls) {
+    const material = chrome
+      ? new THREE.MeshStandardMaterial({ color: new THREE.Color(0.95, 0.95, 0.95), metalness: 1, roughness: 0, envMap: panorama })
+      : new THREE.MeshPhysicalMaterial({ color: new THREE.Color(0.18, 0.18, 0.18), roughness: 1, specularIntensity: 0 });
+    const ball = new THREE.Mesh(new THREE.SphereGeometry(radius, 96, 48), material);
+    ball.position.set(...yUp(at));
+    built.scene.add(ball);
+    built.balls = [...(built.balls ?? []), ball];
+  }
+  const camera = new THREE.PerspectiveCamera(view.field_deg, 600 / 400, 0.05, 100);
+  camera.position.set(...yUp(view.eye));
+  camera.lookAt(...yUp(view.target));
+  built.camera = camera;
+}
+
 let shared;
 export async function three(job) {
   RectAreaLightUniformsLib.init();
@@ -54,6 +75,7 @@ export async function three(job) {
   renderer.toneMapping = THREE.NoToneMapping;
   const built = module.buildThree(THREE);
   if (job.edit) new Function('THREE', 'built', 'preset', job.edit)(THREE, built, module.preset);
+  if (job.balls) await placeBalls(module, built, job);
   const shown = showRig(renderer, module, built, job);
   let exr;
   if (shown.target) {
@@ -62,6 +84,7 @@ export async function three(job) {
   }
   renderer.toneMapping = THREE.NoToneMapping;
   built.cards?.forEach((card) => built.scene.remove(card));
+  built.balls?.forEach((ball) => built.scene.remove(ball));
   const target = new THREE.WebGLRenderTarget(8, 8, { type: THREE.FloatType });
   if (job.environment) {
     // What three's own blur makes of the panorama, instead of the light probe.

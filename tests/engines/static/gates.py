@@ -15,6 +15,8 @@ import unittest.mock
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), os.pardir, "render"))
 import golden_lights
+import image_based_schema
+import jsonschema
 import pictures
 import read_gltf
 import read_godot
@@ -228,6 +230,7 @@ class ImageBasedGltf(unittest.TestCase):
         names = [[root["nodes"][i]["name"] for i in s["nodes"]] for s in (first, last)]
         self.assertEqual(names, [["key", "sky"], ["key"]])
         self.assertNotIn("extensions", first)
+        self.assertEqual(image_based_schema.check(root), 1)
         at = last["extensions"]["EXT_lights_image_based"]["light"]
         light = root["extensions"]["EXT_lights_image_based"]["lights"][at]
         self.assertEqual(light["intensity"], 1.0)
@@ -255,6 +258,22 @@ class ImageBasedGltf(unittest.TestCase):
                 self.assertAlmostEqual(luminance(radiance) / nits, 1.0, delta=8e-3)
             else:
                 self.assertAlmostEqual(max(radiance), 255.0, delta=0.01)
+
+    def test_the_schema_sees_faults(self):
+        export = Export("gltf", ["key", "sky"], "--bare")
+        spoil = {
+            "eight coefficients": lambda light: light["irradianceCoefficients"].pop(),
+            "five faces": lambda light: light["specularImages"][0].pop(),
+            "no size": lambda light: light.pop("specularImageSize"),
+            "another key": lambda light: light.update(color=[1, 1, 1]),
+            "a turn below 0": lambda light: light.update(rotation=[0, -0.5, 0, 0.8]),
+            "an image that is not there": lambda light: light["specularImages"][0].__setitem__(0, 99),
+        }
+        for name, change in spoil.items():
+            root = json.loads(export.text(export.stem + ".gltf"))
+            change(root["extensions"]["EXT_lights_image_based"]["lights"][0])
+            with self.subTest(name), self.assertRaises((AssertionError, jsonschema.ValidationError)):
+                image_based_schema.check(root)
 
 
 class ExposedRig(unittest.TestCase):

@@ -100,6 +100,27 @@ namespace UnityEngine
             return thing;
         }
     }
+    public class Texture : Object { }
+    public enum TextureFormat { RGBA32 = 4, RGBAHalf = 17, RGBAFloat = 20 }
+    public enum CubemapFace { Unknown = -1, PositiveX, NegativeX, PositiveY, NegativeY, PositiveZ, NegativeZ }
+    public sealed class Cubemap : Texture
+    {
+        public readonly Color[][] faces = new Color[6][];
+        public int width { get; private set; }
+        public TextureFormat format { get; private set; }
+        public bool applied;
+        public Cubemap(int width, TextureFormat textureFormat, bool mipChain)
+        {
+            this.width = width;
+            format = textureFormat;
+        }
+        public void SetPixels(Color[] colors, CubemapFace face)
+        {
+            if (colors.Length != width * width) throw new ArgumentException("SetPixels");
+            faces[(int)face] = colors;
+        }
+        public void Apply(bool updateMipmaps) { applied = true; }
+    }
     public enum LightType { Spot, Directional, Point, Area = 3, Rectangle = 3, Disc }
     public enum LightShadows { None, Hard, Soft }
     public class Light : Behaviour
@@ -266,6 +287,15 @@ namespace UnityEditor
             while (thing.transform.childCount > 0) DestroyObjectImmediate(thing.transform.GetChild(0).gameObject);
             thing.transform.Leave();
             UnityEngine.GameObject.All.Remove(thing);
+        }
+    }
+    public static class AssetDatabase
+    {
+        public static readonly List<string> Made = new List<string>();
+        public static void CreateAsset(UnityEngine.Object asset, string path)
+        {
+            if (!path.StartsWith("Assets/")) throw new ArgumentException(path);
+            Made.Add(path);
         }
     }
     public static class PrefabUtility

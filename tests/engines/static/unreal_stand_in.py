@@ -126,6 +126,18 @@ class DirectionalLightComponent(LightComponent):
     properties = dict(light_source_angle=float)
 
 
+class TextureCube(Object):
+    pass
+
+
+class SkyLightComponent(LightComponentBase):
+    properties = dict(source_type=Enum, cubemap=TextureCube, source_cubemap_angle=float,
+                      lower_hemisphere_is_black=bool, real_time_capture=bool)
+
+    def recapture_sky(self):
+        self.captured = dict(self.held)
+
+
 class StaticMesh(Object):
     pass
 
@@ -203,6 +215,7 @@ PointLight = actor("PointLight", PointLightComponent)
 SpotLight = actor("SpotLight", SpotLightComponent)
 RectLight = actor("RectLight", RectLightComponent)
 DirectionalLight = actor("DirectionalLight", DirectionalLightComponent)
+SkyLight = actor("SkyLight", SkyLightComponent)
 StaticMeshActor = actor("StaticMeshActor", StaticMeshComponent)
 CameraActor = actor("CameraActor", CameraComponent)
 PostProcessVolume = actor("PostProcessVolume", SceneComponent,
@@ -219,6 +232,10 @@ ENGINE_DEFAULTS = dict(
     attenuation_radius=1000.0, light_color=Color(b=255, g=255, r=255, a=255), ies_texture=None,
     source_radius=0.0, source_width=64.0, source_height=64.0, inner_cone_angle=0.0,
     outer_cone_angle=44.0)
+
+
+class SkyLightSourceType:
+    SLS_CAPTURED_SCENE, SLS_SPECIFIED_CUBEMAP = Enum("SCENE"), Enum("CUBEMAP")
 
 
 class ComponentMobility:
@@ -328,8 +345,11 @@ def build(scene, ies_multiplier):
             for task in tasks:
                 assert os.path.exists(task.held["filename"]), task.held["filename"]
                 path = task.held["destination_path"] + "/profile%d" % len(assets)
-                assets[path] = TextureLightProfile()
-                assets[path].held["texture_multiplier"] = ies_multiplier
+                if task.held["filename"].endswith(".hdr"):
+                    assets[path] = TextureCube()
+                else:
+                    assets[path] = TextureLightProfile()
+                    assets[path].held["texture_multiplier"] = ies_multiplier
                 assets[path].file = task.held["filename"]
                 task.held["imported_object_paths"] = [path]
 

@@ -7,7 +7,9 @@
 #include <utility>
 #include <variant>
 
+#include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/imaging/panorama/compose_views.h"
 
@@ -20,6 +22,9 @@ constexpr RgbPrimaries kRadiancePrimaries = {
     {0.640, 0.330}, {0.290, 0.600}, {0.150, 0.060}, {1.0 / 3.0, 1.0 / 3.0}};
 // The sun is 2e9 cd/m^2; a relative unit may be anything, but not this.
 constexpr double kMostSample = 1e15;
+constexpr double kSameAngle = 1e-4;  // radians
+// What an ISO speed leaves open about a camera's scale (1 sigma), as a merge has it.
+constexpr double kIsoSpeedSd = 0.2;
 
 Result<void> CheckRange(const PictureLuminance& luminance, const std::string& file) {
   const auto brightest = std::max_element(luminance.nits.begin(), luminance.nits.end());
@@ -89,6 +94,7 @@ Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
   input.absolute = request.convention || frame->info.white_luminance;
   if (convention == LuminanceConvention::kPhotometric) TakeStatedScale(frame->info, input);
   input.has_colour = frame->info.channels == 3;
+  input.view = frame->info.view;
   input.primaries = frame->info.chromaticities;
   if (request.clip) {
     input.clipped = ClippedFrom(samples, *request.clip);
@@ -110,6 +116,75 @@ Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
   return input;
 }
 
+// Views that name their own projection need nobody to say it.
+Result<DomeInputRequest> AsFilesSay(const DomeInputRequest& request,
+                                    const std::vector<DomeInput>& pictures) {
+  DomeInputRequest asked = request;
+  const auto& view = pictures.front().view;
+  if (!request.projection_of_file || !request.balls.empty() || !view) return asked;
+  for (const DomeInput& other : pictures) {
+    if (other.view && other.view->projection == view->projection &&
+        std::abs(other.view->field_of_view.value() - view->field_of_view.value()) < kSameAngle) {
+      continue;
+    }
+    return Refused("views_differ", other.files.front(),
+                   "its VIEW line is not that of " + pictures.front().files.front() +
+                       "; name their {view.projection}");
+  }
+  if (view->projection == Projection::kRectilinear && request.aims.empty()) {
+    return Refused("bad_view", pictures.front().files.front(),
+                   "its VIEW line says that an ordinary lens took it, which shows a part of the "
+                   "surroundings; say where it looked ({dome.aims}), or name its "
+                   "{view.projection}");
+  }
+  asked.projection = view->projection;
+  asked.field_of_view = view->field_of_view;
+  return asked;
+}
+
+// The dome in the plate's unit.
+Result<void> TakePlate(const GreyPlate& plate, const DomeInputRequest& request,
+                       const Sources& sources, DomeInput& input) {
+  const std::string& file = plate.target.file;
+  auto picture = InspectPicture(file, sources, {},
+                                request.convention.value_or(LuminanceConvention::kPhotometric));
+  if (!picture) return Propagate(std::move(picture));
+  const auto scale = ScaleByGrey(plate.target, picture->luminance.view(), input);
+  if (!scale) return tl::unexpected(scale.error());
+  const bool relative = std::ranges::any_of(
+      picture->warnings, [](const Warning& warning) { return warning.code == "relative_scale"; });
+  const bool one_unit = input.absolute || std::ranges::find(input.files, file) != input.files.end();
+  double factor = scale->factor, sd = scale->sd_relative;
+  input.grey = DomeInput::Grey{factor, kZ95 * sd, scale->misfit_sd, std::nullopt};
+  if (!request.balls.empty() && one_unit && (!relative || !input.absolute)) {
+    input.grey->ball_reflectance = request.balls.front().reflectance / factor;
+  }
+  std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
+  input.absolute = !relative || request.convention || plate.exposure;
+  if (relative && plate.exposure) {
+    factor *= MaximumLuminance(*plate.exposure).value();
+    sd = std::hypot(sd, kIsoSpeedSd);
+  } else if (picture->scale_u95_relative) {
+    sd = std::hypot(sd, *picture->scale_u95_relative / kZ95);
+  }
+  for (const Warning& warning : picture->warnings) {
+    if (warning.code != "relative_scale") {
+      input.warnings.push_back(warning);
+    } else if (!input.absolute) {
+      input.warnings.push_back(
+          {"relative_scale", file,
+           "the plate does not say which luminance 1.0 is: the dome is in the plate's own unit, "
+           "which lights that plate rightly; for cd/m^2 name its exposure "
+           "({dome.plate_exposure}), or a lux reading ({dome.illuminance})"});
+    }
+  }
+  input.dome.Multiply(factor);
+  input.scale = "grey";
+  input.scale_u95_relative = kZ95 * sd;
+  input.files.push_back(file);
+  return {};
+}
+
 }  // namespace
 
 Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& sources) {
@@ -119,7 +194,9 @@ Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& 
     if (!picture) return Propagate(std::move(picture));
     pictures.push_back(std::move(*picture));
   }
-  if (!request.IsPanorama()) return ComposeViews(std::move(pictures), request);
+  const auto asked = AsFilesSay(request, pictures);
+  if (!asked) return tl::unexpected(asked.error());
+  if (!asked->IsPanorama()) return ComposeViews(std::move(pictures), *asked);
   const Dome& dome = pictures.front().dome;
   const auto view = PixelSolidAngles::Create(
       {.projection = Projection::kLatLong, .width = dome.width, .height = dome.height});
@@ -127,9 +204,15 @@ Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& 
   return std::move(pictures.front());
 }
 
-Result<MeasuredDome> MeasureDome(const DomeRequest& request, const Sources& sources) {
+Result<MeasuredDome> MeasureDome(const DomeRequest& request, const Sources& sources,
+                                 const std::optional<GreyPlate>& plate) {
   auto input = ReadDomeInput(request.input, sources);
   if (!input) return Propagate(std::move(input));
+  if (plate) {
+    if (auto ok = TakePlate(*plate, request.input, sources, *input); !ok) {
+      return Propagate(std::move(ok));
+    }
+  }
   return MeasureDome(*std::move(input), request);
 }
 

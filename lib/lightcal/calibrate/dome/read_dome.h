@@ -2,7 +2,10 @@
 // Panorama files -> a dome in cd/m^2 and the lights in it.
 #pragma once
 
+#include <optional>
+
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/panorama/grey_scale.h"
 #include "lightcal/imaging/panorama/measure_dome.h"
 #include "lightcal/records/sources.h"
 
@@ -14,7 +17,18 @@ namespace lightcal {
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request,
                                               const Sources& sources);
 
-// Refused: as ReadDomeInput, MeasureDome.
-[[nodiscard]] Result<MeasuredDome> MeasureDome(const DomeRequest& request, const Sources& sources);
+// A picture that shows a grey ball or card under the dome's light.
+struct GreyPlate {
+  GreyTarget target;
+  // What a plate in its own unit was exposed with: its sample of 1 is the luminance that just
+  // saturates (MaximumLuminance), which ISO speeds tell within 39 %.
+  std::optional<CameraSettings> exposure;
+};
+
+// A dome scaled by a plate is in the plate's own unit: cd/m^2 where the plate is, or as its
+// exposure says. Warned: relative_scale (of a plate without either).
+// Refused: as ReadDomeInput, MeasureDome, InspectPicture, ScaleByGrey.
+[[nodiscard]] Result<MeasuredDome> MeasureDome(const DomeRequest& request, const Sources& sources,
+                                               const std::optional<GreyPlate>& plate = {});
 
 }  // namespace lightcal

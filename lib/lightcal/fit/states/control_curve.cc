@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -65,8 +66,23 @@ struct Seen {
   double ln_level = 0.0, by_zero = 0.0;  // of the formed level
 };
 
+// What one form makes of all pairs of points, but for the rests' sizes: the sums over controls that
+// every size scales.
+struct Kernels {
+  LevelForm form;
+  std::shared_ptr<const std::vector<Seen>> seen;
+  Eigen::MatrixXd base, other, joint;
+  struct OfLevel {
+    double length = 1.0;
+    bool by_label = false;
+    Eigen::MatrixXd matrix;
+  };
+  std::vector<OfLevel> levels;  // those that were asked for
+};
+
 }  // namespace control_curve
 
+using control_curve::Kernels;
 using control_curve::LevelForm;
 using control_curve::Matern;
 using control_curve::Rests;
@@ -76,7 +92,7 @@ struct ControlCurve::Hypotheses {
   struct One {
     LevelForm form;
     Rests rests;
-    std::vector<Seen> seen;
+    std::shared_ptr<const std::vector<Seen>> seen;
     double center = 0.0;
     Eigen::LLT<Eigen::MatrixXd> solver;
     Eigen::VectorXd weights;  // K^-1 (y - mean)
@@ -131,52 +147,108 @@ struct ControlCurve::Hypotheses {
 
   [[nodiscard]] double Covariance(const One& one, const Seen& a, const Seen& b) const {
     const TargetScale& by = scale();
+    const double level = by.level_rest * one.rests.level;
+    const double other = by.other_rest * one.rests.other;
     double sum = kConstantVariance;
-    double joint = 1.0;
+    double joint = one.rests.joint > 0.0 ? 1.0 : 0.0;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const double u = a.along[i];
       const double v = b.along[i];
-      if (kinds[i] == ControlKind::kLevel) {
-        if (static_cast<int>(i) == one.form.control) {
-          sum += one.form.power_sd * one.form.power_sd * a.ln_level * b.ln_level +
-                 one.form.step * one.form.step * a.by_zero * b.by_zero;
-        } else {
-          sum += by.level_slope * by.level_slope * u * v;
-        }
-        const double size = by.level_rest * one.rests.level;
-        const double apart = one.rests.by_label ? a.labels[i] - b.labels[i] : u - v;
-        sum += size * size * Matern(apart, one.rests.level_length);
-        joint *= Matern(u - v, 1.5);
+      const bool is_level = kinds[i] == ControlKind::kLevel;
+      if (!is_level) {
+        sum += by.other_slope * by.other_slope * u * v;
+        if (other > 0.0) sum += other * other * Matern(u - v, kOtherLength);
+      } else if (static_cast<int>(i) == one.form.control) {
+        sum += one.form.power_sd * one.form.power_sd * a.ln_level * b.ln_level +
+               one.form.step * one.form.step * a.by_zero * b.by_zero;
       } else {
-        const double size = by.other_rest * one.rests.other;
-        sum += by.other_slope * by.other_slope * u * v + size * size * Matern(u - v, kOtherLength);
-        joint *= Matern(u - v, 0.7);
+        sum += by.level_slope * by.level_slope * u * v;
       }
+      if (is_level && level > 0.0) {
+        const double apart = one.rests.by_label ? a.labels[i] - b.labels[i] : u - v;
+        sum += level * level * Matern(apart, one.rests.level_length);
+      }
+      if (joint > 0.0) joint *= Matern(u - v, is_level ? 1.5 : 0.7);
     }
     const double size = by.joint_rest * one.rests.joint;
     return sum + size * size * joint;
   }
 
-  [[nodiscard]] std::optional<One> Solve(const LevelForm& form, const Rests& rests) const {
+  // of(a, b) over all pairs of points.
+  template <class Of>
+  [[nodiscard]] static Eigen::MatrixXd Pairs(const std::vector<Seen>& seen, const Of& of) {
+    const auto n = static_cast<Eigen::Index>(seen.size());
+    Eigen::MatrixXd matrix(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        matrix(i, j) = matrix(j, i) =
+            of(seen[static_cast<std::size_t>(i)], seen[static_cast<std::size_t>(j)]);
+      }
+    }
+    return matrix;
+  }
+
+  [[nodiscard]] Kernels KernelsOf(const LevelForm& form) const {
+    Kernels kernels;
+    kernels.form = form;
+    std::vector<Seen> seen;
+    for (const CurvePoint& point : points) seen.push_back(See(point.at, form));
     One one;
     one.form = form;
+    const auto with = [&](const Rests& rests) {
+      one.rests = rests;
+      return Pairs(seen, [&](const Seen& a, const Seen& b) { return Covariance(one, a, b); });
+    };
+    kernels.base = with({});
+    kernels.other = kernels.joint = Eigen::MatrixXd::Zero(kernels.base.rows(), kernels.base.cols());
+    if (HasOthers()) kernels.other = with({0.0, 1.0, false, 1.0, 0.0, 1.0}) - kernels.base;
+    if (kinds.size() > 1) kernels.joint = with({0.0, 1.0, false, 0.0, 1.0, 1.0}) - kernels.base;
+    kernels.seen = std::make_shared<const std::vector<Seen>>(std::move(seen));
+    return kernels;
+  }
+
+  [[nodiscard]] const Eigen::MatrixXd& LevelKernel(Kernels& kernels, const Rests& rests) const {
+    for (const Kernels::OfLevel& known : kernels.levels) {
+      const bool same = known.length == rests.level_length && known.by_label == rests.by_label;
+      if (same) return known.matrix;
+    }
+    const double scaled = scale().level_rest * scale().level_rest;
+    Eigen::MatrixXd matrix = Pairs(*kernels.seen, [&](const Seen& a, const Seen& b) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < kinds.size(); ++i) {
+        if (kinds[i] != ControlKind::kLevel) continue;
+        const double apart = rests.by_label ? a.labels[i] - b.labels[i] : a.along[i] - b.along[i];
+        sum += scaled * Matern(apart, rests.level_length);
+      }
+      return sum;
+    });
+    kernels.levels.push_back({rests.level_length, rests.by_label, std::move(matrix)});
+    return kernels.levels.back().matrix;
+  }
+
+  [[nodiscard]] bool HasOthers() const {
+    return std::ranges::any_of(kinds, [](ControlKind kind) { return kind != ControlKind::kLevel; });
+  }
+
+  [[nodiscard]] std::optional<One> Solve(Kernels& kernels, const Rests& rests) const {
+    One one;
+    one.form = kernels.form;
     one.rests = rests;
+    one.seen = kernels.seen;
     const auto n = static_cast<Eigen::Index>(points.size());
     Eigen::VectorXd off(n);
-    for (const CurvePoint& point : points) one.seen.push_back(See(point.at, form));
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      off[i] = points[k].value - one.seen[k].mean;
+      off[i] = points[k].value - (*one.seen)[k].mean;
     }
     one.center = off.mean();
     off.array() -= one.center;
-    Eigen::MatrixXd covariance(n, n);
+    Eigen::MatrixXd covariance =
+        kernels.base + rests.level * rests.level * LevelKernel(kernels, rests) +
+        rests.other * rests.other * kernels.other + rests.joint * rests.joint * kernels.joint;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const auto a = static_cast<std::size_t>(i);
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        covariance(i, j) = Covariance(one, one.seen[a], one.seen[static_cast<std::size_t>(j)]);
-      }
-      covariance(i, i) += points[a].sd * points[a].sd;
+      const double sd = points[static_cast<std::size_t>(i)].sd;
+      covariance(i, i) += sd * sd;
     }
     one.solver.compute(covariance);
     if (one.solver.info() != Eigen::Success) return std::nullopt;
@@ -186,7 +258,7 @@ struct ControlCurve::Hypotheses {
       ln_determinant += std::log(one.solver.matrixLLT()(i, i));
     }
     one.evidence =
-        -0.5 * off.dot(one.weights) - ln_determinant + std::log(form.weight * rests.weight);
+        -0.5 * off.dot(one.weights) - ln_determinant + std::log(one.form.weight * rests.weight);
     if (!std::isfinite(one.evidence)) return std::nullopt;
     return one;
   }
@@ -217,8 +289,6 @@ struct ControlCurve::Hypotheses {
   [[nodiscard]] std::vector<Rests> AllRests() const {
     using Sized = std::pair<double, double>;  // size, weight
     const bool level = std::ranges::count(kinds, ControlKind::kLevel) > 0;
-    const bool others =
-        std::ranges::any_of(kinds, [](ControlKind kind) { return kind != ControlKind::kLevel; });
     struct Level {
       double length = 1.0;
       bool by_label = false;
@@ -227,7 +297,7 @@ struct ControlCurve::Hypotheses {
     const std::vector<Sized> level_sizes =
         level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 4.5}} : none;
     const std::vector<Sized> other_sizes =
-        others ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
+        HasOthers() ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
     const std::vector<Sized> joint_sizes =
         kinds.size() > 1 ? std::vector<Sized>{{0.002, 1.5}, {0.015, 1.0}} : none;
     // Drivers bend at labels; what lamps do goes with the logarithm.
@@ -270,7 +340,8 @@ struct ControlCurve::Hypotheses {
     const Rests middling{0.02, 0.8, false, 0.05, 0.01, 1.0};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < forms.size(); ++i) {
-      const auto one = Solve(forms[i], middling);
+      Kernels kernels = KernelsOf(forms[i]);
+      const auto one = Solve(kernels, middling);
       if (one) order.emplace_back(-one->evidence, i);
     }
     std::ranges::sort(order);
@@ -298,8 +369,9 @@ struct ControlCurve::Hypotheses {
     const std::vector<LevelForm> forms = LikelyForms();
     for (std::size_t i = 0; i < forms.size(); ++i) {
       if (i == 1) KeepLikely(rests, best);
+      Kernels kernels = KernelsOf(forms[i]);
       for (const Rests& one : rests) {
-        auto solved = Solve(forms[i], one);
+        auto solved = Solve(kernels, one);
         if (!solved || solved->evidence < best - kLeastEvidence) continue;
         best = std::max(best, solved->evidence);
         all.push_back(*std::move(solved));
@@ -321,7 +393,7 @@ struct ControlCurve::Hypotheses {
       const Seen from = b != nullptr ? See(*b, one.form) : Seen{};
       Eigen::VectorXd row(n);
       for (Eigen::Index i = 0; i < n; ++i) {
-        const Seen& point = one.seen[static_cast<std::size_t>(i)];
+        const Seen& point = (*one.seen)[static_cast<std::size_t>(i)];
         row[i] = Covariance(one, point, at) - (b != nullptr ? Covariance(one, point, from) : 0.0);
       }
       double value = at.mean + row.dot(one.weights);

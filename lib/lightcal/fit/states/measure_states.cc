@@ -11,6 +11,10 @@
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/model/reading_times.h"
+#include "lightcal/fit/states/drift.h"
+#include "lightcal/fit/states/geometry.h"
+#include "lightcal/light/fixture.h"
 
 namespace lightcal::fit {
 namespace {
@@ -88,10 +92,6 @@ class Measuring {
   }
 
  private:
-  struct Log {
-    double ln = 0.0, variance = 0.0;
-  };
-
   void Note(const std::vector<SessionReading>& rows) {
     for (const SessionReading& row : rows) {
       const Reading& reading = row.reading;
@@ -148,32 +148,31 @@ class Measuring {
     return {0.0, unknown_sd_};
   }
 
-  [[nodiscard]] std::optional<Log> Direct(const SessionReading& row, bool cards) const {
+  [[nodiscard]] std::optional<LogAt> Direct(const SessionReading& row, bool cards) const {
     const double lux = row.reading.illuminance->value();
     const Background behind = BackgroundOf(row.reading, cards);
     const double direct = lux - behind.lux;
     const double repeat = RepeatabilityRelative(session_, row.reading) * lux;
     const double sd = std::hypot(repeat, behind.sd);
     if (!(direct > 2.0 * sd)) return std::nullopt;
-    return Log{std::log(direct), sd * sd / (direct * direct)};
+    return LogAt{std::log(direct), sd * sd / (direct * direct)};
   }
 
   // What a meter in that place shows of the lamp at the reference: read there, else predicted.
-  [[nodiscard]] std::optional<Log> Reference(const Reading& reading, bool is_reference,
-                                             bool cards) const {
-    Log mean;
-    int count = 0;
+  [[nodiscard]] std::optional<LogAt> Reference(const Reading& reading, bool is_reference,
+                                               bool cards) const {
+    std::vector<DatedLog> read;
     for (const SessionReading* row : OfReference().rows) {
       if (!Counts(row->reading) || !SamePlace(row->reading, reading)) continue;
       const auto direct = Direct(*row, cards);
-      if (!direct) continue;
-      mean.ln += direct->ln;
-      mean.variance += direct->variance;
-      ++count;
+      if (direct) {
+        read.push_back({SecondsOfTime(row->reading.time), direct->ln, direct->variance});
+      }
     }
-    if (count > 0) {
-      if (is_reference) return Log{mean.ln / count, 0.0};
-      return Log{mean.ln / count, mean.variance / (count * count)};
+    if (!read.empty()) {
+      LogAt there = DriftedLog(read, SecondsOfTime(reading.time));
+      if (is_reference) there.variance = 0.0;
+      return there;
     }
     if (!reading.distance) return std::nullopt;
     const auto facing = PredictInRoom(light_, *reading.distance, 0.0);
@@ -185,7 +184,7 @@ class Measuring {
     const double own = light_.meter ? light_.meter->calibration_relative : 0.0;
     const double sd = lux.u95 / kZ95 / lux.value;
     const double variance = std::max(1e-4 * sd * sd, sd * sd - own * own);
-    return Log{std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance};
+    return LogAt{std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance};
   }
 
   const Session& session_;
@@ -219,15 +218,20 @@ std::optional<Uncertain> Times(const std::optional<Uncertain>& reference, double
   return scaled;
 }
 
-// Another front or another zoom may shine from elsewhere.
-bool OtherGeometry(const FixtureState& a, const FixtureState& b) {
-  const auto differs = [&](const ControlValue& control) {
-    const ControlValue* other = FindControl(b, control.name);
-    if (other == nullptr) return true;
-    if (control.IsWord()) return control.word != other->word;
-    return control.name == kZoomControl && control.number != other->number;
-  };
-  return std::ranges::any_of(a, differs);
+// Of ln I, 1 sigma: another front or another zoom may shine from elsewhere, and the nearer it was
+// read the more that is.
+double OffsetSd(const StateReadings& state, const LightDescription& description,
+                const FittedLight& light) {
+  if (!light.intensity_cd || SameGeometry(state.state, light.state)) return 0.0;
+  const double sd_m = MatchedOffset(OffsetParts(description.fixture)).sd_m;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const SessionReading* row : state.rows) {
+    const Reading& reading = row->reading;
+    if (Counts(reading) && reading.distance) {
+      nearest = std::min(nearest, reading.distance->value());
+    }
+  }
+  return 2.0 * sd_m / nearest;
 }
 
 }  // namespace
@@ -255,13 +259,15 @@ void MeasureStates(const Session& session, const LightDescription& description,
     }
     MeasuredState one{state.state, {}, std::sqrt(ratio->own_variance)};
     const double ln = reference ? 0.0 : ratio->ln;
-    const double sd = reference ? 0.0 : std::sqrt(ratio->variance);
+    const double sd =
+        reference ? 0.0
+                  : std::hypot(std::sqrt(ratio->variance), OffsetSd(state, description, light));
     one.relative = reference ? Uncertain{1.0, 0.0, {}, {}} : UncertainFromLog(ln, sd);
     one.intensity_cd = Times(light.intensity_cd, ln, sd);
     one.illuminance_lx = Times(light.illuminance_lx, ln, sd);
     one.color = reference ? light.color : ColorOf(state, description, cct_method, warnings);
     one.readings = ratio->readings;
-    other_geometry = other_geometry || OtherGeometry(state.state, light.state);
+    other_geometry = other_geometry || !SameGeometry(state.state, light.state);
     if (reference) {
       out.insert(out.begin(), std::move(one));
     } else {
@@ -271,10 +277,10 @@ void MeasureStates(const Session& session, const LightDescription& description,
   light.states = std::move(out);
   if (other_geometry && light.intensity_cd) {
     warnings.push_back({"offset_shared", light.name,
-                        "its states differ in zoom or modifier; where their light starts and how "
-                        "wide it shines is taken from " +
+                        "some zoom or modifier was read at one distance alone; where its light "
+                        "starts is taken from " +
                             StateText(light.state) +
-                            ": calibrate each as a light of its own where that matters"});
+                            ", within what such fixtures differ: read it at a second distance"});
   }
 }
 

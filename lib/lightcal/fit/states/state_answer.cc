@@ -10,6 +10,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/states/control_curve.h"
+#include "lightcal/fit/states/ln_of.h"
 #include "lightcal/fit/states/mixing_line.h"
 
 namespace lightcal {
@@ -20,6 +21,8 @@ using fit::ControlKind;
 using fit::CurvePoint;
 using fit::CurveTarget;
 using fit::CurveValue;
+using fit::Scaled;
+using fit::SdOfLn;
 
 // More states than these, nearest to it and to full, say nothing new of a place between them.
 constexpr std::size_t kNearestStates = 20, kNearestToFull = 10;
@@ -30,11 +33,6 @@ constexpr double kLeastRepeatability = 1e-4;
 
 bool SameNumbers(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
-}
-
-double SdOfLn(const Uncertain& u) {
-  if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
-  return u.value > 0.0 ? u.u95 / (kZ95 * u.value) : 0.0;
 }
 
 // A control that took several numbers in the states that count.
@@ -205,12 +203,6 @@ class States {
   std::vector<Axis> axes_;
 };
 
-std::optional<Uncertain> Scaled(const std::optional<Uncertain>& reference, double ln, double sd) {
-  if (!reference) return std::nullopt;
-  if (!(reference->value > 0.0)) return std::nullopt;
-  return UncertainFromLog(std::log(reference->value) + ln, std::hypot(SdOfLn(*reference), sd));
-}
-
 ControlCurve LightCurve(const States& states) {
   std::vector<CurvePoint> points;
   for (const MeasuredState* one : states.kept()) {
@@ -365,29 +357,6 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
 Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at) {
   if (auto fits = CheckControlsOf(light, at); !fits) return Propagate(std::move(fits));
   return AnswerFrom(light, at, light.states.size());
-}
-
-Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at) {
-  const auto answer = AnswerState(light, at);
-  if (!answer) return tl::unexpected(answer.error());
-  FittedLight out = light;
-  const double ln = std::log(answer->relative.value);
-  const double sd = SdOfLn(answer->relative);
-  out.intensity_cd = answer->intensity_cd;
-  out.illuminance_lx = answer->illuminance_lx;
-  out.flux_lm = Scaled(light.flux_lm, ln, sd);
-  out.luminance_nits = Scaled(light.luminance_nits, ln, sd);
-  if (out.beam) out.beam->axial = Scaled(out.beam->axial, ln, sd);
-  if (out.distribution) out.distribution->table = out.distribution->table.Scaled(std::exp(ln));
-  out.color = answer->color;
-  out.state = at;
-  // Readings and their covariance are of the reference state.
-  out.residuals.clear();
-  out.covariance_lnI_d0_E0.reset();
-  out.in_room.clear();
-  out.budget.clear();
-  out.states.clear();
-  return out;
 }
 
 std::optional<StateAnswer> AnswerWithout(const FittedLight& light, std::size_t index) {

@@ -42,6 +42,10 @@ struct StateAnswer {
 // state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
 
+// Whether the light's own offset and beam are those of this state: its zoom and its front are the
+// reference's, or there is nothing to know (a lamp without a distance law).
+[[nodiscard]] bool HasItsGeometry(const FittedLight& light, const FixtureState& at);
+
 // The light as it is at that state: intensity, flux, luminance and colour; geometry as it was
 // fitted. Refused: as AnswerState.
 [[nodiscard]] Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at);

@@ -9,6 +9,8 @@ namespace lightcal {
 namespace {
 
 constexpr double kRimPixels = 2.0;  // whose neighbours the rim cuts
+// Camera, stand and person, as the ball shows them: radians around the way back to the camera.
+constexpr double kCameraHidden = 0.35, kCameraFades = 0.17;
 
 }  // namespace
 
@@ -27,12 +29,32 @@ AimedView::AimedView(PixelSolidAngles angles, const ViewAim& aim)
   }
 }
 
-std::optional<std::array<double, 2>> AimedView::PointOf(const Vec3& direction) const {
-  const auto point =
-      angles_.PointOf({Dot(right_, direction), Dot(forward_, direction), Dot(up_, direction)});
-  if (!point || angles_.RimShare((*point)[0], (*point)[1]) > rim_share_) return std::nullopt;
-  return point;
+AimedView::AimedView(BallMirror ball, const ViewAim& aim) : AimedView(ball.lens(), aim) {
+  ball_ = std::move(ball);
 }
+
+std::optional<AimedView::Sight> AimedView::See(const Vec3& direction) const {
+  const Vec3 own{Dot(right_, direction), Dot(forward_, direction), Dot(up_, direction)};
+  if (ball_) {
+    const auto seen = ball_->See(own);
+    if (!seen) return std::nullopt;
+    const double from_camera = std::acos(std::clamp(-Dot(own, ball_->axis()), -1.0, 1.0));
+    const double t = std::clamp((from_camera - kCameraHidden) / kCameraFades, 0.0, 1.0);
+    return Sight{seen->point, seen->rim_share, seen->reflectance, t * t * (3.0 - 2.0 * t)};
+  }
+  const auto point = angles_.PointOf(own);
+  if (!point) return std::nullopt;
+  const double share = angles_.RimShare((*point)[0], (*point)[1]);
+  if (share > rim_share_) return std::nullopt;
+  return Sight{*point, share};
+}
+
+std::optional<std::array<double, 2>> AimedView::PointOf(const Vec3& direction) const {
+  const auto sight = See(direction);
+  return sight ? std::optional(sight->point) : std::nullopt;
+}
+
+Radians AimedView::Pitch() const { return ball_ ? ball_->Pitch() : angles_.MiddlePitch(); }
 
 PictureTap TapAt(const PictureView& view, const std::array<double, 2>& point) {
   const double x = point[0] - 0.5, y = point[1] - 0.5;

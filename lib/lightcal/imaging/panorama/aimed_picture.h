@@ -12,6 +12,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 #include "lightcal/core/view2d.h"
+#include "lightcal/imaging/panorama/ball_mirror.h"
 #include "lightcal/imaging/panorama/panorama.h"
 
 namespace lightcal {
@@ -25,14 +26,33 @@ struct ViewAim {
 class AimedView {
  public:
   AimedView(PixelSolidAngles angles, const ViewAim& aim);
+  // What a mirror ball shows to a camera so aimed.
+  AimedView(BallMirror ball, const ViewAim& aim);
+
+  struct Sight {
+    std::array<double, 2> point{};  // of the picture
+    double rim_share = 0.0;         // PixelSolidAngles::RimShare; of a ball the outline is 1
+    double passed = 1.0;            // of the light: a ball's reflectance there
+    double worth = 1.0;             // 0 where the camera sees itself in the ball
+  };
+  // Absent where PointOf is.
+  [[nodiscard]] std::optional<Sight> See(const Vec3& direction) const;
 
   // The point of the picture (pixel centres at .5) that shows a direction of the sphere; absent
   // where it shows none, and in the last two pixels before a fisheye's rim, which darkens them.
   [[nodiscard]] std::optional<std::array<double, 2>> PointOf(const Vec3& direction) const;
   [[nodiscard]] const PixelSolidAngles& angles() const { return angles_; }
+  [[nodiscard]] const std::optional<BallMirror>& ball() const { return ball_; }
+  // Of the sphere: the direction through a unit vector of the picture's frame.
+  [[nodiscard]] Vec3 Outward(const Vec3& v) const {
+    return right_ * v[0] + forward_ * v[1] + up_ * v[2];
+  }
+  // The angle that a pixel's side covers where the picture is finest.
+  [[nodiscard]] Radians Pitch() const;
 
  private:
   PixelSolidAngles angles_;
+  std::optional<BallMirror> ball_;
   Vec3 right_, forward_, up_;
   double rim_share_;  // of the last point taken
 };

@@ -15,6 +15,7 @@ namespace {
 constexpr int kMostWidth = 8192;
 constexpr int kSide = 2;                 // kSide x kSide directions of a pixel
 constexpr double kLeastWeight = 1e-4;    // of a view's rim
+constexpr double kLeastWorth = 1e-6;     // of the camera in its ball, where nothing else is seen
 constexpr double kClippedWeight = 1e-9;  // where another view is not clipped
 constexpr double kSamePlateau = 1e-4;    // clipped pixels are as bright as this, relative
 
@@ -27,15 +28,14 @@ struct Mixture {
 
 void Add(const AimedPicture& picture, double factor, const ViewScales& scales,
          const Vec3& direction, Mixture& mixture) {
-  const auto point = picture.view.PointOf(direction);
-  if (!point) return;
-  const PixelSolidAngles& angles = picture.view.angles();
-  const double share = angles.RimShare((*point)[0], (*point)[1]);
-  const PictureTap tap = TapAt(angles.view(), *point);
+  const auto sight = picture.view.See(direction);
+  if (!sight) return;
+  const PictureTap tap = TapAt(picture.view.angles().view(), sight->point);
   const bool clipped = AnyClipped(picture, tap);
-  const double middle = 1.0 - share;
-  const double weight = (middle * middle + kLeastWeight) * (clipped ? kClippedWeight : 1.0);
-  const double gain = weight * factor / scales.Falloff(share);
+  const double middle = 1.0 - sight->rim_share;
+  const double weight = (middle * middle + kLeastWeight) * std::max(sight->worth, kLeastWorth) *
+                        (clipped ? kClippedWeight : 1.0);
+  const double gain = weight * factor / scales.Falloff(sight->rim_share) / sight->passed;
   const auto channels = static_cast<std::size_t>(picture.samples.channels());
   for (std::size_t k = 0; k < 4; ++k) {
     const double part = gain * double{tap.weight[k]};
@@ -65,7 +65,7 @@ void LevelPlateau(ComposedDome& composed) {
 int WidthForViews(std::span<const AimedPicture> views) {
   double finest = std::numbers::pi;
   for (const AimedPicture& picture : views) {
-    finest = std::min(finest, picture.view.angles().MiddlePitch().value());
+    finest = std::min(finest, picture.view.Pitch().value());
   }
   const int height = static_cast<int>(std::lround(std::numbers::pi / finest));
   return std::min(kMostWidth, 2 * std::max(1, height));

@@ -44,11 +44,26 @@ std::vector<std::uint8_t> PlateauOf(const Dome& dome) {
   return at;
 }
 
-ViewAim AimOf(const DomeInputRequest& request, std::size_t i) {
-  if (!request.aims.empty()) return request.aims[i];
+// A fisheye looks up, the camera of a ball and a panorama along +Y.
+ViewAim UnsaidAim(const DomeInputRequest& request) {
   ViewAim up;
-  if (request.projection != Projection::kLatLong) up.pitch = Radians(std::numbers::pi / 2.0);
+  if (request.projection != Projection::kLatLong && request.balls.empty())
+    up.pitch = Radians(std::numbers::pi / 2.0);
   return up;
+}
+
+Result<AimedView> ViewOf(const DomeInput& picture, const DomeInputRequest& request, std::size_t i) {
+  const int width = picture.dome.width, height = picture.dome.height;
+  const ViewAim aim = request.aims.empty() ? UnsaidAim(request) : request.aims[i];
+  if (!request.balls.empty()) {
+    auto ball = BallMirror::Create(picture.files.front(), width, height, request.balls[i]);
+    if (!ball) return Propagate(std::move(ball));
+    return AimedView(std::move(*ball), aim);
+  }
+  auto angles =
+      PixelSolidAngles::Create({request.projection, width, height, request.field_of_view});
+  if (!angles) return Propagate(std::move(angles));
+  return AimedView(std::move(*angles), aim);
 }
 
 struct Views {
@@ -69,11 +84,10 @@ Result<Views> AimPictures(const std::vector<DomeInput>& pictures, const DomeInpu
     if (auto alike = CheckAlike(pictures.front(), pictures[i]); !alike) {
       return Propagate(std::move(alike));
     }
-    auto angles = PixelSolidAngles::Create(
-        {request.projection, dome.width, dome.height, request.field_of_view});
-    if (!angles) return Propagate(std::move(angles));
+    auto view = ViewOf(pictures[i], request, i);
+    if (!view) return Propagate(std::move(view));
     views.pictures.push_back(
-        {pictures[i].files.front(), AimedView(std::move(*angles), AimOf(request, i)),
+        {pictures[i].files.front(), std::move(*view),
          View2d<const float>(dome.samples.data(), dome.width, dome.height, dome.channels),
          dome.luminance(), views.clipped[i]});
   }
@@ -109,6 +123,20 @@ DomeInput Together(std::vector<DomeInput>& pictures) {
   return all;
 }
 
+// What balls leave open: their reflectance in an absolute scale, and what one of them hides.
+void TakeBalls(const std::vector<AimedPicture>& views, const DomeInputRequest& request,
+               DomeInput& dome) {
+  if (request.balls.empty()) return;
+  const BallView& ball = request.balls.front();
+  if (dome.absolute) {
+    dome.scale_u95_relative = std::hypot(dome.scale_u95_relative.value_or(0.0),
+                                         kZ95 * ball.reflectance_sd / ball.reflectance);
+  }
+  if (views.size() > 1) return;
+  const AimedView& view = views.front().view;
+  dome.blind_cap = BlindCap{view.Outward(view.ball()->axis()), view.ball()->BlindAngle()};
+}
+
 void WarnOfDisagreement(DomeInput& dome) {
   if (dome.agreement_sd <= kDisagreement) return;
   dome.warnings.push_back(
@@ -135,6 +163,7 @@ Result<DomeInput> ComposeViews(std::vector<DomeInput> pictures, const DomeInputR
   dome.seen_share = SeenShare(composed);
   if (dome.seen_share < kWholeSphere) dome.unseen = std::move(composed.unseen);
   if (request.clip) dome.clipped = std::move(composed.clipped);
+  TakeBalls(views->pictures, request, dome);
   composed.dome.xyz_from_rgb = pictures.front().dome.xyz_from_rgb;
   dome.dome = std::move(composed.dome);
   WarnOfDisagreement(dome);

@@ -20,13 +20,15 @@ struct DomeInputRequest {
   std::optional<LuminanceConvention> convention;  // absent: photometric, relative if no file says
   std::optional<double> clip;  // samples of a file from here on are clipped, in the file's own unit
   Projection projection = Projection::kLatLong;
-  Radians field_of_view{0.0};  // as PictureView has it
-  std::vector<ViewAim> aims;   // one a file; empty: a panorama as it is, a fisheye looking up
-  std::optional<int> width;    // of the lat-long dome made of views; absent: WidthForViews
+  bool projection_of_file = false;  // what all files say of their view stands before the two here
+  Radians field_of_view{0.0};   // as PictureView has it
+  std::vector<ViewAim> aims;    // one a file; empty: a panorama as it is, a fisheye looking up
+  std::vector<BallView> balls;  // one a file: each shows a mirror ball; `projection` is not asked
+  std::optional<int> width;     // of the lat-long dome made of views; absent: WidthForViews
 
   // One lat-long file that needs no projecting.
   [[nodiscard]] bool IsPanorama() const {
-    return projection == Projection::kLatLong && files.size() == 1 && aims.empty();
+    return projection == Projection::kLatLong && files.size() == 1 && aims.empty() && balls.empty();
   }
 };
 
@@ -37,6 +39,12 @@ struct DomeViewScale {
   double u95_relative = 0.0;  // as a deviation from all views' common scale
 };
 
+// What a single mirror ball hides: all within half_angle of the way from camera to ball.
+struct BlindCap {
+  Vec3 direction{};
+  Radians half_angle{0.0};
+};
+
 struct DomeInput {
   Dome dome;
   std::vector<std::uint8_t> clipped;  // by pixel; empty = nothing is known to be
@@ -45,12 +53,21 @@ struct DomeInput {
   std::optional<double> scale_u95_relative;
   std::optional<RgbPrimaries> primaries;  // the file's own
   bool has_colour = false;
+  std::optional<WrittenView> view;  // what the file says of its projection
   std::vector<std::string> files;
   std::vector<DomeViewScale> views;  // of a dome composed of views
   double rim_transmission = 1.0;     // what their lens passes at its rim, of what in its middle
   double agreement_sd = 0.0;         // of the views where they overlap, relative
   double seen_share = 1.0;           // of the sphere
   std::vector<std::uint8_t> unseen;  // by pixel, black; empty = none
+  std::optional<BlindCap> blind_cap;
+  // What a grey ball or card in a plate said.
+  struct Grey {
+    double factor = 1.0, u95_relative = 0.0;  // plate over dome; without the plate's own scale
+    double misfit_sd = 0.0;                   // of its shading, relative
+    std::optional<double> ball_reflectance;   // of the mirror ball, where both have one unit
+  };
+  std::optional<Grey> grey;
   Warnings warnings;
 };
 

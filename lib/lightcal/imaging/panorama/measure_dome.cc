@@ -20,6 +20,7 @@ constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
 constexpr double kUnknownScaleU95 = 0.05;
 constexpr double kConflict = 0.25;
 constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
+constexpr double kMostHiddenByBall = 0.1;
 
 tl::unexpected<Error> AboutFile(const char* code, const DomeInput& input, const char* message) {
   return Refused(code, input.files.front(), message);
@@ -42,20 +43,38 @@ Result<void> CheckBrightness(const DomeInput& input, Warnings& warnings) {
   return {};
 }
 
-// What no view shows is black: the meter must not have seen much of it.
-Result<void> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+std::string WholeDegrees(double degrees) {
+  return std::to_string(static_cast<int>(std::lround(degrees)));
+}
+
+// Where a single ball's hole is, and what fills it.
+std::string HoleBehindBall(const MeasuredDome& measured) {
+  const auto& cap = measured.input.blind_cap;
+  if (!cap) return "";
+  const AzimuthElevation at = AnglesOf(TurnedNorth(cap->direction, measured.north));
+  return ": the ball hides a cap of " + RoundedText(DegreesFromRadians(cap->half_angle), 2) +
+         " degrees around azimuth " + WholeDegrees(at.azimuth_deg) + ", elevation " +
+         WholeDegrees(at.elevation_deg) +
+         ", and opposite of it the camera shows itself. A second picture of the ball from 90 "
+         "degrees aside ({dome.aims} each) fills both";
+}
+
+// What no view shows is black: the meter must not have seen much of it. The share of a uniform
+// sphere's light on it that is hidden.
+Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
   const DomeInput& input = measured.input;
-  if (input.unseen.empty()) return {};
+  if (input.unseen.empty()) return 0.0;
   measured.warnings.push_back({"partly_seen", input.files.front(),
                                "no view shows " + RoundedText(100.0 * (1.0 - input.seen_share), 2) +
-                                   " % of the sphere; it is black in the dome"});
-  if (!reading) return {};
+                                   " % of the sphere; it is black in the dome" +
+                                   HoleBehindBall(measured)});
+  if (!reading) return 0.0;
   std::vector<float> hidden(input.unseen.begin(), input.unseen.end());
   const double share = IlluminanceOn({hidden.data(), input.dome.width, input.dome.height},
                                      input.dome.grid(), reading->normal)
                            .value() /
                        std::numbers::pi;
-  if (share <= kMostHidden) return {};
+  if (share <= (input.blind_cap ? kMostHiddenByBall : kMostHidden)) return share;
   return AboutFile("reading_beyond_view", input,
                    ("the meter saw what no view shows: " + RoundedText(100.0 * share, 2) +
                     " % of what lights it from a uniform sphere; turn it to where the pictures "
@@ -178,10 +197,14 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   }
   std::optional<DomeReading> reading = request.reading;
   if (reading) reading->normal = TurnedNorth(reading->normal, -request.north);
-  if (auto seen = CheckSeen(reading, measured); !seen) return Propagate(std::move(seen));
+  auto hidden = CheckSeen(reading, measured);
+  if (!hidden) return Propagate(std::move(hidden));
   measured.lights = FindLights(measured.input);
   JudgePlateaus(request, reading, measured);
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
+  if (measured.scale_u95_relative) {  // the hidden part may be as dark as it may be bright
+    measured.scale_u95_relative = std::hypot(*measured.scale_u95_relative, kZ95 * *hidden / 2.0);
+  }
   OrderLights(measured);
   WarnOfClippedLights(measured);
   Warnings& warnings = measured.warnings;

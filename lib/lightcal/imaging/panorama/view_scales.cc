@@ -23,6 +23,7 @@ constexpr int kBlock = 6;             // cells on the side of a block of common 
 constexpr double kLeastCells = 12.0;  // that join a view to the others, as cells of the equator
 constexpr double kLeastSd = 0.005;    // of a cell: edges, reflections, resampling
 constexpr double kFalloffSd = 0.7;    // prior of its coefficients: half the light at the rim
+constexpr double kMirrorSd = 0.05;    // the same of a mirror ball, whose reflectance is taken off
 // What sampling between the pixels of gradients leaves in a view's factor, measured on synthetic
 // skies: 1e-4 round a ring of views, however many pixels they share.
 constexpr double kSamplingSd = 1.5e-4;
@@ -49,20 +50,18 @@ std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int 
     const double azimuth =
         2.0 * std::numbers::pi * (x + (i % kCellSide + 0.5) / kCellSide) / kCellColumns;
     const double zenith = std::numbers::pi * (y + (i / kCellSide + 0.5) / kCellSide) / kOverlapRows;
-    const auto point =
-        picture.view.PointOf({-std::sin(azimuth) * std::sin(zenith),
-                              -std::cos(azimuth) * std::sin(zenith), std::cos(zenith)});
-    if (!point) return std::nullopt;
-    const PictureTap tap = TapAt(picture.view.angles().view(), *point);
+    const auto seen = picture.view.See({-std::sin(azimuth) * std::sin(zenith),
+                                        -std::cos(azimuth) * std::sin(zenith), std::cos(zenith)});
+    if (!seen || seen->worth < 1.0) return std::nullopt;
+    const PictureTap tap = TapAt(picture.view.angles().view(), seen->point);
     if (AnyClipped(picture, tap)) return std::nullopt;
     double value = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
-      value += double{tap.weight[k] * picture.nits.data()[tap.pixel[k]]};
+      value += double{tap.weight[k] * picture.nits.data()[tap.pixel[k]]} / seen->passed;
     }
     sum += value;
     sum2 += value * value;
-    const double share = picture.view.angles().RimShare((*point)[0], (*point)[1]);
-    radius2 += share * share / (kCellSide * kCellSide);
+    radius2 += seen->rim_share * seen->rim_share / (kCellSide * kCellSide);
   }
   const double count = kCellSide * kCellSide, mean = sum / count;
   if (!(mean > 0.0)) return std::nullopt;
@@ -117,8 +116,10 @@ Result<void> CheckOverlap(std::span<const AimedPicture> views, const std::vector
 // Normal equations: unknowns are -ln f of every view, then the fall-off.
 class Normal {
  public:
-  Normal(std::size_t views, const std::vector<bool>& in_gauge)
-      : size_(static_cast<Eigen::Index>(views) + 3), views_(static_cast<Eigen::Index>(views)) {
+  Normal(std::size_t views, const std::vector<bool>& in_gauge, double falloff_sd)
+      : falloff_sd_(falloff_sd),
+        size_(static_cast<Eigen::Index>(views) + 3),
+        views_(static_cast<Eigen::Index>(views)) {
     gauge_ = Eigen::VectorXd::Zero(size_);
     for (Eigen::Index i = 0; i < views_; ++i) {
       gauge_[i] = in_gauge.empty() || in_gauge[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
@@ -153,7 +154,9 @@ class Normal {
 
   void Solve(const std::vector<Cell>& cells) {
     matrix_ = kGaugeWeight * gauge_ * gauge_.transpose();
-    for (Eigen::Index k = views_; k < size_; ++k) matrix_(k, k) += 1.0 / (kFalloffSd * kFalloffSd);
+    for (Eigen::Index k = views_; k < size_; ++k) {
+      matrix_(k, k) += 1.0 / (falloff_sd_ * falloff_sd_);
+    }
     Eigen::VectorXd right = Eigen::VectorXd::Zero(size_);
     for (const Cell& cell : cells) {
       Eigen::VectorXd sum = Eigen::VectorXd::Zero(size_);
@@ -190,6 +193,7 @@ class Normal {
   [[nodiscard]] const Eigen::VectorXd& unknowns() const { return unknowns_; }
 
  private:
+  double falloff_sd_;
   Eigen::Index size_, views_;
   Eigen::VectorXd gauge_, unknowns_;
   Eigen::MatrixXd matrix_;
@@ -239,7 +243,9 @@ Result<ViewScales> SolveViewScales(std::span<const AimedPicture> views,
   for (Cell& cell : cells) {
     for (Sight& sight : cell.sights) sight.weight = cell.area / sight.variance;
   }
-  Normal normal(views.size(), in_gauge);
+  const bool balls = std::ranges::any_of(
+      views, [](const AimedPicture& picture) { return picture.view.ball().has_value(); });
+  Normal normal(views.size(), in_gauge, balls ? kMirrorSd : kFalloffSd);
   for (int round = 0; round < kSolveRounds; ++round) {
     normal.Solve(cells);
     Reweigh(normal, cells);

@@ -86,13 +86,24 @@ std::vector<EngineLight> ReadBack(const PresetTarget& engine, const Preset& pres
   return {};
 }
 
-std::vector<EngineExport> ExportsOf(const LightFile& lights) {
+using Pictures = std::vector<std::shared_ptr<const EnvironmentPicture>>;
+
+std::vector<EngineExport> ExportsOf(const LightFile& lights, const Pictures& environments) {
   std::vector<EngineExport> all;
   for (const PresetTarget* engine : ReportTargets()) {
     auto preset = engine->exporter(lights, "report", {});
     if (!preset || preset->derived.size() != lights.lights.size()) continue;
     EngineExport one{engine, std::move(preset->derived), {}};
     if (engine->emission == nullptr) one.read_back = ReadBack(*engine, *preset);
+    if (!environments.empty()) {  // what is typed in is that of the pictures
+      PresetOptions with_pictures;
+      with_pictures.environments = environments;
+      with_pictures.figures_only = true;
+      auto pictured = engine->exporter(lights, "report", with_pictures);
+      if (pictured && pictured->derived.size() == one.derived.size()) {
+        one.derived = std::move(pictured->derived);
+      }
+    }
     all.push_back(std::move(one));
   }
   return all;
@@ -100,8 +111,8 @@ std::vector<EngineExport> ExportsOf(const LightFile& lights) {
 
 }  // namespace
 
-EngineAnswers EngineAnswersOf(const LightFile& lights) {
-  const std::vector<EngineExport> exports = ExportsOf(lights);
+EngineAnswers EngineAnswersOf(const LightFile& lights, const Pictures& environments) {
+  const std::vector<EngineExport> exports = ExportsOf(lights, environments);
   EngineAnswers answers;
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
@@ -110,7 +121,7 @@ EngineAnswers EngineAnswersOf(const LightFile& lights) {
       AddFigure(lamp.name, *exported.engine, exported.derived[i], answers.figures);
     }
   }
-  answers.parity = ParityOf(lights, exports);
+  answers.parity = ParityOf(lights, exports, environments);
   return answers;
 }
 

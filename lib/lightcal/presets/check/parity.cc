@@ -2,10 +2,13 @@
 #include "lightcal/presets/check/parity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/axial_shape.h"
@@ -184,16 +187,67 @@ std::optional<Lit> LitIn(const EngineExport& exported, std::size_t index, const 
   return LitBy(*read, place);
 }
 
+// ---- round about ----
+
+double LuminanceOfVec(const Vec3& rgb) {
+  return LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb);
+}
+
+struct Around {
+  std::vector<WayLux> ways;
+  std::string law;
+};
+
+// Ours: +Y front, +X right, +Z up.
+Around AroundIn(PanoramaLaw law, const EnvironmentPicture& picture) {
+  constexpr std::array<std::pair<std::string_view, Vec3>, 6> kWays = {{{"up", {0, 0, 1}},
+                                                                       {"down", {0, 0, -1}},
+                                                                       {"front", {0, 1, 0}},
+                                                                       {"right", {1, 0, 0}},
+                                                                       {"back", {0, -1, 0}},
+                                                                       {"left", {-1, 0, 0}}}};
+  Around out;
+  if (law == PanoramaLaw::kNotKnown) return out;
+  const bool traced = law == PanoramaLaw::kTraced;
+  out.law = traced ? "the picture itself" : "nine harmonics of the picture";
+  Harmonics harmonics{};
+  if (!traced) harmonics = RadianceHarmonics(picture, [](const Vec3& v) { return v; });
+  for (const auto& [way, normal] : kWays) {
+    const double expected = LuminanceOfVec(IrradianceOn(picture, normal));
+    out.ways.push_back(
+        {way, expected, traced ? expected : LuminanceOfVec(IrradianceOn(harmonics, normal))});
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<ParityRow> ParityOf(const LightFile& lights, const std::vector<EngineExport>& exports) {
+std::vector<ParityRow> ParityOf(
+    const LightFile& lights, const std::vector<EngineExport>& exports,
+    const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments) {
   std::vector<ParityRow> rows;
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
     const auto place = PlaceOf(lamp);
     if (!place) continue;
     const auto beam = BeamOf(lamp);
+    const auto picture = i < environments.size() ? environments[i] : nullptr;
     for (const EngineExport& exported : exports) {
+      if (picture && lamp.kind == LightKind::kDome) {
+        Around around = AroundIn(exported.engine->panorama, *picture);
+        if (around.ways.empty()) continue;
+        ParityRow row;
+        row.light = lamp.name;
+        row.engine = std::string(exported.engine->title);
+        row.expected_lx = around.ways.front().expected_lx;
+        row.engine_lx = around.ways.front().engine_lx;
+        row.law = std::move(around.law);
+        row.executed = std::string(exported.engine->verified);
+        row.rendered = exported.engine->verified.starts_with("rendered");
+        row.around = std::move(around.ways);
+        rows.push_back(std::move(row));
+        continue;
+      }
       const auto lit = LitIn(exported, i, lamp, *place);
       if (!lit || !std::isfinite(lit->lux)) continue;
       const auto off_axis = OffAxisIn(exported, i, lamp, *place, lit->lux, beam);

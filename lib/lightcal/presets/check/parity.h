@@ -2,8 +2,10 @@
 // What every engine makes of a lamp where a meter stood.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "lightcal/presets/environment_picture.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/engine_answers.h"
 #include "lightcal/records/fitted_light.h"
@@ -18,7 +20,8 @@ struct EngineExport {
 };
 
 // See EngineAnswers.
-[[nodiscard]] std::vector<ParityRow> ParityOf(const LightFile& lights,
-                                              const std::vector<EngineExport>& exports);
+[[nodiscard]] std::vector<ParityRow> ParityOf(
+    const LightFile& lights, const std::vector<EngineExport>& exports,
+    const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments = {});
 
 }  // namespace lightcal

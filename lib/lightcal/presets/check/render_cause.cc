@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/render_shape.h"
 
 namespace lightcal {
 namespace {
@@ -220,15 +222,14 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
                     "write candela",
                     own / std::numbers::pi});
   }
+  std::ranges::move(ConeMistakes(rig), std::back_inserter(list));
   return list;
 }
 
-void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
-  const double seen = std::log(verdict.lux / verdict.expected_lx);
-  if (std::abs(seen) < kAsItShould) {
-    verdict.cause = {"none", "as bright as the meter says", 1.0};
-    return;
-  }
+}  // namespace
+
+std::vector<RenderCause> CausesOfFactor(const CheckedRig& rig, double factor) {
+  const double seen = std::log(factor);
   std::vector<RenderCause> fits;
   for (RenderCause& cause : KnownFactors(rig)) {
     const double log_factor = std::log(cause.factor);
@@ -239,13 +240,23 @@ void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
   std::ranges::stable_sort(
       fits, {}, [&](const RenderCause& cause) { return std::abs(seen - std::log(cause.factor)); });
   if (fits.empty()) {
-    verdict.cause = {
-        "exposure_unlocked",
-        "tint and contrast are right and no known mistake has this factor: exposure is "
-        "automatic or not the rig's, or another light is on",
-        std::exp(seen)};
+    fits.push_back({"exposure_unlocked",
+                    "tint and contrast are right and no known mistake has this factor: exposure "
+                    "is automatic or not the rig's, or another light is on",
+                    factor});
+  }
+  return fits;
+}
+
+namespace {
+
+void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
+  const double seen = verdict.lux / verdict.expected_lx;
+  if (std::abs(std::log(seen)) < kAsItShould) {
+    verdict.cause = {"none", "as bright as the meter says", 1.0};
     return;
   }
+  const std::vector<RenderCause> fits = CausesOfFactor(rig, seen);
   verdict.cause = fits.front();
   verdict.alternatives.assign(fits.begin() + 1, fits.end());
 }
@@ -263,6 +274,7 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
   const double lux_per_pixel = std::numbers::pi / ScaleOf(rig, unit);
   verdict.expected_lx = (rig.cards[0].expected_lx + rig.cards[1].expected_lx) / 2.0;
   verdict.lux = Rec709Luminance(*white) * lux_per_pixel;
+  for (std::size_t c = 0; c < 3; ++c) verdict.rgb_lx[c] = (*white)[c] * lux_per_pixel;
   for (std::size_t i = 0; i < 2; ++i) {
     verdict.card_lx[i] = Rec709Luminance(cards[i].rgb) / rig.cards[i].reflectance * lux_per_pixel;
   }
@@ -273,6 +285,13 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
   if (auto curve = CurveIn(rig, cards)) {
     verdict.cause = *std::move(curve);
     verdict.cause.factor = verdict.lux / verdict.expected_lx;
+    return verdict;
+  }
+  if (rig.panorama) {
+    const std::array<SeenRig, 1> alone = {SeenRig{&rig, &verdict}};
+    const std::vector<RenderCause> causes = JudgeTogether(alone);
+    verdict.cause = causes.front();
+    verdict.alternatives.assign(causes.begin() + 1, causes.end());
     return verdict;
   }
   if (rig.lamps.size() == 1) {

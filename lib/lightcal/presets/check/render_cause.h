@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,18 +18,24 @@ struct RenderCause {
   std::string code;     // "none", "missing_luminance_division", "falloff_1_over_d", ...
   std::string message;  // what it is, and where to set it right
   double factor = 1.0;  // by which it makes the cards brighter
+  std::optional<double> turn_deg{};  // of a panorama, from its front to its right
 };
 
 struct RenderVerdict {
   double lux = 0.0, expected_lx = 0.0;
+  std::array<double, 3> rgb_lx{};  // of a perfectly white card; linear Rec. 709
   std::array<double, 2> card_lx{};
   RenderCause cause;
   std::vector<RenderCause> alternatives;  // others that explain it as well
 };
 
+// Known mistakes of such a factor, the nearest first; where none is, exposure_unlocked.
+[[nodiscard]] std::vector<RenderCause> CausesOfFactor(const CheckedRig& rig, double factor);
+
 // Lux of the cards, Lambert: E = pi pixel/(reflectance scale). Clipped channels are left out; a
 // tone curve shows in the ratio of the cards, a colour mistake in their tint, the rest by their
-// factor.   Refused: all_saturated, too_dark.
+// factor. Off the axis of a spot its law is looked at, under a panorama which way round it stands
+// (render_shape.h).   Refused: all_saturated, too_dark.
 [[nodiscard]] Result<RenderVerdict> JudgeRender(const CheckedRig& rig,
                                                 const std::array<CardPixels, 2>& cards,
                                                 PixelUnit unit, const std::string& picture);

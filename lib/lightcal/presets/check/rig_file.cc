@@ -73,6 +73,7 @@ CheckedLamp LampFrom(Finder& find, const Node& json) {
   lamp.color_luminance = find.Number(rgb, "luminance_of_max_normalised");
   const Node& geometry = find.Part(json, "geometry");
   if (geometry.Find("outer_deg") != nullptr) lamp.outer_deg = find.Number(geometry, "outer_deg");
+  if (geometry.Find("inner_deg") != nullptr) lamp.inner_deg = find.Number(geometry, "inner_deg");
   return lamp;
 }
 
@@ -81,6 +82,33 @@ void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
   rig.target_m = find.Triple(json, "target_m");
   rig.up = find.Triple(json, "up");
   rig.vertical_fov_rad = find.Number(json, "vertical_fov_deg") * std::numbers::pi / 180.0;
+}
+
+void FindPlace(Finder& find, const Node& json, CheckedRig& rig) {
+  if (json.Find("off_axis_deg") != nullptr) rig.off_axis_deg = find.Number(json, "off_axis_deg");
+  if (json.Find("round_deg") != nullptr) rig.round_deg = find.Number(json, "round_deg");
+  const Node* panorama = json.Find("panorama");
+  if (panorama == nullptr) return;
+  CheckedPanorama& seen = rig.panorama.emplace();
+  seen.others_rgb_lx = find.Triple(*panorama, "others_rgb_lx");
+  const Node& ways = find.Part(*panorama, "if_rgb_lx");
+  const auto turns = MistakenTurns();
+  for (std::size_t way = 0; way < kMistakenTurns; ++way) {
+    const std::string word(turns[way].word);
+    const Node& list = find.Part(ways, word.c_str());
+    if (list.items.size() != kTurnSteps) {
+      find.Missing(word);
+      return;
+    }
+    for (std::size_t i = 0; i < kTurnSteps; ++i) {
+      const std::vector<Node>& rgb = list.items[i].items;
+      if (rgb.size() != 3 || !std::ranges::all_of(rgb, &Node::IsNumber)) {
+        find.Missing(word);
+        return;
+      }
+      seen.rgb_lx[way][i] = {rgb[0].number, rgb[1].number, rgb[2].number};
+    }
+  }
 }
 
 bool IsUsable(const CheckedRig& rig) {
@@ -97,8 +125,7 @@ Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& pat
     return Refused("bad_rig", path, "is no JSON; give the <stem>.preset.json that export wrote");
   }
   if (root->Find("rig") == nullptr) {
-    return Refused("no_rig", path,
-                   "has no rig: an older file; export it again with {preset.json}");
+    return Refused("no_rig", path, "has no rig: an older file; export it again with {preset.json}");
   }
   Finder find;
   CheckedRig rig;
@@ -112,6 +139,7 @@ Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& pat
     find.Missing("cards");
   }
   FindCamera(find, find.Part(json, "camera"), rig);
+  FindPlace(find, json, rig);
   const std::string chosen = find.Text(json, "light");
   for (const Node& lamp : find.Part(*root, "lights").items) {
     rig.lamps.push_back(LampFrom(find, lamp));

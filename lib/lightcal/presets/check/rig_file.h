@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/turned_panorama.h"
 
 namespace lightcal {
 
@@ -22,7 +24,13 @@ struct CheckedLamp {
   std::string name, kind;
   std::array<double, 3> color{1.0, 1.0, 1.0};  // linear Rec. 709, largest component 1
   double color_luminance = 1.0;
-  double outer_deg = 0.0;  // 0 = no cone
+  double inner_deg = 0.0, outer_deg = 0.0;  // outer 0 = no cone
+};
+
+// What a white card gets of a panorama as it is (way 0, no turn) and mistaken: turned_panorama.h.
+struct CheckedPanorama {
+  std::array<double, 3> others_rgb_lx{};
+  TurnedIrradiance rgb_lx{};
 };
 
 // Z up, metres. scale: pixel = luminance * scale.
@@ -34,6 +42,8 @@ struct CheckedRig {
   double vertical_fov_rad = 0.5;
   std::vector<CheckedLamp> lamps;
   std::size_t lamp = 0;  // the one whose reading the cards stand at
+  double off_axis_deg = 0.0, round_deg = 0.0;
+  std::optional<CheckedPanorama> panorama{};
 };
 
 // Refused: bad_rig (names what is missing), no_rig (a bare preset).

@@ -25,7 +25,13 @@ namespace Lightcal
         public float area_width_m, area_height_m, angular_diameter_deg;
     }
     [Serializable] public class Place { public string name; public float[] position, forward, up; }
-    [Serializable] public class Lamp : Place { public float[] color_linear; public Emission hdrp, urp; }
+    [Serializable] public class Lamp : Place
+    {
+        public float[] color_linear;
+        public Emission hdrp, urp;
+        public string picture;  // of a measured panorama: texels in cd/m2
+        public float upward_lx;
+    }
     [Serializable] public class Card : Place { public float reflectance; }
     [Serializable] public class Eye : Place { public float vertical_fov_deg; }
     [Serializable] public class Exposure { public float ev100, scale; }
@@ -84,7 +90,11 @@ namespace Lightcal
             Undo.SetCurrentGroupName("lightcal " + preset.name);
             GameObject root = OwnRoot("lightcal " + preset.name);
             RemoveOwnLights(root);
-            foreach (Lamp lamp in preset.lights) AddLight(root, lamp, hdrp, hdLight);
+            foreach (Lamp lamp in preset.lights)
+            {
+                if (hdrp && lamp.hdrp.type == "Sky") AddSky(root, lamp, Path.GetDirectoryName(path));
+                else AddLight(root, lamp, hdrp, hdLight);
+            }
             if (rig)
             {
                 foreach (Card card in preset.cards) AddCard(root, card, preset.side_m, hdrp);
@@ -114,7 +124,7 @@ namespace Lightcal
             for (int i = 0; i < root.transform.childCount; i++)
             {
                 GameObject thing = root.transform.GetChild(i).gameObject;
-                if (thing.GetComponent<Light>() != null) old.Add(thing);
+                if (thing.GetComponent<Light>() != null || thing.name.EndsWith(kSkyMark)) old.Add(thing);
             }
             foreach (GameObject thing in old) Undo.DestroyObjectImmediate(thing);
         }
@@ -313,6 +323,153 @@ namespace Lightcal
             MethodInfo set = hdLight.GetMethod("SetIntensity", new Type[] { typeof(float), units });
             set.Invoke(data, new object[] { IntensityFor(light, e), Enum.Parse(units, UnitOf(light.type)) });
 #endif
+        }
+
+        const string kSkyMark = " (lightcal sky)";
+
+        // A measured panorama as HDRP's HDRI sky: a cubemap of cd/m2 made here, face by face, so that no
+        // importer decides which way round it stands; in lux mode with the picture's own lux on a plane
+        // that faces up, which multiplies by 1 (SkyRenderer.GetSkyIntensity: desired over upper).
+        static void AddSky(GameObject root, Lamp lamp, string folder)
+        {
+            Type volumeType = Find("UnityEngine.Rendering.Volume");
+            Type profileType = Find("UnityEngine.Rendering.VolumeProfile");
+            Type skyType = Find("UnityEngine.Rendering.HighDefinition.HDRISky");
+            Type visualType = Find("UnityEngine.Rendering.HighDefinition.VisualEnvironment");
+            Cubemap cubemap = ReadPanorama(Path.Combine(folder, lamp.picture));
+            if (cubemap == null || volumeType == null || skyType == null || visualType == null)
+            {
+                Debug.LogError("lightcal: no sky made of " + lamp.picture + ": put it beside the .unity.json");
+                return;
+            }
+            AssetDatabase.CreateAsset(cubemap, "Assets/" + Path.GetFileNameWithoutExtension(lamp.picture) +
+                                      ".cubemap");
+            GameObject thing = new GameObject(lamp.name + kSkyMark);
+            thing.transform.SetParent(root.transform, false);
+            Component volume = thing.AddComponent(volumeType);
+            ScriptableObject profile = ScriptableObject.CreateInstance(profileType);
+            Set(volume, "isGlobal", true);
+            Set(volume, "priority", 100f);
+            Set(volume, "sharedProfile", profile);
+            MethodInfo add = profileType.GetMethod("Add", new Type[] { typeof(Type), typeof(bool) });
+            object visual = add.Invoke(profile, new object[] { visualType, true });
+            SetParameter(visual, "skyType", 1);  // SkyType.HDRI
+            object sky = add.Invoke(profile, new object[] { skyType, true });
+            SetParameter(sky, "hdriSky", cubemap);
+            SetParameter(sky, "rotation", 0f);
+            SetParameter(sky, "skyIntensityMode", "Lux");
+            SetParameter(sky, "upperHemisphereLuxValue", lamp.upward_lx);
+            SetParameter(sky, "desiredLuxValue", lamp.upward_lx);
+            Undo.RegisterCreatedObjectUndo(thing, lamp.name);
+        }
+
+        static void SetParameter(object part, string name, object value)
+        {
+            FieldInfo field = part.GetType().GetField(name);
+            if (field == null) Debug.LogWarning("lightcal: " + part.GetType().Name + " has no " + name);
+            else Set(field.GetValue(part), "value", value);
+        }
+
+        // A Radiance picture as lightcal writes it: from its upper left, each row in four packed planes.
+        static Cubemap ReadPanorama(string path)
+        {
+            if (!File.Exists(path)) return null;
+            byte[] bytes = File.ReadAllBytes(path);
+            int at = 0, width = 0, height = 0;
+            for (string line = Line(bytes, ref at); width == 0 && at < bytes.Length; line = Line(bytes, ref at))
+            {
+                Match size = Regex.Match(line, "^-Y (\\d+) \\+X (\\d+)$");
+                if (!size.Success) continue;
+                height = int.Parse(size.Groups[1].Value);
+                width = int.Parse(size.Groups[2].Value);
+                break;
+            }
+            if (width == 0) return null;
+            byte[] rgbe = new byte[4 * width * height];
+            for (int y = 0; y < height; y++)
+            {
+                if (!ReadRow(bytes, ref at, rgbe, y, width)) return null;
+            }
+            int edge = 16;
+            while (edge < 1024 && 4 * edge < width) edge *= 2;
+            Cubemap cubemap = new Cubemap(edge, TextureFormat.RGBAHalf, true);
+            for (int face = 0; face < 6; face++)
+            {
+                Color[] pixels = new Color[edge * edge];
+                for (int i = 0; i < pixels.Length; i++)
+                {
+                    double u = 2.0 * (i % edge + 0.5) / edge - 1, v = 2.0 * (i / edge + 0.5) / edge - 1;
+                    pixels[i] = MeanTowards(rgbe, width, height, face, u, v, 2.0 / edge);
+                }
+                cubemap.SetPixels(pixels, (CubemapFace)face);
+            }
+            cubemap.Apply(true);
+            return cubemap;
+        }
+
+        // Red, green, blue and exponents of a row, each as runs (over 128) and as they are; or pixel by pixel.
+        static bool ReadRow(byte[] bytes, ref int at, byte[] rgbe, int y, int width)
+        {
+            bool packed = at + 4 <= bytes.Length && bytes[at] == 2 && bytes[at + 1] == 2 && bytes[at + 2] < 128;
+            if (!packed)
+            {
+                if (at + 4 * width > bytes.Length) return false;
+                Array.Copy(bytes, at, rgbe, 4 * y * width, 4 * width);
+                at += 4 * width;
+                return true;
+            }
+            at += 4;
+            for (int channel = 0; channel < 4; channel++)
+            {
+                for (int x = 0; x < width;)
+                {
+                    if (at + 2 > bytes.Length) return false;
+                    int count = bytes[at++];
+                    bool run = count > 128;
+                    if (run) count -= 128;
+                    if (count == 0 || x + count > width || at + (run ? 1 : count) > bytes.Length) return false;
+                    for (int i = 0; i < count; i++, x++)
+                    {
+                        rgbe[4 * (y * width + x) + channel] = run ? bytes[at] : bytes[at++];
+                    }
+                    if (run) at++;
+                }
+            }
+            return true;
+        }
+
+        static string Line(byte[] bytes, ref int at)
+        {
+            int start = at;
+            while (at < bytes.Length && bytes[at] != 10) at++;
+            at++;
+            return System.Text.Encoding.ASCII.GetString(bytes, start, Math.Min(at, bytes.Length) - start - 1);
+        }
+
+        // The mean over a face's pixel, 4 x 4 places: all of a picture that is not much finer.
+        static Color MeanTowards(byte[] rgbe, int width, int height, int face, double u, double v, double step)
+        {
+            double r = 0, g = 0, b = 0;
+            for (int i = 0; i < 16; i++)
+            {
+                double s = u + step * ((i % 4 + 0.5) / 4 - 0.5), t = v + step * ((i / 4 + 0.5) / 4 - 0.5);
+                double x = s, y = -t, z = 1;  // +Z; then +X -X +Y -Y -Z
+                if (face == 0) { x = 1; z = -s; }
+                if (face == 1) { x = -1; z = s; }
+                if (face == 2) { y = 1; z = t; }
+                if (face == 3) { y = -1; z = -t; }
+                if (face == 5) { x = -s; z = -1; }
+                // The middle of the picture looks along +Z, its right side is +X.
+                int column = (int)((0.5 + Math.Atan2(x, z) / (2 * Math.PI)) * width);
+                int row = (int)(Math.Acos(y / Math.Sqrt(x * x + y * y + z * z)) / Math.PI * height);
+                int pixel = 4 * (Math.Min(row, height - 1) * width + Math.Min(column, width - 1));
+                double scale = rgbe[pixel + 3] == 0 ? 0 : Math.Pow(2, rgbe[pixel + 3] - 136) / 16;
+                r += scale * rgbe[pixel];
+                g += scale * rgbe[pixel + 1];
+                b += scale * rgbe[pixel + 2];
+            }
+            const double most = 65504;  // of half floats
+            return new Color((float)Math.Min(r, most), (float)Math.Min(g, most), (float)Math.Min(b, most));
         }
 
         static void AddCard(GameObject root, Card card, float side, bool hdrp)

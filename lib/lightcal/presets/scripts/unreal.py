@@ -55,7 +55,7 @@ def put(target, name, value):
             unreal.log_warning("lightcal: %s is %r, not %r" % (name, held, value))
 
 
-def import_ies(name):
+def import_asset(name):
     task = unreal.AssetImportTask()
     put(task, "filename", os.path.join(os.path.dirname(os.path.abspath(__file__)), name))
     put(task, "destination_path", FOLDER)
@@ -63,10 +63,42 @@ def import_ies(name):
     put(task, "replace_existing", True)
     put(task, "save", True)
     unreal.AssetToolsHelpers.get_asset_tools().import_asset_tasks([task])
-    return unreal.load_asset(task.get_editor_property("imported_object_paths")[0])
+    paths = task.get_editor_property("imported_object_paths")
+    return unreal.load_asset(paths[0]) if paths else None
+
+
+def add_sky(item):
+    """A measured panorama: texels in cd/m2 at intensity 1. The .hdr becomes a cubemap whose middle looks
+    along -Y and whose right side is +X, so that it needs no turn (TextureCompressorModule.cpp,
+    LookupLongLat). Light from below is off by default."""
+    cubemap = import_asset(item["picture"])
+    if not isinstance(cubemap, unreal.TextureCube):
+        unreal.log_error("lightcal: %s did not come in as a cubemap: import it by hand as Texture Cube, "
+                         "and give it to a sky light of intensity 1" % item["picture"])
+        return
+    for other in ACTORS.get_all_level_actors():
+        if other.get_components_by_class(unreal.SkyLightComponent) and not is_own(other):
+            unreal.log_warning("lightcal: the level has another sky light, %s: hide it, or both shine"
+                               % other.get_actor_label())
+    component = spawn(unreal.SkyLight, item).get_component_by_class(unreal.SkyLightComponent)
+    component.set_mobility(unreal.ComponentMobility.MOVABLE)
+    for name, value in (
+        ("real_time_capture", False),
+        ("source_type", unreal.SkyLightSourceType.SLS_SPECIFIED_CUBEMAP),
+        ("cubemap", cubemap),
+        ("source_cubemap_angle", 0.0),
+        ("lower_hemisphere_is_black", False),
+        ("light_color", unreal.Color(b=255, g=255, r=255, a=255)),
+        ("intensity", float(item["properties"]["intensity"])),
+    ):
+        put(component, name, value)
+    component.recapture_sky()
 
 
 def add_light(item):
+    if item["class"] == "SkyLight":
+        add_sky(item)
+        return
     actor_class, component_class = COMPONENTS[item["class"]]
     actor = spawn(actor_class, item)
     component = actor.get_component_by_class(component_class)
@@ -104,7 +136,7 @@ def set_figures(component, item, properties):
     for name, value in properties.items():
         put(component, name, float(value))
     if "ies" in item:
-        profile = import_ies(item["ies"])
+        profile = import_asset(item["ies"])
         put(component, "ies_texture", profile)
         put(component, "use_ies_brightness", False)
         # The profile's peak is 1 times this multiplier in every version of the engine.

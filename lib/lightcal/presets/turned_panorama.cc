@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/presets/turned_panorama.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace lightcal {
+
+std::array<MistakenTurn, kMistakenTurns> MistakenTurns() {
+  return {{
+      {"turned",
+       "the panorama is turned round the vertical: set its rotation",
+       {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
+      {"mirrored",
+       "the panorama is mirrored left to right: the engine looks at it from outside",
+       {{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
+      {"upside_down",
+       "the panorama stands on its head (rolled by half a turn)",
+       {{{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}},
+      {"flipped",
+       "the panorama's rows are upside down: the file is read from its last row",
+       {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}}},
+      {"on_its_back",
+       "the panorama lies on its back: Y up and Z up were mixed",
+       {{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}}},
+      {"on_its_face",
+       "the panorama lies on its face: Z up and Y up were mixed",
+       {{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}},
+  }};
+}
+
+TurnedIrradiance IrradianceIfTurned(const EnvironmentPicture& picture, const Vec3& normal) {
+  std::vector<Vec3> normals;  // in the picture's own axes
+  for (const MistakenTurn& way : MistakenTurns()) {
+    for (int i = 0; i < kTurnSteps; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / kTurnSteps;
+      // Back by the turn, then into the columns, which are orthonormal.
+      const Vec3 back = {normal[0] * std::cos(turn) - normal[1] * std::sin(turn),
+                         normal[0] * std::sin(turn) + normal[1] * std::cos(turn), normal[2]};
+      normals.push_back(
+          {Dot(way.columns[0], back), Dot(way.columns[1], back), Dot(way.columns[2], back)});
+    }
+  }
+  const std::vector<Vec3> irradiance = IrradianceOn(picture, normals);
+  TurnedIrradiance out{};
+  for (std::size_t i = 0; i < irradiance.size(); ++i) {
+    out[i / kTurnSteps][i % kTurnSteps] = irradiance[i];
+  }
+  return out;
+}
+
+}  // namespace lightcal

@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""`check --render` on pictures of cards off a spot's axis, and of cards that face several ways under a
+panorama, with known mistakes put in: another cone law, angles doubled, a panorama turned, mirrored,
+on its head. The pictures are painted here from closed forms; nothing of lightcal's headers is used.
+  render_shapes.py LIGHTCAL"""
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'tools'))
+import usdlux  # noqa: E402
+
+LIGHTCAL = os.path.abspath(sys.argv[1])
+INNER, OUTER, CANDELA, D = 15.0, 25.0, 1000.0, 2.0
+WEIGHTS = np.array([0.212639, 0.715169, 0.072192])
+HEIGHT = 160
+
+
+def smooth(t):
+    return t * t * (3 - 2 * t)
+
+
+def cone(inner, outer, law):
+    """I/I(0) by the angle in degrees."""
+    def at(angle):
+        cosine, ci, co = (math.cos(math.radians(v)) for v in (angle, inner, outer))
+        t = min(1.0, max(0.0, (cosine - co) / (ci - co)))
+        s = min(1.0, max(0.0, (outer - angle) / (outer - inner)))
+        u = (1 - cosine) / (1 - co)
+        return {'squared': t * t, 'smooth': smooth(t), 'cycles': smooth(t) * cosine,
+                'usd': smooth(s), 'mitsuba': s, 'godot': max(0.0, 1 - u)}[law]
+    return at
+
+
+# what is put in -> (I/I(0), the cause that must come first, words of its message)
+SPOTS = {
+    'nothing': (cone(INNER, OUTER, 'squared'), 'none', ''),
+    'three.js': (cone(INNER, OUTER, 'smooth'), 'other_cone_law', 'three.js'),
+    'UsdLux': (cone(INNER, OUTER, 'usd'), 'other_cone_law', 'UsdLux'),
+    'Mitsuba': (cone(INNER, OUTER, 'mitsuba'), 'other_cone_law', 'Mitsuba'),
+    'Godot': (cone(INNER, OUTER, 'godot'), 'other_cone_law', 'Godot'),
+    'doubled': (cone(2 * INNER, 2 * OUTER, 'squared'), 'full_cone_for_half', ''),
+    'no inner cone': (cone(0, OUTER, 'squared'), 'inner_cone_missing', ''),
+    'turned aside by 4 degrees': (cone(INNER, OUTER, 'squared'), 'other_beam', ''),
+}
+
+# cd/m2 and colour of each side.
+SIDES = [((1, 0, 0), 1.0, (1.0, 0.3, 0.2)), ((-1, 0, 0), 0.5, (0.2, 1.0, 0.3)), ((0, 1, 0), 0.2, (0.3, 0.4, 1.0)),
+         ((0, -1, 0), 0.1, (1.0, 1.0, 0.2)), ((0, 0, 1), 0.8, (0.6, 0.8, 1.0)), ((0, 0, -1), 0.05, (0.9, 0.6, 0.4))]
+
+
+def sky(d):
+    """[..., 3] directions -> linear Rec. 709 in cd/m2."""
+    weights = np.stack([np.maximum(0, d @ np.array(way, float)) ** 4 for way, _, _ in SIDES], -1)
+    colors = np.array([np.array(c) * v for _, v, c in SIDES])
+    return 3000 * (weights / weights.sum(-1, keepdims=True)) @ colors
+
+
+def around(width):
+    height = width // 2
+    zenith = np.pi * (np.arange(height) + 0.5) / height
+    azimuth = 2 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)
+    z, a = np.meshgrid(zenith, azimuth, indexing='ij')
+    return np.stack([np.sin(z) * np.sin(a), np.sin(z) * np.cos(a), np.cos(z)], -1), (
+        np.sin(z) * (np.pi / height) * (2 * np.pi / width))
+
+
+DIRECTIONS, OMEGA = around(256)
+
+
+def turn(degrees):
+    """What stood in front stands, at 90, to the right."""
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return np.array([[c, s, 0], [-s, c, 0], [0, 0, 1.0]])
+
+
+MIRROR, HEAD, ROWS = np.diag([-1.0, 1, 1]), np.diag([-1.0, 1, -1]), np.diag([1.0, 1, -1])
+BACK = np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0.0]])
+# what is put in -> (where a direction of the picture comes to stand, a factor, cause, degrees)
+PANORAMAS = {
+    'nothing': (np.eye(3), 1.0, 'none', None),
+    'turned by 90': (turn(90), 1.0, 'panorama_turned', 90),
+    'turned by 217': (turn(217), 1.0, 'panorama_turned', 217),
+    'mirrored': (MIRROR, 1.0, 'panorama_mirrored', 0),
+    'mirrored and turned by 180': (turn(180) @ MIRROR, 1.0, 'panorama_mirrored', 180),
+    'on its head': (HEAD, 1.0, 'panorama_upside_down', 0),
+    'rows from below': (ROWS, 1.0, 'panorama_flipped', 0),
+    'on its back': (BACK, 1.0, 'panorama_on_its_back', 0),
+    'pi too bright': (np.eye(3), math.pi, 'times_pi', None),
+    'turned and 1.37 too bright': (turn(90), 1.37, 'panorama_turned', 90),
+}
+
+
+def card_light(matrix, normal):
+    """[r, g, b] in lux on a white card under the sky through that matrix."""
+    cosine = np.maximum(0, DIRECTIONS @ matrix.T @ normal)
+    return np.einsum('yx,yx,yxc->c', cosine, OMEGA, sky(DIRECTIONS))
+
+
+def paint(path, preset, light):
+    """The rig's two cards through its camera; light(place, normal) -> rgb in lux."""
+    rig, scale = preset['rig'], preset['exposure']['exposure']
+    camera = rig['camera']
+    eye, up = np.array(camera['position_m']), np.array(camera['up'])
+    ahead = np.array(camera['target_m']) - eye
+    ahead /= np.linalg.norm(ahead)
+    right = np.cross(ahead, up)
+    width = int(HEIGHT * camera['aspect_ratio'])
+    focal = HEIGHT / 2 / math.tan(math.radians(camera['vertical_fov_deg']) / 2)
+    x = (np.arange(width) + 0.5 - width / 2) / focal
+    y = (HEIGHT / 2 - np.arange(HEIGHT) - 0.5) / focal
+    rays = ahead + x[None, :, None] * right + y[:, None, None] * up
+    normal, row = np.array(rig['normal']), np.array(rig['row'])
+    column = np.cross(normal, row)
+    picture = np.zeros((HEIGHT, width, 3))
+    for card in rig['cards']:
+        centre = np.array(card['centre_m'])
+        distance = ((centre - eye) @ normal) / (rays @ normal)
+        places = eye + distance[..., None] * rays
+        inside = ((np.abs((places - centre) @ row) < rig['side_m'] / 2) &
+                  (np.abs((places - centre) @ column) < rig['side_m'] / 2) & (distance > 0))
+        for at in np.argwhere(inside):
+            picture[tuple(at)] = np.array(light(places[tuple(at)], normal)) * card['reflectance'] / math.pi * scale
+    usdlux.write_exr(path, picture)
+
+
+def load(path):
+    with open(path) as f:
+        return json.load(f)
+
+
+def run(*words):
+    done = subprocess.run([LIGHTCAL, *words], capture_output=True, text=True)
+    assert done.returncode == 0, (words, done.stdout, done.stderr)
+    return done.stdout
+
+
+class Shapes(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.work = cls.temporary.name
+
+    def export(self, name, source, *words):
+        out = os.path.join(self.work, name)
+        run('export', source, '--to', 'json', '-o', out, *words)
+        stem = os.path.splitext(os.path.basename(source))[0]
+        rigs = sorted(f for f in os.listdir(out) if f.startswith(stem + '.rig') and f.endswith('preset.json'))
+        return [os.path.join(out, f) for f in rigs]
+
+    def spot(self):
+        path = os.path.join(self.work, 'spot.json')
+        with open(path, 'w') as f:
+            json.dump({'schema': 'lightcal.light/1', 'lights': [
+                {'name': 'spot', 'kind': 'spot', 'position_m': [1, 2, 3], 'aim': [0.48, 0.36, -0.8],
+                 'effects': [], 'color': {'xy': [0.3127, 0.3290]}, 'intensity_cd': {'value': CANDELA, 'u95': 10},
+                 'cone': {'inner_deg': INNER, 'outer_deg': OUTER},
+                 'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}]}, f)
+        return path
+
+    def check(self, pictures):
+        words = [w for picture, rig in pictures for w in ('--render', picture, '--rig', rig)]
+        return json.loads(run('check', *words, '--json'))
+
+    def painted(self, name, rigs, light):
+        pictures = []
+        for rig in rigs:
+            preset = load(rig)
+            path = os.path.join(self.work, f'{name}_{len(pictures)}.exr')
+            paint(path, preset, light)
+            pictures.append((path, rig))
+        return pictures
+
+    def test_spots(self):
+        rigs = self.export('spots', self.spot(), '--rig', '--rig-at', '18', '--rig-at', '21.5/90')
+        self.assertEqual(len(rigs), 3)
+        for name, (shape, cause, words) in SPOTS.items():
+            aim, lamp = np.array([0.48, 0.36, -0.8]), np.array([1.0, 2, 3])
+            if name.startswith('turned'):  # towards the cards at 18 degrees
+                aside = np.cross(aim, [0, 0, 1]) / np.linalg.norm(np.cross(aim, [0, 0, 1]))
+                aim = aim * math.cos(math.radians(4)) + aside * math.sin(math.radians(4))
+
+            def light(place, normal):
+                to = place - lamp
+                d = np.linalg.norm(to)
+                angle = math.degrees(math.acos(min(1.0, to @ aim / d)))
+                return [CANDELA * shape(angle) * -(to @ normal) / d ** 3] * 3
+
+            pictures = self.painted('spot', rigs, light)
+            with self.subTest(put_in=name):
+                answer = self.check(pictures)
+                self.assertEqual(answer['cause']['code'], cause, answer['cause'])
+                self.assertIn(words, answer['cause']['message'])
+                for picture, (_, rig) in zip(answer['pictures'], pictures):
+                    angle = load(rig)['rig'].get('off_axis_deg', 0.0)
+                    want = CANDELA * shape(angle) / D ** 2 if angle else None
+                    if want and not name.startswith('turned'):  # at the distance the rig says
+                        want *= (D / load(rig)['rig']['separation_m']) ** 2
+                        self.assertLess(abs(picture['illuminance_lx'] / want - 1), 0.01, (name, angle))
+            if name == 'three.js':  # a single picture off the axis names it, too
+                alone = self.check(pictures[1:2])
+                codes = [alone['cause']] + alone['alternatives']
+                self.assertTrue(any(c['code'] == cause and words in c['message'] for c in codes), alone)
+
+    def test_a_shared_factor_is_no_cone_law(self):
+        rigs = self.export('factor', self.spot(), '--rig', '--rig-at', '18')
+        shape, lamp, aim = cone(INNER, OUTER, 'squared'), np.array([1.0, 2, 3]), np.array([0.48, 0.36, -0.8])
+
+        def light(place, normal):
+            to = place - lamp
+            d = np.linalg.norm(to)
+            return [math.pi * CANDELA * shape(math.degrees(math.acos(min(1.0, to @ aim / d)))) * -(to @ normal) / d ** 3] * 3
+
+        self.assertEqual(self.check(self.painted('factor', rigs, light))['cause']['code'], 'times_pi')
+
+    def test_refusals(self):
+        spot = self.spot()
+        for words, code, exit_code in ((['--rig-at', '30'], 'rig_place', 3), (['--rig-at', '0'], 'usage', 2),
+                                       (['--rig-at', '20/x'], 'usage', 2)):
+            out = os.path.join(self.work, 'refused')
+            done = subprocess.run([LIGHTCAL, 'export', spot, '--to', 'json', '-o', out, '--json', *words],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, exit_code, done.stdout)
+            self.assertEqual(json.loads(done.stdout)['error']['code'], code)
+            self.assertFalse(os.path.exists(out))
+
+    def test_panoramas(self):
+        picture = os.path.join(self.work, 'place.exr')
+        usdlux.write_exr(picture, sky(around(256)[0]))
+        up = card_light(np.eye(3), np.array([0, 0, 1.0])) @ WEIGHTS
+        place = os.path.join(self.work, 'place')
+        run('dome', picture, '--lux', repr(float(up)), '-o', place)
+        rigs = self.export('panorama', os.path.join(place, 'light.json'), '--rig', '--rig-at', '90', '--rig-at',
+                           '90/90', '--rig-at', '90/180')
+        self.assertEqual(len(rigs), 4)
+        for name, (matrix, factor, cause, degrees) in PANORAMAS.items():
+            known = {}
+
+            def light(_, normal):
+                key = tuple(np.round(normal, 9))
+                if key not in known:
+                    known[key] = factor * card_light(matrix, normal)
+                return known[key]
+
+            with self.subTest(put_in=name):
+                answer = self.check(self.painted('sky', rigs, light))
+                self.assertEqual(answer['cause']['code'], cause, answer)
+                if degrees is not None:
+                    off = (answer['cause']['turn_deg'] - degrees + 180) % 360 - 180
+                    self.assertLessEqual(abs(off), 2, answer['cause'])
+
+
+unittest.main(argv=sys.argv[:1])
