@@ -15,6 +15,7 @@
 #include "light_input.h"
 #include "lightcal/calibrate/environments.h"
 #include "lightcal/calibrate/states/control_sweeps.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/into_scene.h"
