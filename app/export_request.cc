@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export_request.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +16,7 @@
 #include "lamp_state.h"
 #include "light_input.h"
 #include "lightcal/calibrate/environments.h"
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/into_scene.h"
@@ -141,6 +144,9 @@ Result<ExportedPresets> PresetsOfLights(NamedLights named, const ExportOptions& 
   auto into = IntoOf(options.into, lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
+  for (const FittedLight& light : lights.lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(with_pictures.sweeps));
+  }
   std::vector<std::string> targets = options.targets;
   const bool page = std::erase(targets, std::string(kPageTarget)) > 0;
   Result<ExportedPresets> exported = ExportedPresets{};

@@ -2,9 +2,11 @@
 #include "report_html.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/colorimetry/cri.h"
 #include "lightcal/colorimetry/rendering_input.h"
 #include "lightcal/presets/check/engine_answers.h"
@@ -48,6 +50,9 @@ ReportExtras ExtrasOf(const LightFile& lights,
                       const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments) {
   ReportExtras extras;
   extras.engines = EngineAnswersOf(lights, environments);
+  for (const FittedLight& light : lights.lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(extras.sweeps));
+  }
   return extras;
 }
 

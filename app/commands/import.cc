@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "distribution_plan.h"
+#include "gdtf_import.h"
 #include "import_plan.h"
 #include "input_files.h"
 #include "lightcal/core/numbers_text.h"
@@ -122,7 +123,28 @@ Result<std::vector<PlannedDistribution>> PlanDistributions(const Session& sessio
   return plans;
 }
 
+// Fixtures are told, not written: what of them a session uses its person pastes.
+Result<void> TellFixtures(const ImportOptions& options, Console& console) {
+  Node fixtures = Node::Array();
+  for (const std::string& path : options.files) {
+    if (!IsGdtfName(path)) {
+      return WrongUsage(path, "is no .gdtf as the others are; import it by itself");
+    }
+    if (!fixtures.items.empty()) console.Print("\n");
+    auto told = TellGdtf(path, console);
+    if (!told) return Propagate(std::move(told));
+    fixtures.items.push_back(*std::move(told));
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  console.PrintDocument({{"fixtures", std::move(fixtures)}});
+  return {};
+}
+
 Result<void> RunImport(const ImportOptions& options, Console& console) {
+  if (std::ranges::any_of(options.files, IsGdtfName)) return TellFixtures(options, console);
+  if (options.session.empty()) {
+    return WrongUsage("--session", "is required: the session directory or .toml file to add to");
+  }
   const auto settings = SettingsOf(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto loaded = LoadSession(options.session, InputSources().read_text);
@@ -163,10 +185,11 @@ Run BuildImport(CLI::App& parser) {
   parser
       .add_option("files", options->files,
                   "Sekonic, UPRtek, JETI, TM-27, Argyll, ActLumus exports or CSV with units in "
-                  "the column names; a .zip of one; .ies and .ldt as the light's distribution")
+                  "the column names; a .zip of one; .ies and .ldt as the light's distribution; "
+                  ".gdtf: what a fixture's file says, and its [[light]] to paste")
       ->required();
-  parser.add_option("-s,--session", options->session, "Session directory or .toml file")
-      ->required();
+  parser.add_option("-s,--session", options->session,
+                    "Session directory or .toml file; a .gdtf needs none");
   parser.add_option("-l,--light", settings.light, "Which light was read, unless the file names it");
   parser.add_option("-d,--distance", options->distance,
                     "From the lamp to the meter (0.5m, 20in), unless the file gives it");

@@ -15,6 +15,7 @@
 #include "lightcal/match/mix_lights.h"
 #include "lightcal/records/light_codec.h"
 #include "match/match_answer.h"
+#include "match/match_by_states.h"
 #include "match/match_sheet_of.h"
 #include "match/match_source.h"
 #include "output_files.h"
@@ -32,7 +33,7 @@ struct MatchOptions {
   int count = 5;
   bool air_gaps = false;
   double reach = 0.02;
-  std::string plot, output, with, with_column;
+  std::string plot, output, with, with_column, with_light, to_state;
   int take = 1;
   bool force = false;
 };
@@ -57,15 +58,6 @@ Result<match::MatchRequest> RequestOf(const MatchOptions& o, const MatchLight& l
     request.spread.level = *sigma;
   }
   return request;
-}
-
-Node LightNode(const std::string& title, Xy xy, const CctResult& cct) {
-  Node node = {{"name", title}, {"xy", {xy.x, xy.y}}};
-  if (cct.valid()) {
-    node.Put("cct_K", cct.temperature.value());
-    node.Put("duv", cct.duv);
-  }
-  return node;
 }
 
 void WarnIfTooWeak(const match::Match& best, Console& console) {
@@ -129,13 +121,8 @@ Node DimmerNode(const Uncertain& dimmer) {
       {"value", dimmer.value}, {"u95", dimmer.u95}, {"low95", dimmer.low}, {"high95", dimmer.high}};
 }
 
-Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLight& target,
-                    Console& console) {
-  MatchLightWords words;
-  words.source = o.with;
-  words.column = o.with_column;
-  const auto with = ReadMatchLight(words, console);
-  if (!with) return tl::unexpected(with.error());
+Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLight* with,
+                    const MatchLight& target, Console& console) {
   const auto request = RequestOf(o, lamp, target);
   if (!request) return tl::unexpected(request.error());
   const auto mix = match::MixLights(*request, with->spectrum, with->measured);
@@ -176,35 +163,66 @@ Result<void> RunMatch(const MatchOptions& o, Console& console) {
   if (!o.plot.empty()) {
     if (auto named = CheckPictureName("--plot", o.plot); !named) return named;
   }
-  const auto lamp = ReadMatchLight(o.lamp, console);
+  // Gels, cameras and sheets want spectra; lamps are set by what is known of their colour.
+  const bool by_states = o.gels.empty() && o.camera == "observer" && o.plot.empty();
+  MatchLightWords lamp_words = o.lamp;
+  lamp_words.by_states = by_states;
+  const auto lamp = ReadMatchLight(lamp_words, console);
   if (!lamp) return tl::unexpected(lamp.error());
-  const auto target = ReadMatchLight(o.target, console);
-  if (!target) return tl::unexpected(target.error());
-  if (!o.with.empty()) return RunMix(o, *lamp, *target, console);
-  const auto set = ReadGels(o.gels, console);
-  if (!set) return tl::unexpected(set.error());
+  std::optional<MatchLight> with;
+  if (!o.with.empty()) {
+    MatchLightWords words;
+    words.source = o.with;
+    words.column = o.with_column;
+    words.light = o.with_light;
+    words.by_states = by_states;
+    auto read = ReadMatchLight(words, console);
+    if (!read) return Propagate(std::move(read));
+    with = *std::move(read);
+  }
+  const bool set = IsSetByStates(*lamp) || (with && IsSetByStates(*with));
+  MatchLightWords target_words = o.target;
+  target_words.by_color = set || !o.to_state.empty();
+  auto target = ReadMatchLight(target_words, console);
+  if (!target) return Propagate(std::move(target));
+  if (!o.to_state.empty()) {
+    if (!set) {
+      return WrongUsage("--to-state",
+                        "the lamp has no states of its own to be set by; export the "
+                        "target at that state and give its spectrum");
+    }
+    if (auto at = SetMatchState(o.to_state, *target); !at) return at;
+  }
+  if (set) {
+    const StateMatchWords words = {o.count, o.take, o.reach, o.meter, o.output, o.force};
+    return with ? RunMixByStates(words, *lamp, *with, *target, console)
+                : RunMatchByStates(words, *lamp, *target, console);
+  }
+  if (with) return RunMix(o, *lamp, &*with, *target, console);
+  const auto gels = ReadGels(o.gels, console);
+  if (!gels) return tl::unexpected(gels.error());
   const auto request = RequestOf(o, *lamp, *target);
   if (!request) return tl::unexpected(request.error());
-  auto answer = match::MatchLights(*request, set->gels);
+  auto answer = match::MatchLights(*request, gels->gels);
   if (!answer) return Propagate(std::move(answer));
   WarnIfTooWeak(answer->matches.front(), console);
-  const auto files = FilesAsked(o, *request, *answer, *set, *lamp, *target);
+  const auto files = FilesAsked(o, *request, *answer, *gels, *lamp, *target);
   if (!files) return tl::unexpected(files.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, o.force); !written) return written;
   console.Print(lamp->title + " to " + target->title + ", " + std::to_string(answer->stacks) +
-                " stacks of " + std::to_string(set->gels.size()) + " gels (" + set->source +
-                ")\n\n" + MatchTable(answer->matches, answer->unfiltered, *set));
+                " stacks of " + std::to_string(gels->gels.size()) + " gels (" + gels->source +
+                ")\n\n" + MatchTable(answer->matches, answer->unfiltered, *gels));
   Node document = {
       {"lamp", LightNode(lamp->title, answer->unfiltered.xy, answer->unfiltered.cct)},
       {"target", LightNode(target->title, answer->target_xy, answer->target_cct)},
-      {"gels_from", set->source},
-      {"demonstration", set->demonstration},
+      {"gels_from", gels->source},
+      {"demonstration", gels->demonstration},
       {"stacks", answer->stacks},
       {"cameras", request->cameras.size()},
       {"matches", Node::List(answer->matches,
-                             [&](const match::Match& each) { return MatchNode(each, *set); })},
-      {"unfiltered", MatchNode(answer->unfiltered, *set)}};
+                             [&](const match::Match& each) { return MatchNode(each, *gels); })},
+      {"unfiltered", MatchNode(answer->unfiltered, *gels)}};
   if (!files->empty()) document.Put("files", PathsOf(*files));
   console.PrintDocument(std::move(document));
   for (const OutputFile& file : *files) console.Note("wrote " + file.path);
@@ -219,7 +237,8 @@ Run BuildMatch(CLI::App& parser) {
   parser
       .add_option("lamp", o->lamp.source,
                   "The lamp to be gelled: a spectrometer's export, a session, a light.json with "
-                  "--spectrum, illuminant:FL4 or 3200K")
+                  "--spectrum, illuminant:FL4 or 3200K; or to be set: a session or light.json that "
+                  "was read at states of its controls")
       ->required();
   parser
       .add_option("--to", o->target.source,
@@ -263,12 +282,18 @@ Run BuildMatch(CLI::App& parser) {
       ->type_name("NAME|N");
   parser.add_option("--light", o->lamp.light, "Which light of the lamp's session or light.json");
   parser.add_option("--to-light", o->target.light, "Which light of the target's");
+  parser
+      .add_option("--to-state", o->to_state,
+                  "At what its controls say the target is meant: dimmer=50,cct_K=4000")
+      ->type_name("STATE");
   parser.add_option("--spectrum", o->lamp.spectrum, "The spectrum of a lamp that is a light.json")
       ->type_name("FILE");
   CLI::Option* const with = parser.add_option(
       "--with", o->with, "A second lamp: the two dimmers whose mix is nearest, without gels");
   parser.add_option("--with-column", o->with_column, "Which spectrum of its file")
       ->type_name("NAME|N")
+      ->needs(with);
+  parser.add_option("--with-light", o->with_light, "Which light of its session or light.json")
       ->needs(with);
   parser
       .add_option("--plot", o->plot,

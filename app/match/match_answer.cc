@@ -74,6 +74,15 @@ std::string StackTitle(const std::vector<std::size_t>& gels, const GelSet& set) 
   return Joined(gels, " + ", [&](std::size_t gel) { return GelTitle(set.gels[gel]); });
 }
 
+Node LightNode(const std::string& title, Xy xy, const CctResult& cct) {
+  Node node = {{"name", title}, {"xy", {xy.x, xy.y}}};
+  if (cct.valid()) {
+    node.Put("cct_K", cct.temperature.value());
+    node.Put("duv", cct.duv);
+  }
+  return node;
+}
+
 Node MatchNode(const match::Match& match, const GelSet& set) {
   Node delta_e = {{"observer", match.observer}};
   Node skin = {{"observer", match.observer_skin}};

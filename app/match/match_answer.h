@@ -11,6 +11,8 @@
 
 namespace lightcal::app {
 
+// A light by its name and colour.
+[[nodiscard]] Node LightNode(const std::string& title, Xy xy, const CctResult& cct);
 [[nodiscard]] Node MatchNode(const match::Match& match, const GelSet& set);
 // A row a match, then the lamp without gels.
 [[nodiscard]] std::string MatchTable(const std::vector<match::Match>& matches,

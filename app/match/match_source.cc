@@ -101,7 +101,10 @@ Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& word
   if (!light) return tl::unexpected(light.error());
   MatchLight made;
   const auto own = std::ranges::find(spectra, (*light)->name, &LightSpectrum::light);
-  if (!words.spectrum.empty()) {
+  const bool by_states = words.by_states && (*light)->states.size() > 1;
+  if (words.spectrum.empty() && (by_states || (words.by_color && (*light)->color.xy))) {
+    made.measured = true;
+  } else if (!words.spectrum.empty()) {
     auto one = OneSpectrum(words.spectrum, words.column, console);
     if (!one) return one;
     made = *std::move(one);
@@ -117,7 +120,10 @@ Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& word
       return Refused("no_spectrum", words.source,
                      "\"" + (*light)->name +
                          "\" was measured without a spectrum, and a colour alone does not say what "
-                         "a gel makes of a lamp; give its spectrum with --spectrum");
+                         "a gel makes of a lamp; give its spectrum with --spectrum" +
+                         ((*light)->states.size() > 1
+                              ? "; without --gels, --camera and --plot its own states are matched"
+                              : ""));
     }
     auto smooth = SmoothLight(Kelvin(cct->value), {});
     if (!smooth) return smooth;

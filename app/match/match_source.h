@@ -31,6 +31,9 @@ struct MatchLightWords {
   std::string light;        // of a session or light.json with several lights
   std::string spectrum;     // of a light.json, which holds none
   bool may_assume = false;  // a colour alone stands for the black body or daylight of its CCT
+  // A lamp that was read at states of its controls is left without a spectrum, to be set by them.
+  bool by_states = false;
+  bool by_color = false;  // a light of a light.json or session is left without a spectrum
 };
 // Refused: no_spectrum (a light.json or session without one), several_spectra, several_lights, and
 // as ReadSpectrumSource, LightsIn and CalibrateSession. Warns spectrum_assumed, spectrum_truncated.

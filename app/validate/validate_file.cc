@@ -20,6 +20,7 @@
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/meter_calibration.h"
 #include "lightcal/records/tethered_shoot.h"
+#include "lightcal_devices/files/gdtf_file.h"
 #include "lightcal_devices/files/import_file.h"
 #include "lightcal_devices/files/read_photometric.h"
 #include "lightcal_devices/transport/tape_codec.h"
@@ -199,6 +200,18 @@ void ValidatePhotometric(FileVerdict& verdict) {
                   RoundedText(table.peak().intensity.value(), kValidateDigits) + " cd";
 }
 
+void ValidateGdtf(const std::string& bytes, FileVerdict& verdict) {
+  verdict.format = "GDTF";
+  const auto fixture = devices::GdtfFromArchive(bytes, verdict.path);
+  if (!fixture) {
+    verdict.error = fixture.error();
+    return;
+  }
+  verdict.holds = Counted(fixture->emitters.size(), "emitter") + ", " +
+                  Counted(fixture->beams.size(), "beam") + ", " +
+                  Counted(fixture->modes.size(), "mode");
+}
+
 void ValidateImport(FileVerdict& verdict) {
   auto imported = devices::ImportFile(verdict.path);
   if (!imported) {
@@ -244,7 +257,9 @@ void ValidateText(const std::string& text, FileVerdict& verdict) {
   const std::string name = LowerAscii(fs::path(verdict.path).filename().string());
   const auto named = [&](std::string_view ending) { return name.ends_with(ending); };
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (named(".toml")) {
+  if (named(".gdtf")) {
+    ValidateGdtf(text, verdict);
+  } else if (named(".toml")) {
     ValidateToml(text, verdict);
   } else if (named(".jsonl")) {
     ValidateJournal(text, verdict);

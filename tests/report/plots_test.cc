@@ -102,9 +102,10 @@ TEST(LuminanceFigure, FramesWhatWasMeasuredAndNamesTheUnit) {
 }
 
 TEST(Plots, EveryNameGivesFilesOfTheLightsThatHaveIt) {
-  EXPECT_THAT(report::PlotNames(),
-              ElementsAre("room", "distance", "residuals", "luminance", "polar", "chromaticity",
-                          "spectrum", "tm30", "minutes", "match", "gate"));
+  EXPECT_THAT(
+      report::PlotNames(),
+      ElementsAre("room", "distance", "residuals", "output", "cct", "output2", "cct2", "luminance",
+                  "polar", "chromaticity", "spectrum", "tm30", "minutes", "match", "gate"));
   const LightFile file = FileOf({WarmPoint(), Sun()});
   ReportExtras extras;
   extras.spectra = {Line(SpectralQuantity::kRelative)};

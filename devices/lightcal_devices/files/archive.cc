@@ -23,7 +23,7 @@ bool IsPayload(archive_entry* entry) {
          !file.starts_with("._");
 }
 
-Result<std::string> ReadEntry(archive* zip, std::string_view name) {
+Result<std::string> ReadEntry(archive* zip, std::string_view name, std::size_t most) {
   std::string contents;
   std::array<char, 1 << 16> chunk{};
   for (;;) {
@@ -33,8 +33,9 @@ Result<std::string> ReadEntry(archive* zip, std::string_view name) {
       return Refused("bad_archive", std::string(name), "cannot be unpacked; it may be damaged");
     }
     contents.append(chunk.data(), static_cast<std::size_t>(size));
-    if (contents.size() > kMaxFileBytes) {
-      return Refused("too_large", std::string(name), "unpacks to more than 256 MiB");
+    if (contents.size() > most) {
+      return Refused("too_large", std::string(name),
+                     "unpacks to more than " + std::to_string(most >> 20U) + " MiB");
     }
   }
 }
@@ -58,7 +59,7 @@ Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name)
       return Refused("bad_archive", std::string(name),
                      "holds several files; unpack it and name the one you mean");
     }
-    auto contents = ReadEntry(zip.get(), name);
+    auto contents = ReadEntry(zip.get(), name, kMaxFileBytes);
     if (!contents) return Propagate(std::move(contents));
     only = std::move(*contents);
   }
@@ -67,6 +68,25 @@ Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name)
                    only ? "is cut short" : "holds no file that can be unpacked");
   }
   return std::move(*only);
+}
+
+Result<std::string> FileInZip(std::string_view bytes, std::string_view path, std::size_t most,
+                              std::string_view name) {
+  constexpr int kMostEntries = 10000;
+  const ArchivePtr zip(archive_read_new(), &archive_read_free);
+  archive_read_support_format_zip(zip.get());
+  if (!IsZip(bytes) ||
+      archive_read_open_memory(zip.get(), bytes.data(), bytes.size()) != ARCHIVE_OK) {
+    return Refused("bad_archive", std::string(name), "is no zip archive, or damaged");
+  }
+  archive_entry* entry = nullptr;
+  for (int i = 0; i < kMostEntries; ++i) {
+    if (archive_read_next_header(zip.get(), &entry) != ARCHIVE_OK) break;
+    const char* found = archive_entry_pathname_utf8(entry);
+    if (found != nullptr && path == found) return ReadEntry(zip.get(), name, most);
+  }
+  return Refused("bad_archive", std::string(name),
+                 "holds no " + std::string(path) + " that can be unpacked; it may be damaged");
 }
 
 }  // namespace lightcal::devices::files

@@ -16,5 +16,9 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
 // The one file in a .zip; the resource forks macOS adds (__MACOSX/, ._name) do not count.
 // Refused: bad_archive (damaged, encrypted, no file or several), too_large.
 [[nodiscard]] Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name);
+// The file of that path in a .zip, of at most so many bytes when unpacked; the others are not
+// unpacked. Refused: bad_archive (damaged, encrypted, without it, over 10,000 files), too_large.
+[[nodiscard]] Result<std::string> FileInZip(std::string_view bytes, std::string_view path,
+                                            std::size_t most, std::string_view name);
 
 }  // namespace lightcal::devices::files

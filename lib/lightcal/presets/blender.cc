@@ -14,6 +14,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "lightcal/presets/control_knobs.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/photometric_files.h"
@@ -181,6 +182,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     const FittedLight& lamp = lights.lights[i];
     Node document = BlenderNode(lamp, (*forms)[i]);
     preset.derived.push_back(DerivedFrom(document));
+    document.Put("controls", KnobsNode(options, lamp, (*forms)[i]));
     if ((*forms)[i].form == LightForm::kTable) {
       auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);
       if (!ies) return Propagate(std::move(ies));

@@ -11,7 +11,7 @@ namespace lightcal {
 
 Exporter ExportGltf, ExportGodot, ExportMitsuba, ExportPbrt, ExportUnity, ExportUnreal, ExportUsd,
     ExportJson, ExportBlender, ExportBlenderAddon, ExportThree, ExportFilament, ExportIes,
-    ExportLdt;
+    ExportLdt, ExportGdtf;
 
 PresetReader ReadGltf, ReadGodot, ReadUsd, ReadJson, ReadBlender, ReadThree, ReadFilament,
     ReadPhotometricTable;

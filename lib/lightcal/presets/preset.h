@@ -16,6 +16,7 @@
 #include "lightcal/presets/learnt_engine.h"
 #include "lightcal/presets/light_color.h"
 #include "lightcal/presets/usd_readings.h"
+#include "lightcal/records/control_sweep.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal {
@@ -61,6 +62,8 @@ struct PresetOptions {
   UsdReading usd_reading = UsdReading::kSpec;  // the variant a .usda opens with
   // What the renderer makes of each kind: undone in every number that engines are given.
   std::shared_ptr<const LearntEngine> engine{};
+  // What the lights' controls do, for engines that can turn them; empty: they are as they stand.
+  std::vector<ControlSweep> sweeps{};
   bool figures_only = false;  // pictures are not encoded: their files stay empty
 };
 

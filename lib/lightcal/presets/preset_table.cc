@@ -203,6 +203,9 @@ constexpr std::array kTargets = {
                  .verified = "our own reader, and through it the .ies",
                  .ending = ".ldt",
                  .reader = &ReadPhotometricTable},
+    PresetTarget{.name = "gdtf",
+                 .exporter = &ExportGdtf,
+                 .verified = "GDTF 1.2 schema (xmllint); not executed in a console"},
 };
 
 }  // namespace

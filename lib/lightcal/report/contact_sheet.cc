@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/report/light_section.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/svg.h"
@@ -136,6 +137,33 @@ void DrawShape(Svg& svg, const SheetLight& entry, const std::string& color) {
   }
 }
 
+// Of a lamp with controls, over all states that were read: "10 … 101 % by its controls".
+std::string OutputRange(const FittedLight& light) {
+  double least = light.states.front().relative.value;
+  double most = least;
+  for (const MeasuredState& state : light.states) {
+    least = std::min(least, state.relative.value);
+    most = std::max(most, state.relative.value);
+  }
+  return RoundedText(100.0 * least, 2) + " … " + RoundedText(100.0 * most, 3) +
+         " % by its controls";
+}
+
+// "2940 … 5500 K" where its controls change the colour, else its one colour temperature.
+std::string TemperatureRange(const FittedLight& light) {
+  constexpr double kSameColor = 0.02;
+  if (!light.color.cct_K) return "no colour temperature";
+  double least = light.color.cct_K->value;
+  double most = least;
+  for (const MeasuredState& state : light.states) {
+    if (!state.color.cct_K) continue;
+    least = std::min(least, state.color.cct_K->value);
+    most = std::max(most, state.color.cct_K->value);
+  }
+  if (most <= least * (1.0 + kSameColor)) return PlusMinus(*light.color.cct_K, "K");
+  return RoundedText(least, 3) + " … " + RoundedText(most, 3) + " K";
+}
+
 void DrawTile(Svg& svg, const SheetLight& entry) {
   const FittedLight& light = entry.light;
   const std::string color = SwatchOf(light.color);
@@ -151,13 +179,14 @@ void DrawTile(Svg& svg, const SheetLight& entry) {
     svg.Text("big", {kTextLeft, 84.0}, "start", PlusMinus(bare, headline.unit));
     svg.Text("note", {kTextLeft, 101.0}, "start", RelativePlusMinus(*headline.value));
   }
-  if (light.flux_lm && headline.value != &*light.flux_lm) {
+  if (light.states.size() > 1) {
+    svg.Text("figure", {kTextLeft, 124.0}, "start", OutputRange(light));
+  } else if (light.flux_lm && headline.value != &*light.flux_lm) {
     svg.Text("figure", {kTextLeft, 124.0}, "start",
              PlusMinus(Uncertain{light.flux_lm->value, 0.0, {}, {}}, "lm") + " " +
                  RelativePlusMinus(*light.flux_lm));
   }
-  svg.Text("figure", {kTextLeft, 143.0}, "start",
-           light.color.cct_K ? PlusMinus(*light.color.cct_K, "K") : "no colour temperature");
+  svg.Text("figure", {kTextLeft, 143.0}, "start", TemperatureRange(light));
   svg.Text("note", {kTextLeft, 165.0}, "start", Shortened(entry.note, kLongestNote));
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/report/color_vector_graphic.h"
+#include "lightcal/report/control_figure.h"
 #include "lightcal/report/figures.h"
 #include "lightcal/report/gate_figure.h"
 #include "lightcal/report/luminance_figure.h"
@@ -116,6 +117,32 @@ std::string MinutesKeys(const FittedLight& light, const ReportExtras& extras) {
          (meter ? LineKey("second", "what the meter's own calibration leaves") : "");
 }
 
+// The light's own control of that number, the dimmer first.
+const ControlSweep* SweepOf(const ReportExtras& extras, const FittedLight& light,
+                            std::size_t number) {
+  for (const ControlSweep& sweep : extras.sweeps) {
+    if (sweep.light == light.name && number-- == 0) return &sweep;
+  }
+  return nullptr;
+}
+
+template <std::size_t kNumber, std::string (*kDraw)(const ControlSweep&, std::string_view)>
+std::string DrawControl(const FittedLight& light, const ReportExtras& extras, std::string_view id) {
+  const ControlSweep* sweep = SweepOf(extras, light, kNumber);
+  return sweep == nullptr ? "" : kDraw(*sweep, id);
+}
+
+template <std::size_t kNumber>
+std::string ControlKeys(const FittedLight& light, const ReportExtras& extras) {
+  const std::string others = ControlCaption(*SweepOf(extras, light, kNumber));
+  return Key("<line class=\"whisker\" x1=\"11\" y1=\"0\" x2=\"11\" y2=\"12\"/>"
+             "<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>",
+             "read, with its 95 %") +
+         LineKey("model", "between") +
+         Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>", "its 95 % band") +
+         LineKey("guide", "the label's promise") + (others.empty() ? "" : " · " + others);
+}
+
 template <std::string (*kDraw)(const FittedLight&, std::string_view)>
 std::string OfLight(const FittedLight& light, const ReportExtras& /*extras*/, std::string_view id) {
   return kDraw(light, id);
@@ -135,6 +162,13 @@ constexpr std::array kLightPlots = {
     LightPlot{"room", "What the room adds", &OfLight<RoomFigure>, &RoomKeys},
     LightPlot{"distance", "Illuminance against distance", &OfLight<DistanceFigure>, &DistanceKeys},
     LightPlot{"residuals", "Distance from the model", &OfLight<ResidualFigure>, &ReadingKeys},
+    LightPlot{"output", "Light by its control", &DrawControl<0, &OutputFigure>, &ControlKeys<0>},
+    LightPlot{"cct", "Colour temperature by its control", &DrawControl<0, &TemperatureFigure>,
+              &ControlKeys<0>},
+    LightPlot{"output2", "Light by its second control", &DrawControl<1, &OutputFigure>,
+              &ControlKeys<1>},
+    LightPlot{"cct2", "Colour temperature by its second control",
+              &DrawControl<1, &TemperatureFigure>, &ControlKeys<1>},
     LightPlot{"luminance", "Luminance", &DrawLuminance, &LuminanceCaption},
     LightPlot{"polar", "Intensity by direction", &OfLight<PolarFigure>, &PolarCaption},
     LightPlot{"chromaticity", "Chromaticity, CIE 1976 u′v′", &OfLight<ChromaticityFigure>,

@@ -10,6 +10,7 @@
 
 #include "lightcal/colorimetry/color_fidelity.h"
 #include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/records/control_sweep.h"
 #include "lightcal/records/engine_answers.h"
 #include "lightcal/records/reading_plan.h"
 #include "lightcal/report/false_color.h"
@@ -62,6 +63,7 @@ struct ReportExtras {
   std::vector<MinutesLadder> ladders{};
   std::vector<LightAdvice> advice{};
   std::vector<LightMatchSheet> matches{};
+  std::vector<ControlSweep> sweeps{};
 };
 
 }  // namespace lightcal

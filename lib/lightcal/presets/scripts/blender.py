@@ -120,6 +120,57 @@ def set_figures(lamp, light):
     elif lamp.use_nodes:
         lamp.use_nodes = False  # they would multiply the watts
     lamp['lightcal'] = json.dumps(light['measured'])
+    set_knobs(lamp, light.get('controls', []))
+
+
+def driven(lamp, path, index, expression, variables):
+    """A driver without Python: one value by an arithmetic expression of the lamp's properties."""
+    curve = lamp.driver_add(path, index) if index >= 0 else lamp.driver_add(path)
+    for modifier in list(curve.modifiers):
+        curve.modifiers.remove(modifier)
+    curve.driver.type = 'SCRIPTED'
+    curve.driver.expression = expression
+    for name, source in variables:
+        variable = curve.driver.variables.new()
+        variable.name, variable.type = name, 'SINGLE_PROP'
+        variable.targets[0].id_type, variable.targets[0].id = 'LIGHT', lamp
+        variable.targets[0].data_path = source
+    return curve
+
+
+def set_knobs(lamp, controls):
+    """A property a control of the lamp ("dimmer", "cct_K", as its label says), which moves watts and
+    colour along what was measured: each by a driver whose curve is the table."""
+    for curve in list(lamp.animation_data.drivers) if lamp.animation_data else []:
+        if 'lightcal_' in curve.data_path or any(
+                'lightcal_' in v.targets[0].data_path for v in curve.driver.variables):
+            lamp.driver_remove(curve.data_path, curve.array_index if curve.data_path == 'color' else -1)
+    if not controls:
+        return
+    energy, color = lamp.energy, list(lamp.color)
+    factors = {what: [] for what in ('energy', 'r', 'g', 'b')}
+    for control in controls:
+        name, table = control['control'], control['table']
+        lamp[name] = float(control['reference'])
+        lamp.id_properties_ui(name).update(
+            min=table[0][0], max=table[-1][0], soft_min=table[0][0], soft_max=table[-1][0],
+            description='What the lamp says; its light follows what was measured')
+        for column, what in enumerate(('energy', 'r', 'g', 'b'), 1):
+            held = 'lightcal_%s_%s' % (what, name)
+            lamp[held] = 1.0
+            curve = driven(lamp, '["%s"]' % held, -1, 'x', [('x', '["%s"]' % name)])
+            curve.keyframe_points.clear() if hasattr(curve.keyframe_points, 'clear') else None
+            for row in table:
+                point = curve.keyframe_points.insert(row[0], row[column], options={'FAST'})
+                point.interpolation = 'LINEAR'
+            curve.update()
+            factors[what].append(held)
+    targets = [('energy', -1, energy, 'energy')] + [
+        ('color', i, color[i], what) for i, what in enumerate('rgb')]
+    for path, index, value, what in targets:
+        names = ['abc'[i] for i in range(len(factors[what]))]
+        driven(lamp, path, index, '*'.join(['%.9g' % value] + names),
+               [(n, '["%s"]' % held) for n, held in zip(names, factors[what])])
 
 
 def add_light(collection, light, mine=None):

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/states/settable_lamp.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "lightcal/core/parallel.h"
+
+namespace lightcal {
+namespace {
+
+// Points of a grid along each control, by how many controls there are.
+constexpr std::array<int, 4> kGridPoints = {0, 17, 8, 4};
+constexpr double kDimmerStep = 0.1, kKelvinStep = 1.0, kOtherSteps = 1000.0;
+constexpr double kFullDimmer = 100.0;
+
+double SdOfLnValue(const Uncertain& u) {
+  if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
+  return u.value > 0.0 ? u.u95 / (kZ95 * u.value) : 0.0;
+}
+
+std::optional<LightPoint> PointFrom(const FittedColor& color,
+                                    const std::optional<Uncertain>& intensity_cd,
+                                    const std::optional<Uncertain>& illuminance_lx) {
+  if (!color.xy) return std::nullopt;
+  LightPoint point;
+  point.xy = *color.xy;
+  if (color.cct_K) point.sd_ln_mired = SdOfLnValue(*color.cct_K);
+  if (color.duv) point.sd_duv = color.duv->u95 / kZ95;
+  const Uncertain* level = nullptr;
+  if (intensity_cd) {
+    level = &*intensity_cd;
+    point.kind = LevelKind::kIntensity;
+  } else if (illuminance_lx) {
+    level = &*illuminance_lx;
+    point.kind = LevelKind::kIlluminance;
+  }
+  if (level != nullptr && level->value > 0.0) {
+    point.level = level->value;
+    point.sd_ln_level = SdOfLnValue(*level);
+  } else {
+    point.kind = LevelKind::kNone;
+  }
+  return point;
+}
+
+bool SameWordsIn(const FixtureState& a, const FixtureState& b) {
+  return std::ranges::all_of(a, [&](const ControlValue& control) {
+    if (!control.IsWord()) return true;
+    const ControlValue* there = FindControl(b, control.name);
+    return there != nullptr && there->word == control.word;
+  });
+}
+
+}  // namespace
+
+std::optional<LightPoint> PointOf(const FittedLight& light) {
+  return PointFrom(light.color, light.intensity_cd, light.illuminance_lx);
+}
+
+LampSettings::LampSettings(const SettableLamp& lamp) : lamp_(lamp) {
+  if (lamp.light == nullptr) {
+    const FixtureState full = {{std::string(kDimmerControl), kFullDimmer}};
+    if (auto one = At(full)) read_.push_back(*std::move(one));
+    candidates_ = read_;
+    AddGrid(full);
+    return;
+  }
+  for (const MeasuredState& state : lamp.light->states) {
+    if (auto one = At(state.state)) read_.push_back(*std::move(one));
+  }
+  candidates_ = read_;
+  std::vector<FixtureState> seen;
+  for (const LampSetting& one : read_) {
+    const bool known = std::ranges::any_of(
+        seen, [&](const FixtureState& state) { return SameWordsIn(state, one.state); });
+    if (known) continue;
+    seen.push_back(one.state);
+    AddGrid(one.state);
+  }
+}
+
+std::optional<LampSetting> LampSettings::At(const FixtureState& state) const {
+  LampSetting setting;
+  setting.state = state;
+  if (lamp_.light == nullptr) {
+    const double part = NumberOfControl(state, kDimmerControl).value_or(kFullDimmer) / kFullDimmer;
+    setting.point = lamp_.fixed;
+    setting.point.level *= part;
+    setting.relative = part;
+    if (part < 1.0) setting.basis = StateBasis::kBetween;
+    return setting;
+  }
+  const auto answer = AnswerState(*lamp_.light, state);
+  if (!answer) return std::nullopt;
+  const auto point = PointFrom(answer->color, answer->intensity_cd, answer->illuminance_lx);
+  if (!point) return std::nullopt;
+  setting.basis = answer->basis;
+  setting.point = *point;
+  setting.relative = answer->relative.value;
+  return setting;
+}
+
+std::vector<LampSettings::Axis> LampSettings::AxesAt(const FixtureState& state) const {
+  std::vector<Axis> axes;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (state[i].IsWord()) continue;
+    Axis axis{i, std::numeric_limits<double>::infinity(), 0.0, 0.0};
+    axis.most = -axis.least;
+    if (lamp_.light == nullptr) {
+      axis.least = 0.0;
+      axis.most = kFullDimmer;
+    } else {
+      for (const MeasuredState& one : lamp_.light->states) {
+        if (!SameWordsIn(state, one.state)) continue;
+        const double there = NumberOfControl(one.state, state[i].name).value_or(0.0);
+        axis.least = std::min(axis.least, there);
+        axis.most = std::max(axis.most, there);
+      }
+    }
+    if (!(axis.most > axis.least)) continue;
+    axis.step = state[i].name == kDimmerControl ? kDimmerStep
+                : state[i].name == kCctControl  ? kKelvinStep
+                                                : (axis.most - axis.least) / kOtherSteps;
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+void LampSettings::AddGrid(const FixtureState& like) {
+  const std::vector<Axis> axes = AxesAt(like);
+  if (axes.empty() || axes.size() >= kGridPoints.size()) return;
+  const int points = kGridPoints[axes.size()];
+  std::vector<FixtureState> grid;
+  for (std::vector<int> at(axes.size(), 0);;) {
+    FixtureState state = like;
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const double t = static_cast<double>(at[a]) / (points - 1);
+      state[axes[a].control].number = axes[a].least + t * (axes[a].most - axes[a].least);
+    }
+    grid.push_back(std::move(state));
+    std::size_t a = 0;
+    while (a < at.size() && ++at[a] == points) at[a++] = 0;
+    if (a == at.size()) break;
+  }
+  std::vector<std::optional<LampSetting>> found(grid.size());
+  ParallelFor(static_cast<int>(grid.size()), [&](int i) {
+    const auto k = static_cast<std::size_t>(i);
+    found[k] = At(grid[k]);
+  });
+  for (auto& one : found) {
+    if (one) candidates_.push_back(*std::move(one));
+  }
+}
+
+}  // namespace lightcal

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// A lamp as a function of its labels, for searches.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lightcal/calibrate/states/match_states.h"
+
+namespace lightcal {
+
+// What it is at any setting, and where a search may begin.
+class LampSettings {
+ public:
+  explicit LampSettings(const SettableLamp& lamp);
+
+  // Absent where the lamp does not answer, or has no colour there.
+  [[nodiscard]] std::optional<LampSetting> At(const FixtureState& state) const;
+  // The states that were read, the reference first; of a lamp without states its full dimmer.
+  [[nodiscard]] const std::vector<LampSetting>& read() const { return read_; }
+  // Those, and a grid between them.
+  [[nodiscard]] const std::vector<LampSetting>& candidates() const { return candidates_; }
+
+  // The numbers that a search may move in a state: where in it they stand, and how far they go.
+  struct Axis {
+    std::size_t control = 0;
+    double least = 0.0, most = 0.0, step = 0.0;  // step: what a dial shows
+  };
+  [[nodiscard]] std::vector<Axis> AxesAt(const FixtureState& state) const;
+
+ private:
+  void AddGrid(const FixtureState& like);
+
+  SettableLamp lamp_;
+  std::vector<LampSetting> read_, candidates_;
+};
+
+}  // namespace lightcal
