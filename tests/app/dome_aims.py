@@ -60,14 +60,16 @@ def ordinary_lens(panorama, folder):
     assert not (folder / "no").exists()
 
 
-def fisheyes(panorama, folder):
-    camera = views.Camera("equidistant", 480, 480, 200, samples=1)
-    truth = views.write_views(panorama, camera, views.ring(2, 0), folder / "fish", 13)
-    answer = dome([*paths(folder / "fish", truth), "--aim", "auto", "--projection", "equidistant", "--fov", 200,
-                   "-o", folder / "fish_out"])
+def fisheyes(panorama, folder, count, fov):
+    camera = views.Camera("equidistant", 480, 480, fov, samples=1)
+    truth = views.write_views(panorama, camera, views.ring(count, 0), folder / f"fish{count}", 13)
+    answer = dome([*paths(folder / f"fish{count}", truth), "--aim", "auto", "--projection", "equidistant", "--fov", fov,
+                   "-o", folder / f"fish{count}_out"])
     got = views.judge(answer, truth, panorama, camera)
-    check("2 fisheyes", got, median_deg=.08, scale_worst=.003)
-    assert answer["seen_fraction"] > .999 and max(map(abs, got["lux"].values())) < .01, got
+    check(f"{count} fisheyes", got, median_deg=.05, p95_deg=.15, scale_worst=.003)
+    # Two share their rims alone: what the lens loses between middle and rim, no overlap can say.
+    if count > 2:
+        assert max(map(abs, got["lux"].values())) < .01, got
 
 
 def brackets(panorama, folder):
@@ -92,12 +94,13 @@ def brackets(panorama, folder):
     check("6 brackets of 3", got, median_deg=.06, p95_deg=.2, scale_worst=.005)
     error = dome([*files[:-1], *words[len(files):]], code=3)["error"]
     assert error["code"] == "bracket_count", error
-    error = dome([*files[1:], files[0], *words[len(files):]], code=3)["error"]
+    error = dome([*files[:4], *files[5:], files[4], *words[len(files):]], code=3)["error"]
     assert error["code"] == "bracket_pattern", error
 
 
 with tempfile.TemporaryDirectory() as place:
     whole = views.read_hdr(ROOT / "sample_data/pictures/latlong/lobby.hdr")
     ordinary_lens(whole, pathlib.Path(place))
-    fisheyes(whole, pathlib.Path(place))
+    fisheyes(whole, pathlib.Path(place), 4, 185)
+    fisheyes(whole, pathlib.Path(place), 2, 200)
     brackets(whole, pathlib.Path(place))
