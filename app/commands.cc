@@ -75,7 +75,8 @@ constexpr CommandRow kCommands[] = {
      "  lightcal dome sky.exr --lux 98klx --extract 1 --plate-exposure f/8,1/60,100 -o sky_dome\n"
      "  lightcal dome sky.hdr --lux 98klx --lux-shaded 15klx --extract 1 -o sky_dome\n"
      "  lightcal dome ball.exr --projection mirrorball --ball 36,36,228,228 --fov 25 "
-     "--plate plate.exr --grey-ball 36,36,228,228 -o set_dome", BuildDome},
+     "--plate plate.exr --grey-ball 36,36,228,228 -o set_dome\n"
+     "  lightcal dome hall/*.exr --aim auto --fov 75 -o hall_dome", BuildDome},
     {"inspect", "Luminance statistics of a picture or panorama; the illuminance it gives",
      "  lightcal inspect lobby.hdr --projection latlong\n"
      "  lightcal inspect lum.exr --rect 280,180,40,40 --json\n"

@@ -68,7 +68,10 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"study.knobs", "--knobs"},
     {"study.synthetic", "--synthetic"},
     {"study.tolerance", "--tol"},
+    {"view.aims", "--aim YAW,PITCH"},
+    {"view.bracket", "--bracket"},
     {"view.field_of_view", "--fov"},
+    {"view.level", "--up"},
     {"view.projection", "--projection"},
 });
 

@@ -130,7 +130,13 @@ std::string Table(const MadeDome& made) {
 }
 
 Node ViewNode(const DomeViewScale& view) {
-  return {{"file", view.file}, {"factor", view.factor}, {"u95_relative", view.u95_relative}};
+  return {{"file", view.file},
+          {"factor", view.factor},
+          {"u95_relative", view.u95_relative},
+          {"yaw_deg", DegreesFromRadians(view.aim.yaw)},
+          {"pitch_deg", DegreesFromRadians(view.aim.pitch)},
+          {"roll_deg", DegreesFromRadians(view.aim.roll)},
+          {"u95_deg", view.aim_u95_deg}};
 }
 
 Node BlindCapNode(const BlindCap& cap, Radians north) {
@@ -151,11 +157,21 @@ std::string ViewsTable(const DomeInput& input) {
   if (input.views.size() < 2) return "";
   std::vector<std::vector<std::string>> rows;
   for (const DomeViewScale& view : input.views) {
-    rows.push_back({view.file, ValueWithPercent(view.factor, view.u95_relative * view.factor, "")});
+    rows.push_back({view.file, ValueWithPercent(view.factor, view.u95_relative * view.factor, ""),
+                    RoundedText(DegreesFromRadians(view.aim.yaw), 5) + "°",
+                    RoundedText(DegreesFromRadians(view.aim.pitch), 4) + "°",
+                    RoundedText(DegreesFromRadians(view.aim.roll), 4) + "°",
+                    view.aim_u95_deg ? RoundedText(*view.aim_u95_deg, 2) + "°" : "as given"});
   }
-  return TextTable({"view", "scale"}, rows) + "\nviews agree within " +
-         RoundedText(100.0 * input.agreement_sd, 2) + " % (1 sigma); the lens passes " +
-         RoundedText(100.0 * input.rim_transmission, 3) + " % at its rim\n\n";
+  std::string lens;
+  if (input.field_of_view) {
+    lens = "the lens sees " + RoundedText(DegreesFromRadians(*input.field_of_view), 4) +
+           "°; features lie within " + RoundedText(input.aims_rms_px, 2) + " pixels\n";
+  }
+  return TextTable({"view", "scale", "yaw", "pitch", "roll", "aim ±"}, rows) + "\n" + lens +
+         "views agree within " + RoundedText(100.0 * input.agreement_sd, 2) +
+         " % (1 sigma); the lens passes " + RoundedText(100.0 * input.rim_transmission, 3) +
+         " % at its rim\n\n";
 }
 
 Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::string>& written) {
@@ -188,6 +204,9 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
           {"white_luminance_nits", asked ? MaximumLuminance(*asked) : Nits(1.0)},
           {"plate", plate},
           {"views", Node::UnlessEmpty(Node::List(input.views, ViewNode))},
+          {"field_of_view_deg",
+           input.field_of_view ? Node(DegreesFromRadians(*input.field_of_view)) : Node()},
+          {"aims_rms_px", input.field_of_view ? Node(input.aims_rms_px) : Node()},
           {"rim_transmission", several ? Node(input.rim_transmission) : Node()},
           {"agreement_sd_relative", several ? Node(input.agreement_sd) : Node()},
           {"grey", input.grey ? GreyNode(*input.grey) : Node()},
@@ -197,8 +216,9 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
 }
 
 Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
-  const auto plan = PlanOf(options);
+  auto plan = PlanOf(options);
   if (!plan) return tl::unexpected(plan.error());
+  plan->request.input.progress = [&console](const std::string& text) { console.Note(text); };
   const Sources sources = InputSources();
   auto measured = MeasureDome(plan->request, sources, plan->grey);
   if (!measured) return Propagate(std::move(measured));

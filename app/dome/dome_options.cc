@@ -169,16 +169,68 @@ Result<std::vector<BallView>> BallsOf(const DomeOptions& options) {
   return balls;
 }
 
+// "VIEW[,PITCH[,ROLL]]": a file's name or its end, or a number from 1; degrees.
+Result<LevelView> ParseLevel(const std::string& text) {
+  LevelView level;
+  std::array<double, 2> degrees{};
+  std::string_view rest = text;
+  level.file = rest.substr(0, rest.find(','));
+  rest.remove_prefix(std::min(level.file.size() + 1, rest.size()));
+  std::size_t count = 0;
+  bool whole = !level.file.empty();
+  for (; whole && !rest.empty() && count < degrees.size(); ++count) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const auto number = ParseNumber(TrimBlanks(rest.substr(0, comma)));
+    whole = number.has_value();
+    degrees[count] = number.value_or(0.0);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  if (!whole || !rest.empty() || std::abs(degrees[0]) > 90.0) {
+    return WrongUsage("--up", "\"" + text +
+                                  "\" is not VIEW[,PITCH[,ROLL]]: a view that stood level, by its "
+                                  "file or its number from 1, or its pitch and roll in degrees");
+  }
+  level.pitch = RadiansFromDegrees(degrees[0]);
+  level.roll = RadiansFromDegrees(degrees[1]);
+  return level;
+}
+
+// What finding aims needs besides.
+Result<void> TakeAuto(const DomeOptions& options, DomeInputRequest& request) {
+  request.find_aims = true;
+  if (request.projection == Projection::kLatLong) request.projection = Projection::kRectilinear;
+  if (!options.up.empty()) {
+    const auto level = ParseLevel(options.up);
+    if (!level) return tl::unexpected(level.error());
+    request.level = *level;
+  }
+  if (options.bracket.empty()) return {};
+  const auto frames = ParseNumber(options.bracket);
+  constexpr double kMostFrames = 100.0;
+  if (!frames || !(*frames >= 1.0 && *frames <= kMostFrames) || std::fmod(*frames, 1.0) != 0.0) {
+    return WrongUsage("--bracket", "\"" + options.bracket + "\" is not a count of frames a view");
+  }
+  request.bracket = static_cast<int>(*frames);
+  return {};
+}
+
 Result<void> TakeViews(const DomeOptions& options, DomeInputRequest& request) {
   const bool mirror = options.projection == kMirrorBallWord;
+  const bool find = options.aims.size() == 1 && options.aims.front() == "auto";
+  if (!find && !(options.bracket.empty() && options.up.empty())) {
+    return WrongUsage(options.up.empty() ? "--bracket" : "--up", "belongs to --aim auto");
+  }
+  if (find && mirror) {
+    return WrongUsage("--aim", "mirror balls need YAW,PITCH[,ROLL] each: auto is for views");
+  }
   if (mirror) {
     auto balls = BallsOf(options);
     if (!balls) return Propagate(std::move(balls));
     request.balls = std::move(*balls);
-  } else if (options.projection.empty()) {
+  } else if (options.projection.empty() && !find) {
     request.projection_of_file = true;
     if (!options.fov.empty()) return WrongUsage("--fov", "belongs to a --projection");
-  } else {
+  } else if (!options.projection.empty()) {
     const auto projection = ParseProjection("--projection", options.projection);
     if (!projection) return tl::unexpected(projection.error());
     request.projection = *projection;
@@ -188,17 +240,21 @@ Result<void> TakeViews(const DomeOptions& options, DomeInputRequest& request) {
     if (!fov) return tl::unexpected(fov.error());
     request.field_of_view = *fov;
   }
+  if (find) {
+    if (auto ok = TakeAuto(options, request); !ok) return ok;
+  }
   for (const std::string& text : options.aims) {
+    if (find) break;
     const auto aim = ParseAim("--aim", text);
     if (!aim) return tl::unexpected(aim.error());
     request.aims.push_back(*aim);
   }
   const bool one =
       options.files.size() == 1 && (mirror || request.projection != Projection::kRectilinear);
-  if (request.aims.size() != options.files.size() && !(one && request.aims.empty())) {
+  if (!find && request.aims.size() != options.files.size() && !(one && request.aims.empty())) {
     return WrongUsage("--aim", std::to_string(options.files.size()) +
-                                   " pictures are views and need --aim YAW,PITCH[,ROLL] once each, "
-                                   "in their order; " +
+                                   " pictures are views and need --aim auto, or --aim "
+                                   "YAW,PITCH[,ROLL] once each in their order; " +
                                    std::to_string(request.aims.size()) + " given");
   }
   if (options.width.empty()) return {};
@@ -251,8 +307,15 @@ void AddDomeOptions(CLI::App& parser, DomeOptions& w) {
   parser
       .add_option("--aim", w.aims,
                   "Where a view looks, once for each picture in their order: YAW,PITCH[,ROLL] in "
-                  "degrees, right of +Y, above the horizon, leaning right")
+                  "degrees, right of +Y, above the horizon, leaning right; or auto: found from "
+                  "what the views share")
       ->allow_extra_args(false);
+  parser.add_option("--bracket", w.bracket,
+                    "With --aim auto: every N files are the frames of one view, and are merged");
+  parser.add_option(
+      "--up", w.up,
+      "With --aim auto: VIEW[,PITCH[,ROLL]], a view (file or number) that stood level, "
+      "or as these degrees say [how the cameras were held]");
   parser
       .add_option("--ball", w.balls,
                   "X,Y,W,H in pixels: the box that touches the mirror ball's outline, once for "

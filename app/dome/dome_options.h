@@ -25,6 +25,7 @@ struct DomeOptions {
   std::vector<std::string> balls;
   std::string ball_reflectance, ball_distance;
   std::string plate, grey_ball, grey_card, grey_reflectance, card_direction, plate_fov, plate_aim;
+  std::string bracket, up;
 };
 
 void AddDomeOptions(CLI::App& parser, DomeOptions& options);

@@ -141,6 +141,12 @@ Sources DiskSources() {
     if (!module) return tl::unexpected(module.error());
     return (*module)->find_chart(rgb);
   };
+  sources.find_features = [](View2d<const std::uint8_t> grey, View2d<const std::uint8_t> seen,
+                             int most) -> Result<std::vector<PictureFeature>> {
+    const auto module = BoardModule();
+    if (!module) return tl::unexpected(module.error());
+    return (*module)->find_features(grey, seen, most);
+  };
   return sources;
 }
 

@@ -21,6 +21,7 @@ from cli_help import commands_of
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/tools"))
 import mirror_ball_world
+import panorama_views
 import usdlux
 SAMPLES = ROOT / "sample_data"
 LIGHTCAL = pathlib.Path(sys.argv[1]).resolve()
@@ -71,6 +72,9 @@ def prepare(home):
     for name, number in zip("abc", range(3)):
         shutil.copy(SAMPLES / f"pictures/png_bracket/parliament_{number}.png", home / f"{name}.png")
     shutil.copy(SAMPLES / "pictures/latlong/lobby.hdr", home / "lobby.hdr")
+    panorama_views.write_views(panorama_views.read_hdr(home / "lobby.hdr"),
+                               panorama_views.Camera("rect", 320, 320, 75, samples=1),
+                               panorama_views.ring(8, 0), home / "hall", 5)
     shutil.copy(SAMPLES / "pictures/latlong/sunset.hdr", home / "sky.hdr")
     shutil.copy(SAMPLES / "pictures/exr/Rec709.exr", home / "beauty.exr")
     mirror_ball_world.examples(home, SAMPLES / "pictures/latlong/lobby.hdr")

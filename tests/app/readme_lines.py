@@ -21,6 +21,7 @@ import tempfile
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/tools"))
 import mirror_ball_world  # noqa: E402
+import panorama_views  # noqa: E402
 
 DOCUMENTS = [ROOT / "README.md", ROOT / "app/PICTURES.md", ROOT / "sample_data/README.md"]
 PICTURE = ROOT / "app/first_lamp.svg"
@@ -81,6 +82,9 @@ def main():
                         ignore=shutil.ignore_patterns("README.md", "*.hdr"))
         shutil.copy(PICTURES / "latlong/lobby.hdr", home / "panorama.hdr")
         mirror_ball_world.examples(home, PICTURES / "latlong/lobby.hdr")
+        panorama_views.write_views(panorama_views.read_hdr(home / "panorama.hdr"),
+                                   panorama_views.Camera("rect", 320, 320, 75, samples=1),
+                                   panorama_views.ring(8, 0), home / "hall", 5)
         window = (ROOT / "sample_data/vectors/glare/studio_60_10.hdr").read_bytes()
         (home / "window.hdr").write_bytes(
             window.replace(b"\n", b"\nVIEW= -vta -vh 180 -vv 180\n", 1))

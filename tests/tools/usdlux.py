@@ -478,8 +478,8 @@ class Scene:
         return picture
 
 
-def write_exr(path, picture, half=False, white_luminance=None):
-    """Scan lines, no compression. Source: the OpenEXR file layout."""
+def write_exr(path, picture, half=False, white_luminance=None, floats=None):
+    """Scan lines, no compression, with further attributes by name. Source: the OpenEXR file layout."""
     height, width, _ = picture.shape
     kind, dtype = (1, "<f2") if half else (2, "<f4")
     channels = b"".join(c + b"\0" + struct.pack("<iB3xii", kind, 0, 1, 1) for c in (b"B", b"G", b"R"))
@@ -495,8 +495,11 @@ def write_exr(path, picture, half=False, white_luminance=None):
         attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1.0)),
         attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0)),
         attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1.0))])
+    numbers = dict(floats or {})
     if white_luminance is not None:
-        head += attribute(b"whiteLuminance", b"float", struct.pack("<f", white_luminance))
+        numbers["whiteLuminance"] = white_luminance
+    for name, value in numbers.items():
+        head += attribute(name.encode(), b"float", struct.pack("<f", value))
     head += b"\0"
     size = width * 3 * np.dtype(dtype).itemsize
     offsets = [len(head) + 8 * height + y * (8 + size) for y in range(height)]

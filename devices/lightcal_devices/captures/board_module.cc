@@ -10,7 +10,7 @@ namespace {
 
 Result<const BoardFunctions*> Open() {
   auto symbol = OpenModule("lightcal_board.so", kBoardEntrySymbol, "no_board_module",
-                           "the part that knows boards and charts");
+                           "the part that knows boards, charts and features");
   if (!symbol) return Propagate(std::move(symbol));
   return reinterpret_cast<BoardEntry>(*symbol)();
 }

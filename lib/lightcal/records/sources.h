@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 #include "lightcal/records/imported_file.h"
 #include "lightcal/records/masked_picture.h"
 #include "lightcal/records/photometric_codec.h"
+#include "lightcal/records/picture_feature.h"
 
 namespace lightcal {
 
@@ -64,6 +66,11 @@ struct Sources {
   // Centres x, y of the corner patches of a chart of 6 x 4 patches in a linear picture of three
   // channels. Fails: no_board_module. Refused: chart_not_found.
   std::function<Result<std::array<double, 8>>(View2d<const float> rgb)> find_chart;
+  // The places of a grey picture that can be found again in another, `most` at most, where `seen`
+  // is not 0. May be called from several threads.   Fails: no_board_module.
+  std::function<Result<std::vector<PictureFeature>>(View2d<const std::uint8_t> grey,
+                                                    View2d<const std::uint8_t> seen, int most)>
+      find_features;
 };
 
 }  // namespace lightcal

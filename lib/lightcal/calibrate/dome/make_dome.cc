@@ -7,6 +7,7 @@
 #include "lightcal/calibrate/dome/dome_light_file.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/core/matrix3.h"
+#include "lightcal/imaging/panorama/reduce_dome.h"
 #include "lightcal/imaging/panorama/turn_north.h"
 
 namespace lightcal {
@@ -61,33 +62,6 @@ void FinishDome(std::size_t extracted, const DomeSettings& settings, MeasuredDom
     for (std::size_t c = 0; c < 3; ++c) dome.samples[i + c] = scale * static_cast<float>(rgb[c]);
   }
   dome.xyz_from_rgb = XyzFromRgbMatrix(target);
-}
-
-// Means of blocks of pixels.
-Dome Reduced(const Dome& dome) {
-  Dome small;
-  const int step = std::max(1, dome.width / kPreviewWidth);
-  small.width = dome.width / step;
-  small.height = dome.height / step;
-  small.channels = dome.channels;
-  small.xyz_from_rgb = dome.xyz_from_rgb;
-  const auto reduce = [&](const std::vector<float>& from, int channels, std::vector<float>& to) {
-    const View2d<const float> view(from.data(), dome.width, dome.height, channels);
-    for (int y = 0; y < small.height; ++y) {
-      for (int x = 0; x < small.width; ++x) {
-        for (int c = 0; c < channels; ++c) {
-          double sum = 0.0;
-          for (int i = 0; i < step * step; ++i) {
-            sum += double{view(x * step + i % step, y * step + i / step, c)};
-          }
-          to.push_back(static_cast<float>(sum / (step * step)));
-        }
-      }
-    }
-  };
-  reduce(dome.samples, dome.channels, small.samples);
-  reduce(dome.nits, 1, small.nits);
-  return small;
 }
 
 std::vector<DomePlane> PlanesOf(const DomeRequest& request) {
@@ -198,7 +172,8 @@ Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request, con
   auto lights = LightsTakenOut(made, sources, settings.time, made.warnings);
   if (!lights) return Propagate(std::move(lights));
   made.light_file = *std::move(lights);
-  made.preview = Reduced(made.measured.input.dome);
+  const Dome& whole = made.measured.input.dome;
+  made.preview = ReducedDome(whole, std::max(1, whole.width / kPreviewWidth));
   TurnNorth(made.measured.north, made.preview);
   made.planes = PlanesOf(request);
   CountLights(made.measured, made.extracted, made.planes);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "lightcal/calibrate/dome/aimed_views.h"
 #include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
@@ -68,9 +69,10 @@ std::vector<float> ScaledSamples(View2d<const float> samples, double nits_per_un
   return scaled;
 }
 
-// One file in its own projection.
-Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
-                              const DomeInputRequest& request) {
+}  // namespace
+
+Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& sources,
+                                  const DomeInputRequest& request) {
   auto picture = sources.read_masked_frame(file);
   if (!picture) return Propagate(std::move(picture));
   Frame* const frame = &picture->frame;
@@ -115,6 +117,8 @@ Result<DomeInput> ReadPicture(const std::string& file, const Sources& sources,
   }
   return input;
 }
+
+namespace {
 
 // Views that name their own projection need nobody to say it.
 Result<DomeInputRequest> AsFilesSay(const DomeInputRequest& request,
@@ -188,9 +192,10 @@ Result<void> TakePlate(const GreyPlate& plate, const DomeInputRequest& request,
 }  // namespace
 
 Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& sources) {
+  if (request.find_aims) return ReadAimedViews(request, sources);
   std::vector<DomeInput> pictures;
   for (const std::string& file : request.files) {
-    auto picture = ReadPicture(file, sources, request);
+    auto picture = ReadDomePicture(file, sources, request);
     if (!picture) return Propagate(std::move(picture));
     pictures.push_back(std::move(*picture));
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/panorama/grey_scale.h"
@@ -11,9 +12,14 @@
 
 namespace lightcal {
 
+// One file in its own projection, on whatever scale it has.
+// Refused: as Sources::read_masked_frame, LuminanceOfPicture; over_range (a pixel no scene has).
+[[nodiscard]] Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& sources,
+                                                const DomeInputRequest& request);
+
 // One lat-long panorama as it is, or views composed to one.
-// Refused: as Sources::read_masked_frame, LuminanceOfPicture, PixelSolidAngles, ComposeViews;
-// over_range (a pixel no scene has).
+// Refused: as ReadAimedViews where aims are to be found, else as Sources::read_masked_frame,
+// LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a pixel no scene has).
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request,
                                               const Sources& sources);
 

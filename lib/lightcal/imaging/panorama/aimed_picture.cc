@@ -14,8 +14,21 @@ constexpr double kCameraHidden = 0.35, kCameraFades = 0.17;
 
 }  // namespace
 
-AimedView::AimedView(PixelSolidAngles angles, const ViewAim& aim)
-    : angles_(std::move(angles)), rim_share_(1.0) {
+double ViewLens::ShownAt(double ideal) const {
+  constexpr int kNewtonSteps = 8;
+  double s = ideal;
+  for (int i = 0; i < kNewtonSteps; ++i) {
+    const double s2 = s * s;
+    const double slope = 1.0 - a - b + s2 * (3.0 * a + 5.0 * b * s2);
+    const double step = (s * Stretch(s2, a, b) - ideal) / slope;
+    s -= step;
+    if (std::abs(step) < 1e-10) break;
+  }
+  return s;
+}
+
+AimedView::AimedView(PixelSolidAngles angles, const ViewAim& aim, const ViewLens& lens)
+    : angles_(std::move(angles)), lens_(lens), rim_share_(1.0) {
   const double yaw = aim.yaw.value(), pitch = aim.pitch.value();
   forward_ = {std::sin(yaw) * std::cos(pitch), std::cos(yaw) * std::cos(pitch), std::sin(pitch)};
   const Vec3 level = {std::cos(yaw), -std::sin(yaw), 0.0};
@@ -42,9 +55,19 @@ std::optional<AimedView::Sight> AimedView::See(const Vec3& direction) const {
     const double t = std::clamp((from_camera - kCameraHidden) / kCameraFades, 0.0, 1.0);
     return Sight{seen->point, seen->rim_share, seen->reflectance, t * t * (3.0 - 2.0 * t)};
   }
-  const auto point = angles_.PointOf(own);
+  auto point = angles_.PointOf(own);
   if (!point) return std::nullopt;
-  const double share = angles_.RimShare((*point)[0], (*point)[1]);
+  double share = angles_.RimShare((*point)[0], (*point)[1]);
+  if (share > 0.0 && (lens_.a != 0.0 || lens_.b != 0.0)) {
+    const PictureView& view = angles_.view();
+    const double shown = lens_.ShownAt(share);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double size = k == 0 ? view.width : view.height;
+      (*point)[k] = size / 2.0 + shown / share * ((*point)[k] - size / 2.0);
+      if (!((*point)[k] >= 0.0 && (*point)[k] <= size)) return std::nullopt;
+    }
+    share = shown;
+  }
   if (share > rim_share_) return std::nullopt;
   return Sight{*point, share};
 }

@@ -23,9 +23,23 @@ struct ViewAim {
   Radians yaw{0.0}, pitch{0.0}, roll{0.0};
 };
 
+// How a lens bends what its projection draws: a point at the share s of the rim (RimShare) belongs
+// where the projection has s (1 + a (s^2 - 1) + b (s^4 - 1)), so that the rim and the middle stay.
+// Holds while that grows with s.
+struct ViewLens {
+  double a = 0.0, b = 0.0;
+
+  template <class T>
+  [[nodiscard]] static T Stretch(const T& s2, const T& a, const T& b) {
+    return 1.0 + a * (s2 - 1.0) + b * (s2 * s2 - 1.0);
+  }
+  // The share at which the picture shows what belongs at `ideal`, by Newton's steps.
+  [[nodiscard]] double ShownAt(double ideal) const;
+};
+
 class AimedView {
  public:
-  AimedView(PixelSolidAngles angles, const ViewAim& aim);
+  AimedView(PixelSolidAngles angles, const ViewAim& aim, const ViewLens& lens = {});
   // What a mirror ball shows to a camera so aimed.
   AimedView(BallMirror ball, const ViewAim& aim);
 
@@ -53,6 +67,7 @@ class AimedView {
  private:
   PixelSolidAngles angles_;
   std::optional<BallMirror> ball_;
+  ViewLens lens_;
   Vec3 right_, forward_, up_;
   double rim_share_;  // of the last point taken
 };

@@ -12,7 +12,6 @@
 namespace lightcal {
 namespace {
 
-constexpr int kMostWidth = 8192;
 constexpr int kSide = 2;                 // kSide x kSide directions of a pixel
 constexpr double kLeastWeight = 1e-4;    // of a view's rim
 constexpr double kLeastWorth = 1e-6;     // of the camera in its ball, where nothing else is seen
@@ -33,9 +32,11 @@ void Add(const AimedPicture& picture, double factor, const ViewScales& scales,
   const PictureTap tap = TapAt(picture.view.angles().view(), sight->point);
   const bool clipped = AnyClipped(picture, tap);
   const double middle = 1.0 - sight->rim_share;
+  // Shot noise: of one luminance, a view's variance is as what its samples are multiplied by.
+  const double brightened = factor / scales.Falloff(sight->rim_share) / sight->passed;
   const double weight = (middle * middle + kLeastWeight) * std::max(sight->worth, kLeastWorth) *
-                        (clipped ? kClippedWeight : 1.0);
-  const double gain = weight * factor / scales.Falloff(sight->rim_share) / sight->passed;
+                        (clipped ? kClippedWeight : 1.0) / brightened;
+  const double gain = weight * brightened;
   const auto channels = static_cast<std::size_t>(picture.samples.channels());
   for (std::size_t k = 0; k < 4; ++k) {
     const double part = gain * double{tap.weight[k]};
@@ -68,7 +69,7 @@ int WidthForViews(std::span<const AimedPicture> views) {
     finest = std::min(finest, picture.view.Pitch().value());
   }
   const int height = static_cast<int>(std::lround(std::numbers::pi / finest));
-  return std::min(kMostWidth, 2 * std::max(1, height));
+  return std::min(kMostDomeWidth, 2 * std::max(1, height));
 }
 
 ComposedDome ComposeDome(std::span<const AimedPicture> views, const ViewScales& scales, int width) {

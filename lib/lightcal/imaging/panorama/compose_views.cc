@@ -52,9 +52,13 @@ ViewAim UnsaidAim(const DomeInputRequest& request) {
   return up;
 }
 
+ViewAim AimOf(const DomeInputRequest& request, std::size_t i) {
+  return request.aims.empty() ? UnsaidAim(request) : request.aims[i];
+}
+
 Result<AimedView> ViewOf(const DomeInput& picture, const DomeInputRequest& request, std::size_t i) {
   const int width = picture.dome.width, height = picture.dome.height;
-  const ViewAim aim = request.aims.empty() ? UnsaidAim(request) : request.aims[i];
+  const ViewAim aim = AimOf(request, i);
   if (!request.balls.empty()) {
     auto ball = BallMirror::Create(picture.files.front(), width, height, request.balls[i]);
     if (!ball) return Propagate(std::move(ball));
@@ -63,7 +67,7 @@ Result<AimedView> ViewOf(const DomeInput& picture, const DomeInputRequest& reque
   auto angles =
       PixelSolidAngles::Create({request.projection, width, height, request.field_of_view});
   if (!angles) return Propagate(std::move(angles));
-  return AimedView(std::move(*angles), aim);
+  return AimedView(std::move(*angles), aim, request.lens);
 }
 
 struct Views {
@@ -103,7 +107,7 @@ double SeenShare(const ComposedDome& composed) {
   return seen / (4.0 * std::numbers::pi);
 }
 
-// What the files say of scale and of themselves, all together.
+// What the files say of scale and of themselves, all together; the same of several once.
 DomeInput Together(std::vector<DomeInput>& pictures) {
   DomeInput all;
   const auto labelled = std::ranges::find_if(pictures, &DomeInput::absolute);
@@ -117,7 +121,10 @@ DomeInput Together(std::vector<DomeInput>& pictures) {
     all.files.push_back(picture.files.front());
     for (Warning& warning : picture.warnings) {
       if (warning.code == "relative_scale" && all.absolute) continue;  // another view's scale
-      all.warnings.push_back(std::move(warning));
+      const auto said = std::ranges::find_if(all.warnings, [&](const Warning& other) {
+        return other.code == warning.code && other.message == warning.message;
+      });
+      if (said == all.warnings.end()) all.warnings.push_back(std::move(warning));
     }
   }
   return all;
@@ -156,7 +163,8 @@ Result<DomeInput> ComposeViews(std::vector<DomeInput> pictures, const DomeInputR
       ComposeDome(views->pictures, *scales, request.width.value_or(WidthForViews(views->pictures)));
   DomeInput dome = Together(pictures);
   for (std::size_t i = 0; i < dome.files.size(); ++i) {
-    dome.views.push_back({dome.files[i], scales->factor[i], kZ95 * scales->sd_relative[i]});
+    dome.views.push_back({dome.files[i], scales->factor[i], kZ95 * scales->sd_relative[i],
+                          AimOf(request, i), std::nullopt});
   }
   dome.rim_transmission = scales->Falloff(1.0);
   dome.agreement_sd = scales->agreement_sd;

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/panorama/dome_holes.h"
 #include "lightcal/imaging/panorama/turn_north.h"
 
 namespace lightcal {
@@ -59,6 +60,20 @@ std::string HoleBehindBall(const MeasuredDome& measured) {
          "degrees aside ({dome.aims} each) fills both";
 }
 
+// The largest holes of the dome, in the answer's directions.
+std::string WhereHoles(const MeasuredDome& measured) {
+  constexpr std::size_t kNamed = 3;
+  const auto holes = HolesOf(measured.input.unseen, measured.input.dome.grid());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kNamed, holes.size()); ++i) {
+    const AzimuthElevation at = AnglesOf(TurnedNorth(holes[i].direction, measured.north));
+    text += (i == 0 ? ": " : ", ") + RoundedText(100.0 * holes[i].share, 2) + " % around azimuth " +
+            RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3);
+  }
+  if (holes.size() > kNamed) text += " and " + std::to_string(holes.size() - kNamed) + " more";
+  return text;
+}
+
 // What no view shows is black: the meter must not have seen much of it. The share of a uniform
 // sphere's light on it that is hidden.
 Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
@@ -66,8 +81,9 @@ Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome
   if (input.unseen.empty()) return 0.0;
   measured.warnings.push_back({"partly_seen", input.files.front(),
                                "no view shows " + RoundedText(100.0 * (1.0 - input.seen_share), 2) +
-                                   " % of the sphere; it is black in the dome" +
-                                   HoleBehindBall(measured)});
+                                   " % of the sphere" +
+                                   (measured.input.blind_cap ? "" : WhereHoles(measured)) +
+                                   "; it is black in the dome" + HoleBehindBall(measured)});
   if (!reading) return 0.0;
   std::vector<float> hidden(input.unseen.begin(), input.unseen.end());
   const double share = IlluminanceOn({hidden.data(), input.dome.width, input.dome.height},
