@@ -148,11 +148,13 @@ template <class P>
   return theta;
 }
 
-// A few steps more, as long as they are small and the cost does not grow beyond rounding.
+// Steps more, as long as they shrink, are small and the cost does not grow beyond rounding. Where
+// rows bend, a step leaves up to a third of the way: eight of them had left 5e-8.
 template <class P>
 [[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
-  constexpr int kSteps = 8;
-  constexpr double kLargestStep = 0.05;
+  constexpr int kSteps = 40;
+  constexpr double kLargestStep = 0.05, kShrinks = 0.9;
+  double former_step = kLargestStep;
   const double cost = HalfChiSquaredOf(problem, theta);
   for (int i = 0; i < kSteps; ++i) {
     const ValuesOf<P> next = GaussNewtonStep(problem, theta);
@@ -167,7 +169,8 @@ template <class P>
     if (!(step < kLargestStep) || !inside) break;
     if (!(HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
     theta = next;
-    if (step < 1e-13) break;
+    if (step < 1e-13 || step > kShrinks * former_step) break;
+    former_step = step;
   }
   return theta;
 }

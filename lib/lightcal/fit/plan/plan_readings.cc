@@ -10,13 +10,12 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
-#include "lightcal/fit/model/off_axis.h"
+#include "lightcal/fit/plan/expected_reading.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kNominalCandela = 1000.0;
 // Readings that help equally but for this: the one that comes first is easier.
 constexpr double kAsGood = 0.01;
 // A step of a ladder shortens the interval at least so much.
@@ -266,7 +265,7 @@ class Planner {
   // and the limit of the series is taken (Aitken, in logarithms).
   bool Judge(PlannedReading& candidate) const {
     Session with = session_;
-    double guess = FirstGuess(candidate).value();
+    double guess = fit::ExpectedIlluminance(session_, now_ ? &*now_ : nullptr, candidate).value();
     if (!(guess >= 0.0)) return false;
     with.readings.push_back(RowOf(candidate));
     const auto fit_at = [&](double lux) {
@@ -301,85 +300,6 @@ class Planner {
     session_.readings.push_back(RowOf(planned));
     auto outcome = FitOf(session_, settings_);
     if (outcome) now_ = std::move(outcome->light);
-  }
-
-  [[nodiscard]] double Ambient() const {
-    return now_ && now_->ambient_lx ? std::max(0.0, now_->ambient_lx->value) : 0.0;
-  }
-
-  [[nodiscard]] Lux FirstGuess(const PlannedReading& planned) const {
-    if (planned.action != PlannedAction::kRead) return Lux(Ambient() + OtherLight(planned));
-    const bool has_intensity = now_ && now_->intensity_cd;
-    const double candela = has_intensity ? now_->intensity_cd->value : kNominalCandela;
-    if (now_ && now_->illuminance_lx) return Lux(now_->illuminance_lx->value + Ambient());
-    if (planned.distance && now_ && now_->distribution) {
-      const double d = planned.distance->value() +
-                       (now_->distance_offset_m ? now_->distance_offset_m->value : 0.0);
-      const Radians off = planned.off_axis.value_or(Radians(0.0));
-      const auto towards =
-          now_->distribution->table.At(Radians(0.0), Radians(std::abs(off.value())));
-      return Lux(towards.value() / (d * d) + Ambient());
-    }
-    if (planned.distance && has_intensity) {
-      const auto predicted = PredictIlluminance(*now_, *planned.distance, 0.05);
-      return predicted ? Lux(predicted->model_lx.value) : Lux(-1.0);
-    }
-    if (planned.distance) {
-      const double d = planned.distance->value();
-      return Lux(candela / (d * d));
-    }
-    if (!planned.position_m) return Lux(candela);
-    return Lux(candela * LuxPerCandelaAt(planned) + Ambient());
-  }
-
-  // A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
-  [[nodiscard]] double OtherLight(const PlannedReading& planned) const {
-    if (planned.action != PlannedAction::kShadowCard) return 0.0;
-    constexpr double kShare = 0.01;
-    int index = -1;
-    for (const SessionReading& row : session_.readings) {
-      ++index;
-      if (!fit::IsLit(row.reading) || row.reading.distance != planned.distance ||
-          row.reading.position_m != planned.position_m) {
-        continue;
-      }
-      const double seen = row.reading.illuminance->value();
-      const double other = WallsAt(index, planned);
-      return other > 0.0 || Ambient() > 0.0 ? other : kShare * seen;
-    }
-    return 0.0;
-  }
-
-  // Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient.
-  [[nodiscard]] double WallsAt(int index, const PlannedReading& planned) const {
-    if (!now_ || !now_->intensity_cd || !planned.distance) return 0.0;
-    const auto own = PredictIlluminance(*now_, *planned.distance, 0.05);
-    for (const ResidualRow& row : now_->residuals) {
-      if (own && row.index == index) {
-        return std::max(0.0, row.predicted_lx - own->model_lx.value);
-      }
-    }
-    return 0.0;
-  }
-
-  [[nodiscard]] double LuxPerCandelaAt(const PlannedReading& planned) const {
-    LightDescription light = Light();
-    if (now_ && now_->position_m) light.position_m = now_->position_m;
-    if (now_ && now_->aim) light.aim = now_->aim;
-    if (now_ && now_->outer_deg) {
-      light.outer = RadiansFromDegrees(*now_->outer_deg);
-      light.inner = RadiansFromDegrees(now_->inner_deg.value_or(0.0));
-    }
-    if (!light.position_m) return -1.0;
-    const Vec3 from = *planned.position_m - *light.position_m;
-    const double distance = Length(from);
-    const Vec3 normal = planned.normal.value_or(from * (-1.0 / distance));
-    if (const auto source = fit::PlacedSourceOf(light)) {
-      const fit::OffAxisPose pose{source->model,
-                                  {source->frame.Of(from), source->frame.Of(normal)}};
-      return fit::LuxPerCandela(pose, 0.0);
-    }
-    return -Dot(from, normal) / (distance * distance * distance);
   }
 
   Session session_;

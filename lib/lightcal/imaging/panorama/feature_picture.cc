@@ -14,8 +14,8 @@ namespace lightcal {
 namespace {
 
 constexpr double kWidestTheta = 115.0 * std::numbers::pi / 180.0;
-constexpr double kBlackShare = 1e-3;   // of the median: added before the logarithm
-constexpr int kMeanShare = 24;         // radius of the local mean, as a share of the longer side
+constexpr double kBlackShare = 1e-3;     // of the median: added before the logarithm
+constexpr int kMeanShare = 24;           // radius of the local mean, as a share of the longer side
 constexpr double kLeastLnSpread = 0.04;  // of ln L: what is flatter than this stays flat
 constexpr double kGreyMiddle = 127.0, kGreySpread = 45.0;
 constexpr double kRimMargin = 0.985;  // of RimShare: a fisheye's rim is no thing of the scene
@@ -152,7 +152,8 @@ FeaturePicture MakeFeaturePicture(View2d<const float> nits, const PixelSolidAngl
       const auto local = sums.Around(x, y, radius);
       // Beyond the view its own edge goes on, as flat as its surroundings.
       const double off = picture.seen[at] != 0 ? double{ln[at]} - local.mean : 0.0;
-      const double grey = kGreyMiddle + kGreySpread * off / std::hypot(local.spread, kLeastLnSpread);
+      const double grey =
+          kGreyMiddle + kGreySpread * off / std::hypot(local.spread, kLeastLnSpread);
       picture.grey[at] = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
     }
   }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/plan/expected_reading.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/model/off_axis.h"
+#include "lightcal/fit/plan/reading_candidates.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kNominalCandela = 1000.0;
+
+double AmbientOf(const FittedLight* now) {
+  return now != nullptr && now->ambient_lx ? std::max(0.0, now->ambient_lx->value) : 0.0;
+}
+
+// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient.
+double WallsAt(const FittedLight* now, int index, const PlannedReading& planned) {
+  if (now == nullptr || !now->intensity_cd || !planned.distance) return 0.0;
+  const auto own = PredictIlluminance(*now, *planned.distance, 0.05);
+  for (const ResidualRow& row : now->residuals) {
+    if (own && row.index == index) {
+      return std::max(0.0, row.predicted_lx - own->model_lx.value);
+    }
+  }
+  return 0.0;
+}
+
+// A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
+double BehindCard(const Session& session, const FittedLight* now, const PlannedReading& planned) {
+  constexpr double kShare = 0.01;
+  int index = -1;
+  for (const SessionReading& row : session.readings) {
+    ++index;
+    if (!IsLit(row.reading) || row.reading.distance != planned.distance ||
+        row.reading.position_m != planned.position_m) {
+      continue;
+    }
+    const double other = WallsAt(now, index, planned);
+    return other > 0.0 || AmbientOf(now) > 0.0 ? other : kShare * row.reading.illuminance->value();
+  }
+  return 0.0;
+}
+
+double LuxPerCandelaAt(LightDescription light, const FittedLight* now,
+                       const PlannedReading& planned) {
+  if (now != nullptr && now->position_m) light.position_m = now->position_m;
+  if (now != nullptr && now->aim) light.aim = now->aim;
+  if (now != nullptr && now->outer_deg) {
+    light.outer = RadiansFromDegrees(*now->outer_deg);
+    light.inner = RadiansFromDegrees(now->inner_deg.value_or(0.0));
+  }
+  if (!light.position_m) return -1.0;
+  const Vec3 from = *planned.position_m - *light.position_m;
+  const double distance = Length(from);
+  const Vec3 normal = planned.normal.value_or(from * (-1.0 / distance));
+  if (const auto source = PlacedSourceOf(light)) {
+    const OffAxisPose pose{source->model, {source->frame.Of(from), source->frame.Of(normal)}};
+    return LuxPerCandela(pose, 0.0);
+  }
+  return -Dot(from, normal) / (distance * distance * distance);
+}
+
+}  // namespace
+
+Lux ExpectedIlluminance(const Session& session, const FittedLight* now,
+                        const PlannedReading& planned) {
+  const double ambient = AmbientOf(now);
+  if (planned.action == PlannedAction::kLampOff) return Lux(ambient);
+  if (planned.action == PlannedAction::kShadowCard) {
+    return Lux(ambient + BehindCard(session, now, planned));
+  }
+  const bool has_intensity = now != nullptr && now->intensity_cd;
+  const double candela = has_intensity ? now->intensity_cd->value : kNominalCandela;
+  if (now != nullptr && now->illuminance_lx) return Lux(now->illuminance_lx->value + ambient);
+  if (planned.distance && now != nullptr && now->distribution) {
+    const double d =
+        planned.distance->value() + (now->distance_offset_m ? now->distance_offset_m->value : 0.0);
+    const Radians off = planned.off_axis.value_or(Radians(0.0));
+    const auto towards = now->distribution->table.At(Radians(0.0), Radians(std::abs(off.value())));
+    return Lux(towards.value() / (d * d) + ambient);
+  }
+  if (planned.distance && has_intensity) {
+    const auto predicted = PredictIlluminance(*now, *planned.distance, 0.05);
+    return predicted ? Lux(predicted->model_lx.value) : Lux(-1.0);
+  }
+  if (planned.distance) {
+    const double d = planned.distance->value();
+    return Lux(candela / (d * d));
+  }
+  if (!planned.position_m) return Lux(candela);
+  return Lux(candela * LuxPerCandelaAt(session.lights.front(), now, planned) + ambient);
+}
+
+}  // namespace lightcal::fit
