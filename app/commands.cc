@@ -39,8 +39,8 @@ constexpr CommandRow kCommands[] = {
      "--over cct_K=3000,4000,5500 --typed\n"
      "  lightcal sweep -s sample_data/sessions/dimmed_panels --light module "
      "--over dimmer=100,80,60,40,30,20 --until 3%\n"
-     "  lightcal sweep -s my_lamp --light key --distance 1m --over dimmer=100,50,25,12 "
-     "--sacn 1@127.0.0.1 --map map.toml --device sekonic",
+     "  lightcal sweep -s sample_data/sessions/dimmed_panels --light panel --distance 1m "
+     "--over dimmer=100,50,25 --over cct_K=4000 --sacn 1@127.0.0.1 --map map.toml --device sekonic",
      BuildSweep},
     {"watch", "A meter's readings as they come: colour, steadiness, the lamp's intensity",
      "  lightcal watch --device sekonic --for 10s\n"

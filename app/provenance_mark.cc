@@ -133,15 +133,26 @@ struct Ending {
   std::string_view formats;  // between blanks; a name without one is no output of ours
 };
 constexpr std::array kEndings = {
-    Ending{".exr", " exr "},   Ending{".png", " png "},   Ending{".svg", " svg "},
-    Ending{".pdf", " pdf "},   Ending{".html", " html "}, Ending{".htm", " html "},
-    Ending{".ies", " ies "},   Ending{".ldt", " ldt "},   Ending{".csv", " csv "},
-    Ending{".gltf", " gltf "}, Ending{".usda", " usd "},  Ending{".json", " json "},
-    Ending{".zip", " zip "},   Ending{".toml", " "},      Ending{".jsonl", " tape "},
-    Ending{".py", " script "}, Ending{".jpg", " "},       Ending{".jpeg", " "},
-    Ending{".tif", " "},       Ending{".tiff", " "},      Ending{".hdr", " "},
-    Ending{".dng", " "},
+    Ending{".exr", " exr "},    Ending{".png", " png "},   Ending{".svg", " svg "},
+    Ending{".pdf", " pdf "},    Ending{".html", " html "}, Ending{".htm", " html "},
+    Ending{".ies", " ies "},    Ending{".ldt", " ldt "},   Ending{".csv", " csv "},
+    Ending{".gltf", " gltf "},  Ending{".usda", " usd "},  Ending{".json", " json "},
+    Ending{".zip", " zip "},    Ending{".gdtf", " gdtf "}, Ending{".toml", " "},
+    Ending{".jsonl", " tape "}, Ending{".py", " script "}, Ending{".jpg", " "},
+    Ending{".jpeg", " "},       Ending{".tif", " "},       Ending{".tiff", " "},
+    Ending{".hdr", " "},        Ending{".dng", " "},
 };
+
+// Archives of ours are not compressed: the first file follows its own name.
+std::string OwnArchive(std::string_view head) {
+  const auto begins = [&](std::string_view file, std::string_view text) {
+    return head.find(std::string(file) + std::string(text)) != std::string_view::npos;
+  };
+  if (begins("lightcal/__init__.py", "# Written by lightcal")) return "zip";
+  constexpr std::string_view kXml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  const bool gdtf = begins("description.xml", std::string(kXml) + "<!-- Written by lightcal ");
+  return gdtf ? "gdtf" : "";
+}
 
 }  // namespace
 
@@ -153,10 +164,7 @@ std::string OwnFormatOf(std::string_view contents) {
   if (head.starts_with("%PDF")) {
     return contents.find("/Creator (lightcal ") != std::string_view::npos ? "pdf" : "";
   }
-  if (head.starts_with("PK")) {
-    return head.find("lightcal/__init__.py# Written by lightcal") != std::string_view::npos ? "zip"
-                                                                                            : "";
-  }
+  if (head.starts_with("PK")) return OwnArchive(head);
   return OwnText(head);
 }
 

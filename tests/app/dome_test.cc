@@ -304,7 +304,7 @@ TEST_F(DomeCommand, AskedWrongItSaysWhatToWrite) {
   };
   fails({"--lux", "100", "--lux-direction", "north"}, 2, "AZIMUTH,ELEVATION");
   fails({"--lux-shaded", "10"}, 2, "--lux");
-  fails({file}, 2, "need --aim YAW,PITCH[,ROLL] once each");
+  fails({file}, 2, "need --aim auto, or --aim YAW,PITCH[,ROLL] once each");
   fails({"--aim", "10"}, 2, "YAW,PITCH[,ROLL]");
   fails({"--projection", "equisolid"}, 3, "give --fov");
   fails({"--aim", "0,0", "--width", "101"}, 2, "even count of pixels");

@@ -87,6 +87,8 @@ def prepare(home):
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     gels = re.search(r"```text\n(filter,.*?)```", readme, re.S).group(1)
     (home / "gels.csv").write_text(gels, encoding="utf-8")
+    dmx = re.search(r"```toml\n(lightcal = 1\naddress.*?)```", readme, re.S).group(1)
+    (home / "map.toml").write_text(dmx, encoding="utf-8")
     (home / "tape_measure.csv").write_text("distance_m,illuminance_lx\n1.5,23.5\n", encoding="utf-8")
     (home / "map.csv").write_text("lamp,object\n5600K,PropLamp_*\n", encoding="utf-8")
     (home / "lamps.csv").write_text("name,distance_m,illuminance_lx,card_lx,fixture\n"

@@ -14,6 +14,7 @@
 
 #include "lightcal/core/crc32.h"
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/generator_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/light_kind.h"
@@ -255,8 +256,10 @@ Result<Preset> ExportGdtf(const LightFile& lights, const std::string& stem,
     if (!described) return Propagate(std::move(described));
     std::string name = stem + "-" + FileNamePart(lamp.name);
     while (!taken.insert(name).second) name += "_";
+    std::string description = GdtfDescription(described->fixture);
+    description.insert(description.find('\n') + 1, "<!-- Written by " + GeneratorName() + " -->\n");
     const std::array<PresetFile, 1> entries = {
-        PresetFile{"description.xml", GdtfDescription(described->fixture)}};
+        PresetFile{"description.xml", std::move(description)}};
     preset.files.push_back({name + ".gdtf", StoredZip(entries)});
     preset.warnings.insert(preset.warnings.end(), described->warnings.begin(),
                            described->warnings.end());

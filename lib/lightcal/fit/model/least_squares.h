@@ -148,13 +148,11 @@ template <class P>
   return theta;
 }
 
-// Steps more, as long as they shrink, are small and the cost does not grow beyond rounding. Where
-// rows bend, a step leaves up to a third of the way: eight of them had left 5e-8.
+// A few steps more, as long as they are small and the cost does not grow beyond rounding.
 template <class P>
 [[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
-  constexpr int kSteps = 40;
-  constexpr double kLargestStep = 0.05, kShrinks = 0.9;
-  double former_step = kLargestStep;
+  constexpr int kSteps = 8;
+  constexpr double kLargestStep = 0.05;
   const double cost = HalfChiSquaredOf(problem, theta);
   for (int i = 0; i < kSteps; ++i) {
     const ValuesOf<P> next = GaussNewtonStep(problem, theta);
@@ -169,8 +167,7 @@ template <class P>
     if (!(step < kLargestStep) || !inside) break;
     if (!(HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
     theta = next;
-    if (step < 1e-13 || step > kShrinks * former_step) break;
-    former_step = step;
+    if (step < 1e-13) break;
   }
   return theta;
 }
