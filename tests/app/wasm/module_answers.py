@@ -89,7 +89,7 @@ def difference(a, b, where):
         return float("inf"), where
     # What walls may add is kept as logarithms and their covariances, a residual is a difference from
     # one, a share a part of one: there absolute is relative.
-    of_one = ".in_room[" in where or where.endswith((".relative", ".share"))
+    of_one = ".in_room[" in where or where.endswith((".relative", ".share", ".sd_relative"))
     floor = 1.0 if of_one else FLOOR
     # Does not hold to 1e-9: the walls' light where the two trust regions stop apart (up to 2e-7 of it,
     # which is known to a third).
