@@ -17,6 +17,9 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 WITHIN = 1e-9
+# Does not hold: a line in a hundred, whose offset and walls trade nearly evenly, stops this far apart
+# by the two trust regions. No more lines than that, and no farther.
+APART = 1e-6
 # Numbers nearer to zero are held to 1e-15 of nothing: a Duv, an offset.
 FLOOR = 1e-6
 
@@ -91,10 +94,7 @@ def difference(a, b, where):
     # one, a share a part of one: there absolute is relative.
     of_one = ".in_room[" in where or where.endswith((".relative", ".share", ".sd_relative"))
     floor = 1.0 if of_one else FLOOR
-    # Does not hold to 1e-9: the walls' light where the two trust regions stop apart (up to 2e-7 of it,
-    # which is known to a third).
-    slack = 1e-3 if where.endswith(".walls_lx") else 1.0
-    return slack * abs(a - b) / max(abs(a), abs(b), floor), f"{where}: {a!r} and {b!r}"
+    return abs(a - b) / max(abs(a), abs(b), floor), f"{where}: {a!r} and {b!r}"
 
 
 def main():
@@ -124,7 +124,7 @@ def main():
                           capture_output=True, text=True, check=True)
     answers = [json.loads(line) for line in done.stdout.splitlines()]
     assert len(answers) == len(lines), done.stderr
-    worst, faults, same = (0.0, ""), [], 0
+    worst, faults, apart, same = (0.0, ""), [], [], 0
     for words, (code, out), answer in zip(lines, expected, answers):
         line = " ".join(words)
         if answer["code"] != code:
@@ -135,11 +135,15 @@ def main():
             continue
         found = difference(json.loads(out), json.loads(answer["out"]), "")
         worst = max(worst, (found[0], f"{line} {found[1]}"))
-        if found[0] > WITHIN:
+        if WITHIN < found[0] <= APART:
+            apart.append(f"apart: {line}: {found[1]}")
+        elif found[0] > WITHIN:
             faults.append(f"{line}: {found[1]}")
     print(f"{len(lines)} commands, {same} equal to the byte, largest difference {worst[0]:.2g}: "
           f"{worst[1]}")
-    print("\n".join(faults[:20]))
+    if len(apart) > 1 + options.count // 100:
+        faults += apart
+    print("\n".join(apart[:5] + faults[:20]))
     sys.exit(1 if faults else 0)
 
 
