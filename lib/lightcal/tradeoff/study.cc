@@ -231,6 +231,7 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
   Study study;
   study.usual.levels = UsualLevels();
   const std::array references = {StrictProfile(tolerance), StrictCheckProfile(tolerance)};
+  watch.progress(0.0);  // the strictest settings take seconds
   auto reference = MeasureInTurn(run, references, kOnce, {watch.stopped});
   if (!reference) return Propagate(std::move(reference));
   study.reference = std::move((*reference)[0]);

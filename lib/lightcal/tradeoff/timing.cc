@@ -73,7 +73,6 @@ Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
   std::vector<Measured> out(profiles.size());
   std::vector<Series> series(profiles.size());
   const Clock::time_point start = Clock::now();
-  watch.progress(0.0);
   for (int round = 0; round < rules.most_runs; ++round) {
     const double by_time = SecondsSince(start) / rules.seconds;
     const double by_runs = static_cast<double>(round) / rules.least_runs;
