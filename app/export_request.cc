@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "export_request.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -144,9 +142,7 @@ Result<ExportedPresets> PresetsOfLights(NamedLights named, const ExportOptions& 
   auto into = IntoOf(options.into, lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
-  for (const FittedLight& light : lights.lights) {
-    std::ranges::move(ControlSweepsOf(light), std::back_inserter(with_pictures.sweeps));
-  }
+  with_pictures.sweeps = ControlSweepsOf(lights);
   std::vector<std::string> targets = options.targets;
   const bool page = std::erase(targets, std::string(kPageTarget)) > 0;
   Result<ExportedPresets> exported = ExportedPresets{};
@@ -178,6 +174,14 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   return PresetsOfLights(
       {*std::move(lights), named.string(), beside.string(), fs::path(input).filename().string()},
       options, preset, console);
+}
+
+std::string WithDirectory(std::string line, const std::string& directory) {
+  for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
+    line.replace(at, kPasteDirectory.size(), directory);
+    at += directory.size();
+  }
+  return line;
 }
 
 }  // namespace lightcal::app

@@ -44,4 +44,7 @@ struct NamedLights {
                                                      const ExportOptions& options,
                                                      const PresetOptions& preset, Console& console);
 
+// What to paste or type to open a preset, where its directory is.
+[[nodiscard]] std::string WithDirectory(std::string line, const std::string& directory);
+
 }  // namespace lightcal::app

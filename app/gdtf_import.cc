@@ -109,9 +109,8 @@ Node EmitterNode(const GdtfEmitter& emitter) {
              Node level = {{"physical_percent", one.physical_percent},
                            {"intensity_cd", one.luminous_intensity_cd}};
              if (!one.energy.empty()) {
-               level.Put("wavelength_nm",
-                         Node::List(one.wavelengths_nm, [](double v) { return Node(v); }));
-               level.Put("energy", Node::List(one.energy, [](double v) { return Node(v); }));
+               level.Put("wavelength_nm", one.wavelengths_nm);
+               level.Put("energy", one.energy);
              }
              return level;
            }));
@@ -119,35 +118,30 @@ Node EmitterNode(const GdtfEmitter& emitter) {
 }
 
 Node BeamNode(const GdtfBeam& beam) {
-  Node node = {{"name", beam.name}, {"type", beam.type}};
-  node.Put("flux_lm", Node(beam.flux_lm));
-  node.Put("cct_K", Node(beam.cct_K));
-  node.Put("beam_deg", Node(beam.beam_deg));
-  node.Put("field_deg", Node(beam.field_deg));
-  node.Put("radius_m", Node(beam.radius_m));
-  if (!beam.emitter.empty()) node.Put("emitter", beam.emitter);
-  return node;
+  return {{"name", beam.name},         {"type", beam.type},
+          {"flux_lm", beam.flux_lm},   {"cct_K", beam.cct_K},
+          {"beam_deg", beam.beam_deg}, {"field_deg", beam.field_deg},
+          {"radius_m", beam.radius_m}, {"emitter", Node::UnlessEmpty(beam.emitter)}};
 }
 
 Node ProfileNode(const GdtfProfile& profile) {
-  Node points = Node::Array();
-  for (const GdtfProfile::Point& point : profile.points) {
-    points.items.push_back({{"from_percent", point.from_percent},
-                            {"coefficients", {point.c0, point.c1, point.c2, point.c3}}});
-  }
-  return {{"name", profile.name}, {"points", std::move(points)}};
+  return {{"name", profile.name},
+          {"points", Node::List(profile.points, [](const GdtfProfile::Point& point) {
+             return Node{{"from_percent", point.from_percent},
+                         {"coefficients", {point.c0, point.c1, point.c2, point.c3}}};
+           })}};
 }
 
 Node ModeNode(const GdtfMode& mode) {
   return {{"name", mode.name},
           {"channels", Node::List(mode.channels, [](const GdtfChannel& channel) {
-             Node node = {{"attribute", channel.attribute}, {"geometry", channel.geometry}};
-             node.Put("slots", Node::List(channel.offset, [](int slot) { return Node(slot); }));
-             node.Put("from", Node(channel.physical_from));
-             node.Put("to", Node(channel.physical_to));
-             if (!channel.profile.empty()) node.Put("profile", channel.profile);
-             if (!channel.emitter.empty()) node.Put("emitter", channel.emitter);
-             return node;
+             return Node{{"attribute", channel.attribute},
+                         {"geometry", channel.geometry},
+                         {"slots", channel.offset},
+                         {"from", channel.physical_from},
+                         {"to", channel.physical_to},
+                         {"profile", Node::UnlessEmpty(channel.profile)},
+                         {"emitter", Node::UnlessEmpty(channel.emitter)}};
            })}};
 }
 

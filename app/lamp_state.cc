@@ -2,6 +2,8 @@
 #include "lamp_state.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <utility>
 
 #include "lightcal/core/joined.h"
@@ -34,10 +36,24 @@ Result<WantedState> ParseWanted(const std::string& text, const LightFile& file) 
 
 }  // namespace
 
-std::optional<Warning> CombinedWarning(const FittedLight& light, const StateAnswer& answer) {
-  if (answer.basis != StateBasis::kCombined) return std::nullopt;
-  return Warning{"state_combined", light.name,
-                 StateText(answer.state) +
+std::string_view BasisWord(StateBasis basis) {
+  constexpr std::array<std::string_view, 3> kWords = {"measured", "between", "combined"};
+  return kWords[static_cast<std::size_t>(basis)];
+}
+
+Node StateNode(const FixtureState& state) {
+  Node node = Node::Table();
+  for (const ControlValue& control : state) {
+    node.Put(control.name, control.IsWord() ? Node(control.word) : Node(control.number));
+  }
+  return node;
+}
+
+std::optional<Warning> CombinedWarning(const std::string& lamp, const FixtureState& state,
+                                       StateBasis basis) {
+  if (basis != StateBasis::kCombined) return std::nullopt;
+  return Warning{"state_combined", lamp,
+                 StateText(state) +
                      " was put together from states that differ from it in several controls; read "
                      "it to be sure"};
 }
@@ -62,7 +78,7 @@ Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& fil
       any = true;
       const auto answer = AnswerState(light, wanted->state);
       if (!answer) return tl::unexpected(answer.error());
-      if (auto combined = CombinedWarning(light, *answer)) {
+      if (auto combined = CombinedWarning(light.name, answer->state, answer->basis)) {
         warnings.push_back(*std::move(combined));
       }
       if (auto shared = SharedGeometryWarning(light, wanted->state)) {

@@ -4,18 +4,25 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "console.h"
 #include "lightcal/core/result.h"
 #include "lightcal/fit/states/state_answer.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal::app {
 
-// state_combined, where the answer was put together from states that differ from it in several
-// controls.
-[[nodiscard]] std::optional<Warning> CombinedWarning(const FittedLight& light,
-                                                     const StateAnswer& answer);
+// "measured", "between", "combined".
+[[nodiscard]] std::string_view BasisWord(StateBasis basis);
+// Controls by name: numbers and words.
+[[nodiscard]] Node StateNode(const FixtureState& state);
+
+// state_combined, where what is known of that state of a lamp was put together from states that
+// differ from it in several controls.
+[[nodiscard]] std::optional<Warning> CombinedWarning(const std::string& lamp,
+                                                     const FixtureState& state, StateBasis basis);
 
 // state_geometry, where another zoom or modifier lends it the offset and the beam.
 [[nodiscard]] std::optional<Warning> SharedGeometryWarning(const FittedLight& light,

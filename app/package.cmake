@@ -13,9 +13,6 @@ lightcal_says("man" lightcal.1)
 add_custom_target(lightcal_shell_files ALL
   DEPENDS ${shell}/lightcal ${shell}/_lightcal ${shell}/lightcal.fish ${shell}/lightcal.1)
 
-if(TARGET lightcal_python)
-  add_dependencies(lightcal_shell_files lightcal_python)
-endif()
 install(FILES ${shell}/lightcal DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${shell}/_lightcal DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
 install(FILES ${shell}/lightcal.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
@@ -29,6 +26,9 @@ install(DIRECTORY sample_data/sessions sample_data/tapes DESTINATION ${CMAKE_INS
 get_property(rooms GLOBAL PROPERTY LIGHTCAL_ROOMS)
 add_custom_target(lightcal_installed
   DEPENDS ${rooms} lightcal lightcal_board lightcal_pictures lightcal_tether lightcal_shell_files)
+if(TARGET lightcal_python)
+  add_dependencies(lightcal_installed lightcal_python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 # Two packages of one build: lightcal, and python3-lightcal where Python's headers and pybind11 are.

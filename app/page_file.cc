@@ -7,7 +7,8 @@
 
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/light_codec.h"
-#include "lightcal_devices/disk_sources.h"
+#include "output_files.h"
+#include "shell/shell_texts.h"
 
 namespace lightcal::app {
 namespace {
@@ -17,19 +18,6 @@ namespace fs = std::filesystem;
 constexpr const char* kPageFile = "lightcal_page.html";
 constexpr std::string_view kCarried = "id=\"carried\">null<";
 
-// Inside a script element nothing may look like its end.
-std::string ForScript(const std::string& json) {
-  std::string text;
-  for (const char c : json) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
 }  // namespace
 
 Result<std::string> ReadPage() {
@@ -38,7 +26,7 @@ Result<std::string> ReadPage() {
   const std::array<fs::path, 2> places = {beside / kPageFile,
                                           beside / LIGHTCAL_DATA_DIR_FROM_BIN / kPageFile};
   for (const fs::path& place : places) {
-    if (fs::exists(place, ignored)) return devices::DiskSources().read_text(place.string());
+    if (fs::exists(place, ignored)) return ReadOutput(place.string());
   }
   return Failed("no_page", kPageFile,
                 "this lightcal was built without the page; install clang-19 lld-19 wasi-libc "
@@ -56,8 +44,9 @@ Result<std::string> PageWith(const LightFile& lights, const std::string& name) {
     return Failed("no_page", kPageFile, "is not of this lightcal; build it again");
   }
   const std::string quoted = records::PrintJson(records::Node(name), records::JsonLayout::kOneLine);
-  page->replace(at + kCarried.size() - 5, 4,
-                ForScript("{\"name\":" + quoted + ",\"light\":" + *json + "}"));
+  // Inside a script element nothing may look like its end.
+  const std::string carried = "{\"name\":" + quoted + ",\"light\":" + *json + "}";
+  page->replace(at + kCarried.size() - 5, 4, Replaced(carried, "<", "\\u003c"));
   return page;
 }
 

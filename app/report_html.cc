@@ -2,7 +2,6 @@
 #include "report_html.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -50,9 +49,7 @@ ReportExtras ExtrasOf(const LightFile& lights,
                       const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments) {
   ReportExtras extras;
   extras.engines = EngineAnswersOf(lights, environments);
-  for (const FittedLight& light : lights.lights) {
-    std::ranges::move(ControlSweepsOf(light), std::back_inserter(extras.sweeps));
-  }
+  extras.sweeps = ControlSweepsOf(lights);
   return extras;
 }
 

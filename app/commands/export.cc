@@ -47,14 +47,6 @@ std::vector<std::string> UsdRenderers() {
   return words;
 }
 
-std::string WithDirectory(std::string line, const std::string& directory) {
-  for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
-    line.replace(at, kPasteDirectory.size(), directory);
-    at += directory.size();
-  }
-  return line;
-}
-
 Result<void> RunExport(const ExportOptions& options, Console& console) {
   if (auto checked = CheckStems(options.inputs); !checked) return checked;
   if (!options.into.empty() && options.inputs.size() > 1) {

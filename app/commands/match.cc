@@ -121,14 +121,14 @@ Node DimmerNode(const Uncertain& dimmer) {
       {"value", dimmer.value}, {"u95", dimmer.u95}, {"low95", dimmer.low}, {"high95", dimmer.high}};
 }
 
-Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLight* with,
+Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLight& with,
                     const MatchLight& target, Console& console) {
   const auto request = RequestOf(o, lamp, target);
   if (!request) return tl::unexpected(request.error());
-  const auto mix = match::MixLights(*request, with->spectrum, with->measured);
+  const auto mix = match::MixLights(*request, with.spectrum, with.measured);
   if (!mix) return tl::unexpected(mix.error());
   for (const auto& [light, dimmer] :
-       {std::pair{&lamp, &mix->dimmer_lamp}, {&*with, &mix->dimmer_with}}) {
+       {std::pair{&lamp, &mix->dimmer_lamp}, {&with, &mix->dimmer_with}}) {
     if (!*dimmer || (*dimmer)->value <= 1.0 + 1e-9) continue;
     console.Warn({"lamp_too_weak", light->title,
                   "would have to give " + PercentText((*dimmer)->value, 3) +
@@ -145,13 +145,13 @@ Result<void> RunMix(const MatchOptions& o, const MatchLight& lamp, const MatchLi
   const double share = mix->share.value;
   console.Print(TextTable({"lamp", "of the light", "dimmer"},
                           {row(lamp.title, share, mix->share.u95, mix->dimmer_lamp),
-                           row(with->title, 1.0 - share, mix->share.u95, mix->dimmer_with)}) +
+                           row(with.title, 1.0 - share, mix->share.u95, mix->dimmer_with)}) +
                 "\n" + MatchTable({}, mix->mixed, none));
   Node dimmers = Node::Table();
   if (mix->dimmer_lamp) dimmers.Put("lamp", DimmerNode(*mix->dimmer_lamp));
   if (mix->dimmer_with) dimmers.Put("with", DimmerNode(*mix->dimmer_with));
   console.PrintDocument({{"lamp", lamp.title},
-                         {"with", with->title},
+                         {"with", with.title},
                          {"target", target.title},
                          {"share", DimmerNode(mix->share)},
                          {"dimmer", Node::UnlessEmpty(std::move(dimmers))},
@@ -198,7 +198,7 @@ Result<void> RunMatch(const MatchOptions& o, Console& console) {
     return with ? RunMixByStates(words, *lamp, *with, *target, console)
                 : RunMatchByStates(words, *lamp, *target, console);
   }
-  if (with) return RunMix(o, *lamp, &*with, *target, console);
+  if (with) return RunMix(o, *lamp, *with, *target, console);
   const auto gels = ReadGels(o.gels, console);
   if (!gels) return tl::unexpected(gels.error());
   const auto request = RequestOf(o, *lamp, *target);

@@ -25,7 +25,6 @@ struct StateOptions {
   std::string input, light, at;
 };
 
-constexpr std::array<std::string_view, 3> kBasisWords = {"measured", "between", "combined"};
 constexpr std::array<std::string_view, 3> kBasisTexts = {
     "as it was read", "between states that were read",
     "put together from states that differ in other controls too"};
@@ -129,18 +128,10 @@ Node ColorNode(const FittedColor& color) {
   return node;
 }
 
-Node StateNode(const FixtureState& state) {
-  Node node = Node::Table();
-  for (const ControlValue& control : state) {
-    node.Put(control.name, control.IsWord() ? Node(control.word) : Node(control.number));
-  }
-  return node;
-}
-
 Node AnswerNode(const FittedLight& light, const StateAnswer& answer) {
   Node node = {{"light", light.name},
                {"state", StateNode(answer.state)},
-               {"basis", kBasisWords[static_cast<std::size_t>(answer.basis)]}};
+               {"basis", BasisWord(answer.basis)}};
   if (answer.intensity_cd) node.Put("intensity_cd", DocumentOf(*answer.intensity_cd));
   if (answer.illuminance_lx) node.Put("illuminance_lx", DocumentOf(*answer.illuminance_lx));
   node.Put("relative_to_full", DocumentOf(answer.relative_to_full));
@@ -235,7 +226,8 @@ Result<void> RunState(const StateOptions& options, Console& console) {
   if (!light) return tl::unexpected(light.error());
   const auto answer = AnswerState(**light, at);
   if (!answer) return tl::unexpected(answer.error());
-  if (const auto combined = CombinedWarning(**light, *answer)) console.Warn(*combined);
+  if (const auto combined = CombinedWarning((*light)->name, answer->state, answer->basis))
+    console.Warn(*combined);
   if (const auto shared = SharedGeometryWarning(**light, at)) console.Warn(*shared);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   console.Print(Told(**light, *answer));

@@ -10,17 +10,6 @@
 namespace lightcal::app {
 namespace {
 
-// One quantity's u95, low95 and high95, each in a table of its own.
-struct IntervalTables {
-  Node u95 = Node::Table(), low = Node::Table(), high = Node::Table();
-  void Put(std::string_view key, const std::optional<Uncertain>& value) {
-    if (!value) return;
-    u95.Put(key, value->u95);
-    low.Put(key, value->low);
-    high.Put(key, value->high);
-  }
-};
-
 std::string WithDecimals(double value, int decimals) {
   std::array<char, 64> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "match/match_by_states.h"
 
-#include <array>
 #include <cmath>
-#include <string_view>
 #include <vector>
 
 #include "calibration_options.h"
+#include "lamp_state.h"
 #include "lamp_words.h"
 #include "lightcal/calibrate/states/match_states.h"
 #include "lightcal/core/joined.h"
@@ -20,7 +19,6 @@
 namespace lightcal::app {
 namespace {
 
-constexpr std::array<std::string_view, 3> kSettingBasis = {"measured", "between", "combined"};
 // What a measured spectrum's colour repeats and agrees within, 1 sigma.
 constexpr double kSpectrumLnMired = 0.006, kSpectrumDuv = 0.0008;
 
@@ -54,20 +52,12 @@ std::vector<std::string> RowOfSetting(const StateMatch& match) {
   const LampSetting& setting = match.lamps.front();
   return {
       SettingText(setting),
-      std::string(kSettingBasis[static_cast<std::size_t>(setting.basis)]),
+      std::string(BasisWord(setting.basis)),
       RoundedText(match.delta_uv.value, 2),
       ValueOf(match.cct_K, " K"),
       match.duv ? RoundedText(match.duv->value, 2) + " ± " + RoundedText(match.duv->u95, 2) : kNone,
       match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
       match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
-}
-
-void PutInterval(const std::string& key, const std::optional<Uncertain>& value, Node& u95,
-                 Node& low, Node& high) {
-  if (!value) return;
-  u95.Put(key, value->u95);
-  low.Put(key, value->low);
-  high.Put(key, value->high);
 }
 
 Result<LightPoint> PointOfMatchLight(const MatchLight& light, double sigma) {
@@ -97,15 +87,8 @@ SettableLamp SettableOf(const MatchLight& light, const LightPoint& fixed) {
 }
 
 Node LampSettingNode(const LampSetting& setting) {
-  Node state = Node::Table();
-  Node u95 = Node::Table();
-  for (const ControlValue& control : setting.state) {
-    state.Put(control.name, control.IsWord() ? Node(control.word) : Node(control.number));
-  }
-  for (const ControlValue& control : setting.u95) u95.Put(control.name, control.number);
-  Node node = {{"state", std::move(state)},
-               {"basis", kSettingBasis[static_cast<std::size_t>(setting.basis)]}};
-  node.Put("state_u95", Node::UnlessEmpty(std::move(u95)));
+  Node node = {{"state", StateNode(setting.state)}, {"basis", BasisWord(setting.basis)}};
+  node.Put("state_u95", Node::UnlessEmpty(StateNode(setting.u95)));
   if (setting.point.kind == LevelKind::kIntensity) node.Put("intensity_cd", setting.point.level);
   if (setting.point.kind == LevelKind::kIlluminance) {
     node.Put("illuminance_lx", setting.point.level);
@@ -124,16 +107,14 @@ Node StateMatchNode(const StateMatch& match) {
   if (match.duv) node.Put("duv", match.duv->value);
   if (match.dimmer_stops) node.Put("dimmer_stops", match.dimmer_stops->value);
   node.Put("stops_lost", Node(match.stops_lost));
-  Node u95 = Node::Table();
-  Node low = Node::Table();
-  Node high = Node::Table();
-  PutInterval("delta_uv", match.delta_uv, u95, low, high);
-  PutInterval("cct_K", match.cct_K, u95, low, high);
-  PutInterval("duv", match.duv, u95, low, high);
-  PutInterval("dimmer_stops", match.dimmer_stops, u95, low, high);
-  node.Put("u95", std::move(u95));
-  node.Put("low95", std::move(low));
-  node.Put("high95", std::move(high));
+  IntervalTables tables;
+  tables.Put("delta_uv", match.delta_uv);
+  tables.Put("cct_K", match.cct_K);
+  tables.Put("duv", match.duv);
+  tables.Put("dimmer_stops", match.dimmer_stops);
+  node.Put("u95", std::move(tables.u95));
+  node.Put("low95", std::move(tables.low));
+  node.Put("high95", std::move(tables.high));
   return node;
 }
 
@@ -150,8 +131,7 @@ std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& 
   for (std::size_t i = 0; i < mix.lamps.size(); ++i) {
     const LampSetting& one = mix.lamps[i];
     const std::string unit = one.point.kind == LevelKind::kIntensity ? " cd" : " lx";
-    rows.push_back({names[i], SettingText(one),
-                    std::string(kSettingBasis[static_cast<std::size_t>(one.basis)]),
+    rows.push_back({names[i], SettingText(one), std::string(BasisWord(one.basis)),
                     RoundedText(one.point.level, 3) + unit});
   }
   std::string text = TextTable({"lamp", "set", "was", "gives"}, rows) + "\ntogether ";
@@ -189,11 +169,10 @@ void WarnOfLevel(const StateMatch& match, const std::string& title, Console& con
 void WarnOfCombined(const StateMatch& match, const std::vector<const MatchLight*>& lamps,
                     Console& console) {
   for (std::size_t i = 0; i < match.lamps.size(); ++i) {
-    if (match.lamps[i].basis != StateBasis::kCombined) continue;
-    console.Warn({"state_combined", lamps[i]->title,
-                  StateText(match.lamps[i].state) +
-                      " was put together from states that differ from it in several controls; "
-                      "read it to be sure"});
+    const LampSetting& one = match.lamps[i];
+    if (auto warning = CombinedWarning(lamps[i]->title, one.state, one.basis)) {
+      console.Warn(*std::move(warning));
+    }
   }
 }
 

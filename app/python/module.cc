@@ -229,14 +229,6 @@ std::vector<OutputFile> OutputFilesOf(ExportedPresets&& presets) {
   return files;
 }
 
-std::string PasteIn(std::string line, const std::string& directory) {
-  for (std::size_t at = 0; (at = line.find(kPasteDirectory, at)) != std::string::npos;) {
-    line.replace(at, kPasteDirectory.size(), directory);
-    at += directory.size();
-  }
-  return line;
-}
-
 // `document`: the text of a light.json instead of a path; then `stem` names the presets.
 py::dict Export(const std::string& path, const std::string& document, const std::string& stem,
                 const std::string& output, const py::dict& given) {
@@ -266,7 +258,7 @@ py::dict Export(const std::string& path, const std::string& document, const std:
     if (!presets) return Propagate(std::move(presets));
     console.Warn(presets->warnings);
     for (const std::string& line : presets->pastes) {
-      pastes.push_back(PasteIn(line, output.empty() ? "." : output));
+      pastes.push_back(WithDirectory(line, output.empty() ? "." : output));
     }
     std::vector<OutputFile> made = OutputFilesOf(*std::move(presets));
     if (output.empty()) return made;

@@ -9,11 +9,8 @@ find_file(LIGHTCAL_WASM_BUILTINS libclang_rt.builtins-wasm32.a
   PATHS /usr/lib/llvm-19/lib/clang/19/lib/wasi NO_DEFAULT_PATH)
 if(NOT LIGHTCAL_WASM OR LIGHTCAL_SANITIZE OR NOT LIGHTCAL_WASM_CLANG OR NOT LIGHTCAL_WASM_LINKER
     OR NOT LIGHTCAL_WASM_LIBCXX OR NOT LIGHTCAL_WASM_BUILTINS)
-  set(LIGHTCAL_HAS_PAGE OFF)
   return()
 endif()
-set(LIGHTCAL_HAS_PAGE ON)
-
 set(wasm ${CMAKE_CURRENT_SOURCE_DIR}/wasm)
 set(wasm_build ${PROJECT_BINARY_DIR}/wasm)
 set(page ${PROJECT_BINARY_DIR}/app/lightcal_page.html)

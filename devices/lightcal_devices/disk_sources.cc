@@ -4,80 +4,41 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <cstddef>
-#include <filesystem>
-#include <limits>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "lightcal_devices/captures/board_module.h"
 #include "lightcal_devices/captures/bracket.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/masked_picture.h"
-#include "lightcal_devices/files/file_bytes.h"
-#include "lightcal_devices/files/import_file.h"
-#include "lightcal_devices/files/read_photometric.h"
+#include "lightcal_devices/files/read_files.h"
 
 namespace lightcal::devices {
 namespace {
 
-constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kMostOfAnExport = std::size_t{256} << 20U;
-
-// Files that were read, by path.
+// Files and pictures that were read or mapped.
 class Disk {
  public:
-  using Bytes = std::shared_ptr<const files::FileBytes>;
-
-  Bytes Read(const std::string& path, std::size_t most) {
-    const std::lock_guard lock(mutex_);
-    Bytes& read = read_[path];
-    if (!read || read->fault != files::FileFault::kNone) {
-      read = std::make_shared<const files::FileBytes>(files::ReadFileBytes(path, most));
-    }
-    return read;
-  }
-
-  Result<std::string> Text(const std::string& path) {
-    const Bytes read = Read(path, kAnySize);
-    if (read->fault == files::FileFault::kMissing) {
-      return Failed("not_found", path, "no such file");
-    }
-    if (read->fault != files::FileFault::kNone) {
-      return Failed("unreadable", path, "cannot be read; is it a file you may open?");
-    }
-    return read->bytes;
-  }
-
   Result<std::string> Sha256(const std::string& path) {
-    {
-      const std::lock_guard lock(mutex_);
-      const auto read = read_.find(path);
-      if (read != read_.end() && read->second->fault == files::FileFault::kNone) {
-        return Sha256Hex(read->second->bytes);
-      }
-    }
+    if (const auto held = files_->Held(path)) return Sha256Hex(held->bytes);
     if (const auto mapped = open_.Map(path)) {
       std::string hash = Sha256Hex({static_cast<const char*>(mapped->bytes.get()), mapped->size});
       ReleasePages(*mapped);
       return hash;
     }
-    const auto text = Text(path);  // empty, no regular file, or not there
+    const auto text = files_->Text(path);  // empty, no regular file, or not there
     if (!text) return text;
     return Sha256Hex(*text);
   }
 
+  [[nodiscard]] const std::shared_ptr<ReadFiles>& files() const { return files_; }
   [[nodiscard]] OpenFiles* open() { return &open_; }
 
  private:
   OpenFiles open_;  // pictures
-  std::mutex mutex_;
-  std::map<std::string, Bytes> read_;
+  std::shared_ptr<ReadFiles> files_ = std::make_shared<ReadFiles>();
 };
 
 }  // namespace
@@ -99,18 +60,8 @@ Sources DiskSources() {
   const auto disk = std::make_shared<Disk>();
   Sources sources;
   sources.expand_files = ExpandFiles;
-  sources.exists = [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-  };
-  sources.read_text = [disk](const std::string& path) { return disk->Text(path); };
+  AddFileSources(disk->files(), sources);
   sources.sha256 = [disk](const std::string& path) { return disk->Sha256(path); };
-  sources.read_spectra = [disk](const std::string& path) {
-    return ImportRead(*disk->Read(path, kMostOfAnExport), path);
-  };
-  sources.read_photometric = [disk](const std::string& path) {
-    return PhotometricRead(*disk->Read(path, kMaxPhotometricBytes), path);
-  };
   sources.open_bracket = [disk](std::span<const std::string> patterns,
                                 const BracketOverrides& overrides) {
     return OpenBracket(patterns, overrides, disk->open());

@@ -112,10 +112,11 @@ function lampWords(some) {
 const interval = (cd) => ({ low: cd.low95 ?? cd.value - cd.u95, high: cd.high95 ?? cd.value + cd.u95 });
 const short = (x) => (x >= 1000 ? Math.round(x).toString() : Number(x.toPrecision(3)).toString());
 
-function showGrowth(all) {
+// `last`: what all of them together say.
+function showGrowth(all, last) {
   const steps = [];
   for (let n = 1; n <= all.length; ++n) {
-    const { value } = asked(lampWords(all.slice(0, n)));
+    const value = n === all.length ? last : asked(lampWords(all.slice(0, n))).value;
     if (value) steps.push({ n, cd: value.lights[0].intensity_cd });
   }
   byId('growth').hidden = steps.length < 2;
@@ -154,7 +155,7 @@ function answerLamp() {
   big.append(make('small', 'cd'));
   target.replaceChildren(big, make('p', parts.slice(2).join(' · '), { class: 'interval' }));
   showRows(target, [['lamp', parts[0]], ...rows]);
-  showGrowth(all);
+  showGrowth(all, value);
   byId('lamp-files').hidden = false;
 }
 
@@ -328,8 +329,9 @@ function wire() {
     form.addEventListener('submit', (event) => event.preventDefault());
   }
   byId('add-reading').addEventListener('click', () => addReading().querySelector('input').focus());
+  const engines = engineWords();
   for (const select of [byId('engine'), byId('lights-engine')]) {
-    select.append(...engineWords().map((word) => make('option', word, { value: word })));
+    select.append(...engines.map((word) => make('option', word, { value: word })));
     select.value = 'blender';
   }
   byId('save-session').addEventListener('click', () => {

@@ -147,11 +147,6 @@ Result<OutputFile> PictureFile(const std::string& path, const std::string& svg) 
   return OutputFile{path, svg};
 }
 
-Result<OutputFile> PrintFile(const std::string& path, const std::string& svg, double /*width_mm*/,
-                             double /*height_mm*/) {
-  return PictureFile(path, svg);
-}
-
 std::string PngUri(View2d<const std::uint8_t> /*rgb*/) { return {}; }
 
 Result<std::vector<BatchItem>> BatchItems(const std::vector<std::string>& sessions,

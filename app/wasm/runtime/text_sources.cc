@@ -5,22 +5,13 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
-#include <limits>
-#include <map>
 #include <memory>
-#include <system_error>
 
 #include "lightcal_devices/disk_sources.h"
-#include "lightcal_devices/files/file_bytes.h"
-#include "lightcal_devices/files/import_file.h"
-#include "lightcal_devices/files/read_photometric.h"
+#include "lightcal_devices/files/read_files.h"
 
 namespace lightcal::devices {
 namespace {
-
-constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kMostOfAnExport = std::size_t{256} << 20U;
 
 using Block = std::array<std::uint32_t, 16>;
 using State = std::array<std::uint32_t, 8>;
@@ -83,34 +74,6 @@ void Digest(State& state, const Block& block) {
   for (std::size_t i = 0; i < 8; ++i) state[i] += add[i];
 }
 
-// Files that were read, by path.
-class Disk {
- public:
-  using Bytes = std::shared_ptr<const files::FileBytes>;
-
-  Bytes Read(const std::string& path, std::size_t most) {
-    Bytes& read = read_[path];
-    if (!read || read->fault != files::FileFault::kNone) {
-      read = std::make_shared<const files::FileBytes>(files::ReadFileBytes(path, most));
-    }
-    return read;
-  }
-
-  Result<std::string> Text(const std::string& path) {
-    const Bytes read = Read(path, kAnySize);
-    if (read->fault == files::FileFault::kMissing) {
-      return Failed("not_found", path, "no such file");
-    }
-    if (read->fault != files::FileFault::kNone) {
-      return Failed("unreadable", path, "cannot be read; is it a file you may open?");
-    }
-    return read->bytes;
-  }
-
- private:
-  std::map<std::string, Bytes> read_;
-};
-
 tl::unexpected<Error> NeedsPictures(const std::string& path) {
   return Refused("needs_pictures", path,
                  "pictures are read by the lightcal program alone (Linux); this is the module "
@@ -142,26 +105,16 @@ std::string Sha256Hex(std::string_view bytes) {
 }
 
 Sources DiskSources() {
-  const auto disk = std::make_shared<Disk>();
+  const auto files = std::make_shared<ReadFiles>();
   Sources sources;
   sources.expand_files = [](std::span<const std::string> patterns) {
     return Result<std::vector<std::string>>(NeedsPictures(patterns.empty() ? "" : patterns[0]));
   };
-  sources.exists = [](const std::string& path) {
-    std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
-  };
-  sources.read_text = [disk](const std::string& path) { return disk->Text(path); };
-  sources.sha256 = [disk](const std::string& path) -> Result<std::string> {
-    const auto text = disk->Text(path);
+  AddFileSources(files, sources);
+  sources.sha256 = [files](const std::string& path) -> Result<std::string> {
+    const auto text = files->Text(path);
     if (!text) return text;
     return Sha256Hex(*text);
-  };
-  sources.read_spectra = [disk](const std::string& path) {
-    return ImportRead(*disk->Read(path, kMostOfAnExport), path);
-  };
-  sources.read_photometric = [disk](const std::string& path) {
-    return PhotometricRead(*disk->Read(path, kMaxPhotometricBytes), path);
   };
   sources.open_bracket = [](std::span<const std::string> patterns, const BracketOverrides&) {
     return Result<Bracket>(NeedsPictures(patterns.empty() ? "" : patterns[0]));

@@ -4,6 +4,7 @@
 // multiplies them by the exposure, so that the picture shows the cards as they are; the bare one
 // does not.   Sources: Mitsuba 3 plugin reference; src/emitters/{point,spot}.cpp.
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/xml_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/preset_text.h"
@@ -12,7 +13,6 @@ namespace lightcal {
 namespace {
 
 using preset_text::Numbers;
-using preset_text::XmlEscaped;
 
 constexpr EngineForms kMitsubaForms = {.sphere = true,
                                        .disk = true,

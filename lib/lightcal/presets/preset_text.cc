@@ -43,29 +43,6 @@ std::string Identifier(std::string_view name, std::set<std::string>& taken) {
   return out;
 }
 
-std::string XmlEscaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20U ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::string UriOf(const std::string& name) {
   constexpr std::string_view kHex = "0123456789ABCDEF";
   std::string uri;

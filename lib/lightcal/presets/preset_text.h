@@ -22,9 +22,6 @@ namespace lightcal::preset_text {
 // Letters, digits and underscores, no digit first, not in `taken` yet (and then in it).
 [[nodiscard]] std::string Identifier(std::string_view name, std::set<std::string>& taken);
 
-// Text for XML attributes and element contents.
-[[nodiscard]] std::string XmlEscaped(std::string_view text);
-
 // What begins the name of a preset itself: <stem>, of a rig <stem>.rig. Files beside it, which both
 // name, go by <stem>.
 [[nodiscard]] std::string SceneStem(const std::string& stem, const PresetOptions& options);

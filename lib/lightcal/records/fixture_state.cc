@@ -47,6 +47,14 @@ bool SameState(const FixtureState& a, const FixtureState& b) {
   });
 }
 
+bool SameWords(const FixtureState& a, const FixtureState& b) {
+  return std::ranges::all_of(a, [&](const ControlValue& control) {
+    if (!control.IsWord()) return true;
+    const ControlValue* there = FindControl(b, control.name);
+    return there != nullptr && there->word == control.word;
+  });
+}
+
 const ControlValue* FindControl(const FixtureState& state, std::string_view name) {
   const auto found = std::ranges::find(state, name, &ControlValue::name);
   return found == state.end() ? nullptr : &*found;

@@ -33,6 +33,8 @@ inline constexpr std::string_view kZoomControl = "zoom_deg";  // degrees
 void SortState(FixtureState& state);
 // Whether both say the same of the same controls (numbers within 1e-9 of each other, relative).
 [[nodiscard]] bool SameState(const FixtureState& a, const FixtureState& b);
+// Whether every word of `a` stands in `b` too.
+[[nodiscard]] bool SameWords(const FixtureState& a, const FixtureState& b);
 [[nodiscard]] const ControlValue* FindControl(const FixtureState& state, std::string_view name);
 // The number of a control; absent where it is a word or not there.
 [[nodiscard]] std::optional<double> NumberOfControl(const FixtureState& state,

@@ -2,49 +2,23 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/xml_text.h"
 #include "lightcal/records/gdtf.h"
 
 namespace lightcal {
 namespace {
 
-std::string XmlText(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        // XML 1.0 has no other control characters, escaped or not.
-        if (static_cast<unsigned char>(c) >= 0x20U || c == '\t') {
-          out += c;
-        } else {
-          out += ' ';
-        }
-    }
-  }
-  return out;
-}
-
 class Attributes {
  public:
   Attributes& Text(std::string_view name, std::string_view value) {
-    text_ += " " + std::string(name) + "=\"" + XmlText(value) + "\"";
+    text_ += " " + std::string(name) + "=\"" + XmlEscaped(value) + "\"";
     return *this;
   }
   Attributes& Number(std::string_view name, double value) {

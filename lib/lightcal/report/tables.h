@@ -20,9 +20,9 @@ namespace lightcal::report {
 [[nodiscard]] std::string FitTable(const FitDiagnostics& fit);
 // Every reading against the model.
 [[nodiscard]] std::string ReadingTable(const std::vector<ResidualRow>& rows);
-// What each engine makes of the light where a meter stood, and whether the engine was run.
 // What each engine makes of a dome's picture six ways; "" where no picture was given.
 [[nodiscard]] std::string AroundTable(std::string_view light, const std::vector<ParityRow>& rows);
+// What each engine makes of the light where a meter stood, and whether the engine was run.
 [[nodiscard]] std::string ParityTable(std::string_view light, const std::vector<ParityRow>& rows);
 // Where the uncertainty comes from: share of the variance, and what would halve each part.
 [[nodiscard]] std::string BudgetTable(const std::vector<BudgetPart>& budget);

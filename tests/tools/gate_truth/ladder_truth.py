@@ -128,13 +128,14 @@ def main():
     figures = {name: truth(*scene) for name, scene in SCENES.items()}
     if len(sys.argv) == 3 and sys.argv[1] == "--check":
         with open(sys.argv[2]) as source:
-            held = {name: float(value) for name, value in re.findall(r'\{"([^"]+)", ([0-9.]+)\}', source.read())}
+            held = {name: float(value) for name, value in re.findall(
+                r'push_back\(\s*\{"([^"]+)",[^;]*?([0-9.]+)\}\);', source.read())}
         off = [name for name in figures if abs(held.get(name, 0) / figures[name] - 1) > 1e-4]
         for name in off:
             print(f"{name}: {figures[name]:.5f}, not {held.get(name)}")
         return 1 if off or not held else 0
     for name, value in figures.items():
-        print(f'    {{"{name}", {value:.5f}}},')
+        print(f"{value:.5f}  {name}")
     return 0
 
 

@@ -82,4 +82,12 @@ std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light) {
   return sweeps;
 }
 
+std::vector<ControlSweep> ControlSweepsOf(const LightFile& file) {
+  std::vector<ControlSweep> sweeps;
+  for (const FittedLight& light : file.lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(sweeps));
+  }
+  return sweeps;
+}
+
 }  // namespace lightcal

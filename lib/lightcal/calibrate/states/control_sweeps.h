@@ -14,5 +14,7 @@ namespace lightcal {
 // by AnswerState at 41 places, closer together where states are; of a lamp whose states say nothing
 // between them (several controls that add light) what was read alone.
 [[nodiscard]] std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light);
+// Those of all its lights, in their order.
+[[nodiscard]] std::vector<ControlSweep> ControlSweepsOf(const LightFile& file);
 
 }  // namespace lightcal

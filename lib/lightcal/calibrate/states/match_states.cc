@@ -5,15 +5,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <random>
 #include <utility>
 
 #include "lightcal/calibrate/states/settable_lamp.h"
-#include "lightcal/colorimetry/cct.h"
+#include "lightcal/calibrate/states/setting_intervals.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/statistics.h"
 
 namespace lightcal {
 namespace {
@@ -23,46 +20,7 @@ constexpr double kUnnoticedStops = 0.05;
 constexpr int kHalvings = 8;
 constexpr int kMostMoves = 40;
 constexpr double kLeastCostGain = 2e-3;  // of a cost: 1e-6 in u'v', 0.002 stops
-constexpr std::uint64_t kStateMatchSeed = 20260123;
 constexpr double kFar = 1e9;
-
-using Lamps = std::vector<const LampSettings*>;
-using Settings = std::vector<LampSetting>;
-
-Xyz XyzOfPoint(const LightPoint& point) {
-  const Xyz unit = XyzFromXyAtUnitY(point.xy);
-  return {unit.X * point.level, point.level, unit.Z * point.level};
-}
-
-double UvBetween(Xy a, Xy b) {
-  const Uv1976 ua = Uv1976FromXy(a);
-  const Uv1976 ub = Uv1976FromXy(b);
-  return std::hypot(ua.u - ub.u, ua.v - ub.v);
-}
-
-// All lamps together; of one without a level its colour.
-LightPoint SumOf(const Settings& settings) {
-  if (settings.size() == 1) return settings.front().point;
-  LightPoint sum;
-  Xyz xyz;
-  for (const LampSetting& one : settings) {
-    const Xyz part = XyzOfPoint(one.point);
-    xyz = {xyz.X + part.X, xyz.Y + part.Y, xyz.Z + part.Z};
-  }
-  sum.xy = xyz.Y > 0.0 ? XyFromXyz(xyz) : settings.front().point.xy;
-  sum.kind = settings.front().point.kind;
-  sum.level = xyz.Y;
-  return sum;
-}
-
-std::optional<double> StopsOver(const LightPoint& point, const LightPoint& target) {
-  if (point.kind == LevelKind::kNone || point.kind != target.kind || !(point.level > 0.0)) {
-    return std::nullopt;
-  }
-  return std::log2(point.level / target.level);
-}
-
-// ---- the search ----
 
 // What a setting costs; kFar and more where it is none.
 using Cost = std::function<double(const LightPoint&)>;
@@ -180,194 +138,6 @@ Settings Nearest(const Lamps& lamps, const LightPoint& target) {
   return Rounded(lamps, LeastOf(lamps, {nearest, BestCandidate(lamps, light)}, light).settings);
 }
 
-// ---- how sure ----
-
-LightPoint Drawn(const LightPoint& point, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  const double mired = normal(random) * point.sd_ln_mired;
-  const double duv = normal(random) * point.sd_duv;
-  const double across = normal(random) * point.sd_duv;
-  LightPoint drawn = point;
-  drawn.level *= std::exp(point.sd_ln_level * normal(random));
-  if (const CctResult cct = CctFromXy(point.xy); cct.valid()) {
-    drawn.xy = XyFromCct(Kelvin(cct.temperature.value() * std::exp(mired)), cct.duv + duv);
-  } else {
-    const Uv1960 uv = Uv1960FromXy(point.xy);
-    drawn.xy = XyFromUv1960({uv.u + across, uv.v + duv});
-  }
-  return drawn;
-}
-
-Uncertain DrawnInterval(double value, std::vector<double> drawn) {
-  if (drawn.size() < 40) return {value, 0.0, {}, {}};
-  std::ranges::sort(drawn);
-  const auto rank = [&](double p) {
-    return drawn[static_cast<std::size_t>(std::lround(p * static_cast<double>(drawn.size() - 1)))];
-  };
-  const double low = std::min(value, rank(0.025));
-  const double high = std::max(value, rank(0.975));
-  return {value, (high - low) / 2.0, low, high};
-}
-
-StateMatch Described(Settings settings, const StateMatchRequest& request) {
-  StateMatch match;
-  match.point = SumOf(settings);
-  std::vector<double> kelvin;
-  std::vector<double> duv;
-  std::vector<double> stops;
-  std::vector<double> off;
-  std::mt19937_64 random(kStateMatchSeed);
-  for (int i = 0; i < request.draws; ++i) {
-    Settings drawn = settings;
-    for (LampSetting& one : drawn) one.point = Drawn(one.point, random);
-    const LightPoint sum = SumOf(drawn);
-    const LightPoint target = Drawn(request.target, random);
-    off.push_back(UvBetween(sum.xy, target.xy));
-    if (const auto over = StopsOver(sum, target)) stops.push_back(*over);
-    if (const CctResult cct = CctFromXy(sum.xy); cct.valid()) {
-      kelvin.push_back(cct.temperature.value());
-      duv.push_back(cct.duv);
-    }
-  }
-  match.delta_uv = DrawnInterval(UvBetween(match.point.xy, request.target.xy), std::move(off));
-  if (const CctResult cct = CctFromXy(match.point.xy); cct.valid()) {
-    match.cct_K = DrawnInterval(cct.temperature.value(), std::move(kelvin));
-    match.duv = DrawnInterval(cct.duv, std::move(duv));
-  }
-  if (const auto over = StopsOver(match.point, request.target)) {
-    match.dimmer_stops = DrawnInterval(*over, std::move(stops));
-  }
-  if (settings.size() == 1 && settings.front().relative && *settings.front().relative > 0.0) {
-    match.stops_lost = -std::log2(*settings.front().relative);
-  }
-  match.lamps = std::move(settings);
-  return match;
-}
-
-// Outcomes of a setting beside their 1 sigma: u', v' and, where it is compared, ln of the light.
-struct Outcomes {
-  std::array<double, 3> value{};
-  std::array<double, 3> sd{};
-  int count = 2;
-};
-
-Outcomes OutcomesOf(const LightPoint& point, const LightPoint& target) {
-  const Uv1976 uv = Uv1976FromXy(point.xy);
-  Outcomes out;
-  out.value = {uv.u, uv.v, point.level > 0.0 ? std::log(point.level) : 0.0};
-  // A mired's step along the locus and a Duv's across it, taken alike in u' and v'.
-  const CctResult cct = CctFromXy(point.xy);
-  const auto sd_of = [&](const LightPoint& one) {
-    if (!cct.valid()) return 1.5 * one.sd_duv;
-    const Xy moved = XyFromCct(Kelvin(cct.temperature.value() * (1.0 + one.sd_ln_mired)), cct.duv);
-    return std::hypot(UvBetween(moved, point.xy), one.sd_duv);
-  };
-  const double sd = std::max(1e-5, std::hypot(sd_of(point), sd_of(target)));
-  out.sd = {sd, sd, std::max(1e-5, std::hypot(point.sd_ln_level, target.sd_ln_level))};
-  if (StopsOver(point, target)) out.count = 3;
-  return out;
-}
-
-// Solves a x = b in place for one column a side; false where a is singular.
-bool Invert(std::vector<std::vector<double>>& a) {
-  const std::size_t n = a.size();
-  std::vector<std::vector<double>> inverse(n, std::vector<double>(n, 0.0));
-  for (std::size_t i = 0; i < n; ++i) inverse[i][i] = 1.0;
-  for (std::size_t c = 0; c < n; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t r = c + 1; r < n; ++r) {
-      if (std::abs(a[r][c]) > std::abs(a[pivot][c])) pivot = r;
-    }
-    if (!(std::abs(a[pivot][c]) > 1e-9)) return false;
-    std::swap(a[c], a[pivot]);
-    std::swap(inverse[c], inverse[pivot]);
-    for (std::size_t r = 0; r < n; ++r) {
-      if (r == c) continue;
-      const double factor = a[r][c] / a[c][c];
-      for (std::size_t k = 0; k < n; ++k) {
-        a[r][k] -= factor * a[c][k];
-        inverse[r][k] -= factor * inverse[c][k];
-      }
-    }
-  }
-  for (std::size_t r = 0; r < n; ++r) {
-    for (std::size_t k = 0; k < n; ++k) inverse[r][k] /= a[r][r];
-  }
-  a = std::move(inverse);
-  return true;
-}
-
-struct Slope {
-  std::size_t lamp = 0;
-  LampSettings::Axis axis;
-  std::array<double, 3> of{};  // per range of the control, over the outcome's sd
-};
-
-std::optional<Slope> SlopeAlong(const Lamps& lamps, const Settings& settings,
-                                const LightPoint& target, std::size_t lamp,
-                                const LampSettings::Axis& axis) {
-  constexpr double kPart = 0.02;
-  std::array<Outcomes, 2> ends;
-  std::array<double, 2> at{};
-  for (std::size_t e = 0; e < 2; ++e) {
-    FixtureState state = settings[lamp].state;
-    double& number = state[axis.control].number;
-    number = std::clamp(number + (e == 0 ? -kPart : kPart) * (axis.most - axis.least), axis.least,
-                        axis.most);
-    at[e] = number;
-    auto one = lamps[lamp]->At(state);
-    if (!one) return std::nullopt;
-    Settings there = settings;
-    there[lamp] = *std::move(one);
-    ends[e] = OutcomesOf(SumOf(there), target);
-  }
-  if (!(at[1] > at[0])) return std::nullopt;
-  Slope slope{lamp, axis, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    slope.of[k] =
-        (ends[1].value[k] - ends[0].value[k]) / (at[1] - at[0]) * (axis.most - axis.least);
-  }
-  return slope;
-}
-
-// (J^T J)^-1 of the outcomes over their sigmas: where the labels may stand that give this light.
-void SetLabelIntervals(const Lamps& lamps, const LightPoint& target, StateMatch& match) {
-  std::vector<Slope> slopes;
-  for (std::size_t i = 0; i < lamps.size(); ++i) {
-    for (const auto& axis : lamps[i]->AxesAt(match.lamps[i].state)) {
-      const auto slope = SlopeAlong(lamps, match.lamps, target, i, axis);
-      if (!slope) return;
-      slopes.push_back(*slope);
-    }
-  }
-  LightPoint with_sd = match.point;
-  for (const LampSetting& one : match.lamps) {
-    with_sd.sd_ln_mired = std::max(with_sd.sd_ln_mired, one.point.sd_ln_mired);
-    with_sd.sd_duv = std::max(with_sd.sd_duv, one.point.sd_duv);
-    with_sd.sd_ln_level = std::max(with_sd.sd_ln_level, one.point.sd_ln_level);
-  }
-  const Outcomes here = OutcomesOf(with_sd, target);
-  // More labels than outcomes: many settings give the same light, and none is to be named surer.
-  if (slopes.empty() || slopes.size() > static_cast<std::size_t>(here.count)) return;
-  std::vector<std::vector<double>> normal(slopes.size(), std::vector<double>(slopes.size(), 0.0));
-  for (std::size_t a = 0; a < slopes.size(); ++a) {
-    for (std::size_t b = 0; b < slopes.size(); ++b) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(here.count); ++k) {
-        normal[a][b] += slopes[a].of[k] * slopes[b].of[k] / (here.sd[k] * here.sd[k]);
-      }
-    }
-  }
-  if (!Invert(normal)) return;
-  for (std::size_t a = 0; a < slopes.size(); ++a) {
-    const auto& axis = slopes[a].axis;
-    const ControlValue& control = match.lamps[slopes[a].lamp].state[axis.control];
-    const double range = axis.most - axis.least;
-    const double u95 = kZ95 * std::sqrt(std::max(0.0, normal[a][a])) * range;
-    if (!std::isfinite(u95) || u95 > range) continue;  // the whole range: no label is told
-    match.lamps[slopes[a].lamp].u95.push_back({control.name, u95});
-  }
-}
-
 tl::unexpected<Error> NoColor(const std::string& name) {
   return Refused("no_color", name,
                  "no colour of it is known; read its xy or its CCT, or give its spectrum");
@@ -397,7 +167,7 @@ Result<StateMatches> MatchStates(const SettableLamp& lamp, const StateMatchReque
   if (settings.read().empty()) return NoColor(lamp.name);
   const Lamps lamps = {&settings};
   StateMatches answer;
-  StateMatch best = Described(Nearest(lamps, request.target), request);
+  StateMatch best = DescribedMatch(Nearest(lamps, request.target), request);
   if (best.delta_uv.value > request.reach) {
     return Refused("unreachable", "target",
                    "no setting of " + lamp.name + " between those that were read comes within " +
@@ -407,7 +177,7 @@ Result<StateMatches> MatchStates(const SettableLamp& lamp, const StateMatchReque
   SetLabelIntervals(lamps, request.target, best);
   answer.matches.push_back(std::move(best));
   std::vector<StateMatch> read;
-  for (const LampSetting& one : settings.read()) read.push_back(Described({one}, request));
+  for (const LampSetting& one : settings.read()) read.push_back(DescribedMatch({one}, request));
   answer.unfiltered = read.front();
   std::ranges::stable_sort(read, [](const StateMatch& a, const StateMatch& b) {
     const auto step = [](const StateMatch& m) {
@@ -442,7 +212,7 @@ Result<StateMatch> MixStates(const SettableLamp& lamp, const SettableLamp& with,
                    "how much each lamp gives must be known of both in one unit, in candela or in "
                    "lux where the meter stood, to add them");
   }
-  StateMatch mix = Described(Nearest(lamps, request.target), request);
+  StateMatch mix = DescribedMatch(Nearest(lamps, request.target), request);
   if (mix.delta_uv.value > request.reach) {
     return Refused("unreachable", "target",
                    "no two settings of " + lamp.name + " and " + with.name +

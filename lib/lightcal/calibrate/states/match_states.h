@@ -3,7 +3,6 @@
 // Judged by colour alone: between states nobody knows a spectrum.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

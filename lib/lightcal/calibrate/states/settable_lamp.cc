@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/fit/states/ln_of.h"
 
 namespace lightcal {
 namespace {
@@ -16,18 +17,13 @@ constexpr std::array<int, 4> kGridPoints = {0, 17, 8, 4};
 constexpr double kDimmerStep = 0.1, kKelvinStep = 1.0, kOtherSteps = 1000.0;
 constexpr double kFullDimmer = 100.0;
 
-double SdOfLnValue(const Uncertain& u) {
-  if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
-  return u.value > 0.0 ? u.u95 / (kZ95 * u.value) : 0.0;
-}
-
 std::optional<LightPoint> PointFrom(const FittedColor& color,
                                     const std::optional<Uncertain>& intensity_cd,
                                     const std::optional<Uncertain>& illuminance_lx) {
   if (!color.xy) return std::nullopt;
   LightPoint point;
   point.xy = *color.xy;
-  if (color.cct_K) point.sd_ln_mired = SdOfLnValue(*color.cct_K);
+  if (color.cct_K) point.sd_ln_mired = fit::SdOfLn(*color.cct_K);
   if (color.duv) point.sd_duv = color.duv->u95 / kZ95;
   const Uncertain* level = nullptr;
   if (intensity_cd) {
@@ -39,22 +35,46 @@ std::optional<LightPoint> PointFrom(const FittedColor& color,
   }
   if (level != nullptr && level->value > 0.0) {
     point.level = level->value;
-    point.sd_ln_level = SdOfLnValue(*level);
+    point.sd_ln_level = fit::SdOfLn(*level);
   } else {
     point.kind = LevelKind::kNone;
   }
   return point;
 }
 
-bool SameWordsIn(const FixtureState& a, const FixtureState& b) {
-  return std::ranges::all_of(a, [&](const ControlValue& control) {
-    if (!control.IsWord()) return true;
-    const ControlValue* there = FindControl(b, control.name);
-    return there != nullptr && there->word == control.word;
-  });
+Xyz XyzOfPoint(const LightPoint& point) {
+  const Xyz unit = XyzFromXyAtUnitY(point.xy);
+  return {unit.X * point.level, point.level, unit.Z * point.level};
 }
 
 }  // namespace
+
+double UvBetween(Xy a, Xy b) {
+  const Uv1976 ua = Uv1976FromXy(a);
+  const Uv1976 ub = Uv1976FromXy(b);
+  return std::hypot(ua.u - ub.u, ua.v - ub.v);
+}
+
+LightPoint SumOf(const Settings& settings) {
+  if (settings.size() == 1) return settings.front().point;
+  LightPoint sum;
+  Xyz xyz;
+  for (const LampSetting& one : settings) {
+    const Xyz part = XyzOfPoint(one.point);
+    xyz = {xyz.X + part.X, xyz.Y + part.Y, xyz.Z + part.Z};
+  }
+  sum.xy = xyz.Y > 0.0 ? XyFromXyz(xyz) : settings.front().point.xy;
+  sum.kind = settings.front().point.kind;
+  sum.level = xyz.Y;
+  return sum;
+}
+
+std::optional<double> StopsOver(const LightPoint& point, const LightPoint& target) {
+  if (point.kind == LevelKind::kNone || point.kind != target.kind || !(point.level > 0.0)) {
+    return std::nullopt;
+  }
+  return std::log2(point.level / target.level);
+}
 
 std::optional<LightPoint> PointOf(const FittedLight& light) {
   return PointFrom(light.color, light.intensity_cd, light.illuminance_lx);
@@ -75,7 +95,7 @@ LampSettings::LampSettings(const SettableLamp& lamp) : lamp_(lamp) {
   std::vector<FixtureState> seen;
   for (const LampSetting& one : read_) {
     const bool known = std::ranges::any_of(
-        seen, [&](const FixtureState& state) { return SameWordsIn(state, one.state); });
+        seen, [&](const FixtureState& state) { return SameWords(state, one.state); });
     if (known) continue;
     seen.push_back(one.state);
     AddGrid(one.state);
@@ -114,7 +134,7 @@ std::vector<LampSettings::Axis> LampSettings::AxesAt(const FixtureState& state) 
       axis.most = kFullDimmer;
     } else {
       for (const MeasuredState& one : lamp_.light->states) {
-        if (!SameWordsIn(state, one.state)) continue;
+        if (!SameWords(state, one.state)) continue;
         const double there = NumberOfControl(one.state, state[i].name).value_or(0.0);
         axis.least = std::min(axis.least, there);
         axis.most = std::max(axis.most, there);

@@ -25,10 +25,9 @@ EffectState StateOf(GateState state) {
 // An influence of relative size sd at the farthest reading.
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
-  const bool card = effect.name == "room_bounce" && effects::AllBehindCards(scene);
-  return {sd / std::pow(FarthestDistance(scene), power), power,
-          card ? "shadow_card" : std::string(effect.name), effect.finding.own_lamp,
-          effect.name == "ambient"};
+  const std::string_view part = effect.finding.part.empty() ? effect.name : effect.finding.part;
+  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(part),
+          effect.finding.own_lamp, effect.name == "ambient"};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {

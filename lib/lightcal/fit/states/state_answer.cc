@@ -55,7 +55,7 @@ class States {
   States(const FittedLight& light, const FixtureState& at, std::size_t without)
       : light_(light), at_(at) {
     for (std::size_t i = 0; i < light.states.size(); ++i) {
-      if (i != without && SameWords(light.states[i].state)) kept_.push_back(&light.states[i]);
+      if (i != without && SameWords(at_, light.states[i].state)) kept_.push_back(&light.states[i]);
     }
     FindAxes();
   }
@@ -149,14 +149,6 @@ class States {
   }
 
  private:
-  [[nodiscard]] bool SameWords(const FixtureState& state) const {
-    return std::ranges::all_of(at_, [&](const ControlValue& control) {
-      if (!control.IsWord()) return true;
-      const ControlValue* there = FindControl(state, control.name);
-      return there != nullptr && there->word == control.word;
-    });
-  }
-
   [[nodiscard]] bool OthersAlike(const FixtureState& state, const std::string& but) const {
     return std::ranges::all_of(axes_, [&](const Axis& axis) {
       return axis.name == but || SameNumbers(NumberOfControl(state, axis.name).value_or(0.0),

@@ -29,6 +29,7 @@ struct EffectFinding {
   std::optional<double> sd{};       // 1 sigma of one that widens; absent: half the bound
   bool own_lamp = false;            // widens a person's readings; a data sheet's lamp is warm, ...
   std::optional<double> cost_ns{};  // of what is done here, where that is not the declared price
+  std::string_view part{};          // of the interval, where what widens it goes by another name
 };
 
 [[nodiscard]] inline EffectFinding NotApplicable(std::string why) {

@@ -10,8 +10,8 @@ namespace lightcal::effects {
 
 // A test, not a bound: some of a ball lies behind the meter as soon as its radius reaches
 // d cos(tilt); of a flat source that faces the meter, or a tube across, as soon as
-// radius sin(tilt) does: facing it squarely the meter sees all of a softbox, however near. Then up to
-// all of its light is cut off.
+// radius sin(tilt) does: facing it squarely the meter sees all of a softbox, however near. Then up
+// to all of its light is cut off.
 [[nodiscard]] inline EffectFinding FindHorizon(const Scene& scene) {
   const std::optional<double> radius = SourceRadius(scene);
   if (!FollowsDistance(scene)) return NotApplicable("no distance law");

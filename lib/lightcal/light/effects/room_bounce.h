@@ -58,7 +58,8 @@ struct CardShade {
             .treatment = Treatment::kWidens,
             .reason = "the shadow-card readings subtract it, but for the wall that the card hides",
             .sd = shade.rms,
-            .own_lamp = true};
+            .own_lamp = true,
+            .part = "shadow_card"};
   }
   if (!FollowsDistance(scene)) {
     return NotApplicable("part of what this kind of light is");

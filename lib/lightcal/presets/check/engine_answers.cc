@@ -90,12 +90,14 @@ using Pictures = std::vector<std::shared_ptr<const EnvironmentPicture>>;
 
 std::vector<EngineExport> ExportsOf(const LightFile& lights, const Pictures& environments) {
   std::vector<EngineExport> all;
+  const bool any_picture =
+      std::ranges::any_of(environments, [](const auto& picture) { return picture != nullptr; });
   for (const PresetTarget* engine : ReportTargets()) {
     auto preset = engine->exporter(lights, "report", {});
     if (!preset || preset->derived.size() != lights.lights.size()) continue;
     EngineExport one{engine, std::move(preset->derived), {}};
     if (engine->emission == nullptr) one.read_back = ReadBack(*engine, *preset);
-    if (!environments.empty()) {  // what is typed in is that of the pictures
+    if (any_picture) {  // what is typed in is that of the pictures
       PresetOptions with_pictures;
       with_pictures.environments = environments;
       with_pictures.figures_only = true;

@@ -193,29 +193,39 @@ double LuminanceOfVec(const Vec3& rgb) {
   return LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb);
 }
 
+// Ours: +Y front, +X right, +Z up.
+constexpr std::array<std::string_view, 6> kWays = {"up", "down", "front", "right", "back", "left"};
+constexpr std::array<Vec3, 6> kNormals = {
+    {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, {-1, 0, 0}}};
+
+// A picture's lux round about: its own, and what its nine harmonics give.
+struct SixWays {
+  std::array<double, 6> own{}, harmonic{};
+};
+
+SixWays SixWaysOf(const EnvironmentPicture& picture) {
+  SixWays out;
+  const std::vector<Vec3> own = IrradianceOn(picture, kNormals);
+  const Harmonics harmonics = RadianceHarmonics(picture, [](const Vec3& v) { return v; });
+  for (std::size_t i = 0; i < kNormals.size(); ++i) {
+    out.own[i] = LuminanceOfVec(own[i]);
+    out.harmonic[i] = LuminanceOfVec(IrradianceOn(harmonics, kNormals[i]));
+  }
+  return out;
+}
+
 struct Around {
   std::vector<WayLux> ways;
   std::string law;
 };
 
-// Ours: +Y front, +X right, +Z up.
-Around AroundIn(PanoramaLaw law, const EnvironmentPicture& picture) {
-  constexpr std::array<std::pair<std::string_view, Vec3>, 6> kWays = {{{"up", {0, 0, 1}},
-                                                                       {"down", {0, 0, -1}},
-                                                                       {"front", {0, 1, 0}},
-                                                                       {"right", {1, 0, 0}},
-                                                                       {"back", {0, -1, 0}},
-                                                                       {"left", {-1, 0, 0}}}};
+Around AroundIn(PanoramaLaw law, const SixWays& six) {
   Around out;
   if (law == PanoramaLaw::kNotKnown) return out;
   const bool traced = law == PanoramaLaw::kTraced;
   out.law = traced ? "the picture itself" : "nine harmonics of the picture";
-  Harmonics harmonics{};
-  if (!traced) harmonics = RadianceHarmonics(picture, [](const Vec3& v) { return v; });
-  for (const auto& [way, normal] : kWays) {
-    const double expected = LuminanceOfVec(IrradianceOn(picture, normal));
-    out.ways.push_back(
-        {way, expected, traced ? expected : LuminanceOfVec(IrradianceOn(harmonics, normal))});
+  for (std::size_t i = 0; i < kWays.size(); ++i) {
+    out.ways.push_back({kWays[i], six.own[i], traced ? six.own[i] : six.harmonic[i]});
   }
   return out;
 }
@@ -231,10 +241,12 @@ std::vector<ParityRow> ParityOf(
     const auto place = PlaceOf(lamp);
     if (!place) continue;
     const auto beam = BeamOf(lamp);
+    std::optional<SixWays> six;
     const auto picture = i < environments.size() ? environments[i] : nullptr;
+    if (picture && lamp.kind == LightKind::kDome) six = SixWaysOf(*picture);
     for (const EngineExport& exported : exports) {
-      if (picture && lamp.kind == LightKind::kDome) {
-        Around around = AroundIn(exported.engine->panorama, *picture);
+      if (six) {
+        Around around = AroundIn(exported.engine->panorama, *six);
         if (around.ways.empty()) continue;
         ParityRow row;
         row.light = lamp.name;

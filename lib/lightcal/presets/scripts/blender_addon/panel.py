@@ -58,7 +58,7 @@ def redraw():
 
 def list_lamps(state):
     """Every lamp of every linked file that can be read, by file and name."""
-    chosen = state.lamps[state.chosen_lamp] if 0 <= state.chosen_lamp < len(state.lamps) else None
+    chosen = chosen_item(state)
     before = (chosen.path, chosen.name) if chosen else None
     state.lamps.clear()
     for link in state.links:
