@@ -8,6 +8,8 @@
 #include <functional>
 #include <numbers>
 
+#include "lightcal/presets/filament_cone.h"
+
 namespace lightcal::test {
 namespace {
 
@@ -78,6 +80,22 @@ TEST(TableCone, ItsErrorAndFluxAreThoseOfABruteForceSum) {
 TEST(TableCone, ATableThatIsDarkAlongItsAimHasNone) {
   EXPECT_FALSE(SubstituteForTable(
       TableFrom([](double, double g) { return 50.0 * std::sin(g) * (g > .2); })));
+}
+
+// Worked out from libs/math/include/math/fast.h in 64 bit.
+TEST(FilamentCone, ItsCosineIsTheParabolaOfItsSource) {
+  EXPECT_NEAR(FilamentCosine(Radians(0.0)), 1.0, 1e-15);
+  EXPECT_NEAR(FilamentCosine(Radians(20.0 * kDegree)), 0.9400548696844995, 1e-12);
+  EXPECT_NEAR(FilamentCosine(Radians(25.0 * kDegree)), 0.9068179869684498, 1e-12);
+  EXPECT_NEAR(FilamentCosine(Radians(60.0 * kDegree)), 0.5, 1e-12);
+  EXPECT_NEAR(FilamentCosine(Radians(90.0 * kDegree)), 0.0, 1e-12);
+}
+
+TEST(FilamentCone, ItsAnglesAreWrittenSoThatTheConeIsTheTrueOne) {
+  for (const double degrees : {0.0, 0.5, 5.0, 20.0, 22.0, 42.0, 60.0, 89.0, 90.0}) {
+    const Radians written = AngleForFilament(Radians(degrees * kDegree));
+    EXPECT_NEAR(FilamentCosine(written), std::cos(degrees * kDegree), 1e-12) << degrees;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // intensity, E an illuminance, L a luminance, Y the luminance of the max-normalised colour:
 //   POINT         intensityCandela I/Y;  intensity [lm] 4 pi I/Y
 //   FOCUSED_SPOT  intensityCandela I/Y;  intensity [lm] 2 pi (1 - cos outer) I/Y
+//                 inner_rad, outer_rad as its own cosine takes them (filament_cone.h)
 //   DIRECTIONAL, SUN  intensity E/Y [lx]
 //   INDIRECT      one band of irradiance, the colour; intensity L/Y
 // setExposure(16, 307.2 k, 100) makes pixel = k L. A falloff of 1000 m is no window (one that
@@ -14,6 +15,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
+#include "lightcal/presets/filament_cone.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
@@ -71,7 +73,9 @@ Node FilamentFigures(const PresetLight& light, const FalloffRefit& refit) {
   double solid_angle_sr = 4.0 * std::numbers::pi;
   Node figures = {{"type", "POINT"}};
   if (p.type == PunctualType::kSpot) {
-    figures = {{"type", "FOCUSED_SPOT"}, {"inner_rad", p.cone.inner}, {"outer_rad", p.cone.outer}};
+    figures = {{"type", "FOCUSED_SPOT"},
+               {"inner_rad", AngleForFilament(p.cone.inner)},
+               {"outer_rad", AngleForFilament(p.cone.outer)}};
     solid_angle_sr = 2.0 * std::numbers::pi * (1.0 - std::cos(p.cone.outer.value()));
   }
   figures.Put({{"intensity_candela", intensity},

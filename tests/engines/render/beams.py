@@ -36,15 +36,14 @@ WORST = {
     ('blender', 'cone'): {'spot 15/25': 7, 'spot 5/40': 14, 'spot 20/22': 11, 'cos8': 21},
     ('three', 'cone'): {'spot 15/25': 7, 'spot 5/40': 14, 'spot 20/22': 11, 'cos8': 21},
     ('babylon', 'cone'): {'spot 15/25': 1, 'spot 5/40': 1, 'spot 20/22': 1, 'cos8': 6},
-    # Filament's wasm keeps a cone's scale and offset in half floats: of 20/22 its t is .03 off.
-    ('filament', 'cone'): {'spot 15/25': 1, 'spot 5/40': 1, 'spot 20/22': 6, 'cos8': 6},
+    ('filament', 'cone'): {'spot 15/25': 1, 'spot 5/40': 1, 'spot 20/22': 1, 'cos8': 6},
     ('blender', 'auto'): dict.fromkeys(BEAMS, 1.5),
     ('three', 'auto'): dict.fromkeys(BEAMS, 1.5),
     ('babylon', 'auto'): dict.fromkeys(BEAMS, 1.5),
 }
 FLUX = 2.5
 # What Filament's 8 bit pictures cannot tell.
-NOISE = {'filament': 0.8}
+NOISE = {'filament': 0.3}
 
 
 def stem(beam):

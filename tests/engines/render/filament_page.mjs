@@ -5,7 +5,7 @@ const yUp = ([x, y, z]) => [x, z, -y];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (v) => v.map((x) => x / Math.hypot(...v));
 const plus = (p, v, s) => p.map((x, i) => x + v[i] * s);
-const W = 600, H = 400;
+const kRigSize = [600, 400], kProbeSize = [192, 128];
 const kProbe = 0.4;  // no channel of a warm lamp above 1
 
 function base64(bytes) { return btoa(String.fromCharCode(...bytes)); }
@@ -30,7 +30,7 @@ function squares(cards) {
     const high = [0, 1, 2].map((k) => Math.max(...corners.map((c) => c[k])));
     gltf.accessors.push({ bufferView: 2 * i, componentType: 5126, count: 4, type: 'VEC3', min: low, max: high },
       { bufferView: 2 * i + 1, componentType: 5126, count: 4, type: 'VEC3' });
-    gltf.nodes.push({ mesh: i });
+    gltf.nodes.push({ mesh: i, name: `card ${i}` });
     gltf.scenes[0].nodes.push(i);
     const r = card.reflectance;
     gltf.materials.push({ pbrMetallicRoughness: { baseColorFactor: [r, r, r, 1], metallicFactor: 0, roughnessFactor: 1 },
@@ -63,7 +63,8 @@ function addLights(F, engine, scene, preset) {
 
 const decode = (v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
 
-async function picture(F, preset, cards, eye, job) {
+// One engine for all pictures of a job: the cards of one at a time, looked at by its own camera.
+async function stage(F, preset, cards, unlocked, [W, H]) {
   const canvas = document.createElement('canvas');
   canvas.width = W;
   canvas.height = H;
@@ -76,30 +77,40 @@ async function picture(F, preset, cards, eye, job) {
   const view = engine.createView();
   const camera = engine.createCamera(F.EntityManager.get().create());
   const { aperture, shutter_s, iso } = preset.exposure;
-  if (!job.unlocked) camera.setExposure(aperture, shutter_s, iso);
-  camera.setProjectionFov(eye.fov, W / H, 0.01, 100, F.Camera$Fov.VERTICAL);
-  camera.lookAt(eye.position, eye.target, eye.up);
+  if (!unlocked) camera.setExposure(aperture, shutter_s, iso);
   view.setCamera(camera);
   view.setScene(scene);
   view.setViewport([0, 0, W, H]);
   view.setColorGrading(F.ColorGrading.Builder().quality(F.ColorGrading$QualityLevel.ULTRA).toneMapping(F.ColorGrading$ToneMapping.LINEAR).build(engine));
-  const loader = engine.createAssetLoader();
-  const asset = loader.createAsset(squares(cards));
+  const asset = engine.createAssetLoader().createAsset(squares(cards));
   await new Promise((done) => asset.loadResources(done, null, null));
-  scene.addEntities(asset.getEntities ? asset.getEntities() : asset.getRenderableEntities());
   addLights(F, engine, scene, preset);
-  for (let i = 0; i < 6; ++i) {
-    renderer.render(swapChain, view);
-    await new Promise((r) => setTimeout(r, 20));
-  }
-  engine.execute();
-  const png = canvas.toDataURL('image/png');
-  const flat = new OffscreenCanvas(W, H).getContext('2d');
-  flat.drawImage(canvas, 0, 0);
-  const { data } = flat.getImageData(0, 0, W, H);
-  canvas.remove();
-  F.Engine.destroy(engine);
-  return { png, data };
+  const entities = cards.map((_, i) => asset.getFirstEntityByName(`card ${i}`));
+  let shown = [], warm = false;
+  return {
+    async picture(which, eye) {
+      shown.forEach((e) => scene.remove(e));
+      shown = which.map((i) => entities[i]);
+      shown.forEach((e) => scene.addEntity(e));
+      camera.setProjectionFov(eye.fov, W / H, 0.01, 100, F.Camera$Fov.VERTICAL);
+      camera.lookAt(eye.position, eye.target, eye.up);
+      // The first pictures come before the shaders.
+      for (let i = 0; i < (warm ? 2 : 6); ++i) {
+        renderer.render(swapChain, view);
+        await new Promise((r) => setTimeout(r, 20));
+      }
+      warm = true;
+      engine.execute();
+      const png = canvas.toDataURL('image/png');
+      const flat = new OffscreenCanvas(W, H).getContext('2d');
+      flat.drawImage(canvas, 0, 0);
+      return { png, data: flat.getImageData(0, 0, W, H).data };
+    },
+    close() {
+      canvas.remove();
+      F.Engine.destroy(engine);
+    },
+  };
 }
 let ready;
 export async function filament(job) {
@@ -113,24 +124,30 @@ export async function filament(job) {
     const rig = preset.rig;
     const cards = rig.cards.map((c) => ({ centre: c.centre_m, row: rig.row, normal: rig.normal, side: rig.side_m, reflectance: c.reflectance }));
     const { position_m, target_m, up, vertical_fov_deg } = rig.camera;
-    png = (await picture(F, preset, cards, { position: position_m, target: target_m, up, fov: vertical_fov_deg }, job)).png;
+    const rigged = await stage(F, preset, cards, job.unlocked, kRigSize);
+    png = (await rigged.picture(cards.map((_, i) => i), { position: position_m, target: target_m, up, fov: vertical_fov_deg })).png;
+    rigged.close();
   }
   const lux = [], rgb = [];
-  for (const { point, normal } of job.probes) {
-    const p = yUp(point), n = yUp(normal);
+  const probes = job.probes.map(({ point, normal }) => {
+    const n = yUp(normal);
     const row = unit(cross(Math.abs(n[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0], n));
-    const up = cross(n, row);
-    const { data } = await picture(F, preset, [{ centre: p, row, normal: n, side: 0.2, reflectance: kProbe }],
-      { position: plus(p, n, 0.3), target: p, up, fov: 15 }, {});
+    return { centre: yUp(point), row, normal: n, side: 0.2, reflectance: kProbe };
+  });
+  const probed = probes.length ? await stage(F, preset, probes, false, kProbeSize) : null;
+  for (const [i, { centre, row, normal }] of probes.entries()) {
+    const { data } = await probed.picture([i], { position: plus(centre, normal, 0.3), target: centre, up: cross(normal, row), fov: 15 });
+    const [W, H] = kProbeSize;
     const mid = ((H / 2) * W + W / 2) * 4;
     let sum = [0, 0, 0];
-    for (let y = -5; y < 5; ++y) for (let x = -5; x < 5; ++x) {
-      const i = mid + 4 * (y * W + x);
-      for (let c = 0; c < 3; ++c) sum[c] += decode(data[i + c] / 255) / 100;
+    for (let y = -2; y < 2; ++y) for (let x = -2; x < 2; ++x) {
+      const at = mid + 4 * (y * W + x);
+      for (let c = 0; c < 3; ++c) sum[c] += decode(data[at + c] / 255) / 16;
     }
     const pixel = 0.212639 * sum[0] + 0.715169 * sum[1] + 0.072192 * sum[2];
     rgb.push(sum);
     lux.push(Math.PI * pixel / kProbe / preset.exposure.exposure);
   }
+  probed?.close();
   return { lux, rgb, png };
 }
