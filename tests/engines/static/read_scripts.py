@@ -95,6 +95,13 @@ def three(text):
     return lights, rig_of(root, ours)
 
 
+def filament_cosine(angle):
+    """libs/math/include/math/fast.h; setSpotLightCone takes angles by it, and shares out lumens."""
+    z = angle / (2 * math.pi) - 0.25
+    z *= 16 * abs(z) - 8
+    return z + 0.225 * z * (abs(z) - 1)
+
+
 def filament(text):
     root = json.loads(text)
     lights = {}
@@ -110,8 +117,9 @@ def filament(text):
             seen.candela = light["intensity_candela"] * y
             sr = 4 * math.pi
             if kind == "FOCUSED_SPOT":
-                seen.outer, seen.inner = (math.degrees(light[k]) for k in ("outer_rad", "inner_rad"))
-                sr = 2 * math.pi * (1 - math.cos(light["outer_rad"]))
+                seen.outer, seen.inner = (math.degrees(math.acos(min(1.0, filament_cosine(light[k]))))
+                                          for k in ("outer_rad", "inner_rad"))
+                sr = 2 * math.pi * (1 - filament_cosine(light["outer_rad"]))
             else:
                 seen.aim = None
             if abs(light["intensity_lm"] / sr / light["intensity_candela"] - 1) > 1e-9:
