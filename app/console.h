@@ -29,6 +29,7 @@ class Console {
   [[nodiscard]] bool json() const { return flags_.json; }
   [[nodiscard]] bool allows_outside() const { return flags_.allow_outside; }
   [[nodiscard]] bool verbose() const { return flags_.verbose; }
+  [[nodiscard]] bool quiet() const { return flags_.quiet || flags_.muted; }
   // What it was warned of so far.
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 

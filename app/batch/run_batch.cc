@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -24,6 +25,7 @@
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
 #include "output_files.h"
+#include "progress_line.h"
 
 namespace lightcal::app {
 namespace {
@@ -100,6 +102,11 @@ class BatchProgress {
       line += ", " + std::to_string(n) + " " +
               std::string(kStatusNames[static_cast<std::size_t>(status)]);
     }
+    const double elapsed_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+    const std::string left =
+        TimeLeftText(static_cast<double>(ended) / static_cast<double>(count_), elapsed_s);
+    if (!left.empty()) line += ", " + left;
     std::fputs(line.c_str(), stderr);
   }
   void Clear() const {
@@ -109,6 +116,7 @@ class BatchProgress {
  private:
   bool shown_;
   std::size_t count_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
 };
 
 // What the session's light.json says now; nothing where it has none.

@@ -20,6 +20,7 @@
 #include "match/match_source.h"
 #include "output_files.h"
 #include "picture_file.h"
+#include "progress_line.h"
 #include "typed_reading.h"
 
 namespace lightcal::app {
@@ -201,9 +202,12 @@ Result<void> RunMatch(const MatchOptions& o, Console& console) {
   if (with) return RunMix(o, *lamp, *with, *target, console);
   const auto gels = ReadGels(o.gels, console);
   if (!gels) return tl::unexpected(gels.error());
-  const auto request = RequestOf(o, *lamp, *target);
+  auto request = RequestOf(o, *lamp, *target);
   if (!request) return tl::unexpected(request.error());
+  ProgressLine progress("looking at stacks", !console.quiet());
+  request->progress = progress.Watcher();
   auto answer = match::MatchLights(*request, gels->gels);
+  progress.Wipe();
   if (!answer) return Propagate(std::move(answer));
   WarnIfTooWeak(answer->matches.front(), console);
   const auto files = FilesAsked(o, *request, *answer, *gels, *lamp, *target);

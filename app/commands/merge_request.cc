@@ -13,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "picture_words.h"
+#include "progress_line.h"
 
 namespace lightcal::app {
 namespace {
@@ -162,7 +163,11 @@ Result<OpenedMerge> OpenMerge(const MergeOptions& options) {
 }
 
 Result<MergedBracket> MergeOpened(const OpenedMerge& opened, Console& console) {
-  auto merged = MergeBracket(opened.bracket, opened.sources, opened.request);
+  ProgressLine progress("merging", !console.quiet());
+  BracketMergeRequest request = opened.request;
+  request.progress = progress.Watcher();
+  auto merged = MergeBracket(opened.bracket, opened.sources, request);
+  progress.Wipe();
   if (!merged) return merged;
   console.Warn(merged->warnings);
   console.Warn(CheckShutters(opened.bracket.frames, opened.lamps));

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal tradeoff: what accuracy costs in time, on this very session.
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <iterator>
 #include <memory>
 
@@ -20,6 +17,7 @@
 #include "lightcal_devices/disk_sources.h"
 #include "minutes_answer.h"
 #include "output_files.h"
+#include "progress_line.h"
 #include "tradeoff/tradeoff_answer.h"
 #include "tradeoff/truth_answer.h"
 
@@ -49,28 +47,21 @@ Result<tradeoff::Question> QuestionOf(const TradeoffOptions& options) {
   return question;
 }
 
-// One line on a terminal that counts up, and is wiped at the end.
-class Progress {
+// A study measures one thing after the other, each from 0 to 1, and never takes less than seconds.
+class StudyProgress {
  public:
-  explicit Progress(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
-  ~Progress() {
-    if (shown_) std::cerr << "\r\033[K" << std::flush;
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  explicit StudyProgress(bool wanted) : line_(kPhases[0], wanted, 0.0) {}
 
   void At(double share) {
-    if (share < last_) ++phase_;
+    if (share < last_) line_.Begin(kPhases[std::min(++phase_, kPhases.size() - 1)]);
     last_ = share;
-    if (!shown_) return;
-    std::cerr << "\r\033[K" << kPhases[std::min(phase_, kPhases.size() - 1)]
-              << std::lround(100.0 * share) << " %" << std::flush;
+    line_.At(share);
   }
 
  private:
-  static constexpr std::array kPhases = {"measuring each knob ", "measuring combinations ",
-                                         "making sure ", "reading the twin again "};
-  bool shown_;
+  static constexpr std::array kPhases = {"measuring each knob", "measuring combinations",
+                                         "making sure", "reading the twin again"};
+  ProgressLine line_;
   double last_ = 0.0;
   std::size_t phase_ = 0;
 };
@@ -78,7 +69,7 @@ class Progress {
 Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
                                bool quiet) {
   const InterruptGuard guard;
-  Progress progress(!quiet);
+  StudyProgress progress(!quiet);
   const tradeoff::Watch watch = {[] { return InterruptGuard::StopRequest().Requested(); },
                                  [&](double share) { progress.At(share); }};
   TradeoffAnswer out;

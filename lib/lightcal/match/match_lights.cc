@@ -140,9 +140,13 @@ Result<MatchAnswer> MatchLights(const MatchRequest& request, std::span<const Gel
   answer.target_cct = CctFromXy(answer.target_xy);
   if (request.draws > 0) {
     const MatchDraws draws(*scene);
-    ParallelFor(static_cast<int>(answer.matches.size()) + 1, [&](int i) {
+    const int described = static_cast<int>(answer.matches.size()) + 1;
+    const Progress drawing = PartOf(request.progress, kSearchShare, 1.0);
+    CountedProgress counted(drawing, described);
+    ParallelFor(described, [&](int i) {
       Match& match = i == 0 ? answer.unfiltered : answer.matches[static_cast<std::size_t>(i) - 1];
       match.intervals = draws.Of(match);
+      counted.Done();
     });
   }
   return answer;

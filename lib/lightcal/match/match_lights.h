@@ -11,6 +11,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/light_view.h"
 #include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/records/camera_sensitivities.h"
@@ -41,6 +42,7 @@ struct MatchRequest {
   double reach = 0.02;  // the largest distance in u'v' that is still called a match
   MatchSpread spread;
   int draws = 400;  // behind the intervals; 0: none are stated
+  Progress progress{};
 };
 
 struct CameraDifference {

@@ -100,10 +100,15 @@ StackSearch FindNearestStacks(const MatchScene& scene, std::size_t count) {
   std::vector<std::vector<Candidate>> found(threads);
   // Of any thread: `count` stacks are nearer than this.
   std::atomic<double> shared = std::numeric_limits<double>::infinity();
+  constexpr std::size_t kTold = 64;  // stacks at once
+  const Progress searching = PartOf(scene.request.progress, 0.0, kSearchShare);
+  CountedProgress counted(searching, static_cast<int>(order.size()));
   ParallelFor(static_cast<int>(threads), [&](int thread) {
     std::vector<Candidate>& best = found[static_cast<std::size_t>(thread)];  // a heap, worst first
     std::vector<double> scratch;
+    std::size_t looked_at = 0;
     for (std::size_t i = static_cast<std::size_t>(thread); i < order.size(); i += threads) {
+      if (++looked_at % kTold == 0) counted.Done(static_cast<int>(kTold));
       const NodeValues through = scene.Transmittance(stacks[order[i]].gels());
       const double give_up = shared.load(std::memory_order_relaxed);
       const Candidate one{Deciding(scene, through, give_up, scratch), order[i]};

@@ -9,6 +9,9 @@
 
 namespace lightcal::match {
 
+// Of the time that matching takes, in the middle; the rest goes into intervals.
+inline constexpr double kSearchShare = 0.8;
+
 struct RankedStack {
   std::vector<std::size_t> gels;
   double difference = 0.0;  // the camera's, the median of many cameras', else the observer's

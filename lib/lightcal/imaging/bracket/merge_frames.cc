@@ -53,7 +53,7 @@ int BandRows(std::span<const Frame> frames) {
 // The whole picture; frames that lie in scratch files are in memory by a band at a time.
 Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows& rows,
                                  const PreparedFrames& prepared, View2d<float> picture,
-                                 View2d<float> sigma) {
+                                 View2d<float> sigma, const Progress& progress) {
   const bool in_files = std::all_of(prepared.frames.begin(), prepared.frames.end(),
                                     [](const Frame& frame) { return frame.in_file; });
   const int height = picture.height(), width = picture.width();
@@ -63,7 +63,9 @@ Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows&
   for (int first = 0; first < height; first += band) {
     const int count = std::min(band, height - first);
     const auto done = MergePicture(merger, rows, first, count, picture.Crop(0, first, width, count),
-                                   sigma.empty() ? sigma : sigma.Crop(0, first, width, count));
+                                   sigma.empty() ? sigma : sigma.Crop(0, first, width, count),
+                                   PartOf(progress, static_cast<double>(first) / height,
+                                          static_cast<double>(first + count) / height));
     if (!done) return done;
     clipped += *done;
     if (band == height) continue;
@@ -125,7 +127,8 @@ Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& loa
                                   : View2d<float>();
   const auto clipped = MergeInBands(
       *merger, RowsOf(**prepared, request, merged.nits_per_unit), **prepared,
-      View2d<float>(merged.picture.data(), merged.width, merged.height, merged.channels), sigma);
+      View2d<float>(merged.picture.data(), merged.width, merged.height, merged.channels), sigma,
+      PartOf(request.progress, kLoadingShare, 1.0));
   if (!clipped) return tl::unexpected(clipped.error());
   merged.clipped_fraction = static_cast<double>(*clipped) /
                             static_cast<double>(merger->frames()[0].row_samples()) / merged.height;

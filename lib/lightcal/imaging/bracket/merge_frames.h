@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/imaging/bracket/align_frames.h"
@@ -46,6 +47,7 @@ struct BracketMergeRequest {
   bool raw = false, own_noise = false;
   bool align = false;  // take back what the camera moved, where there is evidence
   PictureChoice work{};
+  Progress progress{};
 };
 
 struct MergedFrame {

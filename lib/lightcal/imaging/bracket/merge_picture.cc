@@ -247,7 +247,8 @@ void WriteStrip(const Mapper& mapper, const Strip& strip, int y0, int count, int
 }  // namespace
 
 Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows& rows, int first,
-                                 int count, View2d<float> picture, View2d<float> sigma) {
+                                 int count, View2d<float> picture, View2d<float> sigma,
+                                 const Progress& progress) {
   const SignalFrame& frame = merger.frames()[0];
   bool understood = frame.row_samples() >= ColumnPeriod(frame) && frame.height >= frame.row_period;
   if (IsMosaic(frame)) {
@@ -267,12 +268,14 @@ Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows&
   const int strips = (count + strip_rows - 1) / strip_rows;
   const Mapper mapper(frame, rows);
   std::atomic<std::size_t> clipped{0};
+  CountedProgress counted(progress, strips);
   ParallelFor(strips, [&](int i) {
     const int y0 = first + i * strip_rows;
     const int n = std::min(strip_rows, first + count - y0);
     Strip strip(merger, rows.corrections, std::max(n, frame.row_period));
     clipped += strip.Fill(y0, n);
     WriteStrip(mapper, strip, y0, n, first, picture, sigma);
+    counted.Done();
   });
   return clipped.load();
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
@@ -31,6 +32,6 @@ struct PictureRows {
 // smaller than its pattern).
 [[nodiscard]] Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows& rows,
                                                int first, int count, View2d<float> picture,
-                                               View2d<float> sigma);
+                                               View2d<float> sigma, const Progress& progress = {});
 
 }  // namespace lightcal

@@ -19,7 +19,7 @@ constexpr std::size_t kScratchFrom = std::size_t{1} << 29;  // bytes of samples
 
 // Frames into prepared.frames, and which of their pixels hold no number.
 Result<void> LoadFrames(const std::vector<FrameInfo>& infos, const FrameLoader& load,
-                        PreparedFrames& prepared, Warnings& warnings) {
+                        const Progress& progress, PreparedFrames& prepared, Warnings& warnings) {
   std::size_t bytes = 0;
   for (const FrameInfo& info : infos) {
     const std::size_t sample = info.meaning == SampleMeaning::kLinear ? 4 : 2;
@@ -28,12 +28,14 @@ Result<void> LoadFrames(const std::vector<FrameInfo>& infos, const FrameLoader& 
   }
   const SampleStore store = bytes > kScratchFrom ? SampleStore::kScratchFile : SampleStore::kMemory;
   std::vector<std::optional<Result<MaskedPicture>>> loaded(infos.size());
+  CountedProgress counted(progress, static_cast<int>(infos.size()));
   ParallelFor(static_cast<int>(infos.size()), [&](int i) {
     auto& picture = loaded[static_cast<std::size_t>(i)];
     picture = load(infos[static_cast<std::size_t>(i)], store);
     if (!*picture) return;
     const Frame& frame = (*picture)->frame;
     ReleaseRows(frame, 0, frame.info.height);  // before the next one needs the memory
+    counted.Done();
   });
   for (auto& picture : loaded) {
     if (!*picture) return Propagate(std::move(*picture));
@@ -171,7 +173,8 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   }
   Append(color->warnings, warnings);
   auto prepared = std::make_unique<PreparedFrames>();
-  if (auto loaded = LoadFrames(bracket.frames, load, *prepared, warnings); !loaded) {
+  const Progress loading = PartOf(request.progress, 0.0, kLoadingShare);
+  if (auto loaded = LoadFrames(bracket.frames, load, loading, *prepared, warnings); !loaded) {
     return Propagate(std::move(loaded));
   }
   prepared->thinning = ThinningOf(prepared->frames.front().info, request.work);

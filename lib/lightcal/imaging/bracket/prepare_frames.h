@@ -18,6 +18,9 @@
 
 namespace lightcal {
 
+// Of the time that a merge takes, in the middle.
+inline constexpr double kLoadingShare = 0.6;
+
 struct PreparedFrames {
   std::vector<Frame> frames;  // as they are merged: made smaller where asked
   Thinning thinning;
