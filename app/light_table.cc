@@ -55,6 +55,20 @@ std::string Degrees(const Uncertain& angle) {
   return RoundedText(angle.value, 3) + "° ± " + RoundedText(angle.u95, 2) + "°";
 }
 
+// "; brightest at 54°, 3.9 times that", where the peak lies beside the axis: angles are of the
+// axis.
+std::string PeakBesideAxis(const FittedLight& light) {
+  constexpr double kBrighter = 1.15;
+  if (!light.distribution) return "";
+  const IntensityGrid& grid = light.distribution->table.grid();
+  if (grid.horizontal_deg.size() != 1 || grid.candela.empty()) return "";
+  const auto most = std::ranges::max_element(grid.candela);
+  if (!(*most > kBrighter * grid.candela.front())) return "";
+  const auto at = static_cast<std::size_t>(most - grid.candela.begin());
+  return "; brightest at " + RoundedText(grid.vertical_deg[at], 2) + "°, " +
+         RoundedText(*most / grid.candela.front(), 2) + " times that";
+}
+
 // "key: beam 30° ± 1.7°, field 55° ± 3.1°, 899 cd ± 10 % on the axis", where readings told it.
 std::string BeamLine(const FittedLight& light) {
   if (!light.beam || !light.beam->beam_deg) return "";
@@ -63,6 +77,7 @@ std::string BeamLine(const FittedLight& light) {
   if (const auto& axial = light.beam->axial) {
     line += ", " + ValueAndInterval(*axial, "cd") + " on the axis";
   }
+  line += PeakBesideAxis(light);
   return line + "\n";
 }
 

@@ -114,6 +114,27 @@ TEST(Beam, TooFewAnglesAreRefusedWithTheAngleThatIsMissing) {
   EXPECT_NE(aside.out.find("read at 0 degrees"), std::string::npos) << aside.out;
 }
 
+// Its peak lies between readings, and beside the axis: at 54.5 degrees, 4.34 times as bright.
+TEST(Beam, ABatwingsAngleIsOfItsAxisAndItsPeakIsSeenBetweenReadings) {
+  const Shape batwing = [](double degrees) {
+    const double cosine = std::cos(std::min(degrees, 55.0) * kDegree);
+    return (1.0 + std::exp(-20.0)) / (1.0 + std::exp((degrees - 60.0) / 3.0)) / std::pow(cosine, 3);
+  };
+  const TempDir folder;
+  const std::string session = folder.Write(
+      "session.toml", SessionOf(batwing, {0, 13.4, 26.9, 40.3, 50.4, 59.1, 67.2, 71.6, 77.9}));
+  const json light = LightcalJson("fit", {session})["lights"][0];
+  EXPECT_TRUE(Holds(light["beam"]["axial_cd"], 1000.0)) << light["beam"];
+  double half = 60.0;
+  while (batwing(half) > 0.5) half += 0.001;
+  EXPECT_TRUE(Holds(light["beam"]["beam_deg"], 2.0 * half)) << light["beam"] << half;
+  EXPECT_LT(double(light["beam"]["beam_deg"]["u95"]), 4.0);
+  // Without a curve that may turn sharply there: 3770.
+  EXPECT_GT(TableAt(light, 54.0), 3900.0);
+  const CliResult text = RunLightcal({"fit", session, "--force"});
+  EXPECT_NE(text.out.find("brightest at 5"), std::string::npos) << text.out;
+}
+
 TEST(Beam, AGaussianIsFoundWithItsFluxAndItsAngles) {
   const double half = 14.0;
   const json light =

@@ -86,12 +86,21 @@ def shapes():
     return {name: beam / beam[0] for name, beam in beams.items()}
 
 
-def half_angle(beam, level):
-    """Where it last falls below that part of its peak, degrees."""
-    i = np.nonzero(beam >= level * beam.max())[0][-1]
+def last_above(beam, threshold):
+    i = np.nonzero(beam >= threshold)[0][-1]
     if i + 1 >= len(GAMMA):
         return GAMMA[i]
-    return GAMMA[i] + 0.5 * (beam[i] - level * beam.max()) / (beam[i] - beam[i + 1])
+    return GAMMA[i] + 0.5 * (beam[i] - threshold) / (beam[i] - beam[i + 1])
+
+
+def half_angle(beam, level):
+    """Where it last falls below that part of its peak, degrees."""
+    return last_above(beam, level * beam.max())
+
+
+def axis_angle(beam, level):
+    """Where it last falls below that part of its axis, degrees."""
+    return last_above(beam, level * beam[0])
 
 
 def flux(beam):

@@ -5,20 +5,24 @@
 //   FOCUSED_SPOT  intensityCandela I/Y;  intensity [lm] 2 pi (1 - cos outer) I/Y
 //                 inner_rad, outer_rad as its own cosine takes them (filament_cone.h)
 //   DIRECTIONAL, SUN  intensity E/Y [lx]
-//   INDIRECT      one band of irradiance, the colour; intensity L/Y
+//   INDIRECT      one band of irradiance, the colour; intensity L/Y. Of a picture: three bands, and
+//                 <stem>-<light>.ktx with them and its cube map for mirrors (filament_ktx.h)
 // setExposure(16, 307.2 k, 100) makes pixel = k L. A falloff of 1000 m is no window (one that
 // was asked for is refitted in); Filament's own default in glTF files, 10 m, takes 12 % at 5 m.
 // Sources: Filament 1.53.4, rendered (tests/engines/render); filament/LightManager.h.
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/core/file_name.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/falloff_refit.h"
 #include "lightcal/presets/filament_cone.h"
+#include "lightcal/presets/filament_ktx.h"
 #include "lightcal/presets/gltf_light.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
+#include "lightcal/presets/preset_text.h"
 
 namespace lightcal {
 namespace {
@@ -50,6 +54,15 @@ Node IrradianceForFilament(const EnvironmentPicture& picture) {
     list.items.push_back(NodeOf(radiance[i] * (band * factor)));
   }
   return list;
+}
+
+std::string HarmonicsText(const Node& bands) {
+  std::string out;
+  for (const Node& band : bands.items) {
+    for (const Node& v : band.items)
+      out += RoundedText(v.number, 9) + (&v == &band.items.back() ? "\n" : " ");
+  }
+  return out;
 }
 
 Node FilamentFigures(const PresetLight& light, const FalloffRefit& refit) {
@@ -126,11 +139,15 @@ std::string SnippetOf(const Node& light) {
       values += (i == 0 ? "" : ", ") + FloatsOf(bands->items[i]);
     }
     const std::string count = bands == nullptr ? "1" : "9", order = bands == nullptr ? "1" : "3";
-    return out + "  {\n    const filament::math::float3 irradiance[" + count + "] = {" + values +
-           "};\n    scene.setIndirectLight(filament::IndirectLight::Builder()\n"
-           "        .irradiance(" +
-           order + ", irradiance)\n        .intensity(" + Number(light, "intensity") +
-           ")\n        .build(engine));\n  }\n";
+    out += "  {\n    const filament::math::float3 irradiance[" + count + "] = {" + values +
+           "};\n    filament::IndirectLight::Builder around;\n    around.irradiance(" + order +
+           ", irradiance).intensity(" + Number(light, "intensity") + ");\n";
+    if (bands != nullptr) {
+      out += "    // The texture of " + light.TextAt("picture") +
+             ", by ktxreader::Ktx1Reader::createTexture.\n"
+             "    if (mirrors != nullptr) around.reflections(mirrors);\n";
+    }
+    return out + "    scene.setIndirectLight(around.build(engine));\n  }\n";
   }
   out +=
       "  {\n    const utils::Entity light = utils::EntityManager::get().create();\n"
@@ -166,10 +183,13 @@ std::string Snippet(const Node& lights, const Node& exposure) {
       "// Written by lightcal: measured lights for Filament. Right-handed, Y up, metres.\n"
       "#pragma once\n#include <filament/Camera.h>\n#include <filament/Engine.h>\n"
       "#include <filament/IndirectLight.h>\n#include <filament/LightManager.h>\n"
-      "#include <filament/Scene.h>\n#include <utils/EntityManager.h>\n\n"
+      "#include <filament/Scene.h>\n#include <filament/Texture.h>\n#include "
+      "<utils/EntityManager.h>\n\n"
       "// Set the view's ColorGrading to a linear tone mapper to compare with other engines.\n"
       "inline void AddMeasuredLights(filament::Engine& engine, filament::Scene& scene,\n"
-      "                              filament::Camera& camera) {\n"
+      "                              filament::Camera& camera,\n"
+      "                              const filament::Texture* mirrors = nullptr) {\n"
+      "  (void)mirrors;\n"
       "  camera.setExposure(" +
       Number(exposure, "aperture") + ", " + Number(exposure, "shutter_s") + ", " +
       Number(exposure, "iso") + ");\n";
@@ -192,6 +212,16 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     list.items.push_back(FilamentNode(lights.lights[i], (*forms)[i], refits[i]));
+    if ((*forms)[i].environment) {
+      Node& light = list.items.back();
+      const std::string ktx = stem + "-" + FileNamePart((*forms)[i].name()) + ".ktx";
+      const Node& bands = *light.Find("irradiance");
+      preset.files.push_back({ktx, options.figures_only ? std::string()
+                                                        : FilamentKtx(*(*forms)[i].environment,
+                                                                      HarmonicsText(bands))});
+      light.Put("picture", ktx);
+      preset_text::WarnOfHalfFloats((*forms)[i], "Filament", preset.warnings);
+    }
     preset.derived.push_back(DerivedFrom(list.items.back()));
     NoteRefit(refits[i], preset.derived.back());
   }
@@ -207,7 +237,7 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
                         {"provenance", NodeOf(lights.provenance)}},
                        name + ".filament.json");
   if (!text) return Propagate(std::move(text));
-  preset.files.push_back({name + ".filament.json", std::move(*text)});
+  preset.files.insert(preset.files.begin(), {name + ".filament.json", std::move(*text)});
   if (!options.rig) preset.files.push_back({stem + ".filament.h", Snippet(list, exposure)});
   return preset;
 }

@@ -40,15 +40,14 @@ std::array<double, 3> BlurredTowards(const EnvironmentPicture& picture, const Ve
   return sum;
 }
 
-// Texel (i, j) of a face of a cube map, from its upper left, as OpenGL has them.
+}  // namespace
+
 Vec3 TexelOfCube(int face, double s, double t) {
   const double a = 2.0 * s - 1.0, b = 2.0 * t - 1.0;
   const Vec3 faces[] = {{1.0, -b, -a}, {-1.0, -b, a}, {a, 1.0, b},
                         {a, -1.0, -b}, {a, -b, 1.0},  {-a, -b, -1.0}};
   return faces[face] * (1.0 / Length(faces[face]));
 }
-
-}  // namespace
 
 std::array<std::uint8_t, 4> RgbdOf(const std::array<double, 3>& radiance) {
   constexpr double kTop = 255.0;

@@ -18,6 +18,9 @@ namespace lightcal {
 // +X -X +Y -Y +Z -Z of glTF's axes, from their upper left as OpenGL has them; PNG files.
 using CubeMap = std::array<std::string, 6>;
 
+// Where texel (s, t) of a face looks, both 0 to 1 from its upper left.
+[[nodiscard]] Vec3 TexelOfCube(int face, double s, double t);
+
 // From a mirror, `side` texels, down to a single texel of a matt sheen. The lobe of a roughness r:
 // sharpness 2/r^4, as wide as GGX at r^2.
 [[nodiscard]] std::vector<CubeMap> PrefilteredCube(const EnvironmentPicture& picture, int side);

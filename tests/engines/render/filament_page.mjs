@@ -6,46 +6,78 @@ const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a
 const unit = (v) => v.map((x) => x / Math.hypot(...v));
 const plus = (p, v, s) => p.map((x, i) => x + v[i] * s);
 const kRigSize = [600, 400], kProbeSize = [192, 128];
+const kMirror = 0.3;  // of a mirror, whose rgb is what it shows
 const kProbe = 0.4;  // no channel of a warm lamp above 1
 
-function base64(bytes) { return btoa(String.fromCharCode(...bytes)); }
+function base64(bytes) {
+  let text = '';
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return btoa(text);
+}
 
-// Squares as a glTF: [{centre, row, normal, side, reflectance}], places and directions Y up.
-function squares(cards) {
-  const bytes = new Uint8Array(4 * 3 * 4 * 2 * cards.length + 12);
-  const view = new DataView(bytes.buffer);
-  let at = 0;
-  const put = (v) => v.forEach((x) => { view.setFloat32(at, x, true); at += 4; });
+// [{centre, row, normal, side}] or [{centre, radius}], each of a `reflectance`, `mirror` or matt.
+function meshOf(card) {
+  if (!card.radius) {
+    const up = cross(card.normal, card.row);
+    const points = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) =>
+      plus(plus(card.centre, card.row, a * card.side / 2), up, b * card.side / 2));
+    return { points, normals: points.map(() => card.normal), indices: [0, 1, 2, 0, 2, 3] };
+  }
+  const across = 96, down = 48, normals = [], indices = [];
+  for (let j = 0; j <= down; ++j) for (let i = 0; i <= across; ++i) {
+    const u = 2 * Math.PI * i / across, v = Math.PI * j / down;
+    normals.push([Math.sin(v) * Math.sin(u), Math.cos(v), Math.sin(v) * Math.cos(u)]);
+    const at = j * (across + 1) + i;
+    if (i < across && j < down) indices.push(at, at + across + 1, at + 1, at + 1, at + across + 1, at + across + 2);
+  }
+  return { points: normals.map((n) => plus(card.centre, n, card.radius)), normals, indices };
+}
+
+// As a glTF, places and directions Y up.
+function shapes(cards) {
+  const chunks = [];
+  let length = 0;
   const gltf = { asset: { version: '2.0' }, extensionsUsed: ['KHR_materials_specular'], scene: 0,
     scenes: [{ nodes: [] }], nodes: [], meshes: [], materials: [], accessors: [], bufferViews: [], buffers: [] };
+  const add = (array, componentType, type, count, more) => {
+    gltf.bufferViews.push({ buffer: 0, byteOffset: length, byteLength: array.byteLength });
+    gltf.accessors.push({ bufferView: gltf.bufferViews.length - 1, componentType, count, type, ...more });
+    chunks.push(new Uint8Array(array.buffer));
+    length += array.byteLength;
+    if (length % 4) { chunks.push(new Uint8Array(4 - length % 4)); length += 4 - length % 4; }
+    return gltf.accessors.length - 1;
+  };
   cards.forEach((card, i) => {
-    const up = cross(card.normal, card.row);
-    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) =>
-      plus(plus(card.centre, card.row, a * card.side / 2), up, b * card.side / 2));
-    const start = at;
-    corners.forEach(put);
-    corners.forEach(() => put(card.normal));
-    gltf.bufferViews.push({ buffer: 0, byteOffset: start, byteLength: 48 }, { buffer: 0, byteOffset: start + 48, byteLength: 48 });
-    const low = [0, 1, 2].map((k) => Math.min(...corners.map((c) => c[k])));
-    const high = [0, 1, 2].map((k) => Math.max(...corners.map((c) => c[k])));
-    gltf.accessors.push({ bufferView: 2 * i, componentType: 5126, count: 4, type: 'VEC3', min: low, max: high },
-      { bufferView: 2 * i + 1, componentType: 5126, count: 4, type: 'VEC3' });
+    const { points, normals, indices } = meshOf(card);
+    const ends = (f) => [0, 1, 2].map((k) => f(...points.map((c) => Math.fround(c[k]))));
+    const attributes = {
+      POSITION: add(new Float32Array(points.flat()), 5126, 'VEC3', points.length, { min: ends(Math.min), max: ends(Math.max) }),
+      NORMAL: add(new Float32Array(normals.flat()), 5126, 'VEC3', normals.length) };
+    const list = add(new Uint16Array(indices), 5123, 'SCALAR', indices.length);
     gltf.nodes.push({ mesh: i, name: `card ${i}` });
     gltf.scenes[0].nodes.push(i);
     const r = card.reflectance;
-    gltf.materials.push({ pbrMetallicRoughness: { baseColorFactor: [r, r, r, 1], metallicFactor: 0, roughnessFactor: 1 },
-      extensions: { KHR_materials_specular: { specularFactor: 0 } } });
-    gltf.meshes.push({ primitives: [{ attributes: { POSITION: 2 * i, NORMAL: 2 * i + 1 }, indices: 2 * cards.length, material: i }] });
+    gltf.materials.push({ pbrMetallicRoughness: { baseColorFactor: [r, r, r, 1],
+      metallicFactor: card.mirror ? 1 : 0, roughnessFactor: card.mirror ? 0 : 1 },
+      extensions: card.mirror ? {} : { KHR_materials_specular: { specularFactor: 0 } } });
+    gltf.meshes.push({ primitives: [{ attributes, indices: list, material: i }] });
   });
-  [0, 1, 2, 0, 2, 3].forEach((v) => { view.setUint16(at, v, true); at += 2; });
-  gltf.bufferViews.push({ buffer: 0, byteOffset: at - 12, byteLength: 12 });
-  gltf.accessors.push({ bufferView: 2 * cards.length, componentType: 5123, count: 6, type: 'SCALAR' });
-  gltf.buffers.push({ byteLength: bytes.length, uri: 'data:application/octet-stream;base64,' + base64(bytes) });
+  const bytes = new Uint8Array(length);
+  let at = 0;
+  for (const chunk of chunks) { bytes.set(chunk, at); at += chunk.length; }
+  gltf.buffers.push({ byteLength: length, uri: 'data:application/octet-stream;base64,' + base64(bytes) });
   return new TextEncoder().encode(JSON.stringify(gltf));
 }
 
-function addLights(F, engine, scene, preset) {
+async function addLights(F, engine, scene, preset, folder) {
   for (const light of preset.lights) {
+    if (light.picture) {
+      const ktx = new Uint8Array(await (await fetch(folder + light.picture)).arrayBuffer());
+      scene.setIndirectLight(F.IndirectLight.Builder().reflections(engine.createTextureFromKtx1(ktx))
+        .irradianceSh(3, light.irradiance.flat()).intensity(light.intensity).build(engine));
+      scene.setSkybox(engine.createSkyFromKtx1(ktx));
+      continue;
+    }
     if (light.type === 'INDIRECT') {
       const ibl = F.IndirectLight.Builder().irradianceSh(light.irradiance ? 3 : 1, light.irradiance ? light.irradiance.flat() : light.color).intensity(light.intensity).build(engine);
       scene.setIndirectLight(ibl);
@@ -64,7 +96,7 @@ function addLights(F, engine, scene, preset) {
 const decode = (v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
 
 // One engine for all pictures of a job: the cards of one at a time, looked at by its own camera.
-async function stage(F, preset, cards, unlocked, [W, H]) {
+async function stage(F, preset, cards, unlocked, [W, H], folder) {
   const canvas = document.createElement('canvas');
   canvas.width = W;
   canvas.height = H;
@@ -82,9 +114,9 @@ async function stage(F, preset, cards, unlocked, [W, H]) {
   view.setScene(scene);
   view.setViewport([0, 0, W, H]);
   view.setColorGrading(F.ColorGrading.Builder().quality(F.ColorGrading$QualityLevel.ULTRA).toneMapping(F.ColorGrading$ToneMapping.LINEAR).build(engine));
-  const asset = engine.createAssetLoader().createAsset(squares(cards));
+  const asset = engine.createAssetLoader().createAsset(shapes(cards));
   await new Promise((done) => asset.loadResources(done, null, null));
-  addLights(F, engine, scene, preset);
+  await addLights(F, engine, scene, preset, folder);
   const entities = cards.map((_, i) => asset.getFirstEntityByName(`card ${i}`));
   let shown = [], warm = false;
   return {
@@ -119,22 +151,29 @@ export async function filament(job) {
   const F = window.Filament;
   const preset = await (await fetch(job.module)).json();
   if (job.edit) new Function('preset', job.edit)(preset);
+  const folder = job.module.slice(0, job.module.lastIndexOf('/') + 1);
   let png;
-  if (job.rig) {
+  if (job.view) {
+    const balls = job.balls.map((b) => ({ centre: yUp(b.at), radius: b.radius, reflectance: b.chrome ? 0.95 : 0.18, mirror: b.chrome }));
+    const placed = await stage(F, preset, balls, false, kRigSize, folder);
+    const { eye, target, field_deg } = job.view;
+    png = (await placed.picture(balls.map((_, i) => i), { position: yUp(eye), target: yUp(target), up: [0, 1, 0], fov: field_deg })).png;
+    placed.close();
+  } else if (job.rig) {
     const rig = preset.rig;
     const cards = rig.cards.map((c) => ({ centre: c.centre_m, row: rig.row, normal: rig.normal, side: rig.side_m, reflectance: c.reflectance }));
     const { position_m, target_m, up, vertical_fov_deg } = rig.camera;
-    const rigged = await stage(F, preset, cards, job.unlocked, kRigSize);
+    const rigged = await stage(F, preset, cards, job.unlocked, kRigSize, folder);
     png = (await rigged.picture(cards.map((_, i) => i), { position: position_m, target: target_m, up, fov: vertical_fov_deg })).png;
     rigged.close();
   }
   const lux = [], rgb = [];
-  const probes = job.probes.map(({ point, normal }) => {
+  const probes = job.probes.map(({ point, normal, mirror }) => {
     const n = yUp(normal);
     const row = unit(cross(Math.abs(n[1]) > 0.9 ? [1, 0, 0] : [0, 1, 0], n));
-    return { centre: yUp(point), row, normal: n, side: 0.2, reflectance: kProbe };
+    return { centre: yUp(point), row, normal: n, side: 0.2, mirror, reflectance: mirror ? kMirror : kProbe };
   });
-  const probed = probes.length ? await stage(F, preset, probes, false, kProbeSize) : null;
+  const probed = probes.length ? await stage(F, preset, probes, false, kProbeSize, folder) : null;
   for (const [i, { centre, row, normal }] of probes.entries()) {
     const { data } = await probed.picture([i], { position: plus(centre, normal, 0.3), target: centre, up: cross(normal, row), fov: 15 });
     const [W, H] = kProbeSize;
@@ -145,7 +184,7 @@ export async function filament(job) {
       for (let c = 0; c < 3; ++c) sum[c] += decode(data[at + c] / 255) / 16;
     }
     const pixel = 0.212639 * sum[0] + 0.715169 * sum[1] + 0.072192 * sum[2];
-    rgb.push(sum);
+    rgb.push(sum.map((v) => v / (probes[i].mirror ? kMirror * preset.exposure.exposure : 1)));
     lux.push(Math.PI * pixel / kProbe / preset.exposure.exposure);
   }
   probed?.close();

@@ -14,6 +14,7 @@ import sys
 import tempfile
 
 import cases
+import contact_rows
 import pictures
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -150,11 +151,12 @@ def contact_sheet(args, work, rows):
                          f'{row["rig"]:.3f}</td>' if row else '<td class="none">no picture</td>')
         lines.append(f'<tr><th>{KIND_TITLES[kind]}<br>meter {cases.KINDS[kind][1]:g} lx</th>'
                      + ''.join(cells) + '</tr>')
+    lines += [contact_rows.off_axis(args, work, engines), contact_rows.balls(args, work, engines)]
     with open(f'{work}/contact.html', 'w') as f:
         f.write('<!doctype html><meta charset="utf-8"><style>body{font:13px sans-serif;margin:12px;width:948px}'
                 'img{width:196px}td,th{vertical-align:top;text-align:left;padding:2px 4px}.none{color:#777}'
                 '</style><p>One lamp of each kind, 2700 K: its exposed rig as each engine opens it, a 90 % and '
-                'an 18 % card at the place of the reading.</p><table>' + ''.join(lines) + '</table>')
+                'an 18 % card at the place of the reading; then beside the axis, and in a panorama.</p><table>' + ''.join(lines) + '</table>')
     subprocess.run(['node', f'{HERE}/screenshot.mjs', args.modules, f'{work}/contact.html',
                     os.path.abspath(args.contact)], check=True)
 

@@ -23,6 +23,10 @@ SUN_AZIMUTH, SUN_ELEVATION, SUN_RADIUS, SUN_LUX = 60.0, 35.0, 1.0, 4000.0
 SUN_COLOR = (1.0, 0.85, 0.6)
 WAYS = {'up': (0, 0, 1), 'down': (0, 0, -1), 'front': (0, 1, 0), 'right': (1, 0, 0), 'back': (0, -1, 0),
         'left': (-1, 0, 0)}
+# Where a mirror looks: no turn and no reflection of the picture shows the same.
+MIRRORS = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)] + [
+    tuple(v / math.sqrt(14) for v in d) for d in ((3, 2, -1), (-1, 3, 2), (2, -3, -1), (-2, -1, 3))]
+MIRROR_BAR = .05  # of the brightest channel there: a mirror's lobe over soft edges, 8 bits
 LUMINANCE = (0.212639, 0.715169, 0.072192)
 BARS = {'blender': .01, 'three': .02, 'babylon_gltf': .02, 'filament': .02}
 CHROMA, SUN_DEGREES = .01, .3
@@ -129,6 +133,8 @@ def export(lightcal, work, truth):
 
 def render(args, work, engine, case, environment=False):
     probes = [{'point': [0.0, 0.0, 0.0], 'normal': list(n)} for n in WAYS.values()]
+    if engine == 'filament':
+        probes += [{'point': [0.0, 0.0, 0.0], 'normal': list(n), 'mirror': True} for n in MIRRORS]
     path, out = f'{work}/jobs.json', f'{work}/results.json'
     if os.path.exists(out):
         os.remove(out)
@@ -184,6 +190,12 @@ def main():
                 where = f'{engine}, sun {case}' + (', by three\'s own blur' if environment else '')
                 print(f'{where:40} ' + '  '.join(f'{way} {e:+.2%}' for way, e in errors.items())
                       + f'  tint {max(tints.values()):.2%}')
+                if engine == 'filament':
+                    mirrored = max(max(abs(a - b) for a, b in zip(rgb, sky(n))) / max(sky(n))
+                                   for rgb, n in zip(got['rgb'][len(WAYS):], MIRRORS))
+                    print(f'{where:40} ten mirrors show the picture within {mirrored:.2%}')
+                    if case == 'beside' and mirrored > MIRROR_BAR:
+                        failures.append(f'{where}: a mirror is {mirrored:.2%} off')
                 if case == 'inside' or environment:
                     continue  # nine harmonics cannot hold a sun: printed
                 for way, e in errors.items():

@@ -47,9 +47,9 @@ std::array<ParameterRule, BeamShape::kNodes> BeamShape::Rules() const {
 }
 
 double BeamShape::LnPriorScale() const {
-  return family == BeamFamily::kSmooth
-             ? (kNodes - 1) * std::log(bend) - std::numbers::ln2 + std::log(kAxialPrior.prior_sd)
-             : 0.0;
+  if (family != BeamFamily::kSmooth) return 0.0;
+  return (kNodes - 1) * std::log(bend) - std::numbers::ln2 + std::log(kAxialPrior.prior_sd) +
+         (kink >= 0 ? std::log(kKinkBends) : 0.0);
 }
 
 double BeamShape::LatentOf(double relative) {

@@ -65,6 +65,8 @@ struct BeamShape {
   static constexpr ParameterRule kAxialPrior = {true, 0.8, 0.6};
   BeamFamily family = BeamFamily::kEven;
   double scale = 0.3, step = 0.1, bend = 0.1;  // of the smooth curve; scale in rad
+  int kink = -1;  // node at which it may turn kKinkBends as much: a peak beside the axis
+  static constexpr double kKinkBends = 8.0;
 
   // Which parameters are free, under which prior.
   [[nodiscard]] std::array<ParameterRule, kNodes> Rules() const;
@@ -89,7 +91,8 @@ T BeamShape::PriorRow(std::size_t i, const T* p) const {
   if (i == 0) return (p[0] - kAxialPrior.prior_mean) / kAxialPrior.prior_sd;
   // Twice as sure at the axis, where the node on the other side moves along.
   if (i == 1) return (p[1] - p[0]) / (0.5 * bend);
-  return (p[i] - 2.0 * p[i - 1] + p[i - 2]) / bend;
+  const double own = static_cast<int>(i) == kink + 1 ? kKinkBends * bend : bend;
+  return (p[i] - 2.0 * p[i - 1] + p[i - 2]) / own;
 }
 
 template <class T>

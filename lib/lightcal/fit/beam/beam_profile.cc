@@ -38,11 +38,12 @@ std::vector<double> AnglesFor(double half_rad) {
   return out;
 }
 
-// Full angle, out to where it last falls below.
+// Full angle, out to where it last falls below that part of the axis (CIE e-ILV 17-27-077: of the
+// centre beam intensity, wherever the peak is).
 double WidthAt(const std::vector<double>& gamma_deg, const std::vector<double>& candela,
                double level) {
   const auto most = std::ranges::max_element(candela);
-  const double threshold = level * *most;
+  const double threshold = level * candela.front();
   auto last = static_cast<std::size_t>(most - candela.begin());
   for (std::size_t i = last; i < candela.size(); ++i) {
     if (candela[i] >= threshold) last = i;

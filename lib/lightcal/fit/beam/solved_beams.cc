@@ -16,7 +16,8 @@ constexpr int kRounds = 3;            // of settling what the walls scatter
 constexpr double kReach = 1.25;       // nodes beyond the outermost reading
 constexpr double kLeastShare = 3e-3;  // of the mixture
 constexpr int kFewestForCurve = 4;
-constexpr double kDark = 0.01;  // of the peak
+constexpr double kDark = 0.01;    // of the peak
+constexpr double kHollow = 1.15;  // peak over axis, of a lamp that is brighter beside it
 // Standard deviations of the smooth curve's second derivative, over (half angle)^-1.5.
 constexpr std::array<double, 4> kBends = {0.6, 1.5, 4.0, 10.0};
 
@@ -204,6 +205,20 @@ double RoughAt(const std::vector<RoughPoint>& curve, double gamma) {
   return -1.0;
 }
 
+// Nodes between the readings on both sides of a peak beside the axis, where a curve may turn
+// sharply (lenses that throw light sideways); none of a lamp that is brightest on its axis.
+std::vector<int> KinksOf(const std::vector<RoughPoint>& curve, const BeamShape& shape) {
+  const auto most = std::ranges::max_element(curve, {}, &RoughPoint::candela);
+  std::vector<int> nodes;
+  if (most == curve.begin() || most + 1 == curve.end()) return nodes;
+  if (most->candela < kHollow * curve.front().candela) return nodes;
+  for (int k = 2; k < BeamShape::kNodes - 1; ++k) {
+    const double gamma = shape.scale * std::sinh(k * shape.step);
+    if (gamma > (most - 1)->gamma && gamma < (most + 1)->gamma) nodes.push_back(k);
+  }
+  return nodes;
+}
+
 void ShareOut(std::vector<SolvedBeam>& beams) {
   double most = -std::numeric_limits<double>::infinity();
   for (const SolvedBeam& one : beams) most = std::max(most, one.ln_probability);
@@ -255,6 +270,7 @@ std::vector<SolvedBeam> SolveBeams(const BeamReadings& readings) {
     nodes.push_back(seen >= 0.0 ? BeamShape::LatentOf(seen / peak)
                                 : nodes.back() - 0.2 * curve.step);
   }
+  const std::vector<int> kinks = rough.empty() ? std::vector<int>{} : KinksOf(rough, curve);
   std::vector<std::vector<double>> one, two, cones;
   for (const double factor : {0.7, 1.0, 1.4}) {
     const double logit = LogitOfAngle(std::min(factor * half, 1.5));
@@ -288,7 +304,13 @@ std::vector<SolvedBeam> SolveBeams(const BeamReadings& readings) {
     if (DistinctAngles(rough) < kFewestForCurve) continue;
     for (const double bend : kBends) {
       curve.bend = bend * std::pow(curve.step, 1.5);
+      curve.kink = -1;
       add(SolveFamily(readings, offset, 0.5, curve, std::log(peak), {nodes}));
+      for (const int kink : kinks) {
+        curve.kink = kink;
+        const double weight = 0.5 / static_cast<double>(kinks.size());
+        add(SolveFamily(readings, offset, weight, curve, std::log(peak), {nodes}));
+      }
     }
   }
   if (!out.empty()) ShareOut(out);
