@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "dome/dome_options.h"
 #include "dome/dome_outputs.h"
+#include "dome/dome_words.h"
 #include "input_files.h"
 #include "lightcal/calibrate/dome/make_dome.h"
 #include "lightcal/colorimetry/cct.h"

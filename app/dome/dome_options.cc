@@ -3,11 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
+#include "dome/dome_words.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/imaging/panorama/turn_north.h"
@@ -22,24 +22,6 @@ Result<Lux> ParseReading(const char* option, const std::string& text) {
   if (!lux) return tl::unexpected(lux.error());
   if (!(lux->value() > 0.0)) return Refused("not_positive", option, "a lux reading is above 0");
   return *lux;
-}
-
-// "up", "down", or "AZIMUTH,ELEVATION" in degrees: right of +Y, above the horizon.
-Result<Vec3> ParseDirection(const std::string& option, const std::string& text) {
-  if (text == "up") return Vec3{0.0, 0.0, 1.0};
-  if (text == "down") return Vec3{0.0, 0.0, -1.0};
-  const std::size_t comma = text.find(',');
-  const auto wrong = [&] {
-    return WrongUsage(option, "\"" + text +
-                                  "\" is neither up, down nor AZIMUTH,ELEVATION in degrees (right "
-                                  "of the picture's centre, above the horizon)");
-  };
-  if (comma == std::string::npos) return wrong();
-  const auto azimuth = ParseNumber(TrimBlanks(std::string_view(text).substr(0, comma)));
-  const auto elevation = ParseNumber(TrimBlanks(std::string_view(text).substr(comma + 1)));
-  if (!azimuth || !elevation || std::abs(*elevation) > 90.0) return wrong();
-  const double a = RadiansFromDegrees(*azimuth).value(), e = RadiansFromDegrees(*elevation).value();
-  return Vec3{std::sin(a) * std::cos(e), std::cos(a) * std::cos(e), std::sin(e)};
 }
 
 Result<std::optional<DomeReading>> ReadingOf(const DomeOptions& options) {
@@ -65,70 +47,12 @@ Result<std::optional<DomeReading>> ReadingOf(const DomeOptions& options) {
   return std::optional(reading);
 }
 
-// Absent where anything between the commas is no number.
-std::optional<std::vector<double>> NumbersBetweenCommas(std::string_view text) {
-  std::vector<double> numbers;
-  while (true) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    const auto number = ParseNumber(TrimBlanks(text.substr(0, comma)));
-    if (!number) return std::nullopt;
-    numbers.push_back(*number);
-    if (comma == text.size()) return numbers;
-    text.remove_prefix(comma + 1);
-  }
-}
-
-Result<ViewAim> ParseAim(const char* option, const std::string& text) {
-  std::array<double, 3> degrees{};
-  std::string_view rest = text;
-  std::size_t count = 0;
-  bool whole = true;
-  for (; whole && !rest.empty() && count < degrees.size(); ++count) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const auto number = ParseNumber(TrimBlanks(rest.substr(0, comma)));
-    whole = number.has_value();
-    degrees[count] = number.value_or(0.0);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  if (!whole || !rest.empty() || count < 2 || std::abs(degrees[1]) > 90.0) {
-    return WrongUsage(option, "\"" + text +
-                                  "\" is not YAW,PITCH[,ROLL] in degrees (right of +Y, above the "
-                                  "horizon, leaning right), such as 45,0 or 0,90");
-  }
-  return ViewAim{RadiansFromDegrees(degrees[0]), RadiansFromDegrees(degrees[1]),
-                 RadiansFromDegrees(degrees[2])};
-}
-
 constexpr const char* kMirrorBallWord = "mirrorball";
 
 std::vector<std::string_view> DomeProjectionWords() {
   std::vector<std::string_view> words(kProjectionWords.begin(), kProjectionWords.end());
   words.emplace_back(kMirrorBallWord);
   return words;
-}
-
-// "X,Y,W,H".
-Result<std::array<double, 4>> ParsePixelBox(const std::string& option, const std::string& text) {
-  const auto numbers = NumbersBetweenCommas(text);
-  if (!numbers || numbers->size() != 4 || !((*numbers)[2] > 0.0 && (*numbers)[3] > 0.0)) {
-    return WrongUsage(
-        option, "\"" + text + "\" is not X,Y,WIDTH,HEIGHT in pixels, such as 812,430,310,310");
-  }
-  return std::array{(*numbers)[0], (*numbers)[1], (*numbers)[2], (*numbers)[3]};
-}
-
-// A share of light that something sends back, and its sigma: "R" (known) or "R,SIGMA".
-Result<std::array<double, 2>> ParseMirrorReflectance(const std::string& option,
-                                                     const std::string& text) {
-  const auto numbers = NumbersBetweenCommas(text);
-  const bool fits = numbers && !numbers->empty() && numbers->size() <= 2 && (*numbers)[0] > 0.0 &&
-                    (*numbers)[0] <= 1.0 && numbers->back() >= 0.0;
-  if (!fits) {
-    return WrongUsage(option, "\"" + text +
-                                  "\" is not a reflectance above 0 and up to 1, such as "
-                                  "0.62 or 0.62,0.05 (1 sigma)");
-  }
-  return std::array{(*numbers)[0], numbers->size() == 2 ? (*numbers)[1] : 0.0};
 }
 
 Result<std::vector<BallView>> BallsOf(const DomeOptions& options) {
@@ -155,7 +79,7 @@ Result<std::vector<BallView>> BallsOf(const DomeOptions& options) {
     ball.distance_diameters = *diameters;
   }
   if (!options.ball_reflectance.empty()) {
-    const auto reflectance = ParseMirrorReflectance("--ball-reflectance", options.ball_reflectance);
+    const auto reflectance = ParseReflectance("--ball-reflectance", options.ball_reflectance);
     if (!reflectance) return tl::unexpected(reflectance.error());
     ball.reflectance = (*reflectance)[0];
     ball.reflectance_sd = (*reflectance)[1];
@@ -169,38 +93,12 @@ Result<std::vector<BallView>> BallsOf(const DomeOptions& options) {
   return balls;
 }
 
-// "VIEW[,PITCH[,ROLL]]": a file's name or its end, or a number from 1; degrees.
-Result<LevelView> ParseLevel(const std::string& text) {
-  LevelView level;
-  std::array<double, 2> degrees{};
-  std::string_view rest = text;
-  level.file = rest.substr(0, rest.find(','));
-  rest.remove_prefix(std::min(level.file.size() + 1, rest.size()));
-  std::size_t count = 0;
-  bool whole = !level.file.empty();
-  for (; whole && !rest.empty() && count < degrees.size(); ++count) {
-    const std::size_t comma = std::min(rest.find(','), rest.size());
-    const auto number = ParseNumber(TrimBlanks(rest.substr(0, comma)));
-    whole = number.has_value();
-    degrees[count] = number.value_or(0.0);
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  if (!whole || !rest.empty() || std::abs(degrees[0]) > 90.0) {
-    return WrongUsage("--up", "\"" + text +
-                                  "\" is not VIEW[,PITCH[,ROLL]]: a view that stood level, by its "
-                                  "file or its number from 1, or its pitch and roll in degrees");
-  }
-  level.pitch = RadiansFromDegrees(degrees[0]);
-  level.roll = RadiansFromDegrees(degrees[1]);
-  return level;
-}
-
 // What finding aims needs besides.
 Result<void> TakeAuto(const DomeOptions& options, DomeInputRequest& request) {
   request.find_aims = true;
   if (request.projection == Projection::kLatLong) request.projection = Projection::kRectilinear;
   if (!options.up.empty()) {
-    const auto level = ParseLevel(options.up);
+    const auto level = ParseLevel("--up", options.up);
     if (!level) return tl::unexpected(level.error());
     request.level = *level;
   }
@@ -403,7 +301,7 @@ Result<std::optional<GreyPlate>> GreyPlateOf(const DomeOptions& options, const D
     target.card_normal = TurnedNorth(*normal, -request.north);
   }
   if (!options.grey_reflectance.empty()) {
-    const auto grey = ParseMirrorReflectance("--grey-reflectance", options.grey_reflectance);
+    const auto grey = ParseReflectance("--grey-reflectance", options.grey_reflectance);
     if (!grey) return tl::unexpected(grey.error());
     target.reflectance = (*grey)[0];
     target.reflectance_sd = (*grey)[1];
@@ -423,29 +321,6 @@ Result<std::optional<GreyPlate>> GreyPlateOf(const DomeOptions& options, const D
     target.aim = request.input.aims.front();
   }
   return std::optional(std::move(plate));
-}
-
-Result<CameraSettings> ParsePlateExposure(const std::string& option, const std::string& text) {
-  std::array<std::string_view, 3> parts;
-  std::string_view rest = text;
-  std::size_t count = 0;
-  while (count < parts.size()) {
-    const std::size_t comma = rest.find(',');
-    parts[count++] = TrimBlanks(rest.substr(0, comma));
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
-  }
-  const bool whole = count == 3 && rest.find(',') == std::string_view::npos;
-  const auto f_number = ParseFNumber(parts[0]);
-  const auto time = ParseDuration(parts[1]);
-  const auto iso = ParseNumber(parts[2]);
-  if (!whole || !f_number || !time || !iso) {
-    return WrongUsage(option, "\"" + text + "\" is not f-number,time,ISO such as f/8,1/60,100");
-  }
-  if (!(*f_number > 0.0 && time->value() > 0.0 && *iso > 0.0)) {
-    return Refused("not_positive", option, "f-number, time and ISO speed are above 0");
-  }
-  return CameraSettings{*f_number, *time, *iso};
 }
 
 }  // namespace lightcal::app

@@ -35,8 +35,4 @@ void AddDomeOptions(CLI::App& parser, DomeOptions& options);
     const DomeOptions& options, const DomeRequest& request,
     const std::optional<CameraSettings>& exposure);
 
-// "f/8,1/60,100": f-number, time, ISO speed.
-[[nodiscard]] Result<CameraSettings> ParsePlateExposure(const std::string& option,
-                                                        const std::string& text);
-
 }  // namespace lightcal::app

@@ -40,10 +40,14 @@ class HalfPlane {
   [[nodiscard]] double EdgeAt(double limit) const {
     const auto angle = [](int step) { return std::numbers::pi * step / kSteps; };
     int top = 0;
+    double most = At(0.0);
     for (int i = 1; i <= kSteps; ++i) {
-      if (At(angle(i)) > At(angle(top)) * (1.0 + 1e-12)) top = i;
+      const double here = At(angle(i));
+      if (!(here > most * (1.0 + 1e-12))) continue;
+      top = i;
+      most = here;
     }
-    if (At(angle(top)) < limit) return 0.0;
+    if (most < limit) return 0.0;
     int below = top;
     while (below <= kSteps && At(angle(below)) >= limit) ++below;
     if (below > kSteps) return std::numbers::pi;
@@ -73,6 +77,7 @@ Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInt
 
 LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
   const Radians c0 = LobeWidth(table, Radians(0.0), level);
+  if (table.symmetry() == TableSymmetry::kAxial) return {c0, c0, c0};
   const Radians c90 = LobeWidth(table, Radians(0.5 * std::numbers::pi), level);
   return {0.5 * (c0 + c90), c0, c90};
 }
