@@ -260,14 +260,6 @@ EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam) {
   return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
 }
 
-double RoundError(const BeamProfile& beam) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < beam.mean.size(); ++i) {
-    worst = std::max({worst, beam.most[i] - beam.mean[i], beam.mean[i] - beam.least[i]});
-  }
-  return worst;
-}
-
 std::string ConeErrorText(const EngineCone& cone) {
   constexpr double kNothing = 1e-3;
   const double flux = cone.flux - 1.0;

@@ -56,9 +56,6 @@ struct EngineCone {
 inline constexpr double kConeFluxError = 0.022;
 [[nodiscard]] EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam);
 
-// A beam as the mean round about its axis: what engines make of a table that keep one plane of it.
-[[nodiscard]] double RoundError(const BeamProfile& beam);
-
 // "off the axis within 6.6 % of the axial intensity (at 22 degrees), flux 1.6 % low"; "" where both
 // are below 0.1 %.
 [[nodiscard]] std::string ConeErrorText(const EngineCone& cone);

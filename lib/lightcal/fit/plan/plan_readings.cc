@@ -81,11 +81,10 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
 class Planner {
  public:
   Planner(Session session, const FitSettings& settings, double reach_m,
-          std::optional<PlannedAction> only = {}, bool only_angles = false)
+          bool only_angles = false)
       : session_(std::move(session)),
         settings_(settings),
         reach_m_(reach_m),
-        only_(only),
         only_angles_(only_angles),
         like_(LikeTheLast(session_)),
         last_digit_lx_(LastDigit(session_)) {}
@@ -177,8 +176,8 @@ class Planner {
     std::vector<PlannedReading> out;
     for (PlannedReading& candidate :
          fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
-      if (only_ && candidate.action != *only_) continue;
-      if (only_angles_ && !candidate.off_axis) continue;
+      const bool angle = candidate.action == PlannedAction::kRead && candidate.off_axis;
+      if (only_angles_ && !angle) continue;
       if (IsSkipped(candidate)) continue;
       if (Judge(candidate) && IsReadable(candidate)) out.push_back(std::move(candidate));
     }
@@ -305,7 +304,6 @@ class Planner {
   Session session_;
   const FitSettings& settings_;
   double reach_m_;
-  std::optional<PlannedAction> only_;
   bool only_angles_;
   Reading like_;
   double last_digit_lx_;
@@ -358,16 +356,7 @@ Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
                               const FitSettings& settings) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, fit::kFarthestReach, PlannedAction::kRead, true)
-      .Plan(1);
-}
-
-Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,
-                                   const FitSettings& settings) {
-  auto alone = AloneIn(session, light);
-  if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, fit::kFarthestReach, PlannedAction::kShadowCard)
-      .Plan(1);
+  return Planner(*std::move(alone), settings, fit::kFarthestReach, true).Plan(1);
 }
 
 Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,

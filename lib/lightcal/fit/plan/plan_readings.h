@@ -41,10 +41,6 @@ struct ReadingPlan {
 [[nodiscard]] Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
                                             const FitSettings& settings);
 
-// The same of shadow cards alone, one step: quick to ask.
-[[nodiscard]] Result<ReadingPlan> PlanShadowCard(const Session& session, const std::string& light,
-                                                 const FitSettings& settings);
-
 struct LadderWishes {
   MeasuringMinutes minutes{};
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has

@@ -331,7 +331,6 @@ SolvedAims AimsOf(const Bundle& bundle, const AimVector& at) {
   const AimMatrix covariance = CovarianceOfBundle(bundle, at);
   SolvedAims aims;
   aims.focal_px = std::exp(at[bundle.Lens()]);
-  aims.focal_sd_relative = std::sqrt(std::max(0.0, covariance(bundle.Lens(), bundle.Lens())));
   aims.lens = {at[bundle.Lens() + 1], at[bundle.Lens() + 2]};
   aims.rms_px = bundle.sd_px;
   aims.matches = bundle.matches.size();

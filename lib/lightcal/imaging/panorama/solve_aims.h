@@ -26,7 +26,6 @@ struct SolvedAims {
   std::vector<CameraAxes> axes;  // the first view's are the unit matrix's
   std::vector<double> u95_deg;   // the angle of each to the truth, after the turn that all share
   double focal_px = 0.0;
-  double focal_sd_relative = 0.0;
   ViewLens lens;
   double rms_px = 0.0;  // robust, of a match's coordinate, in the views' pixels
   std::size_t matches = 0;
