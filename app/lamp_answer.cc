@@ -183,6 +183,18 @@ LabelAndText NextWords(const LampAnswer& answer) {
   return {"better", next.say};
 }
 
+// What a lamp is, or how large, costs no minute to say.
+std::string SayWhat(const LampQuestion& question, const FittedLight& light) {
+  const LightDescription* described = FindLight(*question.session, light.name);
+  if (question.fixture_words.empty() || described == nullptr || light.budget.empty()) return "";
+  if (described->kind != LightKind::kPoint || light.budget.front().name != "unknown_lamp")
+    return "";
+  if (described->fixture && described->fixture != Fixture::kPanel) return "";
+  return described->fixture ? "say how large it is: " + question.size_words
+                            : "say what it is: " + question.fixture_words +
+                                  " (or panel, reflector, fresnel, softbox, cob_bare)";
+}
+
 std::string NextLine(const LampAnswer& answer) {
   const LabelAndText words = NextWords(answer);
   return LabelledLine(words.label, words.text);
@@ -250,6 +262,8 @@ std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
   question.lights = &calibrated.lights;
   question.session = &calibrated.session;
   question.targets = targets;
+  question.fixture_words = "in session.toml fixture = \"bulb\"";
+  question.size_words = "in session.toml kind = \"rect\", size_m = [0.6, 0.3]";
   question.syntax = [&](const FittedLight& light, const PlannedReading& step) {
     return ReadCommand(path, light.name, step);
   };
@@ -271,6 +285,7 @@ std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
       }
     }
     answer.next = AdviseNext(*question.session, light);
+    answer.say_what = SayWhat(question, light);
     if (answer.next.reading) {
       answer.better = question.syntax ? question.syntax(light, *answer.next.reading) : "";
       if (answer.better.empty()) answer.better = SayPlannedReading(*answer.next.reading);
@@ -319,6 +334,7 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
                                           percent(u.low.value_or(u.value - u.u95)) + " … " +
                                           percent(u.high.value_or(u.value + u.u95)) + " %");
   }
+  if (!answer.say_what.empty()) text += LabelledLine("0 minutes better", answer.say_what);
   return text + NextLine(answer) + EnoughLine(light);
 }
 

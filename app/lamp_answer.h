@@ -24,6 +24,7 @@ struct LampAnswer {
   std::vector<EngineFigure> figures;
   NextStepAdvice next;
   std::string better;
+  std::string say_what;  // where that nobody says what lamp it is is the largest part: how to
 };
 
 struct LampQuestion {
@@ -32,6 +33,8 @@ struct LampQuestion {
   std::vector<std::string> targets;  // presets asked for; none: four that most people use
   bool typed_color = false;          // the colour is what a person typed
   bool by_name = true;               // a label is the light's name; else what it is built like
+  std::string fixture_words;         // how a person says what a lamp is: "add --fixture bulb"
+  std::string size_words;            // and how large: "add --kind rect --size 60x30cm"
   // How a person enters the next reading of a light; "" = as SayPlannedReading says it.
   std::function<std::string(const FittedLight&, const PlannedReading&)> syntax;
 };

@@ -95,6 +95,8 @@ std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& se
   question.targets = options.targets;
   question.typed_color = !gelled;
   question.by_name = options.name != QuickOptions().name;
+  question.fixture_words = "add --fixture bulb";
+  question.size_words = "add --kind rect --size 60x30cm";
   question.syntax = [&](const FittedLight&, const PlannedReading& step) {
     return TypedStep(session, step);
   };

@@ -280,7 +280,8 @@ TEST(GuidedSession, CtrlCAndCtrlDEndItAndKeepWhatWasRead) {
   const NoUsb machine;
   for (const char key : {'\x03', '\x04'}) {
     const TempDir home;
-    home.Write("s/session.toml", "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+    home.Write("s/session.toml",
+               "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = \"bulb\"\n");
     TerminalDialogue walk({"read", "-s", "s"}, home.path());
     ASSERT_TRUE(walk.WaitFor(kPromptEnd)) << walk.transcript();
     walk.Type("192");
@@ -297,7 +298,8 @@ TEST(GuidedSession, WithoutATerminalItAnswersFromItsInputAndEndsWithIt) {
   const NoUsb machine;
   const TempDir home;
   const std::string session = home.path() + "/s";
-  home.Write("s/session.toml", "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n");
+  home.Write("s/session.toml",
+             "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = \"bulb\"\n");
   const CliResult none = RunLightcal({"read", "-s", session, "--light", "key"});
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.err, HasSubstr("--guided"));

@@ -111,6 +111,19 @@ std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrio
   return {{0.76, prior}, {0.19, near}, {0.05, far}};
 }
 
+// A panel whose size nobody said is 10 to 50 cm wide and high. The likeliest place is weighed with
+// each size, the others with the middle one.
+std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places) {
+  std::vector<WallHypothesis> out;
+  for (const WallHypothesis& place : places) {
+    const bool first = out.empty();
+    if (first) out.push_back({0.30 * place.weight, place.prior, 0.16, 0.13});
+    out.push_back({(first ? 0.38 : 1.0) * place.weight, place.prior, 0.30, 0.26});
+    if (first) out.push_back({0.32 * place.weight, place.prior, 0.46, 0.40});
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
@@ -121,6 +134,9 @@ std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
   if (flux) {
     const Family& family = *flux > kLeastOfBulb ? kBulb : (*flux > kLeastOfPanel ? kPanel : kBeam);
     return WithOtherPlaces(family, PriorOf(family, flux, room));
+  }
+  if (lamp.kind == LightKind::kPoint && lamp.fixture == Fixture::kPanel) {
+    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)));
   }
   if (const Family* family = FamilyOf(lamp)) {
     return WithOtherPlaces(*family, PriorOf(*family, {}, room));

@@ -28,7 +28,8 @@ inline constexpr double kWallReference_m = 3.0;
 struct WallHypothesis {
   double weight = 1.0;
   WallPrior prior;
-  // Of a lamp of unknown kind: the luminous rectangle it would be, 0 = a point.
+  // Of a lamp of unknown kind, or a panel of unknown size: the luminous rectangle it would be, 0 =
+  // a point.
   double width_m = 0.0, height_m = 0.0;
 };
 

@@ -59,6 +59,25 @@ double OpenAfter(const PlannedReading& planned) {
   return planned.u95_relative * planned.beam_u95_deg.value_or(1.0);
 }
 
+// Half of the interval that is left: in stops, and its larger side over the value.
+struct Left {
+  double relative = 0.0;
+  double stops = std::numeric_limits<double>::infinity();
+};
+
+double StopsLeft(const FittedLight& light) {
+  const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
+  return (u ? HalfWidthStops(*u) : std::nullopt).value_or(std::numeric_limits<double>::infinity());
+}
+
+// ln of how much shorter an interval is afterwards: in stops, as people are told; where one of
+// them reaches down to nothing, by its larger side.
+double GainOf(const Left& before, const PlannedReading& after) {
+  const bool told = std::isfinite(before.stops) && std::isfinite(after.u95_stops);
+  return told ? std::log(before.stops / after.u95_stops)
+              : std::log(before.relative / after.u95_relative);
+}
+
 struct Outcome {
   FittedLight light;
   double u95_relative = std::numeric_limits<double>::infinity();
@@ -72,9 +91,7 @@ std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings
   const auto u = RelativeUncertainty(out.light);
   if (!u) return std::nullopt;
   out.u95_relative = *u;
-  out.u95_stops =
-      HalfWidthStops(out.light.intensity_cd ? *out.light.intensity_cd : *out.light.illuminance_lx)
-          .value_or(out.u95_stops);
+  out.u95_stops = StopsLeft(out.light);
   return out;
 }
 
@@ -111,17 +128,18 @@ class Planner {
     ladder.light = Light().name;
     if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
     ladder.meter_u95_relative = std::expm1(kZ95 * SharedCalibration());
-    std::optional<double> left = ladder.u95_relative;
+    std::optional<Left> left;
+    if (ladder.u95_relative) left = Left{*ladder.u95_relative, StopsLeft(*now_)};
     double total = 0.0;
     for (int i = 0; i < wishes.steps; ++i) {
       std::optional<LadderStep> step = BestStep(left, wishes.minutes);
       if (!step) break;
       Take(step->reading);
       if (step->reading.action != PlannedAction::kLampOff) stands_ = step->reading;
-      left = step->reading.u95_relative;
+      left = Left{step->reading.u95_relative, step->reading.u95_stops};
       step->total_minutes = total += step->minutes;
       const double meter = ladder.meter_u95_relative;
-      step->meter_limits = 2.0 * meter * meter > *left * *left;
+      step->meter_limits = 2.0 * meter * meter > left->relative * left->relative;
       step->say = SayPlannedReading(step->reading);
       ladder.steps.push_back(*std::move(step));
     }
@@ -205,17 +223,16 @@ class Planner {
     return (stays ? 0.0 : minutes.move) + (card ? minutes.card : minutes.reading);
   }
 
-  // What takes most off ln u95 a minute; before any reading what leaves least. None: nothing is
-  // worth taking.
-  [[nodiscard]] std::optional<LadderStep> BestStep(std::optional<double> left,
+  // What takes most off ln of the stops left a minute; before any reading what leaves least. None:
+  // nothing is worth taking.
+  [[nodiscard]] std::optional<LadderStep> BestStep(const std::optional<Left>& left,
                                                    const MeasuringMinutes& minutes) const {
     std::optional<LadderStep> best;
     double most = 0.0;
     std::vector<PlannedReading> candidates = left ? Judged() : Rank();
     for (PlannedReading& candidate : candidates) {
       const double took = MinutesOf(candidate, minutes);
-      const double gain =
-          left ? std::log(*left / candidate.u95_relative) : std::numeric_limits<double>::infinity();
+      const double gain = left ? GainOf(*left, candidate) : std::numeric_limits<double>::infinity();
       if (gain < kLeastGain || gain <= most * took) continue;
       best = LadderStep{std::move(candidate), {}, took};
       if (!left) break;

@@ -13,7 +13,8 @@ namespace lightcal::fit {
 namespace {
 
 constexpr double kNearest = 0.25;             // metres a person holds a meter from a lamp
-constexpr double kNearestUnknown = 0.5;       // from one of unknown make and size
+constexpr double kNearestUnknown = 0.5;       // from one of unknown make and size, and a panel
+constexpr double kNearestSoftbox = 1.0;       // of unknown size
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
@@ -40,9 +41,10 @@ class Candidates {
       : light_(light), fitted_(fitted), room_(session.room), reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
     for (const double d : distances_) reach_ = std::max(reach_, d);
-    const bool known = light.fixture || light.kind != LightKind::kPoint || SizeOf(light) > 0.0;
-    if (known) return;
-    nearest_ = kNearestUnknown;
+    const bool large = light.fixture == Fixture::kPanel || light.fixture == Fixture::kSoftbox;
+    const bool sized = light.kind != LightKind::kPoint || SizeOf(light) > 0.0;
+    if (sized || (light.fixture && !large)) return;
+    nearest_ = light.fixture == Fixture::kSoftbox ? kNearestSoftbox : kNearestUnknown;
     for (const double d : distances_) nearest_ = std::min(nearest_, d);
   }
 

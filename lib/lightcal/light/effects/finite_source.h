@@ -62,6 +62,21 @@ struct OutlineMoments {
             "a sphere follows the inverse-square law exactly, to its centre"};
   }
   const AxialShape shape = AxialShapeOf(scene.kind, scene.size);
+  const bool a_panel =
+      !scene.walls.empty() &&
+      std::ranges::all_of(scene.walls, [](const auto& one) { return one.width_m > 0.0; });
+  if (shape.outline == AxialShape::Outline::kPoint && a_panel) {
+    double bound = 0.0;
+    for (const WallHypothesis& one : scene.walls) {
+      SourceSize size;
+      size.width = Metres(one.width_m);
+      size.height = Metres(one.height_m);
+      const AxialShape panel = AxialShapeOf(LightKind::kRect, size);
+      bound = std::max(bound, 1.0 / AxialShapeFactor(panel, NearestDistance(scene)) - 1.0);
+    }
+    return {bound, Treatment::kFitted, 0.0,
+            "no size given; a panel of 10 to 50 cm is weighed by what the readings say of it"};
+  }
   if (shape.outline == AxialShape::Outline::kPoint) {
     const double ratio = kRadiusDefault / NearestDistance(scene);
     return {ratio * ratio, Treatment::kFitted, 0.0,
