@@ -57,6 +57,12 @@ std::string WithIt(const EngineFigure& figure) {
   return HasColor(figure) ? " + colour" : "";
 }
 
+// "0.37", "0.10", "0.08", "1.2".
+std::string StopsDigits(double stops) {
+  constexpr double kTenth = 0.1, kRoundsToIt = 0.0995;
+  return stops < kRoundsToIt ? RoundedText(stops, 1) : RoundedText(std::max(stops, kTenth), 2);
+}
+
 // Where the first word ends, the blanks before it included: a sign keeps its number, and a line to
 // type stays in one piece.
 std::size_t EndOfWord(std::string_view text) {
@@ -91,7 +97,7 @@ std::string Rounded(double value, int digits) {
 }
 
 std::string BareStops(double stops) {
-  std::string text = RoundedText(stops, stops >= 0.995 ? 2 : (stops >= 0.0995 ? 2 : 1));
+  std::string text = StopsDigits(stops);
   if (text.starts_with("0.")) text.erase(0, 1);
   return text;
 }
@@ -152,7 +158,7 @@ std::string LabelledLine(const std::string& label, const std::string& text) {
 }
 
 std::string StopsText(double stops) {
-  return "± " + RoundedText(stops, stops >= 0.0995 ? 2 : 1) + (stops <= 1.0 ? " stop" : " stops");
+  return "± " + StopsDigits(stops) + (stops <= 1.0 ? " stop" : " stops");
 }
 
 std::string StopsText(const Uncertain& u) {

@@ -72,8 +72,14 @@ std::string ReportHtml(const LightFile& lights, std::string_view title) {
   return ReportPage(lights, title, ExtrasOf(lights));
 }
 
-std::string ReportHtml(const CalibratedSession& calibrated, std::vector<LightAdvice> advice) {
+std::string ReportHtml(const CalibratedSession& calibrated, const std::vector<std::string>& engines,
+                       std::vector<LightAdvice> advice) {
   ReportExtras extras = ExtrasOf(calibrated);
+  if (!engines.empty()) {
+    std::erase_if(extras.engines.figures, [&](const EngineFigure& figure) {
+      return std::ranges::find(engines, figure.engine) == engines.end();
+    });
+  }
   extras.advice = std::move(advice);
   return ReportPage(calibrated.lights, TitleOf(calibrated.session), extras);
 }

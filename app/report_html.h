@@ -27,7 +27,9 @@ namespace lightcal::app {
 
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
 // advice: what to do next of each light (AdviceOf).
+// `engines`: titles of those asked for, whose numbers are shown; none: all.
 [[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated,
+                                     const std::vector<std::string>& engines,
                                      std::vector<LightAdvice> advice);
 
 }  // namespace lightcal::app

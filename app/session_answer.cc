@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session_answer.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "lightcal/presets/export_presets.h"
+#include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "report_html.h"
 
 namespace lightcal::app {
+namespace {
+
+// Titles of the engines that were named; none where all were, or nobody said.
+std::vector<std::string> EnginesAsked(const std::vector<LampAnswer>& answers,
+                                      const std::vector<std::string>& targets) {
+  std::vector<std::string> titles;
+  if (targets.empty() || targets.size() == PresetTargets().size()) return titles;
+  for (const LampAnswer& answer : answers) {
+    for (const EngineFigure& figure : answer.figures) titles.push_back(figure.engine);
+  }
+  return titles;
+}
+
+}  // namespace
 
 Result<AnsweredSession> AnswerSession(const CalibrationOptions& options,
                                       const std::vector<std::string>& targets, Console& console) {
@@ -32,7 +49,8 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
   console.Warn(presets->warnings);
   std::vector<OutputFile> files = {
       {"light.json", std::move(*json)},
-      {"report.html", ReportHtml(run.calibrated, AdviceOf(run.answers, session.stem))}};
+      {"report.html", ReportHtml(run.calibrated, EnginesAsked(run.answers, targets),
+                                 AdviceOf(run.answers, session.stem))}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }

@@ -17,6 +17,7 @@
 #include "batch/run_jobs.h"
 #include "input_files.h"
 #include "interrupt.h"
+#include "lamp_words.h"
 #include "light_input.h"
 #include "light_summary.h"
 #include "light_table.h"
@@ -168,7 +169,12 @@ std::string OutcomeText(const BatchItem& item, const Outcome& outcome) {
   std::string text;
   for (const FittedLight& light :
        HasOutputs(outcome) ? LightsOf(item) : std::vector<FittedLight>{}) {
-    text += (text.empty() ? "" : ", ") + light.name + " " + Headline(light);
+    const Strength strength = StrengthOf(light);
+    const std::string stops = strength.value == nullptr ? "" : StopsText(*strength.value);
+    text += (text.empty() ? "" : ", ") + light.name + " " +
+            (stops.empty()
+                 ? Headline(light)
+                 : ValueText(*strength.value) + " " + std::string(strength.unit) + " " + stops);
   }
   return text;
 }

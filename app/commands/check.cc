@@ -29,6 +29,9 @@
 namespace lightcal::app {
 namespace {
 
+// Nothing but rounding is left: a table shows 0.
+double BeyondRounding(double value, double of) { return std::abs(value) < 1e-7 * of ? 0.0 : value; }
+
 struct CheckOptions {
   std::string preset, session, engine, max_error = "5%";
   std::vector<std::string> renders, rigs;
@@ -232,15 +235,16 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
     std::string error = kNone;
     if (const auto relative = row.Error()) {
       readings.back().Put("error", *relative);
-      error = PercentText(*relative);
+      error = PercentText(BeyondRounding(*relative, 1.0));
     }
     table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : kNone,
                      RoundedText(row.measured_lx + row.walls_lx, 4) + " lx",
-                     RoundedText(row.walls_lx, 3) + " lx", RoundedText(row.predicted_lx, 4) + " lx",
+                     RoundedText(BeyondRounding(row.walls_lx, row.measured_lx), 3) + " lx",
+                     RoundedText(row.predicted_lx, 4) + " lx",
                      error + (row.used ? "" : " (rejected)")});
   }
   console.Print(TextTable({"light", "distance", "meter", "of it walls", "preset", "error"}, table));
-  console.Print("\nrms " + PercentText(*rms) + " of what the meter showed\n");
+  console.Print("\nrms " + PercentText(BeyondRounding(*rms, 1.0)) + " of what the meter showed\n");
   Node document = {{"readings", readings},
                    {"rms_relative", *rms},
                    {"max_error", *max_error},
