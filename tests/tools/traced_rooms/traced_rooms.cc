@@ -2,6 +2,7 @@
 // Illuminance in random rooms, traced: truth for the intervals of `lightcal fit` that comes from
 // outside. Nothing here includes a header of lightcal. See README.md here.
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
+//   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
 #include <cstdio>
@@ -72,6 +73,29 @@ int PrintTable(int ordinary, int unseen, int three_lamps) {
   return 0;
 }
 
+// The room as JSON, for whoever builds it elsewhere: metres, the lamp's `towards` a unit vector.
+int DescribeRoom(int number) {
+  const LitRoom lit = RandomRoom(Family::kOrdinary, number);
+  const auto triple = [](const Vec3& v) {
+    char text[96];
+    std::snprintf(text, sizeof text, "[%.4f, %.4f, %.4f]", v[0], v[1], v[2]);
+    return std::string(text);
+  };
+  std::printf("{\"room\": %d, \"size\": %s, \"albedo\": [", number, triple(lit.room.size).c_str());
+  for (std::size_t i = 0; i < lit.room.albedo.size(); ++i) {
+    std::printf("%s%.3f", i == 0 ? "" : ", ", lit.room.albedo[i]);
+  }
+  std::printf("],\n \"lamp\": {\"place\": %s, \"towards\": %s},\n \"boxes\": [",
+              triple(lit.lamp.place).c_str(), triple(lit.lamp.towards).c_str());
+  for (std::size_t i = 0; i < lit.room.boxes.size(); ++i) {
+    const Box& box = lit.room.boxes[i];
+    std::printf("%s{\"low\": %s, \"high\": %s, \"albedo\": %.3f}", i == 0 ? "" : ",\n  ",
+                triple(box.low).c_str(), triple(box.high).c_str(), box.albedo);
+  }
+  std::printf("]}\n");
+  return 0;
+}
+
 int Compare(const char* path, int every) {
   std::ifstream table(path);
   std::string line;
@@ -108,6 +132,9 @@ int Compare(const char* path, int every) {
 }  // namespace traced_rooms
 
 int main(int argc, char** argv) {
+  if (argc == 3 && std::strcmp(argv[1], "--describe") == 0) {
+    return traced_rooms::DescribeRoom(std::atoi(argv[2]));
+  }
   if (argc == 2 && std::strcmp(argv[1], "--check") == 0) {
     return traced_rooms::ClosedFormsHold() ? 0 : 1;
   }
@@ -117,6 +144,8 @@ int main(int argc, char** argv) {
   if (argc == 4 && argv[1][0] != '-') {
     return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
   }
-  std::fprintf(stderr, "traced_rooms ORDINARY UNSEEN THREE | --check | --compare TABLE EVERY\n");
+  std::fprintf(
+      stderr,
+      "traced_rooms ORDINARY UNSEEN THREE | --describe N | --check | --compare TABLE EVERY\n");
   return 2;
 }
