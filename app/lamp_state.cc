@@ -59,11 +59,19 @@ std::optional<Warning> CombinedWarning(const std::string& lamp, const FixtureSta
 }
 
 std::optional<Warning> SharedGeometryWarning(const FittedLight& light, const FixtureState& at) {
-  if (HasItsGeometry(light, at)) return std::nullopt;
+  const GeometryBasis basis = GeometryAt(light, at, light.intensity_cd).basis;
+  if (basis == GeometryBasis::kLights || basis == GeometryBasis::kOwn) return std::nullopt;
+  if (basis == GeometryBasis::kBetween) {
+    return Warning{"state_geometry_between", light.name,
+                   StateText(at) +
+                       ": where its light starts and how wide it shines is put between "
+                       "the zooms that are known; read this one to be sure"};
+  }
   return Warning{"state_geometry", light.name,
                  StateText(at) + ": where its light starts and how wide it shines is taken from " +
                      StateText(light.state) +
-                     "; calibrate this zoom or modifier as a light of its own to have them"};
+                     "; read it at two distances and across its beam, or describe it by a "
+                     "[[light.at]]"};
 }
 
 Result<Warnings> SetStates(const std::vector<std::string>& texts, LightFile& file) {

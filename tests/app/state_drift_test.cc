@@ -114,7 +114,7 @@ TEST(StateCommand, EachZoomStartsWhereItsOwnReadingsSay) {
     EXPECT_EQ(answer["basis"], "measured");
     // By the other zoom's offset it would be 20 % off at 1.5 m.
     EXPECT_NEAR(double(answer["intensity_cd"]["value"]) / candela, 1.0, 0.02) << state;
-    EXPECT_EQ(answer.dump().find("state_geometry") != std::string::npos, state.ends_with("=60"));
+    EXPECT_EQ(answer.dump().find("state_geometry"), std::string::npos) << "its own is known";
   }
 }
 

@@ -65,6 +65,24 @@ inline LightFile FullLightFile() {
   dim.illuminance_lx = Uncertain{12.3, 0.4, 11.9, 12.7};
   dim.readings = 1;
   light.states = {full, dim};
+  StateGeometry bare_front;
+  bare_front.state = {{"dimmer", 100.0}, {"cct_K", 4000.0}, {"modifier", 0.0, "bare"}};
+  bare_front.kind = LightKind::kRect;
+  bare_front.distance_offset_m = Uncertain{0.07, 0.02, {}, {}};
+  bare_front.flux_lm = Uncertain{806.0, 1.0 / 3.0, {}, {}};
+  bare_front.luminance_nits = Uncertain{1234.5, 0.1, {}, {}};
+  bare_front.inner_deg = 6.1;
+  bare_front.outer_deg = 8.3;
+  bare_front.inner_u95_deg = 0.9;
+  bare_front.outer_u95_deg = 0.4;
+  bare_front.diameter_m = 0.07;
+  bare_front.width_m = 0.9;
+  bare_front.height_m = 0.6;
+  bare_front.length_m = 1.3;
+  bare_front.radius_m = 0.011;
+  bare_front.distribution = light.distribution;
+  bare_front.beam = light.beam;
+  light.geometries = {bare_front};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};
   light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true, 8.25},
                      {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};

@@ -59,6 +59,16 @@ electrical_W = 9
 flux_lm = 806
 beam_deg = 36
 field_deg = 60
+[[light.at]]
+state = { zoom_deg = 40, modifier = "softbox" }
+kind = "rect"
+fixture = "softbox"
+diameter_m = 0.07
+size_m = [0.9, 0.6]
+length_m = 1.3
+radius_m = 0.014
+inner_deg = 15
+outer_deg = 21
 [[light]]
 name = "strip"
 pwm_duty = 0.5

@@ -385,11 +385,14 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
 Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescription& light,
                            const FitSettings& settings, FittedLight& fitted, FittedSession& out) {
   for (const Session& part : parts.others) {
-    Result<FittedLight> own = FitOne(part, light, settings, out);
+    const FixtureState reference = ReferenceState(part, light.name);
+    const LightDescription there = fit::DescriptionFromReadings(part, light, reference);
+    Result<FittedLight> own = FitOne(part, there, settings, out);
     if (!own) return Propagate(std::move(own));
-    fit::MeasureStates(part, light, settings.cct_method, *own, out.warnings);
+    fit::MeasureStates(part, there, settings.cct_method, *own, out.warnings);
     fit::TakeGeometry(*own, fitted);
   }
+  fit::DescribeOtherGeometries(light, fitted);
   return {};
 }
 
@@ -398,7 +401,9 @@ Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescripti
 Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
   FittedSession out;
   std::optional<Error> nothing_read;
-  for (const LightDescription& light : session.lights) {
+  for (const LightDescription& described : session.lights) {
+    const LightDescription light =
+        DescriptionAt(described, ReferenceState(session, described.name));
     Result<FittedLight> fitted = FitOne(session, light, settings, out);
     if (fitted) {
       const fit::GeometryParts parts = fit::SplitGeometries(session, light);

@@ -34,6 +34,8 @@ records::Node KnobsNode(const PresetOptions& options, const FittedLight& lamp,
                         const PresetLight& light) {
   Node controls = Node::Array();
   for (const ControlSweep& sweep : options.sweeps) {
+    // A zoom would turn the light and leave the cone.
+    if (sweep.control == kZoomControl) continue;
     if (sweep.light != lamp.name || sweep.curve.size() < 2) continue;
     Node table = Node::Array();
     for (const ControlSweep::Point& point : sweep.curve) {

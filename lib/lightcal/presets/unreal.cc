@@ -10,13 +10,17 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/control_knobs.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
 #include "lightcal/presets/unreal_light.h"
+#include "lightcal/records/json_codec.h"
 
 namespace lightcal {
 namespace {
@@ -57,6 +61,24 @@ OrderedJson PoseJson(const std::string& name, const Pose& pose) {
 }
 
 // ---- the script ----
+
+// What set_state turns: candela or lux and linear colour at the reference, and the tables.
+void PutControls(const PresetOptions& options, const FittedLight& lamp, const PresetLight& light,
+                 const UnrealLight& unreal, OrderedJson& json) {
+  const records::Node controls = KnobsNode(options, lamp, light);
+  if (controls.items.empty()) return;
+  double held = 1.0;
+  if (!unreal.use_temperature) {
+    const int* bytes = unreal.color_srgb8;
+    held = Rec709Luminance(std::array{SrgbDecoded(bytes[0] / 255.0), SrgbDecoded(bytes[1] / 255.0),
+                                      SrgbDecoded(bytes[2] / 255.0)});
+  }
+  const Rgb& linear = light.color().max_normalised;
+  json["measured"] = json["properties"]["intensity"].get<double>() * held;
+  json["linear"] = Array(std::array<double, 3>{linear.r, linear.g, linear.b});
+  json["controls"] =
+      OrderedJson::parse(records::PrintJson(controls, records::JsonLayout::kOneLine));
+}
 
 OrderedJson LightJson(const PresetLight& light, const UnrealLight& unreal,
                       const std::optional<PresetFile>& ies, const std::string& picture) {
@@ -200,6 +222,7 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                                  "a .t3d imports no picture: run the script"});
     }
     data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i], picture));
+    PutControls(options, lights.lights[i], (*forms)[i], unreal.back(), data["lights"].back());
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);
     if (!options.into.empty()) continue;

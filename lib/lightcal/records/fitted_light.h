@@ -119,6 +119,20 @@ struct MeasuredBeam {
   std::optional<double> falling_share;  // of the smooth curves: those held to fall outwards alone
 };
 
+// Where its light starts, how large it is and how wide it shines at another zoom, or with another
+// front, than at the light's own state.
+struct StateGeometry {
+  FixtureState state;  // one that was read; all of its zoom_deg and words share this
+  LightKind kind = LightKind::kPoint;
+  std::optional<Uncertain> distance_offset_m{};            // absent: as at the light's own state
+  std::optional<Uncertain> flux_lm{}, luminance_nits{};    // at `state`
+  std::optional<double> inner_deg{}, outer_deg{};          // half angles
+  std::optional<double> inner_u95_deg{}, outer_u95_deg{};  // where the readings told them
+  std::optional<double> diameter_m{}, width_m{}, height_m{}, length_m{}, radius_m{};
+  std::optional<MeasuredDistribution> distribution{};
+  std::optional<MeasuredBeam> beam{};
+};
+
 // The one instrument that read a lamp: 1 sigma of its scale is in the intensity, and alike in that
 // of every other lamp it read.
 struct MeterShare {
@@ -174,6 +188,7 @@ struct FittedLight {
   std::vector<LampInRoom> in_room{};
   FixtureState state{};                 // the light is given at, "reference"; empty = no controls
   std::vector<MeasuredState> states{};  // the reference first
+  std::vector<StateGeometry> geometries{};  // other than the light's own, where they are known
 };
 
 struct InputFile {

@@ -81,6 +81,40 @@ FixtureState ReferenceState(const Session& session, std::string_view light) {
   return *best->state;
 }
 
+bool HoldsAt(const StateDescription& one, const FixtureState& state) {
+  return std::ranges::all_of(one.state, [&](const ControlValue& control) {
+    const ControlValue* there = FindControl(state, control.name);
+    return there != nullptr && SameState({control}, {*there});
+  });
+}
+
+LightDescription DescriptionAt(const LightDescription& light, const FixtureState& state) {
+  LightDescription out = light;
+  const auto take = [](auto& kept, const auto& given) {
+    if (given) kept = *given;
+  };
+  for (const StateDescription& one : light.at) {
+    if (!HoldsAt(one, state)) continue;
+    if (one.kind && *one.kind != out.kind) {
+      for (auto* size : {&out.diameter, &out.width, &out.height, &out.length, &out.radius}) {
+        size->reset();
+      }
+      out.inner.reset();
+      out.outer.reset();
+    }
+    take(out.kind, one.kind);
+    take(out.fixture, one.fixture);
+    take(out.diameter, one.diameter);
+    take(out.width, one.width);
+    take(out.height, one.height);
+    take(out.length, one.length);
+    take(out.radius, one.radius);
+    take(out.inner, one.inner);
+    take(out.outer, one.outer);
+  }
+  return out;
+}
+
 Result<void> SplitStates(Session& session) {
   for (const LightDescription& light : session.lights) {
     const FixtureState reference = ReferenceState(session, light.name);

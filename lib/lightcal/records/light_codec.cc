@@ -191,13 +191,39 @@ void VisitSizes(Archive& archive, SomeLight& light) {
 }
 
 template <class Archive, class SomeLight>
-void VisitGeometry(Archive& archive, SomeLight& light) {
+void VisitCone(Archive& archive, SomeLight& light) {
   archive.Group("cone", [&](auto& cone) {
     cone.Number("inner_deg", light.inner_deg, kHalfAngleRule);
     cone.Number("outer_deg", light.outer_deg, kHalfAngleRule);
     cone.Number("inner_u95_deg", light.inner_u95_deg, kNotNegative);
     cone.Number("outer_u95_deg", light.outer_u95_deg, kNotNegative);
   });
+}
+
+constexpr auto kVisitStateGeometry = [](auto& archive, auto& one) {
+  archive.Controls("state", one.state);
+  archive.Word("kind", one.kind, kLightKindNames);
+  archive.Object("distance_offset_m", one.distance_offset_m, kVisitUncertain);
+  archive.Object("flux_lm", one.flux_lm, kVisitUncertain);
+  archive.Object("luminance_nits", one.luminance_nits, kVisitUncertain);
+  VisitCone(archive, one);
+  VisitSizes(archive, one);
+  VisitDistribution(archive, one.distribution);
+  archive.Object("beam", one.beam, kVisitBeam);
+  archive.Require({"state", "kind"});
+};
+
+// Absent where the light's own holds of every state, or is all that is known.
+void VisitGeometries(FieldReader& reader, std::vector<StateGeometry>& geometries) {
+  reader.List("geometries", geometries, kVisitStateGeometry);
+}
+void VisitGeometries(FieldWriter& writer, const std::vector<StateGeometry>& geometries) {
+  if (!geometries.empty()) writer.List("geometries", geometries, kVisitStateGeometry);
+}
+
+template <class Archive, class SomeLight>
+void VisitGeometry(Archive& archive, SomeLight& light) {
+  VisitCone(archive, light);
   VisitSizes(archive, light);
   archive.Number("angular_diameter_deg", light.angular_diameter_deg, kNotNegative);
   archive.Array("position_m", light.position_m);
@@ -231,6 +257,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitRoom(archive, light.in_room);
   archive.Controls("state", light.state);
   VisitStates(archive, light.states);
+  VisitGeometries(archive, light.geometries);
   archive.Require({"name", "kind"});
 };
 

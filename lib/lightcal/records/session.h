@@ -43,6 +43,15 @@ struct LampInTime {
 };
 
 // What the person says of a lamp; everything absent is fitted, defaulted or a prior, and marked so.
+// What is known of a lamp at some of its states alone: another zoom, or a modifier before it.
+struct StateDescription {
+  FixtureState state;  // holds of every state that says the same of these controls
+  std::optional<LightKind> kind{};
+  std::optional<Fixture> fixture{};
+  std::optional<Metres> diameter{}, width{}, height{}, length{}, radius{};
+  std::optional<Radians> inner{}, outer{};  // half angles of the cone
+};
+
 struct LightDescription {
   std::string name;
   LightKind kind = LightKind::kPoint;
@@ -62,6 +71,7 @@ struct LightDescription {
   std::string distribution_file{};       // photometric: an IES or EULUMDAT file, "" = none named
   // What that file holds, type C about the aim; whoever loads the session fills it.
   std::optional<IntensityTable> distribution{};
+  std::vector<StateDescription> at{};
 };
 
 // 1 sigma of one reading, relative.
@@ -144,6 +154,12 @@ void SpreadLitReadings(Session& session);
 // most distances, of these the one of the highest dimmer, of these the first. Empty = it has no
 // controls.
 [[nodiscard]] FixtureState ReferenceState(const Session& session, std::string_view light);
+// Whether a description holds of a state: each of its controls says the same there.
+[[nodiscard]] bool HoldsAt(const StateDescription& one, const FixtureState& state);
+// The light as its `at` describe it at that state, in their order. One that names a kind takes off
+// the sizes and the cone that the light gives for its own.
+[[nodiscard]] LightDescription DescriptionAt(const LightDescription& light,
+                                             const FixtureState& state);
 // Calls visit(row) of every reading, those of other states too.
 template <class SomeSession, class Visit>
 void VisitReadings(SomeSession& session, const Visit& visit) {

@@ -140,6 +140,29 @@ class SessionReader {
     light.aim = UnitVector(reader, "aim", light.aim);
     reader.Array("axis", light.axis);
     light.axis = UnitVector(reader, "axis", light.axis);
+    ReadShape(reader, light);
+    reader.Number("electrical_W", light.electrical, kPositive);
+    reader.Number("flux_lm", light.flux, kPositive);
+    reader.Degrees("beam_deg", light.beam, kFullAngleRule);
+    reader.Degrees("field_deg", light.field, kFullAngleRule);
+    reader.Text("distribution", light.distribution_file);
+    reader.List("at", light.at, &ReadAtState);
+    reader.Require({"name", "kind"});
+    reader.Finish();
+    CheckAngles(reader, light, where_, out_.warnings);
+    if (!light.distribution_file.empty() && light.kind != LightKind::kPhotometric) {
+      reader.Fail("distribution",
+                  "distribution names a photometric file, which goes with kind = \"photometric\"");
+    }
+    if (light.name.find('/') != std::string::npos) {
+      reader.Fail("name", "name = " + Quoted(light.name) +
+                              " holds a slash; names become parts of file names");
+    }
+  }
+
+  // Sizes and cone, of a light or of what it is at some of its states.
+  template <class Described>
+  static void ReadShape(FieldReader& reader, Described& light) {
     reader.Number("diameter_m", light.diameter, kPositive);
     std::optional<std::array<double, 2>> size;
     reader.Array("size_m", size, kNotNegative);
@@ -154,21 +177,24 @@ class SessionReader {
     reader.Number("radius_m", light.radius, kPositive);
     reader.Degrees("inner_deg", light.inner, kHalfAngleRule);
     reader.Degrees("outer_deg", light.outer, kHalfAngleRule);
-    reader.Number("electrical_W", light.electrical, kPositive);
-    reader.Number("flux_lm", light.flux, kPositive);
-    reader.Degrees("beam_deg", light.beam, kFullAngleRule);
-    reader.Degrees("field_deg", light.field, kFullAngleRule);
-    reader.Text("distribution", light.distribution_file);
-    reader.Require({"name", "kind"});
+  }
+
+  static void ReadAtState(FieldReader& reader, StateDescription& one) {
+    reader.Controls("state", one.state);
+    reader.Word("kind", one.kind, kLightKindNames);
+    reader.Word("fixture", one.fixture, kFixtureNames);
+    ReadShape(reader, one);
+    reader.Require({"state"});
     reader.Finish();
-    CheckAngles(reader, light, where_, out_.warnings);
-    if (!light.distribution_file.empty() && light.kind != LightKind::kPhotometric) {
-      reader.Fail("distribution",
-                  "distribution names a photometric file, which goes with kind = \"photometric\"");
+    constexpr std::array kOther = {LightKind::kDirectional, LightKind::kPhotometric,
+                                   LightKind::kDome};
+    if (one.kind && std::ranges::find(kOther, *one.kind) != kOther.end()) {
+      reader.Fail("kind",
+                  "kind of a [[light.at]] is one with a candela of its own: point, spot, "
+                  "sphere, disk, rect or tube");
     }
-    if (light.name.find('/') != std::string::npos) {
-      reader.Fail("name", "name = " + Quoted(light.name) +
-                              " holds a slash; names become parts of file names");
+    if (one.inner && one.outer && *one.outer < *one.inner) {
+      reader.Fail("inner_deg", "inner_deg exceeds outer_deg; both are half angles: swap them");
     }
   }
 

@@ -47,7 +47,7 @@ struct LevelForm {
 
 struct Rests {
   double level = 0.0, level_length = 1.0;
-  bool by_label = false;  // the length is of the label itself, not of its logarithm
+  bool by_label = false;  // along the label itself, not its logarithm; of light, kinks
   double other = 0.0;
   double joint = 0.0;
   double weight = 1.0;
@@ -56,6 +56,16 @@ struct Rests {
 inline double Matern(double distance, double length) {
   const double r = std::sqrt(3.0) * std::abs(distance) / length;
   return (1.0 + r) * std::exp(-r);
+}
+
+// A driver's output in pieces of straight line: its slope walks at random from label 0 (integrated
+// Brownian motion, Rasmussen and Williams 6.3), by this many times the rest's size up to full; over
+// the output itself, which turns it into a part of it.
+constexpr double kSlopeOfRest = 6.5;
+inline double Kinks(double a, double b, double output_a, double output_b) {
+  const double s = std::min(a, b);
+  const double t = std::max(a, b);
+  return kSlopeOfRest * kSlopeOfRest * s * s * (3.0 * t - s) / 6.0 / (output_a * output_b);
 }
 
 // A point's labels as one hypothesis sees them.
@@ -83,6 +93,7 @@ struct Kernels {
 }  // namespace control_curve
 
 using control_curve::Kernels;
+using control_curve::Kinks;
 using control_curve::LevelForm;
 using control_curve::Matern;
 using control_curve::Rests;
@@ -145,6 +156,16 @@ struct ControlCurve::Hypotheses {
     return out;
   }
 
+  // Of size 1, of the level i.
+  [[nodiscard]] static double LevelRest(const LevelForm& form, const Rests& rests, const Seen& a,
+                                        const Seen& b, std::size_t i) {
+    if (!rests.by_label) return Matern(a.along[i] - b.along[i], rests.level_length);
+    if (static_cast<int>(i) != form.control) {
+      return Matern(a.labels[i] - b.labels[i], rests.level_length);
+    }
+    return Kinks(a.labels[i], b.labels[i], std::exp(a.ln_level), std::exp(b.ln_level));
+  }
+
   [[nodiscard]] double Covariance(const One& one, const Seen& a, const Seen& b) const {
     const TargetScale& by = scale();
     const double level = by.level_rest * one.rests.level;
@@ -164,10 +185,7 @@ struct ControlCurve::Hypotheses {
       } else {
         sum += by.level_slope * by.level_slope * u * v;
       }
-      if (is_level && level > 0.0) {
-        const double apart = one.rests.by_label ? a.labels[i] - b.labels[i] : u - v;
-        sum += level * level * Matern(apart, one.rests.level_length);
-      }
+      if (is_level && level > 0.0) sum += level * level * LevelRest(one.form, one.rests, a, b, i);
       if (joint > 0.0) joint *= Matern(u - v, is_level ? 1.5 : 0.7);
     }
     const double size = by.joint_rest * one.rests.joint;
@@ -217,8 +235,7 @@ struct ControlCurve::Hypotheses {
       double sum = 0.0;
       for (std::size_t i = 0; i < kinds.size(); ++i) {
         if (kinds[i] != ControlKind::kLevel) continue;
-        const double apart = rests.by_label ? a.labels[i] - b.labels[i] : a.along[i] - b.along[i];
-        sum += scaled * Matern(apart, rests.level_length);
+        sum += scaled * LevelRest(kernels.form, rests, a, b, i);
       }
       return sum;
     });
@@ -295,7 +312,7 @@ struct ControlCurve::Hypotheses {
     };
     const std::vector<Sized> none = {{0.0, 1.0}};
     const std::vector<Sized> level_sizes =
-        level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 4.5}} : none;
+        level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 3.0}} : none;
     const std::vector<Sized> other_sizes =
         HasOthers() ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
     const std::vector<Sized> joint_sizes =

@@ -38,11 +38,13 @@ struct CurveValue {
 //   p = 1 with any x0 is a driver that dims linearly and does not end at zero;
 //   p free is tungsten on a dimmer, or a dimmer with a gamma.
 // Colour follows ln x by a slope, and the label of its own control one to one, as priors. `rest` is
-// a Gaussian process (Matern 3/2: continuous slope, so kinks cost little), one a control and one of
-// all together. x0, the sizes and the lengths of the rests are not chosen but averaged over, each
-// by how probable it makes the readings (marginal likelihood): where states are few or a curve
-// bends, the answers differ and the interval is wide; far from states it grows to the rest's size.
-// Source: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), 2.2, 2.7, 5.4.
+// a Gaussian process, one a control and one of all together: of light a slope that walks along the
+// label (a driver of straight pieces, whose bends are as large at 5 % as at 50 %), or, as of all
+// else, Matern 3/2 (a continuous slope, so kinks cost little). x0, the sizes and the lengths of the
+// rests are not chosen but averaged over, each by how probable it makes the readings (marginal
+// likelihood): where states are few or a curve bends, the answers differ and the interval is wide;
+// far from states it grows to the rest's size. Source: Rasmussen and Williams, Gaussian Processes
+// for Machine Learning (2006), 2.2, 2.7, 5.4.
 class ControlCurve {
  public:
   // At least one point; every point of as many labels as there are kinds.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/states/ln_of.h"
 
 namespace lightcal::fit {
@@ -12,7 +13,10 @@ namespace {
 
 constexpr double kSamePlaces_m = 0.005;
 
+constexpr double kSameAngles_rad = 1e-3;
+
 bool OtherPlace(const Reading& a, const Reading& b) {
+  if (std::abs(a.off_axis.value() - b.off_axis.value()) > kSameAngles_rad) return true;
   if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) > kSamePlaces_m;
   if (a.distance && b.distance) {
     return std::abs(a.distance->value() - b.distance->value()) > kSamePlaces_m;
@@ -20,7 +24,8 @@ bool OtherPlace(const Reading& a, const Reading& b) {
   return false;
 }
 
-bool TellsOffset(const Session& part, const std::string& light) {
+// Offset or beam.
+bool TellsGeometry(const Session& part, const std::string& light) {
   const Reading* first = nullptr;
   for (const SessionReading& row : part.readings) {
     const Reading& reading = row.reading;
@@ -37,6 +42,27 @@ Session WithoutReadings(const Session& session) {
   Session out = session;
   out.readings.clear();
   out.state_readings.clear();
+  return out;
+}
+
+// Size, cone and beam.
+StateGeometry ShapeOf(const FittedLight& light) {
+  StateGeometry out;
+  out.state = light.state;
+  out.kind = light.kind;
+  out.flux_lm = light.flux_lm;
+  out.luminance_nits = light.luminance_nits;
+  out.inner_deg = light.inner_deg;
+  out.outer_deg = light.outer_deg;
+  out.inner_u95_deg = light.inner_u95_deg;
+  out.outer_u95_deg = light.outer_u95_deg;
+  out.diameter_m = light.diameter_m;
+  out.width_m = light.width_m;
+  out.height_m = light.height_m;
+  out.length_m = light.length_m;
+  out.radius_m = light.radius_m;
+  out.distribution = light.distribution;
+  out.beam = light.beam;
   return out;
 }
 
@@ -82,7 +108,7 @@ GeometryParts SplitGeometries(const Session& session, const LightDescription& li
         if (here) part.readings.push_back(row);
       }
     }
-    if (!SplitStates(part) || !TellsOffset(part, light.name)) continue;
+    if (!SplitStates(part) || !TellsGeometry(part, light.name)) continue;
     told.push_back(geometry);
     parts.others.push_back(std::move(part));
   }
@@ -96,6 +122,45 @@ GeometryParts SplitGeometries(const Session& session, const LightDescription& li
   return parts;
 }
 
+LightDescription DescriptionFromReadings(const Session& part, const LightDescription& light,
+                                         const FixtureState& state) {
+  LightDescription out = DescriptionAt(light, state);
+  // A data sheet's figures are of one zoom.
+  out.flux.reset();
+  out.beam.reset();
+  out.field.reset();
+  const bool stated = std::ranges::any_of(light.at, [&](const StateDescription& one) {
+    return HoldsAt(one, state) && (one.inner || one.outer);
+  });
+  const bool across = std::ranges::any_of(part.readings, [&](const SessionReading& row) {
+    return row.reading.light == light.name && row.reading.off_axis.value() != 0.0;
+  });
+  if (across && !stated) {
+    out.inner.reset();
+    out.outer.reset();
+  }
+  return out;
+}
+
+void DescribeOtherGeometries(const LightDescription& light, FittedLight& fitted) {
+  for (const MeasuredState& read : fitted.states) {
+    const auto alike = [&](const StateGeometry& one) {
+      return SameGeometry(one.state, read.state);
+    };
+    const bool known =
+        SameGeometry(fitted.state, read.state) || std::ranges::any_of(fitted.geometries, alike);
+    const bool described = std::ranges::any_of(
+        light.at, [&](const StateDescription& one) { return HoldsAt(one, read.state); });
+    if (known || !described || !read.intensity_cd) continue;
+    const LightDescription there = DescriptionAt(light, read.state);
+    FittedLight shaped = Describe(there);
+    shaped.state = read.state;
+    shaped.intensity_cd = read.intensity_cd;
+    AddDerivedQuantities(there, shaped);
+    fitted.geometries.push_back(ShapeOf(shaped));
+  }
+}
+
 void TakeGeometry(const FittedLight& own, FittedLight& light) {
   if (!own.intensity_cd || !light.intensity_cd || !(light.intensity_cd->value > 0.0)) return;
   const double ln = std::log(own.intensity_cd->value / light.intensity_cd->value);
@@ -103,6 +168,9 @@ void TakeGeometry(const FittedLight& own, FittedLight& light) {
   const double between =
       std::max(0.0, std::pow(SdOfLn(*own.intensity_cd), 2.0) +
                         std::pow(SdOfLn(*light.intensity_cd), 2.0) - 2.0 * meter * meter);
+  StateGeometry geometry = ShapeOf(own);
+  geometry.distance_offset_m = own.distance_offset_m;
+  light.geometries.push_back(std::move(geometry));
   for (const MeasuredState& one : own.states) {
     MeasuredState state = one;
     const double within = SdOfLn(one.relative);

@@ -1,15 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <utility>
 
-#include "lightcal/fit/states/geometry.h"
 #include "lightcal/fit/states/ln_of.h"
 #include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal {
 
-bool HasItsGeometry(const FittedLight& light, const FixtureState& at) {
-  return !light.distance_offset_m || fit::SameGeometry(light.state, at);
+namespace {
+
+void TakeShape(GeometryOfState found, FittedLight& out) {
+  const bool own = found.basis == GeometryBasis::kOwn;
+  if (!own && found.basis != GeometryBasis::kBetween) return;
+  StateGeometry& from = found.geometry;
+  if (from.distance_offset_m) out.distance_offset_m = from.distance_offset_m;
+  out.kind = from.kind;
+  out.flux_lm = from.flux_lm;
+  out.inner_deg = from.inner_deg;
+  out.outer_deg = from.outer_deg;
+  out.inner_u95_deg = from.inner_u95_deg;
+  out.outer_u95_deg = from.outer_u95_deg;
+  if (!own) return;
+  out.luminance_nits = from.luminance_nits;
+  out.diameter_m = from.diameter_m;
+  out.width_m = from.width_m;
+  out.height_m = from.height_m;
+  out.length_m = from.length_m;
+  out.radius_m = from.radius_m;
+  out.distribution = std::move(from.distribution);
+  out.beam = std::move(from.beam);
 }
+
+}  // namespace
 
 Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at) {
   using fit::Scaled;
@@ -24,6 +46,7 @@ Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& a
   out.luminance_nits = Scaled(light.luminance_nits, ln, sd);
   if (out.beam) out.beam->axial = Scaled(out.beam->axial, ln, sd);
   if (out.distribution) out.distribution->table = out.distribution->table.Scaled(std::exp(ln));
+  TakeShape(GeometryAt(light, at, answer->intensity_cd), out);
   out.color = answer->color;
   out.state = at;
   // Readings and their covariance are of the reference state.
@@ -32,6 +55,7 @@ Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& a
   out.in_room.clear();
   out.budget.clear();
   out.states.clear();
+  out.geometries.clear();
   return out;
 }
 

@@ -42,12 +42,25 @@ struct StateAnswer {
 // state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
 
-// Whether the light's own offset and beam are those of this state: its zoom and its front are the
-// reference's, or there is nothing to know (a lamp without a distance law).
-[[nodiscard]] bool HasItsGeometry(const FittedLight& light, const FixtureState& at);
+// Whose offset, size and beam a state has.
+enum class GeometryBasis : std::uint8_t {
+  kLights,   // the light's own: zoom and front are the reference's, or no distance law asks for one
+  kOwn,      // of its own, fitted or described
+  kBetween,  // put between those of two zooms
+  kUnknown,  // nothing tells: the light's own stands in
+};
+struct GeometryOfState {
+  GeometryBasis basis = GeometryBasis::kUnknown;
+  StateGeometry geometry{};  // kOwn and kBetween; flux and luminance are those at the state
+};
+// Between two zooms of plain cones: ln of half angles and of flux over intensity along ln of
+// zoom_deg, the offset along the same way; unsure by a quarter of what lies between them, 95 %, in
+// the middle.
+[[nodiscard]] GeometryOfState GeometryAt(const FittedLight& light, const FixtureState& at,
+                                         const std::optional<Uncertain>& intensity_cd);
 
-// The light as it is at that state: intensity, flux, luminance and colour; geometry as it was
-// fitted. Refused: as AnswerState.
+// The light as it is at that state: intensity, flux, luminance and colour, offset, size and beam by
+// GeometryAt. Refused: as AnswerState.
 [[nodiscard]] Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& at);
 
 // The measured state `index` as the others predict it, as if it had not been read; absent where it

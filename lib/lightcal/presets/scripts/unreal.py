@@ -3,9 +3,12 @@
 # open; run again, it replaces its own, found by their tag, and leaves all else as it is; one undo
 # takes them back. NAME.rig.unreal.py opens a level of its own with cards, camera and exposure.
 # Exported with --into it makes nothing: it sets lights that are there, by label, or refuses.
+# Lamps that were read at states of their controls can be turned afterwards, see set_state.
 import json
 import os
 import re
+import sys
+import types
 
 import unreal
 
@@ -142,6 +145,134 @@ def set_figures(component, item, properties):
         # The profile's peak is 1 times this multiplier in every version of the engine.
         multiplier = profile.get_editor_property("texture_multiplier")
         put(component, "intensity", float(item["properties"]["intensity"]) / multiplier)
+
+
+def decoded(byte):
+    value = byte / 255.0
+    return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+
+def encoded(value):
+    value = min(max(value, 0.0), 1.0)
+    return round(255 * (12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055))
+
+
+def luminance(color):
+    return 0.2126390058715104 * color[0] + 0.7151686787677560 * color[1] + 0.0721923153607337 * color[2]
+
+
+def on_the_curve(control, label):
+    """[energy, r, g, b] over those of the reference."""
+    table = control["table"]
+    least, most = table[0][0], table[-1][0]
+    slack = 1e-9 * max(abs(least), abs(most))
+    if not least - slack <= label <= most + slack:
+        raise ValueError("%s = %g lies outside of what was read (%g ... %g)" % (
+            control["control"], label, least, most))
+    for below, above in zip(table, table[1:]):
+        if label <= above[0]:
+            share = min(max((label - below[0]) / (above[0] - below[0]), 0.0), 1.0)
+            return [a + share * (b - a) for a, b in zip(below[1:], above[1:])]
+    return table[-1][1:]
+
+
+def at_state(item, state):
+    """(candela or lux, [r, g, b]) of a lamp: its figures along what was measured, controls taken to
+    act independently."""
+    figure, color = item["measured"], list(item["linear"])
+    of_reference = luminance(color)
+    for control in item["controls"]:
+        energy, *tint = on_the_curve(control, state[control["control"]])
+        figure *= energy
+        color = [a * b for a, b in zip(color, tint)]
+    return figure * luminance(color) / of_reference, color
+
+
+STATE = "lightcal.state:"  # a tag an actor, which holds what its controls stand at
+
+
+def state_of(actor, item):
+    state = {control["control"]: control["reference"] for control in item["controls"]}
+    for tag in (str(tag) for tag in actor.get_editor_property("tags")):
+        if tag.startswith(STATE):
+            name, _, label = tag[len(STATE):].partition("=")
+            if name in state:
+                state[name] = float(label)
+    return state
+
+
+def turn(actor, item, state):
+    figure, color = at_state(item, state)
+    most = max(color)
+    held = [encoded(c / most) for c in color]
+    shines = luminance([decoded(byte) for byte in held])
+    for component in actor.get_components_by_class(unreal.LightComponent):
+        component.modify()
+        put(component, "use_temperature", False)
+        put(component, "light_color", unreal.Color(b=held[2], g=held[1], r=held[0], a=255))
+        profile = component.get_editor_property("ies_texture") if "ies" in item else None
+        multiplier = profile.get_editor_property("texture_multiplier") if profile else 1.0
+        put(component, "intensity", figure / shines / multiplier)
+    kept = [tag for tag in actor.get_editor_property("tags") if not str(tag).startswith(STATE)]
+    said = ["%s%s=%.9g" % (STATE, name, label) for name, label in state.items()]
+    actor.set_editor_property("tags", kept + [unreal.Name(text) for text in said])
+
+
+def lamps_with_controls():
+    """(actor, item) of the lights of this export that are in the level."""
+    for item in DATA["lights"]:
+        if "controls" not in item:
+            continue
+        patterns = [row["object"] for row in DATA.get("into", []) if row["lamp"] == item["name"]]
+        for actor in ACTORS.get_all_level_actors():
+            label = str(actor.get_actor_label())
+            own = is_own(actor) and label == item["name"]
+            if own or any(matches(pattern, label) for pattern in patterns):
+                if actor.get_components_by_class(unreal.LightComponent):
+                    yield actor, item
+
+
+def set_state(lamp=None, **controls):
+    """set_state("key", dimmer=37, cct_K=4000) sets a lamp to what it gives when its controls say so;
+    without a name every lamp that has these controls. What is not named stays. Labels are those of
+    the fixture; beyond what was read it raises ValueError, and nothing is set. cct stands for cct_K."""
+    if "cct" in controls:
+        controls["cct_K"] = controls.pop("cct")
+    wanted = []
+    for actor, item in lamps_with_controls():
+        state = state_of(actor, item)
+        if lamp not in (None, item["name"]):
+            continue
+        if lamp is None and set(controls) - set(state):
+            continue
+        for name in controls:
+            if name not in state:
+                raise ValueError("%s has no control %s; it has %s" % (
+                    item["name"], name, ", ".join(state)))
+        state.update({name: float(label) for name, label in controls.items()})
+        at_state(item, state)
+        wanted.append((actor, item, state))
+    if not wanted:
+        there = ["%s (%s)" % (item["name"], ", ".join(state_of(actor, item)))
+                 for actor, item in lamps_with_controls()]
+        raise ValueError("no lamp of that name has these controls; the level has %s" % (
+            ", ".join(there) or "none of this export"))
+    with unreal.ScopedEditorTransaction("lightcal state"):
+        for actor, item, state in wanted:
+            turn(actor, item, state)
+
+
+def offer_states():
+    """A file that runs leaves no names behind: the console finds set_state in a module."""
+    if not any("controls" in item for item in DATA["lights"]):
+        return
+    name = "lightcal_" + re.sub("[^A-Za-z0-9_]", "_", DATA["name"])
+    sys.modules[name] = types.ModuleType(name, set_state.__doc__)
+    sys.modules[name].set_state = set_state
+    unreal.log("lightcal: to turn its controls:  py import %s; %s.set_state(%s)" % (
+        name, name, ", ".join("%s=%g" % (control["control"], control["reference"])
+                              for item in DATA["lights"] if "controls" in item
+                              for control in item["controls"][:2])))
 
 
 def matt(card):
@@ -306,5 +437,7 @@ def set_lights_that_are_there():
 
 if "into" in DATA:
     set_lights_that_are_there()
+    offer_states()
 elif "rig" not in DATA or open_rig_level():
     bring_lights()
+    offer_states()
