@@ -11,6 +11,7 @@
 #include "guide/shell_word.h"
 #include "lamp_words.h"
 #include "light_table.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/fit/plan/plan_readings.h"
@@ -233,10 +234,17 @@ std::vector<std::string_view> TitlesOf(const std::vector<std::string>& targets) 
 }
 
 // The line that takes a planned reading; "" where a distance does not say it.
-std::string ReadCommand(const std::string& session, const std::string& light,
+std::string ReadCommand(const std::string& session, const FittedLight& light,
                         const PlannedReading& step) {
   if (!step.distance && step.action != PlannedAction::kLampOff) return "";
-  std::string line = "lightcal read -s " + ShellWord(session) + " --light " + ShellWord(light);
+  std::string line = "lightcal read -s " + ShellWord(session) + " --light " + ShellWord(light.name);
+  // Of a lamp with controls it is the reference that is read again.
+  if (!light.state.empty() && step.action != PlannedAction::kLampOff) {
+    line += " --state " + ShellWord(Joined(light.state, ",", [](const ControlValue& control) {
+              return control.name + "=" +
+                     (control.IsWord() ? control.word : ShortestText(control.number));
+            }));
+  }
   if (step.distance) {
     line +=
         " --distance " + ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) + "m";
@@ -265,7 +273,7 @@ std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
   question.fixture_words = "in session.toml fixture = \"bulb\"";
   question.size_words = "in session.toml kind = \"rect\", size_m = [0.6, 0.3]";
   question.syntax = [&](const FittedLight& light, const PlannedReading& step) {
-    return ReadCommand(path, light.name, step);
+    return ReadCommand(path, light, step);
   };
   return LampAnswersOf(question);
 }

@@ -28,7 +28,8 @@ Result<void> CheckState(const Session& session, const Reading& reading) {
   if (reading.lamp == LampState::kOff) return {};
   const FixtureState reference = ReferenceState(session, reading.light);
   const bool read = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
-    return row.reading.light == reading.light && row.reading.lamp == LampState::kOn;
+    const bool of_box = row.reading.meter == kDataSheetMeter && row.reading.state.empty();
+    return row.reading.light == reading.light && row.reading.lamp == LampState::kOn && !of_box;
   });
   if (!read || (reference.empty() && reading.state.empty())) return {};
   if (reading.state.empty()) {

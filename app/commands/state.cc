@@ -111,8 +111,9 @@ std::string Told(const FittedLight& light, const StateAnswer& answer) {
                                     ")" + Beside(LabelOfColor(answer)));
   }
   if (color.duv) {
-    text += LabelledLine("Duv",
-                         RoundedText(color.duv->value, 2) + " ± " + RoundedText(color.duv->u95, 2));
+    constexpr double kNoDuv = 1e-6;  // what arithmetic leaves of 0
+    const double duv = std::abs(color.duv->value) < kNoDuv ? 0.0 : color.duv->value;
+    text += LabelledLine("Duv", RoundedText(duv, 2) + " ± " + RoundedText(color.duv->u95, 2));
   }
   return text;
 }
@@ -189,6 +190,21 @@ Result<Node> TellAll(const FittedLight& light, Console& console) {
     states.items.push_back(std::move(node));
   }
   const std::string unit = light.intensity_cd ? "cd" : "lx";
+  // The reference, then by their labels: a sweep reads them shuffled.
+  if (!rows.empty()) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < rows.size(); ++i) order.push_back(i);
+    std::ranges::stable_sort(order.begin() + 1, order.end(), [&](std::size_t a, std::size_t b) {
+      return std::ranges::lexicographical_compare(
+          light.states[b].state, light.states[a].state,
+          [](const ControlValue& one, const ControlValue& other) {
+            return std::pair(one.number, other.word) < std::pair(other.number, one.word);
+          });
+    });
+    std::vector<std::vector<std::string>> sorted;
+    for (const std::size_t i : order) sorted.push_back(std::move(rows[i]));
+    rows = std::move(sorted);
+  }
   console.Print(light.name + ", " + unit + " by what its controls say:\n" +
                 TextTable({"state", unit, "of full", "label", "CCT", "label", "left out"}, rows));
   return Node{{"light", light.name}, {"states", std::move(states)}};

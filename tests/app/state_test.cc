@@ -173,6 +173,25 @@ TEST(StateCommand, AReadingThatDoesNotSayItsStateIsRefused) {
   EXPECT_EQ(json::parse(other.out)["error"]["code"], "state_controls");
 }
 
+TEST(StateCommand, WhatTheBoxSaysIsOfNoState) {
+  const TempDir folder;
+  const std::string session = folder.path() + "/panel";
+  ASSERT_EQ(RunLightcal({"new", session, "--box", "60W 4000K", "--accuracy", "4%", "--room", "dark",
+                         "--to", "blender", "--yes"})
+                .exit_code,
+            0);
+  const CliResult swept = RunLightcal({"sweep", "-s", session, "--distance", "1m", "--typed",
+                                       "--in-order", "--over", "dimmer=100,50,25,10", "--json"},
+                                      "1000\n520\n280\n140\n1000\n");
+  ASSERT_EQ(swept.exit_code, 0) << swept.out;
+  const json half = LightcalJson("state", {session, "--at", "dimmer=50"});
+  EXPECT_NEAR(double(half["relative_to_full"]["value"]), 0.52, 1e-6);
+  // What would be read next is the reference, which the line says: else it would be refused.
+  const std::string report = folder.path() + "/report.html";
+  ASSERT_EQ(RunLightcal({"report", session, "-o", report}).exit_code, 0);
+  EXPECT_THAT(ReadFile(report), HasSubstr("--state dimmer=100 --distance"));
+}
+
 TEST(StateCommand, ExportsALampAsItIsAtAState) {
   const TempDir folder;
   folder.Write("lamp/session.toml", Lamp());

@@ -41,6 +41,11 @@ std::vector<StateRows> StatesOf(const Session& session, std::string_view light) 
   return states;
 }
 
+// What the box says is said of no state of its controls.
+bool OfTheBox(const Reading& reading) {
+  return reading.meter == kDataSheetMeter && reading.state.empty();
+}
+
 bool SameControls(const FixtureState& a, const FixtureState& b) {
   return std::ranges::equal(a, b, [](const ControlValue& one, const ControlValue& other) {
     return one.name == other.name && one.IsWord() == other.IsWord();
@@ -51,7 +56,7 @@ Result<void> CheckControls(const Session& session, const std::string& light,
                            const FixtureState& reference) {
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
-    if (reading.light != light || !IsLit(reading)) continue;
+    if (reading.light != light || !IsLit(reading) || OfTheBox(reading)) continue;
     if (reading.state.empty()) {
       return Refused("state_missing", row.where,
                      "other readings of \"" + light +
@@ -123,8 +128,8 @@ Result<void> SplitStates(Session& session) {
     std::vector<SessionReading> kept;
     for (SessionReading& row : session.readings) {
       const Reading& reading = row.reading;
-      const bool other =
-          reading.light == light.name && IsLit(reading) && !SameState(reading.state, reference);
+      const bool other = reading.light == light.name && IsLit(reading) && !OfTheBox(reading) &&
+                         !SameState(reading.state, reference);
       (other ? session.state_readings : kept).push_back(std::move(row));
     }
     session.readings = std::move(kept);

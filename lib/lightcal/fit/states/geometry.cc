@@ -103,8 +103,9 @@ GeometryParts SplitGeometries(const Session& session, const LightDescription& li
     for (const auto* const rows : {&session.readings, &session.state_readings}) {
       for (const SessionReading& row : *rows) {
         const bool lit = own(row);
-        const bool here = lit ? SameGeometry(row.reading.state, geometry)
-                              : row.reading.light == light.name;  // its lamp off
+        const bool here =
+            lit ? SameGeometry(row.reading.state, geometry)
+                : row.reading.light == light.name && row.reading.lamp == LampState::kOff;
         if (here) part.readings.push_back(row);
       }
     }

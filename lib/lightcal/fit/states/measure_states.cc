@@ -96,10 +96,11 @@ class Measuring {
     for (const SessionReading& row : rows) {
       const Reading& reading = row.reading;
       if (reading.light != light_.name) continue;
-      if (reading.state.empty() || reading.lamp == LampState::kOff) {
+      if (reading.lamp == LampState::kOff) {
         if (reading.illuminance) off_.push_back(&row);
         continue;
       }
+      if (reading.state.empty()) continue;  // what the box says
       auto known = std::ranges::find_if(
           states_, [&](const StateReadings& one) { return SameState(one.state, reading.state); });
       if (known == states_.end()) {
