@@ -65,7 +65,7 @@ struct BeamShape {
   static constexpr ParameterRule kAxialPrior = {true, 0.8, 0.6};
   BeamFamily family = BeamFamily::kEven;
   double scale = 0.3, step = 0.1, bend = 0.1;  // of the smooth curve; scale in rad
-  int kink = -1;  // node at which it may turn kKinkBends as much: a peak beside the axis
+  int kink = -1;  // node at which it may turn kKinkBends as much: a sharp peak; -1 none
   static constexpr double kKinkBends = 8.0;
 
   // Which parameters are free, under which prior.
@@ -89,9 +89,9 @@ struct BeamShape {
 template <class T>
 T BeamShape::PriorRow(std::size_t i, const T* p) const {
   if (i == 0) return (p[0] - kAxialPrior.prior_mean) / kAxialPrior.prior_sd;
-  // Twice as sure at the axis, where the node on the other side moves along.
-  if (i == 1) return (p[1] - p[0]) / (0.5 * bend);
   const double own = static_cast<int>(i) == kink + 1 ? kKinkBends * bend : bend;
+  // Twice as sure at the axis, where the node on the other side moves along.
+  if (i == 1) return (p[1] - p[0]) / (0.5 * own);
   return (p[i] - 2.0 * p[i - 1] + p[i - 2]) / own;
 }
 

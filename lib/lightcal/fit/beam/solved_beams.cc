@@ -205,13 +205,14 @@ double RoughAt(const std::vector<RoughPoint>& curve, double gamma) {
   return -1.0;
 }
 
-// Nodes between the readings on both sides of a peak beside the axis, where a curve may turn
-// sharply (lenses that throw light sideways); none of a lamp that is brightest on its axis.
+// Nodes where a curve may turn sharply: of a lamp that is brightest beside its axis (lenses that
+// throw light sideways) those between the readings on both sides of the peak, else the axis itself
+// (mirrors and lenses before a small source).
 std::vector<int> KinksOf(const std::vector<RoughPoint>& curve, const BeamShape& shape) {
   const auto most = std::ranges::max_element(curve, {}, &RoughPoint::candela);
   std::vector<int> nodes;
-  if (most == curve.begin() || most + 1 == curve.end()) return nodes;
-  if (most->candela < kHollow * curve.front().candela) return nodes;
+  if (most + 1 == curve.end()) return nodes;
+  if (most->candela < kHollow * curve.front().candela) return {0};
   for (int k = 2; k < BeamShape::kNodes - 1; ++k) {
     const double gamma = shape.scale * std::sinh(k * shape.step);
     if (gamma > (most - 1)->gamma && gamma < (most + 1)->gamma) nodes.push_back(k);
