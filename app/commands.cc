@@ -119,7 +119,8 @@ constexpr CommandRow kCommands[] = {
      "  lightcal export out/light.json --to blender,json --rig --rig-at 20 --rig-at 20/90 -o rigs\n"
      "  lightcal export out/light.json --to unreal,blender --into map.csv -o into", BuildExport},
     {"engine", "What a renderer makes of each kind of light, learnt from its own pictures",
-     "  lightcal engine learn point.preset.json point.exr --pixels exposed -o mine.json\n"
+     "  lightcal engine rig --to usd -o learn\n"
+     "  lightcal engine learn learn --to usd --pixels exposed -o mine.json\n"
      "  lightcal export out/light.json --to usd --engine mine.json -o presets", BuildEngine},
     {"check", "A preset against the readings, or an engine's picture of the rig against the meter",
      "  lightcal check presets/light.gltf --session sample_data/sessions/amaran_200x_s_bare\n"

@@ -121,6 +121,10 @@ void WarnOfEngine(const LearntEngine& engine, const LightFile& lights, Console& 
                   "is a " + std::string(LightKindName(lamp.kind)) +
                       ", of which the engine file says nothing; written as it is"});
   }
+  if (!engine.exposure_applied) {
+    console.Warn({"exposure_not_applied", "camera",
+                  "has an exposure that this renderer leaves out: its samples are cd/m2"});
+  }
   if (engine.absolute) return;
   console.Warn({"ratios_only", std::string(LightKindName(engine.kinds.front().kind)),
                 "is what the engine file's factors are relative to: lamps stand right to one "

@@ -59,6 +59,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"preset.target", "--to"},
     {"reading.illuminance", "--lux"},
     {"render.engine", "--engine"},
+    {"render.pixels", "--pixels"},
     {"shoot.aperture", "--aperture"},
     {"shoot.bracket", "--bracket"},
     {"shoot.center", "--center"},

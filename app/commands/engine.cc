@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// lightcal engine: what a renderer makes of each kind of light, from its pictures of exported rigs.
+// lightcal engine: rigs to render, and what a renderer makes of each kind of light by its pictures
+// of them.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,18 +16,21 @@
 #include "lightcal/core/generator_name.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/learn_engine.h"
+#include "lightcal/presets/learning_rigs.h"
+#include "lightcal/presets/turned_panorama.h"
 #include "lightcal_devices/captures/picture.h"
 #include "one_of.h"
 #include "output_files.h"
+#include "target_words.h"
 
 namespace lightcal::app {
 namespace {
 
-constexpr double kSameKindApart = 0.02;  // |ln| between two pictures of one kind
+namespace fs = std::filesystem;
 
 struct EngineOptions {
   std::vector<std::string> files;
-  std::string output, pixels;
+  std::string output, pixels, target;
   bool force = false;
 };
 
@@ -39,53 +45,87 @@ std::optional<PixelUnit> UnitOf(const std::string& word, SampleMeaning meaning) 
   return std::nullopt;
 }
 
-struct LearntPicture {
-  LearntKind kind;
-  bool absolute = true;
+// ---- learn ----
+
+struct RigPair {
+  std::string rig, picture;
 };
 
-Result<LearntPicture> LearnPicture(const std::string& rig_path, const std::string& picture_path,
-                                   const EngineOptions& options) {
-  const auto text = ReadInputFile(rig_path);
+// Of a folder: each rig that has a picture of its own name beside it.
+Result<std::vector<RigPair>> PairsIn(const std::string& folder) {
+  constexpr std::string_view kEnding = ".preset.json";
+  constexpr std::array<std::string_view, 3> kPictures = {".exr", ".png", ".hdr"};
+  std::vector<RigPair> pairs;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string path = entry.path().string();
+    if (!path.ends_with(kEnding)) continue;
+    const std::string stem = path.substr(0, path.size() - kEnding.size());
+    for (const std::string_view ending : kPictures) {
+      const std::string picture = stem + std::string(ending);
+      if (!fs::exists(picture, error)) continue;
+      pairs.push_back({path, picture});
+      break;
+    }
+  }
+  std::ranges::sort(pairs, {}, &RigPair::rig);
+  if (!pairs.empty()) return pairs;
+  return Refused("no_pictures", folder,
+                 "has no NAME.preset.json with its picture NAME.exr or NAME.png beside it; write "
+                 "rigs with engine rig, render each, and save the picture by the scene's name");
+}
+
+Result<std::vector<RigPair>> PairsOf(const std::vector<std::string>& files) {
+  std::error_code error;
+  if (files.size() == 1 && fs::is_directory(files.front(), error)) return PairsIn(files.front());
+  if (files.size() % 2 != 0) {
+    return WrongUsage("engine learn",
+                      "takes pairs, RIG.preset.json and the picture of that rig, or one folder");
+  }
+  std::vector<RigPair> pairs;
+  for (std::size_t i = 0; i < files.size(); i += 2) pairs.push_back({files[i], files[i + 1]});
+  return pairs;
+}
+
+Result<RigPicture> OpenPair(const RigPair& pair, const EngineOptions& options) {
+  const auto text = ReadInputFile(pair.rig);
   if (!text) return tl::unexpected(text.error());
-  const auto rig = RigFromPreset(*text, rig_path);
+  const auto rig = RigFromPreset(*text, pair.rig);
   if (!rig) return tl::unexpected(rig.error());
-  NoteInput(picture_path);
-  const auto picture = devices::ReadPicture(picture_path);
+  NoteInput(pair.picture);
+  const auto picture = devices::ReadPicture(pair.picture);
   if (!picture) return tl::unexpected(picture.error());
   const auto cards = MeasureCards(*picture, *rig);
   if (!cards) return tl::unexpected(cards.error());
-  const auto unit = UnitOf(options.pixels, picture->info.meaning);
-  auto kind = LearnKind(*rig, *cards, unit.value_or(PixelUnit::kNits), picture_path);
-  if (!kind) return Propagate(std::move(kind));
-  return LearntPicture{*std::move(kind), unit.has_value()};
+  return RigPicture{pair.picture, *rig, *cards, UnitOf(options.pixels, picture->info.meaning)};
 }
 
-// Two pictures of one kind: their geometric mean, which is as sure as they agree.
-void Join(const LearntKind& found, std::vector<LearntKind>& kinds, Console& console) {
-  const auto it = std::ranges::find(kinds, found.kind, &LearntKind::kind);
-  if (it == kinds.end()) {
-    kinds.push_back(found);
-    return;
-  }
-  const double apart = std::abs(std::log(found.factor / it->factor));
-  if (apart > kSameKindApart) {
-    console.Warn({"kinds_disagree", std::string(LightKindName(found.kind)),
-                  "has two pictures that are " + PercentText(std::expm1(apart)) +
-                      " apart; one factor cannot be right for both"});
-  }
-  it->factor = std::sqrt(it->factor * found.factor);
-  it->u95_relative = std::max({it->u95_relative, found.u95_relative, apart / 2.0});
-  if (it->cause != found.cause) it->cause = "unknown";
+Result<std::optional<EngineConeLaw>> WrittenLaw(const std::string& target) {
+  if (target.empty()) return std::optional<EngineConeLaw>();
+  const auto row = FindPresetTarget(target);
+  if (!row) return tl::unexpected(row.error());
+  return row->cone;
 }
 
-// Without a scale: factors over the first kind's, whose cause nobody knows.
-void MakeRelative(LearntEngine& engine) {
-  const double first = engine.kinds.front().factor;
-  for (LearntKind& kind : engine.kinds) {
-    kind.factor /= first;
-    kind.cause = std::abs(std::log(kind.factor)) < kSameKindApart ? "none" : "unknown";
+// "smooth_in_angle, angles x 0.5"; "turned 90°".
+std::string ShapeText(const LearntKind& kind) {
+  std::string text;
+  if (kind.cone) {
+    text = kConeLawWords[static_cast<std::size_t>(kind.cone->law)];
+    if (kind.cone->hard) {
+      text += ", no penumbra";
+    } else if (kind.cone->inner_times == 0.0) {
+      text += ", no inner angle";
+    } else if (kind.cone->outer_times != 1.0) {
+      text += ", angles x " + RoundedText(kind.cone->outer_times, 3);
+    }
   }
+  if (kind.turn && !kind.turn->IsNone()) {
+    text = std::string(MistakenTurns()[kind.turn->way].word);
+    if (kind.turn->turn_deg != 0.0) text += " " + RoundedText(kind.turn->turn_deg, 3) + " deg";
+  }
+  if (kind.area_power != 0) text = kind.area_power < 0 ? "1/area [m2]" : "area [m2]";
+  return text.empty() ? "-" : text;
 }
 
 void PrintEngine(const LearntEngine& engine, Console& console) {
@@ -93,59 +133,71 @@ void PrintEngine(const LearntEngine& engine, Console& console) {
   for (const LearntKind& kind : engine.kinds) {
     rows.push_back({std::string(LightKindName(kind.kind)), RoundedText(kind.factor, 5),
                     "± " + PercentText(kind.u95_relative), RoundedText(std::log2(kind.factor), 2),
-                    kind.cause});
+                    ShapeText(kind), kind.cause});
   }
-  console.Print(TextTable({"kind", "factor", "95 %", "stops", "cause"}, rows));
-  console.Print(engine.absolute
-                    ? "\nCones and turns of axes are not learnt.\n"
-                    : "\nFactors are relative to the first kind: what a sample of these "
-                      "pictures stands for\nis not known (--pixels says it). Cones and "
-                      "turns of axes are not learnt.\n");
+  console.Print(TextTable({"kind", "factor", "95 %", "stops", "shape", "cause"}, rows));
+  if (!engine.absolute) {
+    console.Print(
+        "\nFactors are relative to the first kind: what a sample of these pictures stands for\n"
+        "is not known (--pixels says it).\n");
+  }
+  if (!engine.exposure_applied) {
+    console.Print("\nThe camera's exposure is not applied: samples are cd/m2.\n");
+  }
 }
 
 Result<void> Learn(const EngineOptions& options, Console& console) {
-  if (options.files.size() % 2 != 0) {
-    return WrongUsage("engine learn", "takes pairs: RIG.preset.json and the picture of that rig");
+  const auto written = WrittenLaw(options.target);
+  if (!written) return tl::unexpected(written.error());
+  const auto pairs = PairsOf(options.files);
+  if (!pairs) return tl::unexpected(pairs.error());
+  std::vector<RigPicture> pictures;
+  for (const RigPair& pair : *pairs) {
+    auto picture = OpenPair(pair, options);
+    if (!picture) return tl::unexpected(picture.error());
+    pictures.push_back(*std::move(picture));
   }
-  LearntEngine engine;
-  for (std::size_t i = 0; i < options.files.size(); i += 2) {
-    const auto found = LearnPicture(options.files[i], options.files[i + 1], options);
-    if (!found) return tl::unexpected(found.error());
-    if (i > 0 && found->absolute != engine.absolute) {
-      return Refused("mixed_scales", options.files[i + 1],
-                     "is exposed, an earlier picture of unknown scale, or the other way round; "
-                     "say with --pixels what a sample stands for");
-    }
-    engine.absolute = found->absolute;
-    Join(found->kind, engine.kinds, console);
-  }
-  if (!engine.absolute) {
-    if (engine.kinds.size() == 1) {
-      return Refused("scale_unknown", options.files[1],
-                     "is linear, and nobody said what a sample stands for: one kind alone has no "
-                     "ratio. Say it with --pixels, or bring another kind's picture");
-    }
-    MakeRelative(engine);
-  }
+  const auto found = LearnEngine(pictures, *written);
+  if (!found) return tl::unexpected(found.error());
+  const LearntEngine& engine = found->engine;
+  console.Warn(found->warnings);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   const auto text = EngineText(engine, GeneratorName(), options.output);
   if (!text) return tl::unexpected(text.error());
   if (!options.output.empty()) {
-    if (auto written = WriteOutputs({{options.output, *text}}, options.force); !written) {
-      return written;
-    }
+    if (auto done = WriteOutputs({{options.output, *text}}, options.force); !done) return done;
   }
   PrintEngine(engine, console);
   if (!options.output.empty()) console.Print("wrote " + options.output + "\n");
-  const auto node = [](const LearntKind& kind) -> Node {
-    return {{"kind", LightKindName(kind.kind)},
-            {"factor", kind.factor},
-            {"u95_relative", kind.u95_relative},
-            {"cause", kind.cause}};
-  };
-  console.PrintDocument({{"absolute", engine.absolute},
-                         {"kinds", Node::List(engine.kinds, node)},
-                         {"file", Node::UnlessEmpty(options.output)}});
+  Node document = EngineNode(engine);
+  document.Put("file", Node::UnlessEmpty(options.output));
+  console.PrintDocument(document);
+  return {};
+}
+
+// ---- rig ----
+
+Result<void> WriteRigs(const EngineOptions& options, Console& console) {
+  PresetOptions preset;
+  preset.spots = SpotForm::kCone;
+  if (!options.files.empty()) {
+    const auto text = ReadInputFile(options.files.front());
+    if (!text) return tl::unexpected(text.error());
+    auto engine = EngineFrom(*text, options.files.front());
+    if (!engine) return Propagate(std::move(engine));
+    preset.engine = std::make_shared<const LearntEngine>(*std::move(engine));
+  }
+  auto rigs = LearningRigs(options.target, preset, GeneratorName());
+  if (!rigs) return Propagate(std::move(rigs));
+  std::vector<OutputFile> files;
+  for (PresetFile& file : *rigs) files.push_back({std::move(file.name), std::move(file.contents)});
+  PlaceUnder(options.output, files);
+  if (auto written = WriteOutputs(files, options.force); !written) return written;
+  console.Print(WroteLine(files, options.output) +
+                "\nRender each scene with its camera, save the picture by the scene's name beside "
+                "it\n(point.rig.exr), and: lightcal engine learn " +
+                options.output + " --to " + options.target + " --pixels ... -o mine.json\n");
+  console.PrintDocument({{"files", PathsOf(files)}});
   return {};
 }
 
@@ -154,12 +206,13 @@ Result<void> Learn(const EngineOptions& options, Console& console) {
 Run BuildEngine(CLI::App& parser) {
   auto options = std::make_shared<EngineOptions>();
   parser.require_subcommand(1);
-  CLI::App* const learn =
-      parser.add_subcommand("learn", "A factor for each kind of light in rendered rigs");
+  CLI::App* const learn = parser.add_subcommand(
+      "learn", "Factors, cone law and turn of panoramas in pictures of rendered rigs");
   learn->fallthrough();
   learn
       ->add_option("files", options->files,
-                   "Pairs: the STEM.preset.json of a rig that was exported, and its picture")
+                   "Pairs: the STEM.preset.json of a rig that was exported, and its picture; or a "
+                   "folder of them, alike in name")
       ->required();
   learn->add_option("-o,--output", options->output, "ENGINE.json, for export");
   learn
@@ -167,8 +220,25 @@ Run BuildEngine(CLI::App& parser) {
                    "What a sample of an EXR is: exposed by the rig's exposure, cd/m2, or watts of "
                    "683 lm (Blender) [not known: ratios between kinds]")
       ->check(OneOf(kPixelWords));
+  learn
+      ->add_option("--to", options->target,
+                   "The preset that was rendered; its cones are learnt from cards off the axis")
+      ->check(OneOf(TargetWords()));
   learn->add_flag("--force", options->force, "Replace a file that lightcal did not write");
-  return [options](Console& console) { return Learn(*options, console); };
+  CLI::App* const rig =
+      parser.add_subcommand("rig", "Scenes to render: a lamp of each kind, cards about it");
+  rig->fallthrough();
+  rig->add_option("--to", options->target, "The preset to render")
+      ->required()
+      ->check(OneOf(TargetWords()));
+  rig->add_option("-o,--output", options->output, "Directory of the scenes")->required();
+  rig->add_option("--engine", options->files,
+                  "With what was learnt undone, to see that it then renders right")
+      ->expected(1);
+  rig->add_flag("--force", options->force, "Replace files that lightcal did not write");
+  return [options, rig](Console& console) {
+    return rig->parsed() ? WriteRigs(*options, console) : Learn(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

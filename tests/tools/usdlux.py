@@ -186,10 +186,14 @@ def load(path, variant=None):
 
 class Reader:
     """What a renderer makes otherwise than the specification; all off by default.
-    factor: {prim type: factor}; sun: karma | lux | lux_pi | ris; cone: full | a law's name."""
+    factor: {prim type: factor}; sun: karma | lux | lux_pi | ris; cone: full | double | squared | smooth |
+    linear; softness: a number it takes whatever the file says; normalised: prim types that it
+    normalises whatever the file says; radius_times: a radius read so many times as large;
+    dome_rotation: 3 x 3, from where the specification has a direction to where it shows it."""
 
     def __init__(self, **wrong):
-        self.factor, self.sun, self.cone = {}, None, None
+        self.factor, self.sun, self.cone, self.softness = {}, None, None, None
+        self.normalised, self.radius_times, self.dome_rotation = (), 1.0, None
         self.tubes_normalised = self.points = self.y_of_color = self.mirror = False
         self.sphere_area = self.domes_angular = self.clips_colors = False
         self.metres_per_unit = 1.0
@@ -220,7 +224,8 @@ def read_ies(path):
 
 
 def read_hdr(path):
-    """Radiance picture, float RGB, rows from the top."""
+    """Radiance picture, float RGB, rows from the top; mantissas as they are, as OpenImageIO and USD's own
+    stb_image read them (Radiance adds half a step)."""
     with open(path, "rb") as picture:
         data = picture.read()
     head, _, rest = data.partition(b"\n\n")
@@ -249,7 +254,7 @@ def read_hdr(path):
             rows[y] = np.frombuffer(body, np.uint8, width * 4, at).reshape(width, 4)
             at += width * 4
     e = rows[..., 3:].astype(float)
-    return np.where(e > 0, (rows[..., :3] + .5) * 2.0 ** (e - 136), 0.0) / exposure
+    return np.where(e > 0, rows[..., :3] * 2.0 ** (e - 136), 0.0) / exposure
 
 
 class Light:
@@ -264,6 +269,12 @@ class Light:
             self.ies = read_ies(os.path.join(folder, self.v["inputs:shaping:ies:file"]))
         if self.v.get("inputs:texture:file"):
             self.picture = read_hdr(os.path.join(folder, self.v["inputs:texture:file"]))
+        if self.kind in reader.normalised:
+            self.v = dict(self.v, **{"inputs:normalize": 1.0})
+        if reader.radius_times != 1.0 and "inputs:radius" in self.v:
+            self.v = dict(self.v, **{"inputs:radius": self.v["inputs:radius"] * reader.radius_times})
+        if self.kind == "DomeLight" and reader.dome_rotation is not None:
+            self.axes = [np.array(reader.dome_rotation) @ a for a in self.axes]
 
     def number(self, name, fallback):
         value = self.v.get("inputs:" + name)
@@ -290,14 +301,16 @@ class Light:
         has = "inputs:shaping:cone:angle" in self.v or self.ies
         angle = self.number("shaping:cone:angle", 90.0) if has else 180.0
         soft = min(max(self.number("shaping:cone:softness", 0.0), 0.0), 1.0)
+        if self.reader.softness is not None and angle < 90.0:
+            soft = self.reader.softness
         law = self.reader.cone
-        if law == "full":
-            angle = angle / 2
+        if angle < 90.0:
+            angle *= {"full": 0.5, "double": 2.0}.get(law, 1.0)
         start = angle * (1 - soft)
-        if law == "squared":
+        if law in ("squared", "smooth"):  # in the cosine
             ca, cs = np.cos(np.radians([angle, start]))
             t = np.clip((along - ca) / max(cs - ca, 1e-12), 0, 1)
-            out = out * t * t
+            out = out * (t * t if law == "squared" else t * t * (3 - 2 * t))
         elif law == "linear":
             out = out * np.clip((angle - off) / max(angle - start, 1e-12), 0, 1)
         else:

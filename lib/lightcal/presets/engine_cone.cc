@@ -260,6 +260,18 @@ EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam) {
   return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
 }
 
+EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam, double inner_share) {
+  constexpr int kTried = 400;
+  const std::vector<Sample> samples = SamplesOf(beam);
+  const double widest = std::min(kRightAngle, 1.3 * EndOf(beam));
+  std::pair<double, ConePlace> best{1e300, {widest, inner_share}};
+  for (int i = 1; i <= kTried; ++i) {
+    const ConePlace at = {widest * i / kTried, inner_share};
+    best = std::min(best, std::pair(CostOf(samples, law, at), at));
+  }
+  return JudgedCone(TermsAt(law, best.second), samples);
+}
+
 std::string ConeErrorText(const EngineCone& cone) {
   constexpr double kNothing = 1e-3;
   const double flux = cone.flux - 1.0;

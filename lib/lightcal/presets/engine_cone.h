@@ -55,6 +55,8 @@ struct EngineCone {
 // intensity.
 inline constexpr double kConeFluxError = 0.022;
 [[nodiscard]] EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam);
+// The same where the engine's inner angle is this share of its outer one, whatever it is told.
+[[nodiscard]] EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam, double inner_share);
 
 // "off the axis within 6.6 % of the axial intensity (at 22 degrees), flux 1.6 % low"; "" where both
 // are below 0.1 %.

@@ -9,6 +9,7 @@
 #include "lightcal/light/models/source_model.h"
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/presets/light_distribution.h"
+#include "lightcal/presets/turned_panorama.h"
 
 namespace lightcal {
 namespace {
@@ -83,27 +84,31 @@ bool TakeSquareForDisk(const FittedLight& lamp, const EngineForms& forms, Preset
 }
 
 // The engine's own cone for what its spot stands for; says what is left.
-void RefitSpot(const FittedLight& lamp, EngineConeLaw law, PresetLight& light) {
+void RefitSpot(const FittedLight& lamp, EngineConeLaw law, const LearntEngine* engine,
+               PresetLight& light) {
+  light.cone.cone = light.punctual.cone;
   light.beam = lamp.distribution ? ProfileOf(lamp.distribution->table)
                                  : std::optional(ProfileOf(light.punctual.cone));
   if (!light.beam) return;
-  light.cone = RefitCone(law, *light.beam);
+  const LearntCone* const learnt = engine != nullptr ? engine->ConeWrittenFor(law) : nullptr;
+  light.cone = learnt != nullptr ? learnt->ToWrite(*light.beam) : RefitCone(law, *light.beam);
   const std::string error = ConeErrorText(light.cone);
-  if (error.empty() || law == EngineConeLaw::kSquared) return;
+  if (error.empty() || (law == EngineConeLaw::kSquared && learnt == nullptr)) return;
   light.substitution =
       std::string(lamp.distribution ? "a measured distribution, round about its aim"
                                     : "a spot of squared-linear falloff") +
       " as the engine's own cone, refitted: right on the axis, " + error;
 }
 
-void ChooseForm(const FittedLight& lamp, const EngineForms& forms, SpotForm spots,
+void ChooseForm(const FittedLight& lamp, const EngineForms& forms, const PresetOptions& options,
                 PresetLight& light) {
+  const SpotForm spots = options.spots;
   EngineForms permitted = forms;
   permitted.table = forms.table && spots != SpotForm::kCone;
   if (TakeNativeForm(lamp, permitted, light) || TakeSquareForDisk(lamp, forms, light)) return;
   TakePunctualForm(light.punctual, light);
   if (light.form != LightForm::kSpot) return;
-  RefitSpot(lamp, forms.cone, light);
+  RefitSpot(lamp, forms.cone, options.engine.get(), light);
   const bool strays = forms.spots_by_table && light.cone.worst > kConeGoodEnough;
   if (lamp.kind == LightKind::kSpot && permitted.table && (spots == SpotForm::kIes || strays)) {
     light.form = LightForm::kTable;
@@ -210,7 +215,7 @@ double TableLux(const PresetLight& light, const Vec3& to_point, const Vec3& norm
 // What the preset's own numbers give.
 Lux LuxAsWritten(const PresetLight& light, const Vec3& point, const Vec3& normal) {
   if (light.form == LightForm::kDome && light.environment) {
-    const Vec3 rgb = IrradianceOn(*light.environment, normal);
+    const Vec3 rgb = IrradianceOn(light.shown ? *light.shown : *light.environment, normal);
     return Lux(LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb));
   }
   if (light.form == LightForm::kDome) return Lux(light.lux);
@@ -223,8 +228,12 @@ Lux LuxAsWritten(const PresetLight& light, const Vec3& point, const Vec3& normal
              LuxPerCandela(*model, Receiver<double>{frame.Of(to_point), frame.Of(normal)}));
 }
 
-// Divides everything the engine is told by what it multiplies with.
-void UndoEngine(double factor, PresetLight& light) {
+// Divides everything the engine is told by what it multiplies with, and hangs a dome's picture so
+// that it shows as it was.
+void UndoEngine(const LearntEngine& engine, const FittedLight& lamp, PresetLight& light) {
+  const double factor =
+      engine.FactorOf(lamp.kind, SurfaceOf(lamp.kind, lamp.diameter_m, lamp.width_m, lamp.height_m,
+                                           lamp.length_m, lamp.radius_m));
   const double k = 1.0 / factor;
   light.engine_factor = factor;
   for (double* value : {&light.candela, &light.lux, &light.nits, &light.lumens,
@@ -239,6 +248,11 @@ void UndoEngine(double factor, PresetLight& light) {
   for (float& sample : picture->rgb) sample = static_cast<float>(sample * k);
   for (double& sample : picture->small) sample *= k;
   light.environment = std::move(picture);
+  if (const auto turn = engine.TurnOfDomes()) {
+    light.shown = std::move(light.environment);
+    light.environment = std::make_shared<EnvironmentPicture>(
+        ForEngineThatTurns(*light.shown, turn->way, turn->turn_deg));
+  }
 }
 
 }  // namespace
@@ -264,7 +278,7 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     const auto picture = i < options.environments.size() ? options.environments[i] : nullptr;
     EngineForms able = forms;
     able.dome = forms.dome || (forms.pictured_dome && picture && options.into.empty());
-    ChooseForm(lamp, able, options.spots, light);
+    ChooseForm(lamp, able, options, light);
     if (light.form == LightForm::kDome) light.environment = picture;
     if (auto measured = Measure(lamp, light); !measured) {
       return Propagate(std::move(measured));
@@ -274,7 +288,7 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
       warnings.push_back(
           {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});
     }
-    if (options.engine) UndoEngine(options.engine->FactorOf(lamp.kind), light);
+    if (options.engine) UndoEngine(*options.engine, lamp, light);
     lights.push_back(std::move(light));
   }
   return lights;

@@ -68,6 +68,8 @@ struct PresetLight {
   std::optional<BeamProfile> beam;
   EngineCone cone;
   std::shared_ptr<const EnvironmentPicture> environment{};  // form kDome; null = an even one
+  // Of a renderer that turns pictures: what it shows of `environment`; null = that itself.
+  std::shared_ptr<const EnvironmentPicture> shown{};
   // What the renderer multiplies with: all values above are divided by it already.
   double engine_factor = 1.0;
 

@@ -14,6 +14,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/presets/check/engine_light.h"
 #include "lightcal/presets/emission.h"
+#include "lightcal/presets/engine_cone.h"
 #include "lightcal/presets/preset.h"
 
 namespace lightcal {
@@ -68,6 +69,9 @@ struct PresetTarget {
   std::string_view title{};  // "Unreal Engine"
   PanoramaLaw panorama = PanoramaLaw::kNotKnown;
   EmissionLaw* emission = nullptr;  // absent: what the file says that is read back
+  // The law that the two angles of its spots are written for, where they can be written for
+  // another, too (learnt_engine.h); absent: spots have no such angles, or several.
+  std::optional<EngineConeLaw> cone{};
   std::span<const TypedNumber> numbers{};
   std::span<const TypedNote> notes{};
 

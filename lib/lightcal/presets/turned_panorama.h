@@ -28,4 +28,9 @@ using TurnedIrradiance = std::array<std::array<Vec3, kTurnSteps>, kMistakenTurns
 [[nodiscard]] TurnedIrradiance IrradianceIfTurned(const EnvironmentPicture& picture,
                                                   const Vec3& normal);
 
+// The picture that an engine must be given which hangs pictures that way, turned by that much, so
+// that it shows this one. Bilinear between pixels; exact where they fall onto one another.
+[[nodiscard]] EnvironmentPicture ForEngineThatTurns(const EnvironmentPicture& picture,
+                                                    std::size_t way, double turn_deg);
+
 }  // namespace lightcal

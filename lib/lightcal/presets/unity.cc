@@ -29,10 +29,9 @@ constexpr Metres kUnityFarRange{10000.0};
 constexpr double kWidestSpot_deg = 179.0;  // full angle
 
 void PutUnityCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
-  const double outer = 2.0 * DegreesFromRadians(light.punctual.cone.outer);
+  const double outer = 2.0 * DegreesFromRadians(light.cone.cone.outer);
   out.Put("spot_angle_deg", std::min(outer, kWidestSpot_deg));
-  const double inner =
-      std::min(2.0 * DegreesFromRadians(light.punctual.cone.inner), kWidestSpot_deg);
+  const double inner = std::min(2.0 * DegreesFromRadians(light.cone.cone.inner), kWidestSpot_deg);
   out.Put("inner_spot_angle_deg", inner);
   out.Put("inner_spot_percent", 100.0 * inner / std::min(outer, kWidestSpot_deg));
   if (outer > kWidestSpot_deg) {

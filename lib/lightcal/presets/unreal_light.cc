@@ -45,8 +45,8 @@ double BakeColor(const EmittedColor& color, UnrealLight& out) {
 }
 
 void PutUnrealCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
-  const double outer = DegreesFromRadians(light.punctual.cone.outer);
-  const double inner = DegreesFromRadians(light.punctual.cone.inner);
+  const double outer = DegreesFromRadians(light.cone.cone.outer);
+  const double inner = DegreesFromRadians(light.cone.cone.inner);
   out.Put("inner_cone_angle", std::min(inner, kWidestOuter_deg));
   out.Put("outer_cone_angle", std::min(outer, kWidestOuter_deg));
   if (outer > kWidestOuter_deg) {

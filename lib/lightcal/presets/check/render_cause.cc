@@ -206,6 +206,23 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
                       edge * edge});
     }
   }
+  if (lamp.surface_m2 > 0.0) {
+    list.push_back(
+        {"divided_by_area",
+         "the light is divided by its area, as if normalize were on: it stands for cd/m2",
+         1.0 / lamp.surface_m2});
+    list.push_back({"times_area", "the light is multiplied by its area: write its luminance",
+                    lamp.surface_m2});
+  }
+  if (lamp.kind == "directional") {
+    constexpr double kSunsDisc_sr = 6.7199e-5;  // pi sin^2(.265 degrees)
+    list.push_back({"sun_per_disc",
+                    "a normalised sun is taken relative to a disc of .53 degrees (RenderMan)",
+                    kSunsDisc_sr});
+    list.push_back({"sun_per_disc",
+                    "the sun's lux are taken for the luminance of a disc of .53 degrees",
+                    1.0 / kSunsDisc_sr});
+  }
   if (lamp.outer_deg > 0.0) {
     const double own = ConeSr(lamp.outer_deg);
     list.push_back(

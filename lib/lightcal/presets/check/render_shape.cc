@@ -282,6 +282,27 @@ std::vector<RenderCause> ConeMistakes(const CheckedRig& rig) {
   return causes;
 }
 
+std::optional<HungPanorama> FindHungPanorama(std::span<const SeenRig> seen) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kNearRight_deg = 4.0;
+  PanoramaMatch best = MatchAt(seen, 0, 0.0, true);
+  if (best.misfit >= kAlike) {
+    if (seen.size() < kFewest) return std::nullopt;
+    for (std::size_t way = 0; way < kMistakenTurns; ++way) {
+      const PanoramaMatch match = BestTurn(seen, way, true);
+      if (match.misfit < best.misfit) best = match;
+    }
+    if (best.misfit >= kNinth) return std::nullopt;
+    // Renderers turn by right angles; soft pictures tell them to a degree or two.
+    const double right = 90.0 * std::round(best.turn_deg / 90.0);
+    if (std::abs(best.turn_deg - right) < kNearRight_deg) {
+      const PanoramaMatch match = MatchAt(seen, best.way, std::fmod(right, 360.0), true);
+      if (match.misfit < std::max(kAlike, 1.5 * best.misfit)) best = match;
+    }
+  }
+  return HungPanorama{best.way, best.turn_deg, best.factor};
+}
+
 std::vector<RenderCause> JudgeTogether(std::span<const SeenRig> seen) {
   // Off the axis a lamp that is turned tells the two cards apart, as a tone curve does.
   const bool on_axis =

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightcal/presets/learnt_engine.h"
 #include "lightcal/records/json_codec.h"
 
 namespace lightcal {
@@ -74,6 +75,15 @@ CheckedLamp LampFrom(Finder& find, const Node& json) {
   const Node& geometry = find.Part(json, "geometry");
   if (geometry.Find("outer_deg") != nullptr) lamp.outer_deg = find.Number(geometry, "outer_deg");
   if (geometry.Find("inner_deg") != nullptr) lamp.inner_deg = find.Number(geometry, "inner_deg");
+  const auto length = [&](const char* key) -> std::optional<double> {
+    const Node* node = geometry.Find(key);
+    return node != nullptr && node->IsNumber() && node->number > 0.0 ? std::optional(node->number)
+                                                                     : std::nullopt;
+  };
+  if (const auto kind = LightKindFromName(lamp.kind)) {
+    lamp.surface_m2 = SurfaceOf(*kind, length("diameter_m"), length("width_m"), length("height_m"),
+                                length("length_m"), length("radius_m"));
+  }
   return lamp;
 }
 

@@ -25,6 +25,7 @@ struct CheckedLamp {
   std::array<double, 3> color{1.0, 1.0, 1.0};  // linear Rec. 709, largest component 1
   double color_luminance = 1.0;
   double inner_deg = 0.0, outer_deg = 0.0;  // outer 0 = no cone
+  double surface_m2 = 0.0;                  // 0 = has none, or nobody stated it
 };
 
 // What a white card gets of a panorama as it is (way 0, no turn) and mistaken: turned_panorama.h.
