@@ -103,6 +103,7 @@ constexpr std::array kTextFormats = {
     TextFormat{"unreal", "Begin Map", " Name=lightcal_", false, true},
     TextFormat{"ies", "IESNA", "[OTHER] written by lightcal"},
     TextFormat{"csv", "# written by lightcal ", "# written by lightcal "},
+    TextFormat{"hdr", "#?RADIANCE", "# written by lightcal"},
     TextFormat{"script", "//", "//", true},
     TextFormat{"script", "#", "#", true},
 };
@@ -140,7 +141,7 @@ constexpr std::array kEndings = {
     Ending{".zip", " zip "},    Ending{".gdtf", " gdtf "}, Ending{".toml", " "},
     Ending{".jsonl", " tape "}, Ending{".py", " script "}, Ending{".jpg", " "},
     Ending{".jpeg", " "},       Ending{".tif", " "},       Ending{".tiff", " "},
-    Ending{".hdr", " "},        Ending{".dng", " "},
+    Ending{".hdr", " hdr "},    Ending{".dng", " "},
 };
 
 // Archives of ours are not compressed: the first file follows its own name.

@@ -96,10 +96,9 @@ def prepare(home):
     shutil.copy(SAMPLES / "spectra/jeti/spectral_Jeti_50pct.csv", home / "sweep.csv")
     shutil.copy(SAMPLES / "photometric/sample2.ldt", home / "lamp.ldt")
     lightcal("fit", "sample_data/sessions/amaran_200x_s_bare", "-o", "out/light.json")
-    lightcal("export", SAMPLES / "lights/desk_lamp_june.json", "--to", "usd,json", "--rig", "-o", ".rig")
-    scene = usdlux.Scene(str(home / ".rig/desk_lamp_june.rig.usda"))
-    usdlux.write_exr(home / "point.exr", scene.render(150, 100) * 2.0 ** scene.camera[0]["exposure"])
-    shutil.copy(home / ".rig/desk_lamp_june.preset.json", home / "point.preset.json")
+    lightcal("engine", "rig", "--to", "usd", "-o", "learn")
+    scene = usdlux.Scene(str(home / "learn/point.rig.usda"))
+    usdlux.write_exr(home / "learn/point.rig.exr", scene.render(150, 100) * 2.0 ** scene.camera[0]["exposure"])
 
 
 def run_examples(commands, home):

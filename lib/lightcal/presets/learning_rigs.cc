@@ -124,7 +124,7 @@ std::vector<LearningRig> AllLearningRigs() {
   rigs.push_back({LearningLamp(LightKind::kPoint, 900.0)});
   rigs.push_back({SpotLamp(), {{14.0, 0.0}, {24.0, 0.0}, {33.0, 0.0}}});
   rigs.push_back({SunLamp()});
-  rigs.push_back({RoundLamp(LightKind::kSphere, 0.3)});
+  rigs.push_back({RoundLamp(LightKind::kSphere, 0.1)});
   rigs.push_back({RoundLamp(LightKind::kDisk, 0.4)});
   rigs.push_back({RectLamp()});
   rigs.push_back({TubeLamp()});

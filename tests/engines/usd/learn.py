@@ -20,7 +20,7 @@ from usdlux import Reader
 LIGHTCAL = sys.argv[1]
 PI = math.pi
 Y = 0.5165  # of 2700 K, within .2 %
-SPHERE, DISK, RECT = PI * 0.3 ** 2, PI / 4 * 0.4 ** 2, 0.5 * 0.3  # of the rigs' lamps, m2
+DISK, RECT = PI / 4 * 0.4 ** 2, 0.5 * 0.3  # of the rigs' lamps, m2
 SUNS_DISC = PI * math.sin(math.radians(0.265)) ** 2
 
 
