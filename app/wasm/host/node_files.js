@@ -44,6 +44,22 @@ export class NodeFiles {
       throw { wasi: codes[error.code] ?? errno.io };
     }
   }
+  link(path) {
+    let said;
+    try {
+      said = fs.readlinkSync(ofHost(path));
+    } catch {  // no link, or nothing
+      return undefined;
+    }
+    return /^[A-Za-z]:/.test(said) ? ofFolder(said, true) : ofWord(said);
+  }
+  real(path) {
+    try {
+      return ofFolder(fs.realpathSync(ofHost(path)));
+    } catch {
+      return path;
+    }
+  }
   size(path) { return tried(() => fs.statSync(ofHost(path)).size); }
   read(path) { return tried(() => new Uint8Array(fs.readFileSync(ofHost(path)))); }
   write(path, bytes) { tried(() => fs.writeFileSync(ofHost(path), bytes)); }

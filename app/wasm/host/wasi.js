@@ -3,15 +3,18 @@
 //   kind(path)          "file", "folder" or undefined
 //   read(path)          its bytes;  write(path, bytes), list(path), makeFolder(path)
 //   remove(path), removeFolder(path), rename(from, to)
+//   link(path)          what a symbolic link there says, undefined where none is; absent: there are none
+//   real(path)          the path without links, of what is there
 // that throws { wasi: errno } where it cannot. Paths are absolute, parted by "/".
 // Source: WASI snapshot preview 1 (the witx files of the WASI repository).
 
 export const errno = {
-  access: 2, badDescriptor: 8, exists: 20, invalid: 28, io: 29, isFolder: 31, absent: 44,
+  access: 2, badDescriptor: 8, exists: 20, invalid: 28, io: 29, isFolder: 31, loop: 32, absent: 44,
   noSpace: 51, unsupported: 52, notFolder: 54, notEmpty: 55, denied: 63, readOnly: 69,
 };
 
-const kFolder = 3, kFile = 4, kCharacter = 2;
+const kFolder = 3, kFile = 4, kCharacter = 2, kLink = 7;
+const kFollow = 1;
 const kCreate = 1, kFolderOnly = 2, kExclusive = 4, kTruncate = 8;
 const kWriteRight = 1n << 6n;
 const kAppend = 1;
@@ -76,11 +79,12 @@ class Host {
   stat(at, kind, path, size) {
     this.bytes(at, 64).fill(0);
     this.view.setBigUint64(at, 1n, true);
-    this.view.setBigUint64(at + 8, inode(path), true);
+    this.view.setBigUint64(at + 8, inode(kind === kLink ? path : this.files.real?.(path) ?? path), true);
     this.view.setUint8(at + 16, kind);
     this.view.setBigUint64(at + 24, 1n, true);
     this.view.setBigUint64(at + 32, BigInt(size), true);
   }
+  link(path) { return this.files.link?.(path); }
   flush(file) {
     if (!file.changed) return;
     this.files.write(file.path, file.bytes.slice(0, file.size));
@@ -171,15 +175,21 @@ class Host {
         file.size = Number(size);
         file.changed = true;
       },
-      path_filestat_get(fd, _, at, size, to) {
+      path_filestat_get(fd, how, at, size, to) {
         const path = host.path(fd, at, size), kind = host.files.kind(path);
+        if (!(how & kFollow) && host.link(path) !== undefined) {
+          host.stat(to, kLink, path, 0);
+          return 0;
+        }
         if (!kind) return errno.absent;
         host.stat(to, kind === 'folder' ? kFolder : kFile, path,
           kind === 'file' ? host.files.size(path) : 0);
       },
-      path_open(fd, _, at, size, how, rights, __, flags, to) {
+      path_open(fd, follow, at, size, how, rights, __, flags, to) {
         const path = host.path(fd, at, size), kind = host.files.kind(path);
-        if (kind && (how & kExclusive)) return errno.exists;
+        const linked = host.link(path) !== undefined;
+        if ((kind || linked) && (how & kExclusive)) return errno.exists;
+        if (linked && !(follow & kFollow)) return errno.loop;
         if (!kind && !(how & kCreate)) return errno.absent;
         if (kind !== 'folder' && (how & kFolderOnly)) return errno.notFolder;
         const writes = (rights & kWriteRight) !== 0n;
@@ -260,7 +270,8 @@ class Host {
           view.setBigUint64(0, BigInt(i + 1), true);
           view.setBigUint64(8, inode(path), true);
           view.setUint32(16, name.length, true);
-          view.setUint8(20, host.files.kind(path) === 'folder' ? kFolder : kFile);
+          view.setUint8(20, host.link(path) !== undefined ? kLink
+            : host.files.kind(path) === 'folder' ? kFolder : kFile);
           entry.set(name, 24);
           const part = entry.subarray(0, size - used);
           host.bytes(at + used, part.length).set(part);
@@ -273,10 +284,17 @@ class Host {
         if (host.files.kind(path)) return errno.exists;
         host.files.makeFolder(path);
       },
-      path_readlink() { return errno.invalid; },
+      path_readlink(fd, at, size, to, room, used) {
+        const said = host.link(host.path(fd, at, size));
+        if (said === undefined) return errno.invalid;
+        const bytes = new TextEncoder().encode(said).subarray(0, room);
+        host.bytes(to, bytes.length).set(bytes);
+        host.view.setUint32(used, bytes.length, true);
+      },
       path_remove_directory(fd, at, size) { host.files.removeFolder(host.path(fd, at, size)); },
       path_unlink_file(fd, at, size) {
-        const path = host.path(fd, at, size), kind = host.files.kind(path);
+        const path = host.path(fd, at, size);
+        const kind = host.link(path) !== undefined ? 'file' : host.files.kind(path);
         if (kind !== 'file') return kind ? errno.isFolder : errno.absent;
         host.files.remove(path);
       },

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal for pipelines. Every function takes the command's own words and gives the document that
 // the command prints with --json.
-import fs from 'node:fs';
-import process from 'node:process';
 import { runCommand } from './wasi.js';
 import { MemoryFiles } from './memory_files.js';
-import { NodeFiles, ofFolder, ofWord } from './node_files.js';
-
-let compiled;
-function module() {
-  compiled ??= new WebAssembly.Module(fs.readFileSync(new URL('./lightcal.wasm', import.meta.url)));
-  return compiled;
-}
+import { lightcalModule, nodeCommand } from './node_command.js';
 
 export class LightcalError extends Error {
   constructor(exitCode, { code, subject, message }) {
@@ -26,12 +18,10 @@ export class LightcalError extends Error {
 export function command(words, { files } = {}) {
   if (files) {
     const memory = new MemoryFiles(files);
-    const answer = runCommand(module(), words, { files: memory });
+    const answer = runCommand(lightcalModule(), words, { files: memory });
     return { ...answer, files: Object.fromEntries(memory.contents) };
   }
-  const here = ofFolder(process.cwd());
-  return runCommand(module(), words.map((word) => ofWord(word)),
-    { files: new NodeFiles(), here, environment: { ...process.env, PWD: here } });
+  return nodeCommand(words);
 }
 
 function documentOf(words, options) {

@@ -257,9 +257,32 @@ path __absolute(const path& p, error_code* ec) {
   if (ec != nullptr) ec->clear();
   return p.is_absolute() ? p : __current_path(nullptr) / p;
 }
-// The host's files are reached without links of ours: what it resolves, it resolves itself.
+// Links on the way are followed, as far as the path is there.
 path __weakly_canonical(const path& p, error_code* ec) {
+  constexpr int kMostLinks = 40;
   path whole = __absolute(p, ec).lexically_normal();
+  for (int links = 0; links < kMostLinks; ++links) {
+    path done, rest;
+    bool followed = false;
+    for (const path& part : whole) {
+      if (followed) {
+        rest /= part;
+        continue;
+      }
+      char said[4096];
+      const path next = done / part;
+      const ssize_t length = part == "/" ? -1 : ::readlink(next.c_str(), said, sizeof said);
+      if (length <= 0) {
+        done = next;
+        continue;
+      }
+      const path target(std::string(said, static_cast<std::size_t>(length)));
+      done = target.is_absolute() ? target : done / target;
+      followed = true;
+    }
+    if (!followed) break;
+    whole = (done / rest).lexically_normal();
+  }
   return whole.filename().empty() && whole.has_relative_path() ? whole.parent_path() : whole;
 }
 path __canonical(const path& p, error_code* ec) {

@@ -33,6 +33,37 @@ def numbers_apart(a, b):
     return max((abs(x - y) / max(abs(x), abs(y), 1e-6) for x, y in pairs), default=0.0)
 
 
+def linked(run, home, who):
+    """What becomes of symbolic links: (exit code, the last line said, the kind of file) of each."""
+    place = home / f"links_{who}"
+    shutil.copytree(SESSIONS / "three_real_lights", place / "real", ignore=shutil.ignore_patterns("out"))
+    (place / "outs").mkdir()
+    (place / "link").symlink_to("real")
+    (place / "out").symlink_to("outs")
+    (place / "old.json").write_text("{}")
+    light, seen = place / "outs/light.json", []
+
+    def ask(what):
+        done = run("run", place / "link", "-o", place / "out", "--to", "gltf", "--force")
+        said = (done.stderr.splitlines() or [""])[-1] if done.returncode else ""
+        seen.append((what, done.returncode, said.replace(str(place), "")))
+
+    ask("a session and an output folder behind links")
+    light.unlink()
+    light.symlink_to("../old.json")
+    ask("an output that is a link")
+    seen.append(("it is a file now, what it led to is as it was", light.is_symlink(),
+                 (place / "old.json").read_text()))
+    light.unlink()
+    light.symlink_to("../real/session.toml")
+    ask("an output that leads to an input")
+    light.unlink()
+    shutil.move(place / "real/session.toml", place / "session.toml")
+    (place / "real/session.toml").symlink_to("../session.toml")
+    ask("a session.toml that leads out of its folder")
+    return seen
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("lightcal", type=pathlib.Path)
@@ -103,6 +134,12 @@ def main():
                     print(f"{name}/{file}: {found[0]:.2g} {found[1]}")
                 if found[0] > WITHIN:
                     faults.append(f"{name}/{file}: apart by {found[0]:.3g} {found[1]}")
+        ours, theirs = linked(node, home, "package"), linked(
+            lambda *words: subprocess.run([program, *words], capture_output=True, text=True, check=False),
+            home, "program")
+        faults += [f"links: {a} is not {b}" for a, b in zip(ours, theirs) if a != b]
+        if [code for _, code, _ in theirs] != [0, 0, False, 3, 1]:
+            faults.append(f"the program itself: {theirs}")
         wrote = node("quick", "52lx@1m,card=5lx", "--to", "unreal", "-o", "presets")
         if wrote.returncode != 0 or not list((clean / "presets").glob("*.unreal.py")):
             faults.append(f"quick --to unreal: {wrote.stderr}")
