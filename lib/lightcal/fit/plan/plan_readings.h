@@ -49,8 +49,8 @@ struct LadderWishes {
 };
 
 // The ladder of those readings that shorten the interval most for their minutes: greatest decrease
-// of ln of the stops left a minute, each predicted as PlanReadings does. It ends where no reading would take 2 %
-// off what is left. Before any reading the first step is the one that leaves least.
+// of ln of the stops left a minute, each predicted as PlanReadings does. It ends where no reading
+// would take 2 % off what is left. Before any reading the first step is the one that leaves least.
 // Refused: as PlanReadings.
 [[nodiscard]] Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,
                                                 const FitSettings& settings,
