@@ -26,9 +26,11 @@ install(DIRECTORY sample_data/sessions sample_data/tapes DESTINATION ${CMAKE_INS
 get_property(rooms GLOBAL PROPERTY LIGHTCAL_ROOMS)
 add_custom_target(lightcal_installed
   DEPENDS ${rooms} lightcal lightcal_board lightcal_pictures lightcal_tether lightcal_shell_files)
-if(TARGET lightcal_python)
-  add_dependencies(lightcal_installed lightcal_python)
-endif()
+foreach(optional IN ITEMS lightcal_python lightcal_page)  # where their packages are
+  if(TARGET ${optional})
+    add_dependencies(lightcal_installed ${optional})
+  endif()
+endforeach()
 
 set(CPACK_GENERATOR DEB)
 # Two packages of one build: lightcal, and python3-lightcal where Python's headers and pybind11 are.
