@@ -309,7 +309,7 @@ std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers,
   for (const LampAnswer& answer : answers) {
     LampAnswer named = answer;
     if (named.next.reading) {
-      const std::string line = ReadCommand(session, named.light->name, *named.next.reading);
+      const std::string line = ReadCommand(session, *named.light, *named.next.reading);
       if (!line.empty()) named.better = line;
     }
     const LabelAndText words = NextWords(named);
