@@ -2,6 +2,7 @@
 // lightcal merge: a bracket of frames -> luminance in cd/m^2, with a sigma for every pixel.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "color_words.h"
@@ -67,6 +68,23 @@ std::string ScaleText(ScaleSource source) {
   return source == ScaleSource::kCamera ? "the camera's profile" : "the ISO speed (prior)";
 }
 
+// How the camera turned and what is left of the picture; nothing of one on a tripod.
+std::string MovesText(const MergedBracket& merged) {
+  std::string text;
+  for (const MergedFrame& frame : merged.frames) {
+    if (!frame.moved || !frame.moved->from_reference || frame.info.file == merged.aligned_to)
+      continue;
+    text += frame.info.file + ": turned " + RoundedText(std::abs(frame.moved->turned_deg), 2) +
+            " deg, shifted " + RoundedText(std::hypot(frame.moved->x, frame.moved->y), 3) +
+            " px (± " + RoundedText(2.0 * frame.moved->sd, 1) + " px)\n";
+  }
+  if (text.empty()) return text;
+  const Region& crop = *merged.crop;
+  return text + "aligned to " + merged.aligned_to +
+         ", of which x,y,w,h = " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
+         std::to_string(crop.width) + "," + std::to_string(crop.height) + " is left\n";
+}
+
 std::string Table(const MergedBracket& merged) {
   std::vector<std::vector<std::string>> rows;
   for (const MergedFrame& frame : merged.frames) {
@@ -81,6 +99,7 @@ std::string Table(const MergedBracket& merged) {
   }
   std::string text = TextTable({"frame", "time", "aperture", "ISO", "measured EV", "used"}, rows);
   const auto [low, high] = std::minmax_element(merged.picture.begin(), merged.picture.end());
+  text += MovesText(merged);
   text += "luminance up to " + RoundedText(*high, 4) + " cd/m2 (lowest " + RoundedText(*low, 2) +
           "), scale ± " + RoundedText(100.0 * merged.scale_u95_relative, 2) + " % from " +
           ScaleText(merged.scale_source) + "\n";
@@ -154,7 +173,7 @@ Run BuildMerge(CLI::App& parser) {
                     "What becomes white: 3200K, D65 or x,y (luminance stays) [no adaptation]");
   parser
       .add_option("--align", o.align,
-                  "auto: take back what the camera moved, by whole pixels and only on evidence; "
+                  "auto: take back how a camera in the hand moved and turned, only on evidence; "
                   "crops to what all frames show")
       ->check(CLI::IsMember({"auto", "off"}))
       ->capture_default_str();

@@ -208,6 +208,9 @@ Node FrameNode(const MergedFrame& frame) {
     node.Put({{"shift_px", {moved->x, moved->y}},
               {"shift_sd_px", moved->sd},
               {"taken_back_px", {moved->taken_back_x, moved->taken_back_y}}});
+    if (const auto& h = moved->from_reference) {
+      node.Put({{"turned_deg", moved->turned_deg}, {"homography", Node::List(h->m)}});
+    }
   }
   return node;
 }
@@ -246,6 +249,7 @@ Node DocumentOf(const MergedBracket& merged) {
             {"scale", merged.plan.noise.front().scale},
             {"offset", merged.plan.noise.front().offset},
             {"fixed_pattern", merged.plan.fixed_pattern}}},
+          {"aligned_to", Node::UnlessEmpty(merged.aligned_to)},
           {"crop", crop ? Node{crop->x, crop->y, crop->width, crop->height} : Node()},
           {"masked_pixels", merged.masked_pixels > 0 ? Node(merged.masked_pixels) : Node()},
           {"camera", CorrectionsNode(merged)},

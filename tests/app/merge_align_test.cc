@@ -80,12 +80,37 @@ TEST_F(Aligned, WhatMovedIsTakenBackAndReported) {
   }
 }
 
-TEST_F(Aligned, HalfAPixelOffTheColourPatternStaysAndIsMeasured) {
+// A turn in degrees, clockwise, and where the middle of the reference lies.
+void ExpectTurned(const json& frame, double turned_deg, double right, double down) {
+  EXPECT_NEAR(frame["turned_deg"].get<double>(), turned_deg, 0.05) << frame;
+  ExpectMoved(frame, right, down, 0.15);
+}
+
+TEST_F(Aligned, WhatLiesBetweenThePatternsPlacesIsInterpolated) {
   const json answer = MergeJson(Shot({Moved(0, 0), Moved(3, 0)}), output_, {"--align", "auto"});
-  ExpectMoved(answer["frames"][1], 3.0, 0.0, 0.4);
-  const int taken = answer["frames"][1]["taken_back_px"][0];
-  EXPECT_TRUE(taken == 2 || taken == 4) << taken;
+  EXPECT_EQ(answer["aligned_to"], answer["frames"][1]["file"]);
+  ExpectTurned(answer["frames"][0], 0.0, -3.0, 0.0);
+  ExpectTurned(answer["frames"][1], 0.0, 0.0, 0.0);
   EXPECT_FALSE(Warns(answer, "misaligned"));
+}
+
+TEST_F(Aligned, ACameraInTheHandIsTurnedBack) {
+  const std::string unmoved = folder_.path() + "/unmoved.exr";
+  static_cast<void>(MergeJson(Shot({Moved(0, 0), Moved(0, 0), Moved(0, 0)}), unmoved));
+  const Words files = Shot({Moved(4.3, -2.6, 1.2), Moved(0, 0), Moved(-7.4, 5.1, -1.5)});
+  const json answer = MergeJson(files, output_, {"--align", "auto"});
+  EXPECT_FALSE(Warns(answer, "misaligned")) << answer.dump();
+  EXPECT_FALSE(Warns(answer, "moved_content")) << answer.dump();
+  EXPECT_EQ(answer["aligned_to"], answer["frames"][1]["file"]);
+  ExpectTurned(answer["frames"][0], 1.2, 4.3, -2.6);
+  ExpectTurned(answer["frames"][2], -1.5, -7.4, 5.1);
+  const int left = answer["crop"][0], top = answer["crop"][1];
+  const Picture lum = ReadExr(output_), still = ReadExr(unmoved);
+  ASSERT_EQ(lum.width, answer["crop"][2].get<int>());
+  ASSERT_GT(lum.width, 260);
+  for (const int x : {20, 40, 90, 150, 230}) {
+    EXPECT_NEAR(lum.Mean(x, 60, 8, 8) / still.Mean(x + left, 60 + top, 8, 8), 1.0, 0.01) << x;
+  }
 }
 
 TEST_F(Aligned, AStillBracketIsTheSameWithAndWithout) {
@@ -107,9 +132,13 @@ TEST_F(Aligned, ALampOnBlackStaysWhereItIs) {
   EXPECT_EQ(answer["width"], 300);
 }
 
-TEST_F(Aligned, ATurnedCameraIsRefused) {
-  const Words files = Shot({Moved(0, 0), Moved(0, 0, 6.0), Moved(0, 0, 6.0)});
-  ExpectRefused(files, output_, "misaligned", {"--align", "auto"});
+// Nothing of one scene is in the other.
+TEST_F(Aligned, AnotherSceneIsRefused) {
+  const SyntheticScene other = [](int x, int y) {
+    return test::XyzOf(3000.0 + 2500.0 * std::sin(0.31 * x + 0.002 * y * y) *
+                                    std::cos(0.23 * y - 0.001 * x * x));
+  };
+  ExpectRefused(Shot({Moved(0, 0), other, other}), output_, "misaligned", {"--align", "auto"});
 }
 
 // Every channel at every pixel: moved by odd pixels too.

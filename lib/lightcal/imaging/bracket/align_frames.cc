@@ -25,9 +25,11 @@ int WholePeriods(double pixels, int period) {
 
 // How far b's picture lies from a's.
 Result<FrameAlignment::Moved> MovedBetween(const Blocks& a, const Blocks& b,
-                                           const std::string& name, const std::string& other) {
+                                           const std::string& name, const std::string& other,
+                                           bool& evidence) {
   const Differences still = Compare(a, b, a.mean);
   if (!Worth(still)) return FrameAlignment::Moved{};
+  evidence = true;
   const auto found = FindShift(a, b, still, kLeastShiftPixels);
   const bool certain = found && found->sd < kCertainPixels && found->left.share() < kLeftAtMost;
   if (certain) return FrameAlignment::Moved{-found->dx, -found->dy, found->sd, 0, 0};
@@ -41,8 +43,9 @@ Result<FrameAlignment::Moved> MovedBetween(const Blocks& a, const Blocks& b,
 }  // namespace
 
 bool FrameAlignment::any() const {
-  return std::any_of(moved.begin(), moved.end(),
-                     [](const Moved& m) { return m.taken_back_x != 0 || m.taken_back_y != 0; });
+  return interpolated || std::any_of(moved.begin(), moved.end(), [](const Moved& m) {
+           return m.taken_back_x != 0 || m.taken_back_y != 0;
+         });
 }
 
 Result<FrameAlignment> MeasureAlignment(const BracketMerger& merger) {
@@ -58,7 +61,7 @@ Result<FrameAlignment> MeasureAlignment(const BracketMerger& merger) {
   int left = 0, top = 0, right = first.width, bottom = first.height;
   for (std::size_t k = 1; k < n; ++k) {
     const auto step = MovedBetween(blocks[k - 1], blocks[k], merger.frames()[k].name,
-                                   merger.frames()[k - 1].name);
+                                   merger.frames()[k - 1].name, alignment.evidence);
     if (!step) return tl::unexpected(step.error());
     FrameAlignment::Moved& moved = alignment.moved[k];
     const FrameAlignment::Moved& before = alignment.moved[k - 1];

@@ -3,9 +3,12 @@
 // interpolated, so that noise stays independent and colours stay on their filters.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/bracket/homography.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 
 namespace lightcal {
@@ -16,9 +19,16 @@ struct FrameAlignment {
   struct Moved {
     double x = 0.0, y = 0.0, sd = 0.0;
     int taken_back_x = 0, taken_back_y = 0;
+    // Where the picture was interpolated: a place of the reference -> of this frame. x, y and the
+    // turn are those of the picture's middle.
+    std::optional<Homography> from_reference{};
+    double turned_deg = 0.0;  // clockwise as one looks at the picture
   };
   std::vector<Moved> moved;
-  int x = 0, y = 0, width = 0, height = 0;  // what all frames show, in the first frame's pixels
+  std::size_t reference = 0;                // the frame that the others are brought to
+  int x = 0, y = 0, width = 0, height = 0;  // what all frames show, in the reference's pixels
+  bool interpolated = false;
+  bool evidence = false;  // some frame differs from its neighbour
 
   [[nodiscard]] bool any() const;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/signal_kernels.h"
 
 namespace lightcal {
@@ -94,6 +95,9 @@ std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
   const auto clips = LimitsOf(frames_[0], 1.0);
   std::vector<float> signals(frames_.size() * kernels::kBlock);
   std::vector<float> precisions(signals.size());
+  const bool interpolated = std::ranges::any_of(
+      frames_, [](const SignalFrame& frame) { return frame.shares != nullptr; });
+  std::vector<float> shares(interpolated ? signals.size() : 0, 1.0F);
   std::array<float, kernels::kBlock> used{};
   const std::size_t row_samples = frames_[0].row_samples();
   const auto pattern = static_cast<float>(plan_.fixed_pattern);
@@ -104,11 +108,14 @@ std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
       const std::size_t samples = std::min(kernels::kBlock, row_samples - x);
       for (std::size_t k = 0; k < frames_.size(); ++k) {
         ReadSignals(frames_[k], y, x, std::span(signals).subspan(k * kernels::kBlock, samples));
+        if (frames_[k].shares == nullptr) continue;
+        frames_[k].shares->Row(y, x, std::span(shares).subspan(k * kernels::kBlock, samples));
       }
       const auto phase = static_cast<std::size_t>(y % frames_[0].row_period);
       kernels::MergeBlock({.frames = constants,
                            .signals = signals.data(),
                            .precisions = precisions.data(),
+                           .shares = interpolated ? shares.data() : nullptr,
                            .count = samples,
                            .limit = &limits[phase],
                            .clip = &clips[phase],

@@ -54,13 +54,14 @@ struct MergedFrame {
   FrameInfo info;
   std::optional<double> ratio_ev;  // measured exposure relative to the shortest frame
   bool used = false;
-  std::optional<FrameAlignment::Moved> moved{};  // against the shortest frame, where asked for
+  std::optional<FrameAlignment::Moved> moved{};  // against the one aligned to, where asked for
 };
 
 struct MergedBracket {
   std::vector<MergedFrame> frames;
   int width = 0, height = 0, channels = 1;
-  std::optional<Region> crop;  // of the shortest frame, where frames were aligned
+  std::optional<Region> crop;  // of the frame below, where frames were aligned
+  std::string aligned_to;      // file of the frame that the others were brought to
   std::vector<float> picture;  // cd/m^2: Y, or RGB whose (1,1,1) is 1 cd/m^2
   std::vector<float> sigma;    // of the luminance, 1 standard deviation, cd/m^2
   double nits_per_unit = 0.0;  // luminance of full scale in the shortest frame

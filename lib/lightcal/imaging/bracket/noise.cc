@@ -22,14 +22,15 @@ struct Point {
   double slope, intercept, variance, count;
 };
 
-std::vector<Point> PointsOf(const PairSums& sums, double ratio) {
+// `shorter`, `longer`: what is left of the variance of each frame's samples.
+std::vector<Point> PointsOf(const PairSums& sums, double ratio, double shorter, double longer) {
   std::vector<Point> points;
   for (int bin = 0; bin < kLevelBins && BinLowerLevel(bin + 1) < kHighestLevel; ++bin) {
     const LevelSums& sum = sums[static_cast<std::size_t>(bin)];
     if (sum.count < kLeastSamples) continue;
     const double mean = sum.d / sum.count;
     const double signal = std::max(0.0, (sum.a + sum.b) / (1.0 + ratio) / sum.count);
-    points.push_back({signal * ratio * (1.0 + ratio), 1.0 + ratio * ratio,
+    points.push_back({signal * ratio * (longer + ratio * shorter), longer + ratio * ratio * shorter,
                       (sum.d2 / sum.count - mean * mean) * sum.count / (sum.count - 1.0),
                       sum.count});
   }
@@ -69,7 +70,8 @@ std::optional<NoiseProfile> FitPoints(std::span<const Point> points) {
 }  // namespace
 
 std::optional<NoiseProfile> EstimateNoise(const SampledSignals& signals,
-                                          std::span<const double> exposure) {
+                                          std::span<const double> exposure,
+                                          std::span<const double> shares) {
   std::optional<NoiseProfile> noise;
   const std::size_t pairs = signals.frames.empty() ? 0 : signals.frames.size() - 1;
   std::vector<std::array<double, kLevelBins>> gates(pairs);
@@ -86,7 +88,8 @@ std::optional<NoiseProfile> EstimateNoise(const SampledSignals& signals,
       if (pass == 0) setting.gate = FirstGates(shorter, longer, clips.clip, setting);
       const PairSums sums = ComparePair(shorter, longer, clips.clip, setting);
       gates[a] = GatesOf(sums);
-      points[a] = PointsOf(sums, setting.ratio);
+      points[a] = PointsOf(sums, setting.ratio, shares.empty() ? 1.0 : shares[a],
+                           shares.empty() ? 1.0 : shares[a + 1]);
     });
     std::vector<Point> all;
     for (const auto& some : points) all.insert(all.end(), some.begin(), some.end());

@@ -17,7 +17,8 @@ namespace lightcal {
 // beyond four standard deviations are left out. Absent when no two frames share enough samples.
 // `exposure`: of each frame, any unit, ascending.
 [[nodiscard]] std::optional<NoiseProfile> EstimateNoise(const SampledSignals& signals,
-                                                        std::span<const double> exposure);
+                                                        std::span<const double> exposure,
+                                                        std::span<const double> shares = {});
 
 // What a middling sensor does, where nothing else is known: 40 000 electrons at full scale, 5 of
 // read noise.

@@ -8,6 +8,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
 #include "lightcal/imaging/bracket/moved_shape.h"
+#include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
 namespace lightcal {
@@ -61,7 +62,11 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
     planned.plan.noise.assign(n, NoiseOfMean(*request.noise, request.samples_averaged));
     return {};
   }
-  const auto estimate = EstimateNoise(signals, planned.plan.exposure);
+  std::vector<double> shares;
+  for (const SignalFrame& frame : frames) {
+    shares.push_back(frame.shares ? frame.shares->Mean(frame.width, frame.height) : 1.0);
+  }
+  const auto estimate = EstimateNoise(signals, planned.plan.exposure, shares);
   if (const auto file = NoiseInFiles(request, planned.order)) {
     planned.noise_source = request.noise_of_camera ? NoiseSource::kCamera : NoiseSource::kFile;
     planned.plan.noise = *file;

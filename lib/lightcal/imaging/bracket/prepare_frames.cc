@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/align_prepared.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/release_rows.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
@@ -82,39 +83,6 @@ Result<std::vector<double>> LabelsOf(const std::vector<FrameInfo>& infos, bool a
     labels.push_back(exposure.time->value() * exposure.iso.value_or(1.0) / (n * n));
   }
   return labels;
-}
-
-// The plan of frames that are in a plan's order already, cut to what all of them show.
-Result<void> Align(MergeRequest merge, PreparedFrames& prepared) {
-  MergePlan plan = prepared.planned.plan;
-  // Frames that moved scatter, which is no noise to excuse their differences by.
-  if (prepared.planned.noise_source == NoiseSource::kEstimated) {
-    plan.noise.assign(plan.noise.size(), kMiddlingNoise);
-  }
-  const auto merger = BracketMerger::Make(prepared.signals, plan);
-  if (!merger) return tl::unexpected(merger.error());
-  const auto alignment = MeasureAlignment(*merger);
-  if (!alignment) return tl::unexpected(alignment.error());
-  prepared.alignment = *alignment;
-  if (!alignment->any()) return {};
-  TakeBack(*alignment, prepared.signals);
-  const std::vector<std::size_t> before = prepared.planned.order;
-  const MergeRequest given = merge;
-  merge.label_exposure.clear();
-  merge.noise_in_file.clear();
-  for (const std::size_t i : before) {
-    merge.label_exposure.push_back(given.label_exposure[i]);
-    merge.noise_in_file.push_back(given.noise_in_file[i]);
-  }
-  merge.done = [&](std::size_t i) { given.done(before[i]); };
-  auto planned = PlanMerge(prepared.signals, merge);
-  if (!planned) return Propagate(std::move(planned));
-  for (std::size_t i = 0; i < planned->order.size(); ++i) {
-    prepared.alignment->moved[i] = alignment->moved[planned->order[i]];
-    planned->order[i] = before[planned->order[i]];
-  }
-  prepared.planned = std::move(*planned);
-  return {};
 }
 
 // An ideal lens's loss of light, for a sensor of this width.
@@ -222,13 +190,19 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   prepared->planned = std::move(*planned);
   for (const Frame& frame : prepared->frames) ReleaseRows(frame, 0, frame.info.height);
   if (request.align) {
-    if (auto aligned = Align(std::move(merge), *prepared); !aligned)
+    if (auto aligned = AlignPrepared(std::move(merge), *labels, *prepared); !aligned) {
       return Propagate(std::move(aligned));
+    }
   }
   prepared->planned.plan.estimator = request.work.estimator;
   Append(prepared->planned.warnings, warnings);
   if (auto set = SetCorrections(request, bracket.frames.front(), *prepared); !set)
     return Propagate(std::move(set));
+  if (prepared->alignment && prepared->alignment->interpolated && prepared->corrections.flat()) {
+    return Refused("flat_of_moved", bracket.frames.front().file,
+                   "the camera moved, and what its lens loses towards the corners moved with it; "
+                   "flat fields are for tripods: leave yours out");
+  }
   return prepared;
 }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +17,8 @@
 #include "lightcal/records/frame.h"
 
 namespace lightcal {
+
+struct NoiseShares;  // noise_shares.h
 
 // A row of a picture is width * channels samples. What belongs to a sample (its channel, its black
 // level) repeats with a period that divides this number, so that loops run over whole lanes.
@@ -45,6 +48,8 @@ struct SignalFrame {
   // known.
   std::array<float, 4> clip{1.0F, 1.0F, 1.0F, 1.0F};
   const ResponseCurves* response = nullptr;
+  // Of a picture interpolated from another: what is left of its samples' variance.
+  std::shared_ptr<const NoiseShares> shares{};
 
   [[nodiscard]] std::size_t row_samples() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);

@@ -116,6 +116,23 @@ inline float Counts(float index, float used, float predicted_signal, float floor
   return index <= used ? seen : 0.0F;
 }
 
+// X of what Weigh summed up.
+LIGHTCAL_EVERY_CPU
+void Mean(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  const std::size_t count = in.count;
+  const float* sum = scratch.sum;
+  const float* weights = scratch.weights;
+  const float* predicted = scratch.predicted;
+  const float* used = out.used;
+  float* value = out.value;
+  LIGHTCAL_INDEPENDENT
+  for (std::size_t i = 0; i < count; ++i) {
+    // Clipped samples have neither sum nor weights.
+    const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
+    value[i] = (sum[i] + clipped * predicted[i]) / (weights[i] + clipped);
+  }
+}
+
 // Pass 2: weights from the predicted signal, not from the noisy sample.
 LIGHTCAL_EVERY_CPU
 void Weigh(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
@@ -123,7 +140,6 @@ void Weigh(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   float* sum = scratch.sum;
   float* weights = scratch.weights;
   float* degrees = scratch.degrees;
-  float* value = out.value;
   const float* predicted = scratch.predicted;
   const float* used = out.used;
   LIGHTCAL_INDEPENDENT
@@ -149,12 +165,32 @@ void Weigh(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
       weights[i] += weight * frame.exposure;
     }
   }
-  LIGHTCAL_INDEPENDENT
-  for (std::size_t i = 0; i < count; ++i) {
-    // Clipped samples have neither sum nor weights.
-    const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
-    value[i] = (sum[i] + clipped * predicted[i]) / (weights[i] + clipped);
+  Mean(in, out, scratch);
+}
+
+// The same of frames that were interpolated: less noise is left here than there.
+LIGHTCAL_EVERY_CPU
+void WeighShares(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  const std::size_t count = in.count;
+  const float* predicted = scratch.predicted;
+  for (float* zeroed : {scratch.sum, scratch.weights}) std::fill_n(zeroed, count, 0.0F);
+  std::fill_n(scratch.degrees, count, -1.0F);
+  for (std::size_t k = 0; k < in.frames.size(); ++k) {
+    const FrameConstants frame = in.frames[k];
+    const float* y = in.signals + k * kBlock;
+    const float* share = in.shares + k * kBlock;
+    float* precision = in.precisions + k * kBlock;
+    for (std::size_t i = 0; i < count; ++i) {
+      const float x = std::max(predicted[i], 0.0F);
+      const float counts =
+          Counts(static_cast<float>(k), out.used[i], x * frame.exposure, frame.floor);
+      precision[i] = counts / ((frame.shot * x + frame.read) * share[i]);
+      scratch.degrees[i] += counts;
+      scratch.sum[i] += precision[i] * frame.exposure * y[i];
+      scratch.weights[i] += precision[i] * frame.exposure * frame.exposure;
+    }
   }
+  Mean(in, out, scratch);
 }
 
 // Pass 3: chi-square of the frames about their mean, into scratch.sum.
@@ -281,7 +317,7 @@ void MergeBlock(const BlockIn& in, const BlockOut& out) {
   const Scratch scratch{sum, predicted, weights, degrees, noise, limit, clip};
   Predict(in, out, scratch);
   if (in.estimator == MergeEstimator::kLikelihood) {
-    Weigh(in, out, scratch);
+    in.shares == nullptr ? Weigh(in, out, scratch) : WeighShares(in, out, scratch);
     Contradict(in, out, scratch);
     return Vary(in, out, scratch);
   }

@@ -38,6 +38,8 @@ struct BlockIn {
   std::span<const FrameConstants> frames;
   const float* signals;  // frame i's at signals + i * kBlock
   float* precisions;     // scratch of the same size
+  const float* shares;   // of interpolated frames: what is left of each sample's variance, as
+                         // signals lie; null: all of it
   std::size_t count;     // of samples, at most kBlock
   const Lanes* limit;    // signal up to which a sensor is believed, per lane
   const Lanes* clip;     // signal from which a sample says nothing but that, per lane

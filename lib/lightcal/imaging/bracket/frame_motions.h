@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// How a camera in the hand moved through a bracket.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lightcal/core/result.h"
+#include "lightcal/imaging/bracket/homography.h"
+#include "lightcal/imaging/bracket/signal.h"
+#include "lightcal/records/frame.h"
+
+namespace lightcal {
+
+struct FrameMotion {
+  Homography from_reference;  // a place of the reference -> of this frame, pixels
+  double sd_pixels = 0.0;     // root mean square over the picture, one standard deviation
+  double unlike = 0.0;        // share of the evidence that it does not explain: people, depth
+  bool left_out = false;      // next to nothing of it is neither clipped nor dark
+};
+
+struct BracketMotion {
+  std::size_t reference = 0;  // the frame of middle exposure
+  std::vector<FrameMotion> frames;
+};
+
+// Of frames in order of exposure, each of its own noise; `floor`: signal below which codes say
+// nothing. Every frame is found against its neighbour in exposure, which shares most of its range
+// (SearchMotion, RefineMotion), chained to the reference and refined against that directly where
+// this is surer; and back, which must close. A frame that cannot be followed is left out where less
+// than a twentieth of it says anything.
+// Refused: misaligned (a frame whose place is not known to .3 pixels root mean square at two
+// standard deviations: which, how far off, what to do).
+[[nodiscard]] Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
+                                                  std::span<const NoiseProfile> noise,
+                                                  double floor);
+
+}  // namespace lightcal

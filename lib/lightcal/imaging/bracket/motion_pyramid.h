@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame as its motion is sought in it: what its exposure changes of a scene is a constant there.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lightcal/imaging/bracket/signal.h"
+#include "lightcal/records/frame.h"
+
+namespace lightcal {
+
+// Means of cells of `cell` pixels each way.
+struct MotionPicture {
+  int width = 0, height = 0;
+  double cell = 1.0;
+  std::vector<float> ln;        // ln(signal); anything where the variance is negative
+  std::vector<float> variance;  // of ln; negative: clipped, or drowned in noise
+
+  [[nodiscard]] std::size_t At(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
+};
+
+// Finest first, each half of the one before, down to 48 cells on the longer side.
+struct MotionPyramid {
+  std::vector<MotionPicture> levels;
+  double seen = 0.0;  // share of the finest level's cells that say something
+};
+
+// Of a cell's channels: their mean, which is the last to drown, or the darkest, the last to clip.
+enum class MotionChannels { kAll, kDarkest };
+
+// The finest level is about `longest` cells long at most; whole periods of a colour pattern become
+// one cell.   `noise` of one sample; `floor`: signal below which codes say nothing.
+[[nodiscard]] MotionPyramid MotionPyramidOf(const SignalFrame& frame, const NoiseProfile& noise,
+                                            double floor, int longest, MotionChannels channels);
+
+}  // namespace lightcal
