@@ -108,7 +108,7 @@ struct EnvironmentFile {
 // A beam that readings off the axis told: what its distribution says in short.
 struct MeasuredBeam {
   std::optional<Uncertain> axial;                // cd along the aim; the peak may lie beside it
-  std::optional<Uncertain> beam_deg, field_deg;  // full angles at a half and a tenth of the peak
+  std::optional<Uncertain> beam_deg, field_deg;  // full angles at a half and a tenth of `axial`
   // The families of shapes, and how much the readings are for each (together 1).
   struct Family {
     std::string name;
