@@ -240,10 +240,7 @@ std::string ReadCommand(const std::string& session, const FittedLight& light,
   std::string line = "lightcal read -s " + ShellWord(session) + " --light " + ShellWord(light.name);
   // Of a lamp with controls it is the reference that is read again.
   if (!light.state.empty() && step.action != PlannedAction::kLampOff) {
-    line += " --state " + ShellWord(Joined(light.state, ",", [](const ControlValue& control) {
-              return control.name + "=" +
-                     (control.IsWord() ? control.word : ShortestText(control.number));
-            }));
+    line += " --state " + ShellWord(Joined(light.state, ",", ControlText));
   }
   if (step.distance) {
     line +=

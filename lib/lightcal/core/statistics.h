@@ -9,6 +9,9 @@
 
 namespace lightcal {
 
+// Standard deviations of a normal variable from its median to a quartile.
+inline constexpr double kNormalQuartile = 0.6745;
+
 // What would stand at `rank`, below the number of values, if they were sorted.
 template <class T>
 [[nodiscard]] T AtRank(std::vector<T>& values, std::size_t rank) {

@@ -125,17 +125,16 @@ void AppendFloat(std::string& bytes, double value) {
   bytes.append(reinterpret_cast<const char*>(&narrow), sizeof(narrow));
 }
 
-// Bilinear, across the seam.
-Column3 PictureTowards(const EnvironmentPicture& picture, const Vec3& w) {
+template <class Value>
+Column3 BilinearTowards(const std::vector<Value>& rgb, int width, int height, const Vec3& w) {
   const double zenith = std::acos(std::clamp(w[2], -1.0, 1.0));
-  const double x = (std::atan2(w[0], w[1]) / (2.0 * kPi) + 0.5) * picture.width - 0.5;
-  const double y = std::clamp(zenith / kPi * picture.height - 0.5, 0.0, picture.height - 1.0);
-  const double left = std::floor(x), top = std::min(std::floor(y), picture.height - 2.0);
+  const double x = (std::atan2(w[0], w[1]) / (2.0 * kPi) + 0.5) * width - 0.5;
+  const double y = std::clamp(zenith / kPi * height - 0.5, 0.0, height - 1.0);
+  const double left = std::floor(x), top = std::min(std::floor(y), height - 2.0);
   const auto at = [&](double column, double row) {
-    const int w0 = picture.width;
-    const int c = ((static_cast<int>(column) % w0) + w0) % w0;
-    return picture.rgb.data() +
-           3 * (static_cast<std::size_t>(std::max(0.0, row)) * static_cast<std::size_t>(w0) +
+    const int c = ((static_cast<int>(column) % width) + width) % width;
+    return rgb.data() +
+           3 * (static_cast<std::size_t>(std::max(0.0, row)) * static_cast<std::size_t>(width) +
                 static_cast<std::size_t>(c));
   };
   Column3 out{};
@@ -165,6 +164,15 @@ std::array<double, 9> BasisOf(const Vec3& d) {
 }
 
 }  // namespace
+
+std::array<double, 3> RadianceTowards(const EnvironmentPicture& picture, const Vec3& direction) {
+  return BilinearTowards(picture.rgb, picture.width, picture.height, direction);
+}
+
+std::array<double, 3> SmallRadianceTowards(const EnvironmentPicture& picture,
+                                           const Vec3& direction) {
+  return BilinearTowards(picture.small, picture.small_width, picture.small_height, direction);
+}
 
 void EnvironmentPicture::Reduce() {
   const int step = std::max(1, width / kSmallWidth);
@@ -289,7 +297,7 @@ EncodedPicture EqualAreaSquare(const EnvironmentPicture& picture, const ColorTar
       for (int i = 0; i < kSubsamples * kSubsamples; ++i) {
         const double u = (column + (i % kSubsamples + 0.5) / kSubsamples) / side;
         const double v = (row + (i / kSubsamples + 0.5) / kSubsamples) / side;
-        const Column3 sample = PictureTowards(picture, DirectionOfSquare(u, v));
+        const Column3 sample = RadianceTowards(picture, DirectionOfSquare(u, v));
         for (std::size_t c = 0; c < 3; ++c) sum[c] += sample[c] / (kSubsamples * kSubsamples);
       }
       const Column3 rgb = convert.Of(sum, 1.0);

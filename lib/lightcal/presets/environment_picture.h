@@ -28,6 +28,13 @@ struct EnvironmentPicture {
 };
 inline constexpr int kSmallWidth = 512;
 
+// What it shows in a direction of our axes: bilinear between pixels, across the seam. Of `small`,
+// or of the whole picture.
+[[nodiscard]] std::array<double, 3> RadianceTowards(const EnvironmentPicture& picture,
+                                                    const Vec3& direction);
+[[nodiscard]] std::array<double, 3> SmallRadianceTowards(const EnvironmentPicture& picture,
+                                                         const Vec3& direction);
+
 // On a plane of unit normal n in the middle, per channel: the integral of L max(0, n . w) dOmega.
 [[nodiscard]] Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal);
 [[nodiscard]] std::vector<Vec3> IrradianceOn(const EnvironmentPicture& picture,

@@ -43,29 +43,8 @@ void PutHalf(double value, std::string& out) {
   out.push_back(static_cast<char>(bits >> 8U));
 }
 
-// Between the four texels about a direction of glTF's axes.
-KtxRgb SharpTowards(const EnvironmentPicture& picture, const Vec3& towards) {
-  const Vec3 d = {towards[0], -towards[2], towards[1]};
-  const int w = picture.small_width, h = picture.small_height;
-  const double x = (std::atan2(d[0], d[1]) / (2.0 * std::numbers::pi) + 0.5) * w - 0.5;
-  const double y = std::acos(std::clamp(d[2], -1.0, 1.0)) / std::numbers::pi * h - 0.5;
-  const double left = std::floor(x), upper = std::floor(y);
-  const auto texel = [&](double column, double row) {
-    const int i = ((static_cast<int>(column) % w) + w) % w;
-    const int j = std::clamp(static_cast<int>(row), 0, h - 1);
-    return picture.small.data() + 3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(w) +
-                                       static_cast<std::size_t>(i));
-  };
-  const double s = x - left, t = y - upper;
-  const double* const a = texel(left, upper);
-  const double* const b = texel(left + 1.0, upper);
-  const double* const c = texel(left, upper + 1.0);
-  const double* const e = texel(left + 1.0, upper + 1.0);
-  KtxRgb out{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    out[k] = (1.0 - t) * ((1.0 - s) * a[k] + s * b[k]) + t * ((1.0 - s) * c[k] + s * e[k]);
-  }
-  return out;
+KtxRgb SharpTowards(const EnvironmentPicture& picture, const Vec3& in_gltf) {
+  return SmallRadianceTowards(picture, {in_gltf[0], -in_gltf[2], in_gltf[1]});
 }
 
 // One direction of the picture, in glTF's axes.

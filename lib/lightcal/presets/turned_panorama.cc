@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/presets/turned_panorama.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -51,33 +50,6 @@ TurnedIrradiance IrradianceIfTurned(const EnvironmentPicture& picture, const Vec
   return out;
 }
 
-namespace {
-
-// What the picture has in a direction, bilinear; columns go round, rows end at the poles.
-std::array<double, 3> SampleTowards(const EnvironmentPicture& picture, const Vec3& d) {
-  const double pi = std::numbers::pi;
-  const double zenith = std::acos(std::clamp(d[2], -1.0, 1.0));
-  const double u = (std::atan2(d[0], d[1]) / (2.0 * pi) + 0.5) * picture.width - 0.5;
-  const double v = std::clamp(zenith / pi * picture.height - 0.5, 0.0, picture.height - 1.0);
-  const double left = std::floor(u), top = std::floor(v);
-  std::array<double, 3> sum{};
-  for (int dy = 0; dy < 2; ++dy) {
-    const auto row = std::min(static_cast<int>(top) + dy, picture.height - 1);
-    const double of_row = dy == 0 ? 1.0 - (v - top) : v - top;
-    for (int dx = 0; dx < 2; ++dx) {
-      const int column = (static_cast<int>(left) + dx + picture.width) % picture.width;
-      const double weight = of_row * (dx == 0 ? 1.0 - (u - left) : u - left);
-      const std::size_t at =
-          3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.width) +
-               static_cast<std::size_t>(column));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * picture.rgb[at + c];
-    }
-  }
-  return sum;
-}
-
-}  // namespace
-
 EnvironmentPicture ForEngineThatTurns(const EnvironmentPicture& picture, std::size_t way,
                                       double turn_deg) {
   const MistakenTurn mistake = MistakenTurns()[way];
@@ -93,7 +65,7 @@ EnvironmentPicture ForEngineThatTurns(const EnvironmentPicture& picture, std::si
                         mistake.columns[2] * std::cos(zenith);
       const Vec3 shown = {hung[0] * std::cos(turn) + hung[1] * std::sin(turn),
                           -hung[0] * std::sin(turn) + hung[1] * std::cos(turn), hung[2]};
-      const auto rgb = SampleTowards(picture, shown);
+      const auto rgb = RadianceTowards(picture, shown);
       const std::size_t at =
           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                static_cast<std::size_t>(x));

@@ -92,10 +92,10 @@ std::string FaultOfState(const FixtureState& state) {
   return {};
 }
 
-std::string StateText(const FixtureState& state) {
-  return Joined(state, ", ", [](const ControlValue& control) {
-    return control.name + "=" + (control.IsWord() ? control.word : ShortestText(control.number));
-  });
+std::string StateText(const FixtureState& state) { return Joined(state, ", ", ControlText); }
+
+std::string ControlText(const ControlValue& control) {
+  return control.name + "=" + (control.IsWord() ? control.word : ShortestText(control.number));
 }
 
 ControlValue ParseControl(std::string_view name, std::string_view value) {

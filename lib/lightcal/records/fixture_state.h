@@ -45,6 +45,8 @@ void SortState(FixtureState& state);
 
 // "dimmer=50, cct_K=4000".
 [[nodiscard]] std::string StateText(const FixtureState& state);
+// "dimmer=50"
+[[nodiscard]] std::string ControlText(const ControlValue& control);
 // "dimmer=50,cct_K=4000,modifier=softbox"; the units of a label may stand: 50%, 4000K, 20deg.
 // Fails: usage.
 [[nodiscard]] Result<FixtureState> ParseFixtureState(std::string_view text);

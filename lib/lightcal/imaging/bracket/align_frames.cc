@@ -77,11 +77,16 @@ Result<FrameAlignment> MeasureAlignment(const BracketMerger& merger) {
   alignment.y = top;
   alignment.width = right - left;
   alignment.height = bottom - top;
-  if (alignment.width < kHalf * first.width || alignment.height < kHalf * first.height) {
-    return Refused("misaligned", merger.frames()[n - 1].name,
-                   "the camera moved so far that the frames share less than half of the picture");
-  }
+  const auto shared =
+      CheckShared(alignment.width, alignment.height, first, merger.frames()[n - 1].name);
+  if (!shared) return tl::unexpected(shared.error());
   return alignment;
+}
+
+Result<void> CheckShared(int width, int height, const SignalFrame& whole, const std::string& name) {
+  if (width >= kHalf * whole.width && height >= kHalf * whole.height) return {};
+  return Refused("misaligned", name,
+                 "the camera moved so far that the frames share less than half of the picture");
 }
 
 void TakeBack(const FrameAlignment& alignment, std::vector<SignalFrame>& frames) {

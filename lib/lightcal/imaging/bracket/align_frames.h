@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -40,6 +41,10 @@ struct FrameAlignment {
 // shift, or none that is certain, explains it: the camera turned or zoomed; or less than half of
 // the picture is left).
 [[nodiscard]] Result<FrameAlignment> MeasureAlignment(const BracketMerger& merger);
+
+// Whether frames share so little that there is nothing to merge.   Refused: misaligned.
+[[nodiscard]] Result<void> CheckShared(int width, int height, const SignalFrame& whole,
+                                       const std::string& name);
 
 // The part of each frame that all show. `frames` in the merge's order.
 void TakeBack(const FrameAlignment& alignment, std::vector<SignalFrame>& frames);

@@ -17,7 +17,6 @@ namespace lightcal {
 namespace {
 
 constexpr double kStillPixels = 0.15;  // root mean square: of a frame that stays where it is
-constexpr double kLeastShown = 0.5;    // of the picture's width and height that all frames show
 constexpr double kBorderPeriods = 2.0;
 // Codes before their response is known: most cameras' curves are near this.
 constexpr double kNominalGamma = 2.2;
@@ -170,10 +169,9 @@ Result<void> Interpolate(const BracketMotion& motion, std::span<const double> la
   }
   const Region region = SharedRegion(from_reference, width, height,
                                      kBorderPeriods * ColorPeriod(prepared.signals.front()));
-  if (region.width < kLeastShown * width || region.height < kLeastShown * height) {
-    return Refused("misaligned", prepared.signals.back().name,
-                   "the camera moved so far that the frames share less than half of the picture");
-  }
+  auto shared = CheckShared(region.width, region.height, prepared.signals.front(),
+                            prepared.signals.back().name);
+  if (!shared) return shared;
   alignment.x = region.x;
   alignment.y = region.y;
   alignment.width = region.width;

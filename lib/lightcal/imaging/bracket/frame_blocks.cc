@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/cubic_weights.h"
 
 namespace lightcal {
 namespace {
@@ -28,20 +29,13 @@ int BlockSize(const SignalFrame& frame) {
   return (size + period - 1) / period * period;
 }
 
-// Catmull and Rom's weights of four neighbours at the share w between the middle two.
-std::array<float, 4> CubicWeights(float w) {
-  const float w2 = w * w, w3 = w2 * w;
-  return {0.5F * (-w3 + 2.0F * w2 - w), 0.5F * (3.0F * w3 - 5.0F * w2 + 2.0F),
-          0.5F * (-3.0F * w3 + 4.0F * w2 + w), 0.5F * (w3 - w2)};
-}
-
 // The picture of a frame moved by (dx, dy) blocks; cubic in between, as straight lines would cut
 // the corners of textures by more than frames may differ.
 std::vector<float> Shifted(const Blocks& a, double dx, double dy) {
   std::vector<float> out(a.mean.size(), std::numeric_limits<float>::quiet_NaN());
   const int fx = static_cast<int>(std::floor(dx)), fy = static_cast<int>(std::floor(dy));
-  const auto across = CubicWeights(static_cast<float>(dx - fx));
-  const auto down = CubicWeights(static_cast<float>(dy - fy));
+  const auto across = CubicWeightsAt(static_cast<float>(dx - fx));
+  const auto down = CubicWeightsAt(static_cast<float>(dy - fy));
   for (int y = 0; y < a.height; ++y) {
     for (int x = 0; x < a.width; ++x) {
       const int sx = x + fx, sy = y + fy;

@@ -18,7 +18,6 @@ constexpr int kTile = 16;                     // samples of one place of the pat
 constexpr int kStrips = 12;                   // of rows, spread over the picture
 constexpr std::size_t kLeastTiles = 16;
 constexpr double kTileSpread = 0.12;   // relative standard deviation of a tile's scatter
-constexpr double kQuartile = 0.6745;   // standard deviations from the median to a quartile
 constexpr double kWellExposed = 0.03;  // relative noise of a sample, at most
 
 std::vector<kernels::FrameConstants> ConstantsOf(const MergePlan& plan) {
@@ -192,7 +191,7 @@ double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_w
       for (int place = 0; place < step_x * step_y; ++place) {
         const auto tile =
             TileOf(values, variances, x + place % step_x, place / step_x, step_x, step_y);
-        if (tile) upper.push_back(tile->square + kQuartile * tile->sd);
+        if (tile) upper.push_back(tile->square + kNormalQuartile * tile->sd);
       }
     }
   }

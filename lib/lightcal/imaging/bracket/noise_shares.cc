@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "lightcal/imaging/bracket/cubic_weights.h"
+
 namespace lightcal {
 namespace {
 

@@ -12,13 +12,6 @@
 
 namespace lightcal {
 
-// Catmull and Rom's weights of four neighbours at the share t between the middle two.
-[[nodiscard]] constexpr std::array<float, 4> CubicWeightsAt(float t) {
-  const float t2 = t * t, t3 = t2 * t;
-  return {0.5F * (-t3 + 2.0F * t2 - t), 0.5F * (3.0F * t3 - 5.0F * t2 + 2.0F),
-          0.5F * (-3.0F * t3 + 4.0F * t2 + t), 0.5F * (t3 - t2)};
-}
-
 struct NoiseShares {
   Homography from_reference;
   int x = 0, y = 0;  // where the picture's corner lies in the reference

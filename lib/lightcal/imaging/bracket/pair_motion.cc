@@ -11,6 +11,7 @@
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/cubic_weights.h"
 
 namespace lightcal {
 namespace {
@@ -38,17 +39,11 @@ HalfDiagonals FrameOf(double width, double height) {
   return {0.5 * std::hypot(width, height), 0.5 * width, 0.5 * height};
 }
 
-// Catmull and Rom's weights and those of the slope, at the share t between the middle two.
+// Weights of four neighbours, for the value and for its slope.
 struct CubicTaps {
   std::array<float, 4> value, slope;
 };
-CubicTaps TapsAt(float t) {
-  const float t2 = t * t, t3 = t2 * t;
-  return {{0.5F * (-t3 + 2.0F * t2 - t), 0.5F * (3.0F * t3 - 5.0F * t2 + 2.0F),
-           0.5F * (-3.0F * t3 + 4.0F * t2 + t), 0.5F * (t3 - t2)},
-          {0.5F * (-3.0F * t2 + 4.0F * t - 1.0F), 0.5F * (9.0F * t2 - 10.0F * t),
-           0.5F * (-9.0F * t2 + 8.0F * t + 1.0F), 0.5F * (3.0F * t2 - 2.0F * t)}};
-}
+CubicTaps TapsAt(float t) { return {CubicWeightsAt(t), CubicSlopesAt(t)}; }
 
 struct SeenCell {
   float value, slope_x, slope_y, variance;
@@ -299,7 +294,7 @@ std::optional<Solved> SolveLevel(const MotionPicture& a, const MotionPicture& b,
       for (std::size_t i = 0; i < tile.spread.size(); i += 3) spread.push_back(tile.spread[i]);
     }
     if (count < kLeastTileCount || !(weight > 0.0)) return std::nullopt;
-    scale = std::clamp(UpperMedian(spread) / 0.6745, 0.3, 30.0);
+    scale = std::clamp(UpperMedian(spread) / kNormalQuartile, 0.3, 30.0);
     const Matrix8 precision = normal + prior;
     const auto solver = precision.ldlt();
     const Vector8 step = solver.solve(score - prior * numbers);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/cubic_weights.h"
 #include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
