@@ -3,7 +3,7 @@
 """import lightcal: its answers are the command's, its arrays the samples of the command's pictures,
 its errors say as much; the interpreter's lock is free meanwhile.
 
-    python_module.py LIGHTCAL FOLDER_OF_THE_PACKAGE
+    python_module.py LIGHTCAL FOLDER_OF_THE_PACKAGE [-k PART_OF_A_TEST'S_NAME ...]
 """
 import json
 import os
@@ -316,4 +316,4 @@ class SameAnswers(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
