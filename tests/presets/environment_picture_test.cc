@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <functional>
 #include <numbers>
@@ -140,6 +141,47 @@ TEST(EnvironmentPicture, TheSquaresSidesBringWhatThePicturesDid) {
     const Vec3 e = IrradianceOn(picture, n);
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(sum[c] / e[c], 1.0, 0.005);
   }
+}
+
+// Scanlines of B, G and R behind a table of where each begins ("OpenEXR File Layout").
+void ExpectExrHolds(const EnvironmentPicture& picture, std::size_t bytes_each) {
+  const std::string bytes = ExrFile(picture, {}).bytes;
+  const auto number = [&](std::size_t at, auto value) {
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+  };
+  const auto width = static_cast<std::size_t>(picture.width);
+  const auto height = static_cast<std::size_t>(picture.height);
+  const std::size_t row = 8 + width * 3 * bytes_each;
+  const std::size_t table = bytes.size() - height * (8 + row);
+  EXPECT_EQ(bytes.substr(0, 8), std::string("\x76\x2f\x31\x01\2\0\0\0", 8));
+  EXPECT_EQ(bytes[table - 1], '\0');
+  for (std::size_t y = 0; y < height; ++y) {
+    const auto line = static_cast<std::size_t>(number(table + 8 * y, std::uint64_t{}));
+    ASSERT_EQ(line, table + 8 * height + y * row);
+    ASSERT_EQ(number(line, std::int32_t{}), static_cast<std::int32_t>(y));
+    ASSERT_EQ(number(line + 4, std::int32_t{}), static_cast<std::int32_t>(row - 8));
+    for (std::size_t i = 0; i < 3 * width; ++i) {
+      const std::size_t at = line + 8 + i * bytes_each;
+      double got = 0.0;
+      if (bytes_each == 2) {
+        const int bits = number(at, std::uint16_t{});
+        const int power = bits >> 10, steps = bits & 1023;
+        got = power == 0 ? std::ldexp(steps, -24) : std::ldexp(1024 + steps, power - 25);
+      } else {
+        got = static_cast<double>(number(at, float{}));
+      }
+      const auto was =
+          static_cast<double>(picture.rgb[3 * (y * width + i % width) + 2 - i / width]);
+      ASSERT_NEAR(got, was, bytes_each == 2 ? was / 2048.0 + 0x1p-25 : was * 1e-6);
+    }
+  }
+}
+
+TEST(EnvironmentPicture, TheExrHoldsEveryPixelInHalvesOrInFloats) {
+  ExpectExrHolds(PictureFrom(64, Sides), 2);
+  ExpectExrHolds(PictureFrom(64, [](const Vec3& d) { return Sides(d) * 1e-9; }), 2);
+  ExpectExrHolds(PictureFrom(64, [](const Vec3& d) { return Sides(d) * 1e6; }), 4);
 }
 
 // Ward's runs, undone here.

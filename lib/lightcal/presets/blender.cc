@@ -190,7 +190,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     }
     if ((*forms)[i].environment) {
       pictures.push_back(preset_text::PictureFileOf(
-          (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));
+          (*forms)[i], stem, options, preset_text::PictureEncoding::kOpenExr, preset.warnings));
       document.Put("picture", pictures.back().name);
     }
     list.items.push_back(std::move(document));

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "lightcal/core/matrix3.h"
+#include "lightcal/photometry/half_range.h"
 
 namespace lightcal {
 namespace {
@@ -281,6 +282,86 @@ Vec3 DirectionOfSquare(double u, double v) {
   const double z = SignOf(signed_distance) * (1.0 - r * r);
   const double s = r * std::sqrt(std::max(0.0, 2.0 - r * r));
   return {SignOf(a) * std::cos(phi) * s, SignOf(b) * std::sin(phi) * s, z};
+}
+
+void AppendHalf(double value, std::string& bytes) {
+  const double v = std::clamp(value, 0.0, kLargestHalf);
+  // Below 2^-14 steps of 2^-24; each power of two above has 1024 steps.
+  int exponent = 0;
+  (void)std::frexp(v, &exponent);
+  const int power = v > 0.0 ? std::max(exponent - 1, -14) : -14;
+  const auto steps = static_cast<std::uint32_t>(std::lround(std::ldexp(v, 10 - power)));
+  const std::uint32_t bits =
+      std::min(steps + (static_cast<std::uint32_t>(power + 14) << 10U), std::uint32_t{0x7BFF});
+  bytes.push_back(static_cast<char>(bits & 0xFFU));
+  bytes.push_back(static_cast<char>(bits >> 8U));
+}
+
+EncodedPicture ExrFile(const EnvironmentPicture& picture, const ColorTarget& color) {
+  EncodedPicture out;
+  PictureColor convert(color);
+  const auto width = static_cast<std::size_t>(picture.width);
+  std::vector<Column3> pixels;
+  pixels.reserve(picture.rgb.size() / 3);
+  double most = 0.0;
+  for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) {
+    const float* at = picture.rgb.data() + 3 * i;
+    const double omega =
+        PixelSolidAngle(static_cast<int>(i / width), picture.width, picture.height);
+    pixels.push_back(convert.Of({at[0], at[1], at[2]}, omega));
+    most = std::max({most, pixels.back()[0], pixels.back()[1], pixels.back()[2]});
+  }
+  const bool half = most <= kLargestHalf;
+  const auto number = [&](auto value) {
+    out.bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  };
+  const auto attribute = [&](const char* name, const char* type, std::int32_t size) {
+    out.bytes.append(name).push_back('\0');
+    out.bytes.append(type).push_back('\0');
+    number(size);
+  };
+  number(std::int32_t{20000630});
+  number(std::int32_t{2});
+  attribute("channels", "chlist", 3 * 18 + 1);
+  for (const char* channel : {"B", "G", "R"}) {
+    out.bytes.append(channel).push_back('\0');
+    for (const std::int32_t word : {half ? 1 : 2, 0, 1, 1}) number(word);
+  }
+  out.bytes.push_back('\0');
+  attribute("compression", "compression", 1);
+  out.bytes.push_back('\0');
+  for (const char* window : {"dataWindow", "displayWindow"}) {
+    attribute(window, "box2i", 16);
+    for (const std::int32_t word : {0, 0, picture.width - 1, picture.height - 1}) number(word);
+  }
+  attribute("lineOrder", "lineOrder", 1);
+  out.bytes.push_back('\0');
+  attribute("pixelAspectRatio", "float", 4);
+  number(1.0F);
+  attribute("screenWindowCenter", "v2f", 8);
+  number(0.0F);
+  number(0.0F);
+  attribute("screenWindowWidth", "float", 4);
+  number(1.0F);
+  attribute("whiteLuminance", "float", 4);  // cd/m2 of an RGB of 1, 1, 1
+  number(1.0F);
+  out.bytes.push_back('\0');
+  const std::size_t row = width * 3 * (half ? 2 : 4);
+  const auto height = static_cast<std::size_t>(picture.height);
+  const std::size_t first = out.bytes.size() + 8 * height;
+  for (std::size_t y = 0; y < height; ++y) number(std::uint64_t{first + y * (8 + row)});
+  for (std::size_t y = 0; y < height; ++y) {
+    number(static_cast<std::int32_t>(y));
+    number(static_cast<std::int32_t>(row));
+    for (const std::size_t c : {2U, 1U, 0U}) {
+      for (std::size_t x = 0; x < width; ++x) {
+        const double value = pixels[y * width + x][c];
+        half ? AppendHalf(value, out.bytes) : AppendFloat(out.bytes, value);
+      }
+    }
+  }
+  convert.Report(out);
+  return out;
 }
 
 EncodedPicture EqualAreaSquare(const EnvironmentPicture& picture, const ColorTarget& color) {

@@ -59,9 +59,17 @@ struct EncodedPicture {
 };
 
 // A Radiance .hdr: mantissas of eight bits, rounded, for readers that take them as they are (all
-// engines here; Radiance itself adds half a step, up to .4 %).   Source: Ward, Real Pixels (1991).
+// engines here but Blender before 3.6; that and Radiance add half a step, up to .4 %).
+// Source: Ward, Real Pixels (1991).
 [[nodiscard]] EncodedPicture RadianceFile(const EnvironmentPicture& picture,
                                           const ColorTarget& color);
+
+// An OpenEXR of scanlines, not packed: half floats (within 1/4096), 32 bits where it is brighter
+// than those hold. Nothing is cut above.   Source: OpenEXR, "OpenEXR File Layout".
+[[nodiscard]] EncodedPicture ExrFile(const EnvironmentPicture& picture, const ColorTarget& color);
+
+// IEEE 754 binary16 of 0 to 65504, rounded, its lower byte first.
+void AppendHalf(double value, std::string& bytes);
 
 // A .pfm of floats: the equal-area octahedral square of pbrt-v4's infinite lights, each texel the
 // mean of what it covers, so that its sides bring what the picture's did (below .5 %).

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "lightcal/core/vec3.h"
-#include "lightcal/photometry/half_range.h"
 #include "lightcal/presets/gltf_cube_maps.h"
 #include "lightcal/presets/gltf_light.h"
 
@@ -27,20 +26,6 @@ void PutWord(std::uint32_t value, std::string& out) {
   for (int shift = 0; shift < 32; shift += 8) {
     out.push_back(static_cast<char>((value >> shift) & 0xFFU));
   }
-}
-
-// IEEE 754 binary16 of 0 to 65504, rounded.
-void PutHalf(double value, std::string& out) {
-  const double v = std::clamp(value, 0.0, kLargestHalf);
-  // Below 2^-14 steps of 2^-24; each power of two above has 1024 steps.
-  int exponent = 0;
-  (void)std::frexp(v, &exponent);
-  const int power = v > 0.0 ? std::max(exponent - 1, -14) : -14;
-  const auto steps = static_cast<std::uint32_t>(std::lround(std::ldexp(v, 10 - power)));
-  const std::uint32_t bits =
-      std::min(steps + (static_cast<std::uint32_t>(power + 14) << 10U), std::uint32_t{0x7BFF});
-  out.push_back(static_cast<char>(bits & 0xFFU));
-  out.push_back(static_cast<char>(bits >> 8U));
 }
 
 KtxRgb SharpTowards(const EnvironmentPicture& picture, const Vec3& in_gltf) {
@@ -168,8 +153,8 @@ std::string FilamentKtx(const EnvironmentPicture& picture, const std::string& ha
           const KtxRgb rgb = level == 0           ? SharpTowards(picture, normal)
                              : alpha > kWideAlpha ? WideLobe(beamlets, normal, alpha)
                                                   : NarrowLobe(picture, normal, alpha);
-          for (const double v : rgb) PutHalf(v, out);
-          PutHalf(1.0, out);
+          for (const double v : rgb) AppendHalf(v, out);
+          AppendHalf(1.0, out);
         }
       }
     }

@@ -87,14 +87,18 @@ PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
                          const PresetOptions& options, PictureEncoding encoding,
                          Warnings& warnings) {
   constexpr double kNothing = 1e-3;
-  const bool square = encoding == PictureEncoding::kEqualAreaSquare;
   const std::string space = options.color.space == RgbSpace::kSrgb
                                 ? ""
                                 : "-" + std::string(RgbSpaceWord(options.color.space));
-  PresetFile file{stem + "-" + FileNamePart(light.name()) + space + (square ? ".pfm" : ".hdr"), ""};
+  struct Way {
+    const char* ending;
+    EncodedPicture (*encode)(const EnvironmentPicture&, const ColorTarget&);
+  };
+  constexpr Way kWays[] = {{".hdr", RadianceFile}, {".exr", ExrFile}, {".pfm", EqualAreaSquare}};
+  const Way& way = kWays[static_cast<std::size_t>(encoding)];
+  PresetFile file{stem + "-" + FileNamePart(light.name()) + space + way.ending, ""};
   if (options.figures_only) return file;
-  EncodedPicture encoded = square ? EqualAreaSquare(*light.environment, options.color)
-                                  : RadianceFile(*light.environment, options.color);
+  EncodedPicture encoded = way.encode(*light.environment, options.color);
   if (encoded.cut_below > kNothing) {
     warnings.push_back({"picture_cut", light.name(),
                         RoundedText(100.0 * encoded.cut_below, 2) +

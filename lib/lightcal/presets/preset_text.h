@@ -41,9 +41,9 @@ namespace lightcal::preset_text {
 [[nodiscard]] PresetOptions InRec709(PresetOptions options, std::string_view engine,
                                      Warnings& warnings);
 
-// <stem>-<light>.hdr (or .pfm) of a dome's picture as an engine of that colour gets it, with a
+// <stem>-<light>.hdr (or .exr, .pfm) of a dome's picture as an engine of that colour gets it, with a
 // warning of what had to be cut (picture_cut).
-enum class PictureEncoding : std::uint8_t { kRadiance, kEqualAreaSquare };
+enum class PictureEncoding : std::uint8_t { kRadiance, kOpenExr, kEqualAreaSquare };
 [[nodiscard]] PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
                                        const PresetOptions& options, PictureEncoding encoding,
                                        Warnings& warnings);

@@ -28,7 +28,7 @@ MIRRORS = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)] 
     tuple(v / math.sqrt(14) for v in d) for d in ((3, 2, -1), (-1, 3, 2), (2, -3, -1), (-2, -1, 3))]
 MIRROR_BAR = .05  # of the brightest channel there: a mirror's lobe over soft edges, 8 bits
 LUMINANCE = (0.212639, 0.715169, 0.072192)
-BARS = {'blender': .01, 'three': .02, 'babylon_gltf': .02, 'filament': .02}
+BARS = {'blender': .003, 'three': .02, 'babylon_gltf': .02, 'filament': .02}
 CHROMA, SUN_DEGREES = .01, .3
 WIDTH = 512
 
