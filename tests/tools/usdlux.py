@@ -187,7 +187,8 @@ def load(path, variant=None):
 class Reader:
     """What a renderer makes otherwise than the specification; all off by default.
     factor: {prim type: factor}; sun: karma | lux | lux_pi | ris; cone: full | double | squared | smooth |
-    linear; softness: a number it takes whatever the file says; normalised: prim types that it
+    linear | arnold (a full angle and a penumbra inside it); ies_cone: half the cone of an IES light whose file
+    says none; area_in_metres: normalised by square metres, not square units; softness: a number it takes whatever the file says; normalised: prim types that it
     normalises whatever the file says; radius_times: a radius read so many times as large;
     dome_rotation: 3 x 3, from where the specification has a direction to where it shows it."""
 
@@ -196,7 +197,7 @@ class Reader:
         self.normalised, self.radius_times, self.dome_rotation = (), 1.0, None
         self.tubes_normalised = self.points = self.y_of_color = self.mirror = False
         self.sphere_area = self.domes_angular = self.clips_colors = False
-        self.metres_per_unit = 1.0
+        self.metres_per_unit, self.ies_cone, self.area_in_metres = 1.0, 90.0, False
         for name, value in wrong.items():
             assert hasattr(self, name), name
             setattr(self, name, value)
@@ -258,7 +259,8 @@ def read_hdr(path):
 
 
 class Light:
-    def __init__(self, prim, matrix, folder, reader):
+    def __init__(self, prim, matrix, folder, reader, layer_metres=1.0):
+        self.layer_metres = layer_metres
         self.kind, self.name, self.folder, self.reader = prim.kind, prim.name, folder, reader
         self.matrix = matrix
         self.v = prim.values
@@ -290,7 +292,8 @@ class Light:
         value = color * self.number("intensity", 50000.0 if self.kind == "DistantLight" else 1.0)
         value = value * 2.0 ** self.number("exposure", 0.0) * self.reader.factor.get(self.kind, 1.0)
         if self.kind != "DomeLight" and self.number("normalize", 0.0):
-            value = value / size
+            metres = self.layer_metres if self.reader.area_in_metres and self.kind != "DistantLight" else 1.0
+            value = value / (size * metres ** 2)
         return value
 
     def shape(self, away):
@@ -299,7 +302,7 @@ class Light:
         off = np.degrees(np.arccos(along))
         out = np.ones_like(off)
         has = "inputs:shaping:cone:angle" in self.v or self.ies
-        angle = self.number("shaping:cone:angle", 90.0) if has else 180.0
+        angle = self.number("shaping:cone:angle", self.reader.ies_cone if self.ies else 90.0) if has else 180.0
         soft = min(max(self.number("shaping:cone:softness", 0.0), 0.0), 1.0)
         if self.reader.softness is not None and angle < 90.0:
             soft = self.reader.softness
@@ -307,6 +310,9 @@ class Light:
         if angle < 90.0:
             angle *= {"full": 0.5, "double": 2.0}.get(law, 1.0)
         start = angle * (1 - soft)
+        if law == "arnold":
+            cone_angle, penumbra_angle = 2 * angle, soft * 2 * angle
+            angle, start = cone_angle / 2, (cone_angle - penumbra_angle) / 2
         if law in ("squared", "smooth"):  # in the cosine
             ca, cs = np.cos(np.radians([angle, start]))
             t = np.clip((along - ca) / max(cs - ca, 1e-12), 0, 1)
@@ -427,7 +433,11 @@ class Light:
             return self.base(1.0) * np.mean(weight)
         height, width, _ = self.picture.shape
         if self.reader.domes_angular and self.v.get("inputs:texture:format") != "latlong":
-            raise ValueError("an angular map")
+            # Debevec's angular map: the middle looks along -Z, the rim along +Z.
+            r = np.arccos(-local[:, 2]) / np.pi / np.maximum(np.hypot(local[:, 0], local[:, 1]), 1e-12)
+            i = np.clip(((.5 - .5 * r * local[:, 1]) * height).astype(int), 0, height - 1)
+            j = np.clip(((.5 + .5 * r * local[:, 0]) * width).astype(int), 0, width - 1)
+            return self.base(1.0) * np.mean(weight[:, None] * self.picture[i, j], axis=0)
         x = .5 - longitude / (2 * np.pi)
         if self.reader.mirror:
             x = 1 - x
@@ -441,7 +451,8 @@ class Scene:
         self.layer, prims = load(path, variant)
         reader = reader or Reader()
         folder = os.path.dirname(path)
-        self.lights = {p.name: Light(p, m, folder, reader) for p, m in prims if p.kind in LIGHTS}
+        metres = self.layer.get("metersPerUnit", 0.01)
+        self.lights = {p.name: Light(p, m, folder, reader, metres) for p, m in prims if p.kind in LIGHTS}
         self.cards, self.camera = [], None
         materials = {p.name: p for p, _ in prims if p.kind == "Material"}
         for prim, m in prims:

@@ -63,10 +63,18 @@ DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, do
   const Rgb& c = color.written;
   const std::vector<double> encoded = {SrgbEncoded(c.r), SrgbEncoded(c.g), SrgbEncoded(c.b), 1.0};
   if (light.environment) {
+    // Texels are cd/m2. What a sky lights goes by the square of intensity times exposure (rendered
+    // in 4.6.3), what is seen of it by their product: so the product is 1, and the material's own
+    // multiplier, which both follow, is the exposure.
     out.type = "Environment";
     out.Put("background_energy_multiplier", 1.0);
-    out.Put("background_intensity", 1.0);  // texels are cd/m2
+    out.Put("background_intensity", 1.0 / exposure);
+    out.elsewhere.push_back({"panorama_energy_multiplier", {exposure}});
     out.elsewhere.push_back({"upward_lx", {light.lux}});
+    warnings.push_back({"ambient_at_one_exposure", light.name(),
+                        "Godot exposes the light of a sky twice: right at this file's ev100; "
+                        "with any other exposure scale background_intensity by its inverse and the "
+                        "sky material's energy_multiplier by it"});
     return out;
   }
   if (light.form == LightForm::kDome) {
@@ -270,7 +278,9 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
   if (!picture.empty()) {
     text += "\n[ext_resource type=\"Texture2D\" path=" + Quoted(picture) +
             " id=\"panorama\"]\n\n[sub_resource type=\"PanoramaSkyMaterial\" id=\"panorama_sky\"]\n"
-            "panorama = ExtResource(\"panorama\")\n\n[sub_resource type=\"Sky\" id=\"sky\"]\n"
+            "panorama = ExtResource(\"panorama\")\nenergy_multiplier = " +
+            ShortestText(rig.exposure.scale) +
+            "\n\n[sub_resource type=\"Sky\" id=\"sky\"]\n"
             "sky_material = SubResource(\"panorama_sky\")\n";
   }
   if (world) text += EnvironmentText(dome);

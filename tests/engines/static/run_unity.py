@@ -61,7 +61,8 @@ def main():
                 if lights[name]['unit'] != unit:
                     failures.append(f'{title}: {name} in {lights[name]["unit"]}')
         lights, said = run(folder, [], 'urp')
-        if said or abs(lights['green spot']['inner'] - 30.0) > 1e-3:
+        # URP has no rectangles that light at once: the panel is said to be another light.
+        if len(said) != 1 or 'panel' not in said[0] or abs(lights['green spot']['inner'] - 30.0) > 1e-3:
             failures.append(f'URP: {said} {lights}')
         lights, said = run(folder, [], 'built-in')
         if lights or not any('built-in' in s and 'square' in s for s in said):

@@ -151,8 +151,21 @@ def through_unity(folder, want):
         values = [float(v) for v in skies[0][5:]]
         compare(who, {way: values[3 * i:3 * i + 3] for i, way in enumerate(order)}, want, suns[0][1])
     rows = unity(folder, [], 'urp')
-    if any(row[0] == 'sky' for row in rows) or sum(row[0] == 'light' for row in rows) != 2:
+    said = [row[0] for row in rows if row[0].startswith('said')]
+    above = [row for row in rows if row[0] == 'light' and row[1] == 'environment']
+    if any(row[0] == 'sky' for row in rows) or sum(row[0] == 'light' for row in rows) != 2 or len(above) != 1:
         FAILURES.append(f'URP: {rows}')
+    # A light from above, of the picture's lux on a plane that faces up: exposure/pi times it; and it is said.
+    preset = json.load(open(f'{folder}/light.unity.json'))
+    lamp = next(lamp for lamp in preset['lights'] if lamp['name'] == 'environment')
+    shown = float(above[0][3]) * lamp['color_luminance'] * math.pi / preset['exposure']['scale']
+    if above[0][2] != 'Directional' or abs(shown / lamp['upward_lx'] - 1) > 1e-3:
+        FAILURES.append(f'URP: {above} for {lamp["upward_lx"]} lx')
+    if len(said) != 1 or 'from above' not in said[0] or 'HDRP' not in said[0]:
+        FAILURES.append(f'URP says {said}')
+    rows = unity(folder, [], 'built-in')
+    if len(rows) != 1 or 'built-in' not in rows[0][0] or 'URP' not in rows[0][0]:
+        FAILURES.append(f'built-in: {rows}')
     os.rename(f'{folder}/light-{panorama_name(folder)}.hdr', f'{folder}/moved.picture')
     rows = unity(folder, [], 'hdrp')
     if not any('beside the .unity.json' in row[0] for row in rows):

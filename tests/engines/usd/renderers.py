@@ -5,6 +5,7 @@ is documented of them (lib/lightcal/presets/README.md, "USD as renderers mean it
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,22 +17,36 @@ import golden_lights
 import usdlux
 from usdlux import Reader
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "render"))
+import panorama  # noqa: E402
+
 LIGHTCAL = sys.argv[1]
 LAMPS = golden_lights.LAMPS
 W = usdlux.WEIGHTS
 
-# (misreading, the variant for it, the reader, lamps that the spec variant gets wrong in it)
+# (the reader by its setting, as the README's table names it, the variants for it, lamps that the spec variant
+# gets wrong in it)
 MISREADINGS = [
-    ("Karma: a normalised sun is lux over pi", "karma", Reader(sun="karma"), ["sun"]),
-    ("RenderMan: a sun normalised relative to .53 degrees", "karma", Reader(sun="ris"), ["sun"]),
-    ("Arnold: suns ignore normalize and angle", "arnold", Reader(sun="lux"), []),
-    ("arnold-usd: tubes are always normalised", "arnold", Reader(tubes_normalised=True), ["tube"]),
-    ("arnold-usd: a point leaves its radius out", "arnold", Reader(points=True), []),
-    ("Arnold: spheres have an area of their own", "arnold", Reader(sphere_area=True), []),
-    ("Arnold: a picture of no stated format is angular", "arnold", Reader(domes_angular=True), []),
-    ("USD Composer 2024: suns pi brighter", "rtx_2024", Reader(sun="lux_pi"), ["sun"]),
-    ("Unreal's importer: colours clip at 1", "spec", Reader(clips_colors=True), []),
+    (dict(sun="karma"), ["karma"], ["sun"]),
+    (dict(sun="ris"), ["karma"], ["sun"]),
+    (dict(sun="lux"), ["arnold"], []),
+    (dict(tubes_normalised=True), ["arnold"], ["tube"]),
+    (dict(points=True), ["arnold"], []),
+    (dict(sphere_area=True), ["arnold"], []),
+    (dict(cone="arnold"), ["arnold"], []),
+    (dict(domes_angular=True), ["arnold"], []),
+    (dict(ies_cone=90.0), ["spec", "arnold"], []),
+    (dict(ies_cone=180.0), ["spec", "arnold"], []),
+    (dict(), ["rtx"], []),
+    (dict(sun="lux_pi"), ["rtx_2024"], ["sun"]),
+    (dict(area_in_metres=True), ["spec", "arnold", "rtx"], []),
+    (dict(clips_colors=True), ["spec"], []),
 ]
+README = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../../lib/lightcal/presets/README.md")
+
+
+def setting(wrong):
+    return ", ".join(f"{key}={value}" for key, value in wrong.items()) or "the schema"
 
 
 def cards():
@@ -98,13 +113,92 @@ class Renderers(unittest.TestCase):
             self.assertLess(off, 0.005, name)
 
     def test_every_documented_misreading_has_a_variant_that_is_right_in_it(self):
-        for what, variant, reader, wrong in MISREADINGS:
-            off = self.lux(variant, reader)
-            for name in LAMPS:
-                self.assertLess(off[name], 0.01, (what, name))
+        for wrongly, variants, wrong in MISREADINGS:
+            reader = Reader(**wrongly)
+            for variant in variants:
+                off = self.lux(variant, reader)
+                for name in LAMPS:
+                    self.assertLess(off[name], 0.01, (wrongly, variant, name))
             off = self.lux("spec", reader)
             for name in wrong:  # else the variant would be there for nothing
-                self.assertGreater(off[name], 0.05, (what, name))
+                self.assertGreater(off[name], 0.05, (wrongly, name))
+
+    def test_every_row_of_the_readme_is_shown(self):
+        with open(README, encoding="utf-8") as whole:
+            table = whole.read().split("## USD as renderers mean it", 1)[1].split("\n| who |", 1)[1]
+        rows = [line.strip("|").split("|") for line in table.split("\n\n")[0].splitlines()[2:]]
+        self.assertGreater(len(rows), 15)
+        known, named = {setting(wrongly) for wrongly, _, _ in MISREADINGS}, set()
+        for row in rows:
+            self.assertEqual(len(row), 5, row)
+            shown = re.findall("`([^`]+)`", row[4])
+            named.update(shown)
+            if not shown:
+                self.assertRegex(row[4], "no numbers|render gates", row)
+        self.assertEqual(named, known)
+
+    def test_a_measured_light_that_shines_up_is_not_cut(self):
+        document = json.loads(golden_lights.light_json(["luminaire"]))
+        table = document["lights"][0]["distribution"]
+        table["candela"] = [2000.0 * (0.6 + 0.4 * math.cos(math.radians(a))) for a in table["vertical_deg"]]
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "up.json"), "w") as out:
+                json.dump(document, out)
+            subprocess.run([LIGHTCAL, "export", os.path.join(folder, "up.json"), "--to", "usd", "-o", folder],
+                           check=True, capture_output=True)
+            path = os.path.join(folder, "up.usda")
+
+            def above(variant, reader):  # 2 m over the lamp, facing down
+                light = usdlux.Scene(path, variant, reader).lights["luminaire"]
+                place = np.array(LAMPS["luminaire"]["at"]) + np.array((0.0, 0.0, 2.0))
+                return float(light.one(place, np.array((0.0, 0.0, -1.0)), 64) @ W)
+            for degrees in (90.0, 180.0):
+                for variant in ("spec", "arnold"):
+                    self.assertAlmostEqual(above(variant, Reader(ies_cone=degrees)) / (400.0 / 4), 1, delta=0.01)
+            with open(path) as whole:
+                text = whole.read()
+            self.assertIn("inputs:shaping:cone:angle = 180", text)
+            with open(path, "w") as out:
+                out.write(text.replace("float inputs:shaping:cone:angle = 180", ""))
+            self.assertEqual(above("spec", Reader(ies_cone=90.0)), 0.0)  # what stating it is for
+
+    def test_a_panorama_is_read_as_one(self):
+        truth = panorama.irradiance()
+        with tempfile.TemporaryDirectory() as folder:
+            panorama.write_panorama(os.path.join(folder, "place.hdr"))
+            up = panorama.luminance([a + b for a, b in zip(*truth["up"])])
+            for words in (["dome", os.path.join(folder, "place.hdr"), "--lux", repr(up), "--extract", "1", "-o",
+                           folder], ["export", os.path.join(folder, "light.json"), "--to", "usd", "-o", folder]):
+                subprocess.run([LIGHTCAL, *words], check=True, capture_output=True)
+            path = os.path.join(folder, "light.usda")
+
+            def worst():
+                dome = next(light for light in usdlux.Scene(path, "arnold", Reader(domes_angular=True)).lights.values()
+                            if light.kind == "DomeLight")
+                return max(abs(panorama.luminance(dome.one(np.zeros(3), np.array(n, float), 64)) /
+                               panorama.luminance(truth[way][0]) - 1) for way, n in panorama.WAYS.items())
+            self.assertLess(worst(), 0.01)
+            with open(path) as whole:
+                text = whole.read()
+            self.assertIn('inputs:texture:format = "latlong"', text)
+            with open(path, "w") as out:
+                out.write(text.replace('inputs:texture:format = "latlong"', 'inputs:texture:format = "automatic"'))
+            self.assertGreater(worst(), 0.1)  # what stating it is for
+
+    def test_areas_are_the_same_in_units_and_in_metres(self):
+        with open(self.usd) as whole:
+            text = whole.read()
+        self.assertIn("metersPerUnit = 1\n", text)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "centimetres.usda")
+            with open(path, "w") as out:
+                out.write(text.replace("metersPerUnit = 1\n", "metersPerUnit = 0.01\n").replace(
+                    "asset inputs:shaping:ies:file", "asset gone"))
+
+            def nits(area_in_metres):
+                light = usdlux.Scene(path, "arnold", Reader(area_in_metres=area_in_metres)).lights["tube"]
+                return light.base(2 * math.pi * 0.013 * 1.2)[1]
+            self.assertAlmostEqual(nits(True) / nits(False), 1e4, delta=1.0)  # what the 1 is for
 
     def test_points_said_to_be_points_would_be_wrong_in_arnold(self):
         with open(self.usd) as whole:

@@ -181,7 +181,9 @@ std::vector<EngineLight> ReadGodot(const std::string& text, const FileText& /*be
                                    section.type == "DirectionalLight3D")) {
       lights.push_back(FromNode(section));
     }
-    if (section.type == "Environment" && section.values.contains("background_intensity")) {
+    constexpr double kSky = 2.0;  // background_mode: what a picture lights is not in this text
+    if (section.type == "Environment" && section.values.contains("background_intensity") &&
+        section.Number("background_mode", 1.0) != kSky) {
       EngineLight dome;
       dome.kind = EngineLightKind::kDome;
       // Its light goes past intensity and exposure; without a camera the intensity says which.

@@ -19,7 +19,7 @@ namespace Lightcal
 {
     [Serializable] public class Emission
     {
-        public string type;
+        public string type, substituted;
         public float intensity, range_m, radius_m, spot_angle_deg, inner_spot_angle_deg;
         public float inner_spot_percent;
         public float area_width_m, area_height_m, angular_diameter_deg;
@@ -149,6 +149,13 @@ namespace Lightcal
             light.shadows = LightShadows.Soft;
             if (hdrp && thing.GetComponent(hdLight) == null) thing.AddComponent(hdLight);
             SetFigures(light, lamp, e, hdrp, hdLight);
+            if (!string.IsNullOrEmpty(e.substituted))
+            {
+                // In HDRP a panorama is a sky; URP takes none in lux.
+                bool sky = !hdrp && lamp.hdrp.type == "Sky";
+                Debug.LogWarning("lightcal: " + lamp.name + ": " + e.substituted +
+                                 (sky ? "; the picture lights a project of HDRP, not of URP" : ""));
+            }
             Undo.RegisterCreatedObjectUndo(thing, lamp.name);
         }
 
