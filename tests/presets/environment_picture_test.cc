@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/presets/environment_picture.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,8 @@
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include "lightcal/presets/environment_files.h"
 
 namespace lightcal::test {
 namespace {

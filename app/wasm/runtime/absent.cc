@@ -11,6 +11,8 @@
 #include "lightcal/calibrate/captures/capture_readings.h"
 #include "lightcal/calibrate/captures/wall_capture.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/environment_files.h"
+#include "lightcal/presets/filament_ktx.h"
 #include "lightcal/records/embedded_cameras.h"
 #include "lightcal/records/journal.h"
 #include "lightcal_devices/captures/bracket.h"
@@ -47,6 +49,21 @@ bool RestsOnCameraScale(const Session& /*session*/, const std::string& /*light*/
 Result<std::vector<FittedLight>> MeasureWalls(const Session& /*session*/,
                                               const Sources& /*sources*/, Evidence& /*evidence*/) {
   return std::vector<FittedLight>{};
+}
+
+// Of pictures, which no light.json brings here.
+EncodedPicture RadianceFile(const EnvironmentPicture& /*picture*/, const ColorTarget& /*color*/) {
+  return {};
+}
+EncodedPicture ExrFile(const EnvironmentPicture& /*picture*/, const ColorTarget& /*color*/) {
+  return {};
+}
+EncodedPicture EqualAreaSquare(const EnvironmentPicture& /*picture*/,
+                               const ColorTarget& /*color*/) {
+  return {};
+}
+std::string FilamentKtx(const EnvironmentPicture& /*picture*/, const std::string& /*harmonics*/) {
+  return {};
 }
 
 // A tenth of the page; `match`, which asks for cameras by name, is not in it.

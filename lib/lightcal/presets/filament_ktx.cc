@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/environment_files.h"
 #include "lightcal/presets/gltf_cube_maps.h"
 #include "lightcal/presets/gltf_light.h"
 

@@ -8,6 +8,7 @@
 
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/environment_files.h"
 
 namespace lightcal::preset_text {
 
