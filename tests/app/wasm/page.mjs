@@ -2,7 +2,8 @@
 // node page.mjs NODE_MODULES PAGE.html [--screenshots FOLDER] < lines
 // Opens the page from the disk in headless chromium, on a phone and on a screen, does what a person
 // does with it, and answers every line of words as the page calculates it. Prints one JSON document:
-// { ready_ms, answers, session, candela, refused, saved, requests, errors }.
+// { ready_ms, answers, otherwise, session, candela, refused, saved, requests, errors }; otherwise: the lines
+// that the screen answers with other bytes than the phone.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';
@@ -13,6 +14,12 @@ const folder = at < 0 ? undefined : words.splice(at, 2)[1];
 const [modules, page] = words;
 const puppeteer = createRequire(path.join(modules, 'x'))('puppeteer-core');
 const lines = fs.readFileSync(0, 'utf8').split('\n').filter((line) => line.trim() !== '').map((line) => JSON.parse(line));
+
+const answered = (tab) => tab.evaluate((all) => all.map(({ words: line, files }) => {
+  const began = performance.now();
+  const { code, out, err } = window.lightcal.run(line, files);
+  return { code, out, err, ms: performance.now() - began };
+}), lines);
 
 const browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
   headless: true, args: ['--no-sandbox', '--disable-dev-shm-usage', '--force-color-profile=srgb'] });
@@ -40,6 +47,9 @@ try {
         await tab.click(`#tab-${part}`);
         if (folder) await tab.screenshot({ path: path.join(folder, `page-${part}.png`) });
       }
+      const here = await answered(tab);
+      result.otherwise = lines.filter((_, i) => ['code', 'out', 'err'].some((key) => here[i][key] !== result.answers[i][key]))
+        .map((line) => line.words);
       continue;
     }
     // A reading more by hand, as a thumb does it; then nonsense, which is refused in words.
@@ -57,11 +67,7 @@ try {
     await tab.waitForSelector('#lamp-answer .fault', { timeout: 20000 });
     result.refused = await tab.$eval('#lamp-answer .fault', (p) => p.textContent);
     if (folder) await tab.screenshot({ path: path.join(folder, 'page-refused.png') });
-    result.answers = await tab.evaluate((all) => all.map(({ words: line, files }) => {
-      const began = performance.now();
-      const { code, out, err } = window.lightcal.run(line, files);
-      return { code, out, err, ms: performance.now() - began };
-    }), lines);
+    result.answers = await answered(tab);
   }
 } finally {
   await browser.close();

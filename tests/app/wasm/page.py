@@ -61,6 +61,8 @@ def main():
             faults.append(f"a distance of letters is answered with {seen['refused']}")
         if ".preset.json" not in seen["saved"]:
             faults.append(f"saving a preset says {seen['saved']}")
+        if seen["otherwise"]:
+            faults.append(f"the screen answers otherwise than the phone: {seen['otherwise']}")
         worst = 0.0
         for words, answer in zip(lines, seen["answers"]):
             program_says = lightcal(*words)
