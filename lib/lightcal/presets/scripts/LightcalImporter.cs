@@ -149,10 +149,10 @@ namespace Lightcal
             light.shadows = LightShadows.Soft;
             if (hdrp && thing.GetComponent(hdLight) == null) thing.AddComponent(hdLight);
             SetFigures(light, lamp, e, hdrp, hdLight);
-            if (!string.IsNullOrEmpty(e.substituted))
+            // What HDRP has no light for the export has said; this is what URP has none for besides.
+            if (!string.IsNullOrEmpty(e.substituted) && e.substituted != lamp.hdrp.substituted)
             {
-                // In HDRP a panorama is a sky; URP takes none in lux.
-                bool sky = !hdrp && lamp.hdrp.type == "Sky";
+                bool sky = lamp.hdrp.type == "Sky";
                 Debug.LogWarning("lightcal: " + lamp.name + ": " + e.substituted +
                                  (sky ? "; the picture lights a project of HDRP, not of URP" : ""));
             }
