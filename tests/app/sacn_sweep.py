@@ -149,6 +149,7 @@ def typed(folder, fixture):
     session = new_session(folder, "typed")
     before = len(fixture.packets())
     sweep = begin(fixture, session, "--typed", meter=False)
+    wait_for(lambda: len(fixture.packets()) > before, "the stream")
     time.sleep(3.2)
     sweep.stdin.write("1000\n")
     sweep.stdin.flush()

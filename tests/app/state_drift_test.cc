@@ -12,31 +12,15 @@
 
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "session_of_states.h"
 
 namespace lightcal::test {
 namespace {
 
 using nlohmann::json;
 
-constexpr const char* kDark = R"(lightcal = 1
-[room]
-dark = true
-[[light]]
-name = "key"
-kind = "point"
-[[meter]]
-name = "m"
-sigma_relative = 0.02
-)";
-
-std::string Row(double distance_m, double lux, const std::string& state, int minute = -1) {
-  std::string text =
-      "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(distance_m) +
-      "\nilluminance_lx = " + std::to_string(lux) + "\nstate = { " + state + " }\n";
-  if (minute >= 0) {
-    text += "time = \"2026-03-01T10:" + std::to_string(10 + minute) + ":00Z\"\n";
-  }
-  return text;
+std::string AtMinute(int minute) {
+  return "time = \"2026-03-01T10:" + std::to_string(10 + minute) + ":00Z\"\n";
 }
 
 double Half(const json& u) {
@@ -50,11 +34,12 @@ const std::vector<std::pair<int, double>> kSweep = {
 
 TEST(StateCommand, ADriftSeenAtFullIsTakenOutOfEveryState) {
   const TempDir folder;
-  std::string text = kDark;
+  std::string text = DarkSession();
   int minute = 0;
   for (const auto& [dimmer, part] : kSweep) {
     const double tired = 1.0 - 0.08 * minute / 15.0;
-    text += Row(1.0, 1000.0 * part * tired, "dimmer = " + std::to_string(dimmer), minute);
+    text += StateRow(1.0, 1000.0 * part * tired, "dimmer = " + std::to_string(dimmer),
+                     AtMinute(minute));
     ++minute;
   }
   folder.Write("lamp/session.toml", text);
@@ -73,9 +58,9 @@ TEST(StateCommand, ADriftSeenAtFullIsTakenOutOfEveryState) {
 TEST(StateCommand, FullReadingsThatScatterWithoutTimesWidenEveryState) {
   const auto half_width = [](double second_full) {
     const TempDir folder;
-    folder.Write("lamp/session.toml", kDark + Row(1.0, 1000.0, "dimmer = 100") +
-                                          Row(1.0, second_full, "dimmer = 100") +
-                                          Row(1.0, 500.0, "dimmer = 50"));
+    folder.Write("lamp/session.toml", DarkSession() + StateRow(1.0, 1000.0, "dimmer = 100") +
+                                          StateRow(1.0, second_full, "dimmer = 100") +
+                                          StateRow(1.0, 500.0, "dimmer = 50"));
     const json light = LightcalJson("fit", {folder.path() + "/lamp"})["lights"][0];
     const json& relative = light["states"][1]["relative"];
     return double(relative["u95"]) / double(relative["value"]);
@@ -86,13 +71,13 @@ TEST(StateCommand, FullReadingsThatScatterWithoutTimesWidenEveryState) {
 
 // 8000 cd from 15 cm behind the mark at 20 degrees, 1000 cd from 2 cm before it at 60.
 std::string Zoomed() {
-  std::string text = kDark;
+  std::string text = DarkSession();
   const auto add = [&](double zoom, double candela, double offset) {
     const std::string at = "zoom_deg = " + std::to_string(zoom);
     for (const double d : {0.7, 1.5, 3.0}) {
-      text += Row(d, candela / std::pow(d + offset, 2.0), "dimmer = 100, " + at);
+      text += StateRow(d, candela / std::pow(d + offset, 2.0), "dimmer = 100, " + at);
     }
-    text += Row(1.5, 0.3 * candela / std::pow(1.5 + offset, 2.0), "dimmer = 25, " + at);
+    text += StateRow(1.5, 0.3 * candela / std::pow(1.5 + offset, 2.0), "dimmer = 25, " + at);
   };
   add(20.0, 8000.0, 0.15);
   add(60.0, 1000.0, -0.02);
@@ -121,13 +106,13 @@ TEST(StateCommand, EachZoomStartsWhereItsOwnReadingsSay) {
 TEST(StateCommand, AZoomReadAtOneDistanceIsAsWideAsSuchFixturesDiffer) {
   const auto half = [](const std::string& fixture) {
     const TempDir folder;
-    std::string text = kDark;
+    std::string text = DarkSession();
     const std::string kind = "kind = \"point\"\n";
     text.insert(text.find(kind) + kind.size(), "fixture = \"" + fixture + "\"\n");
     for (const double d : {0.7, 1.5, 3.0}) {
-      text += Row(d, 8000.0 / (d * d), "dimmer = 100, zoom_deg = 20");
+      text += StateRow(d, 8000.0 / (d * d), "dimmer = 100, zoom_deg = 20");
     }
-    folder.Write("lamp/session.toml", text + Row(0.7, 1000.0, "dimmer = 100, zoom_deg = 60"));
+    folder.Write("lamp/session.toml", text + StateRow(0.7, 1000.0, "dimmer = 100, zoom_deg = 60"));
     const json light = LightcalJson("fit", {folder.path() + "/lamp"});
     EXPECT_EQ(light["warnings"][0]["code"], "offset_shared") << light["warnings"];
     const json& relative = light["lights"][0]["states"][1]["relative"];

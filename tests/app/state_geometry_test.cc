@@ -12,6 +12,7 @@
 
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "session_of_states.h"
 
 namespace lightcal::test {
 namespace {
@@ -21,23 +22,14 @@ using ::testing::HasSubstr;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-std::string Head(const std::string& light) {
-  return "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\n" + light +
-         "[[meter]]\nname = \"m\"\nsigma_relative = 0.02\n";
-}
-
-std::string Row(double distance_m, double lux, const std::string& state, double off_deg = 0.0) {
-  return "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(distance_m) +
-         "\nilluminance_lx = " + std::to_string(lux) +
-         (off_deg != 0.0 ? "\noff_axis_deg = " + std::to_string(off_deg) : "") + "\nstate = { " +
-         state + " }\n";
-}
+std::string OffAxis(double off_deg) { return "off_axis_deg = " + std::to_string(off_deg) + "\n"; }
 
 // A bell of so many degrees at half its peak, from so far behind the mark.
 std::string Zoom(double zoom, double candela, double beam_deg, double offset_m) {
   const std::string at = "dimmer = 100, zoom_deg = " + std::to_string(zoom);
   std::string text;
-  for (const double d : {1.0, 2.0, 4.0}) text += Row(d, candela / std::pow(d + offset_m, 2.0), at);
+  for (const double d : {1.0, 2.0, 4.0})
+    text += StateRow(d, candela / std::pow(d + offset_m, 2.0), at);
   for (const double part : {0.5, 0.8, 1.1, 1.5, 2.1}) {
     // The angle is said as seen from the mark; the light comes from behind it.
     const double off = part * beam_deg / 2.0 * kDegree;
@@ -45,10 +37,10 @@ std::string Zoom(double zoom, double candela, double beam_deg, double offset_m) 
     const double along = 2.0 * std::cos(off) + offset_m;
     const double seen = std::atan2(across, along) / kDegree / (beam_deg / 2.0);
     const double lux = candela * std::exp2(-seen * seen) / (across * across + along * along);
-    text += Row(2.0, lux, at, off / kDegree);
+    text += StateRow(2.0, lux, at, OffAxis(off / kDegree));
   }
-  text += Row(2.0, 0.5 * candela / std::pow(2.0 + offset_m, 2.0),
-              "dimmer = 40, zoom_deg = " + std::to_string(zoom));
+  text += StateRow(2.0, 0.5 * candela / std::pow(2.0 + offset_m, 2.0),
+                   "dimmer = 40, zoom_deg = " + std::to_string(zoom));
   return text;
 }
 
@@ -73,7 +65,8 @@ double Attribute(const std::string& archive, const std::string& name) {
 
 TEST(StateGeometry, EachZoomExportsTheBeamThatItsOwnReadingsTold) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", Head("kind = \"spot\"\n") + Zoom(15.0, 40000.0, 16.0, 0.15) +
+  folder.Write("lamp/session.toml", DarkSession("kind = \"spot\"\n") +
+                                        Zoom(15.0, 40000.0, 16.0, 0.15) +
                                         Zoom(40.0, 8000.0, 38.0, 0.03));
   LightcalJson("fit", {folder.path() + "/lamp", "-o", folder.path() + "/key.json"});
   struct Truth {
@@ -101,7 +94,8 @@ TEST(StateGeometry, EachZoomExportsTheBeamThatItsOwnReadingsTold) {
 // On its axis alone: what the session describes is all that is known of its cone.
 std::string OnAxis(double zoom, double candela) {
   const std::string at = "dimmer = 100, zoom_deg = " + std::to_string(zoom);
-  return Row(1.0, candela, at) + Row(2.0, candela / 4.0, at) + Row(4.0, candela / 16.0, at);
+  return StateRow(1.0, candela, at) + StateRow(2.0, candela / 4.0, at) +
+         StateRow(4.0, candela / 16.0, at);
 }
 
 constexpr const char* kSpot = "kind = \"spot\"\ninner_deg = 6\nouter_deg = 8\n";
@@ -117,8 +111,8 @@ json Spot(const TempDir& folder, const std::string& state, json& told) {
 
 TEST(StateGeometry, AStatedConeOfAnotherZoomReachesTheEngine) {
   const TempDir folder;
-  folder.Write("lamp/session.toml",
-               Head(kSpot + std::string(kWide)) + OnAxis(15.0, 40000.0) + OnAxis(40.0, 8000.0));
+  folder.Write("lamp/session.toml", DarkSession(kSpot + std::string(kWide)) +
+                                        OnAxis(15.0, 40000.0) + OnAxis(40.0, 8000.0));
   LightcalJson("fit", {folder.path() + "/lamp", "-o", folder.path() + "/key.json"});
   json told;
   EXPECT_NEAR(double(Spot(folder, "dimmer=100,zoom_deg=15", told)["spot"]["outerConeAngle"]),
@@ -135,8 +129,8 @@ TEST(StateGeometry, AStatedConeOfAnotherZoomReachesTheEngine) {
 
 TEST(StateGeometry, AZoomThatNobodyDescribesIsSaidToBorrow) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", Head(kSpot) + OnAxis(15.0, 40000.0) +
-                                        Row(2.0, 2000.0, "dimmer = 100, zoom_deg = 40"));
+  folder.Write("lamp/session.toml", DarkSession(kSpot) + OnAxis(15.0, 40000.0) +
+                                        StateRow(2.0, 2000.0, "dimmer = 100, zoom_deg = 40"));
   LightcalJson("fit", {folder.path() + "/lamp", "-o", folder.path() + "/key.json"});
   json told;
   EXPECT_NEAR(double(Spot(folder, "dimmer=100,zoom_deg=40", told)["spot"]["outerConeAngle"]),
@@ -149,9 +143,9 @@ TEST(StateGeometry, AModifierGivesTheLampAnotherSizeAndKind) {
   const std::string at =
       "[[light.at]]\nstate = { modifier = \"softbox\" }\nkind = \"rect\"\nfixture = \"softbox\"\n"
       "size_m = [0.9, 0.6]\n";
-  std::string text = Head("kind = \"spot\"\nouter_deg = 30\n" + at);
+  std::string text = DarkSession("kind = \"spot\"\nouter_deg = 30\n" + at);
   for (const double d : {1.0, 2.0, 4.0}) {
-    text += Row(d, 9000.0 / (d * d), "dimmer = 100, modifier = \"bare\"");
+    text += StateRow(d, 9000.0 / (d * d), "dimmer = 100, modifier = \"bare\"");
     // A rect's axis: E = 4 L/2 (...) goes to I/(d + d0)^2 from afar; a metre off it is 10 % less.
     const double a = 0.45;
     const double b = 0.3;
@@ -159,7 +153,7 @@ TEST(StateGeometry, AModifierGivesTheLampAnotherSizeAndKind) {
     const double rb = std::hypot(b, d);
     const double luminance = 1000.0 / (0.9 * 0.6);
     const double lux = 2.0 * luminance * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
-    text += Row(d, lux, "dimmer = 100, modifier = \"softbox\"");
+    text += StateRow(d, lux, "dimmer = 100, modifier = \"softbox\"");
   }
   folder.Write("lamp/session.toml", text);
   LightcalJson("fit", {folder.path() + "/lamp", "-o", folder.path() + "/key.json"});
@@ -179,7 +173,7 @@ TEST(StateGeometry, AModifierGivesTheLampAnotherSizeAndKind) {
 TEST(StateGeometry, WhatIsWrongInADescriptionOfAStateIsSaid) {
   const auto fault = [](const std::string& at) {
     const TempDir folder;
-    folder.Write("lamp/session.toml", Head(kSpot + at) + OnAxis(15.0, 40000.0));
+    folder.Write("lamp/session.toml", DarkSession(kSpot + at) + OnAxis(15.0, 40000.0));
     const CliResult run = RunLightcal({"fit", folder.path() + "/lamp", "--json"});
     EXPECT_EQ(run.exit_code, 3) << at;
     return json::parse(run.out)["error"]["message"].get<std::string>();

@@ -13,6 +13,7 @@
 
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "session_of_states.h"
 
 namespace lightcal::test {
 namespace {
@@ -22,30 +23,13 @@ using ::testing::HasSubstr;
 
 std::string Panels() { return SampleData("sessions/dimmed_panels/session.toml"); }
 
-// A point lamp of 1000 cd at full, 10 % of which its "5 %" gives; read in a dark room.
-constexpr const char* kLamp = R"(lightcal = 1
-[room]
-dark = true
-[[light]]
-name = "key"
-kind = "point"
-[[meter]]
-name = "m"
-sigma_relative = 0.02
-)";
-
-std::string Row(double distance_m, double lux, const std::string& state) {
-  return "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = " + std::to_string(distance_m) +
-         "\nilluminance_lx = " + std::to_string(lux) + "\n" +
-         (state.empty() ? "" : "state = { " + state + " }\n");
-}
-
-// Read at 1, 2 and 4 m at full, at 1 m dimmed.
+// A point lamp of 1000 cd at full, 10 % of which its "5 %" gives, read in a dark room: at 1, 2 and
+// 4 m at full, at 1 m dimmed.
 std::string Lamp() {
-  return kLamp + Row(1.0, 1000.0, "dimmer = 100") + Row(2.0, 250.0, "dimmer = 100") +
-         Row(4.0, 62.5, "dimmer = 100") + Row(1.0, 545.0, "dimmer = 50") +
-         Row(1.0, 307.5, "dimmer = 25") + Row(1.0, 147.0, "dimmer = 10") +
-         Row(1.0, 100.0, "dimmer = 5");
+  return DarkSession() + StateRow(1.0, 1000.0, "dimmer = 100") +
+         StateRow(2.0, 250.0, "dimmer = 100") + StateRow(4.0, 62.5, "dimmer = 100") +
+         StateRow(1.0, 545.0, "dimmer = 50") + StateRow(1.0, 307.5, "dimmer = 25") +
+         StateRow(1.0, 147.0, "dimmer = 10") + StateRow(1.0, 100.0, "dimmer = 5");
 }
 
 TEST(StateCommand, EveryStateAnswersWithWhatWasRead) {
@@ -150,13 +134,13 @@ TEST(StateCommand, OneIntensityIsFittedAndEachStateIsAPartOfIt) {
 
 TEST(StateCommand, AmbientLightIsTakenFromEveryState) {
   const TempDir folder;
-  std::string text = kLamp;
+  std::string text = DarkSession();
   const auto add = [&](double lux, const std::string& state) {
-    text += Row(1.0, lux + 20.0, state);
+    text += StateRow(1.0, lux + 20.0, state);
   };
   add(1000.0, "dimmer = 100");
   add(100.0, "dimmer = 10");
-  text += Row(1.0, 20.0, "") + "lamp = \"off\"\n";
+  text += StateRow(1.0, 20.0, "") + "lamp = \"off\"\n";
   folder.Write("lamp/session.toml", text);
   const json ten = LightcalJson("state", {folder.path() + "/lamp", "--at", "dimmer=10"});
   EXPECT_NEAR(double(ten["relative_to_full"]["value"]), 0.1, 1e-6);
@@ -164,11 +148,11 @@ TEST(StateCommand, AmbientLightIsTakenFromEveryState) {
 
 TEST(StateCommand, AReadingThatDoesNotSayItsStateIsRefused) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", Lamp() + Row(3.0, 111.0, ""));
+  folder.Write("lamp/session.toml", Lamp() + StateRow(3.0, 111.0, ""));
   const CliResult run = RunLightcal({"run", folder.path() + "/lamp", "--json"});
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(json::parse(run.out)["error"]["code"], "state_missing");
-  folder.Write("other/session.toml", Lamp() + Row(3.0, 111.0, "dimmer = 50, tint = 1"));
+  folder.Write("other/session.toml", Lamp() + StateRow(3.0, 111.0, "dimmer = 50, tint = 1"));
   const CliResult other = RunLightcal({"fit", folder.path() + "/other", "--json"});
   EXPECT_EQ(json::parse(other.out)["error"]["code"], "state_controls");
 }
@@ -214,8 +198,8 @@ TEST(StateCommand, DiffNamesTheStateThatChanged) {
   const TempDir folder;
   folder.Write("a/session.toml", Lamp());
   std::string later = Lamp();
-  const std::string was = Row(1.0, 307.5, "dimmer = 25");
-  later.replace(later.find(was), was.size(), Row(1.0, 250.0, "dimmer = 25"));
+  const std::string was = StateRow(1.0, 307.5, "dimmer = 25");
+  later.replace(later.find(was), was.size(), StateRow(1.0, 250.0, "dimmer = 25"));
   folder.Write("b/session.toml", later);
   for (const char* one : {"a", "b"}) LightcalJson("fit", {folder.path() + "/" + one});
   const json diff = LightcalJson("diff", {folder.path() + "/a", folder.path() + "/b"});
@@ -230,7 +214,7 @@ TEST(StateCommand, DiffNamesTheStateThatChanged) {
 
 TEST(StateCommand, ReadAndImportSayStates) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", kLamp);
+  folder.Write("lamp/session.toml", DarkSession());
   const std::string session = folder.path() + "/lamp";
   const auto read = [&](const std::string& lux, const std::vector<std::string>& more) {
     std::vector<std::string> words = {"read",       "-s", session, "--light", "key",
@@ -255,7 +239,7 @@ TEST(StateCommand, ReadAndImportSayStates) {
 
 TEST(SweepCommand, GoesOnWhereItStopped) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", kLamp);
+  folder.Write("lamp/session.toml", DarkSession());
   const std::string session = folder.path() + "/lamp";
   const std::vector<std::string> words = {
       "sweep",   "-s",         session,  "--distance",       "1m",
@@ -274,7 +258,7 @@ TEST(SweepCommand, GoesOnWhereItStopped) {
 
 TEST(SweepCommand, ReadsOnlyUntilItIsSure) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", kLamp);
+  folder.Write("lamp/session.toml", DarkSession());
   std::string typed;
   // In the order it asks for: the ends, then where it is least sure; a linear driver answers.
   const std::vector<std::string> words = {"sweep",

@@ -9,37 +9,16 @@ import base64
 import json
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/tools"))
 import match_world as world  # noqa: E402
 import numpy as np  # noqa: E402
+from built_command import HOME, answer, refused, run  # noqa: E402
 
-LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
 SPECTRA = ROOT / "sample_data/spectra/uprtek_cv600"
 YUJI, NICHIA = SPECTRA / "Yuji 5000K.xls", SPECTRA / "Nichia 80 CRI.xls"
-HOME = pathlib.Path(tempfile.mkdtemp())
-
-
-def run(*words, code=0):
-    done = subprocess.run([LIGHTCAL, *map(str, words)], capture_output=True, text=True, cwd=HOME,
-                          check=False)
-    assert done.returncode == code, f"{words}: exit {done.returncode}, not {code}: {done.stderr}"
-    return done
-
-
-def answer(*words):
-    return json.loads(run(*words, "--json").stdout)
-
-
-def refused(code, *words, says):
-    error = json.loads(run(*words, "--json", code=3).stdout)["error"]
-    assert error["code"] == code, error
-    assert re.search(says, error["message"]), error
-    return error
 
 
 def gel_file(name, text):

@@ -8,34 +8,15 @@ zero), and over `lightcal state` for the real panels of sample_data.
 """
 import json
 import pathlib
-import subprocess
 import sys
-import tempfile
-
-import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
+sys.path.insert(0, str(ROOT / "tests/tools"))
+import numpy as np  # noqa: E402
+from built_command import HOME, answer, refused, run  # noqa: E402
+
 PANELS = ROOT / "sample_data/sessions/dimmed_panels"
-HOME = pathlib.Path(tempfile.mkdtemp())
 NEAR = 0.0005  # in u'v', what the search calls one colour
-
-
-def run(*words, code=0):
-    done = subprocess.run([LIGHTCAL, *map(str, words)], capture_output=True, text=True, cwd=HOME,
-                          check=False)
-    assert done.returncode == code, f"{words}: exit {done.returncode}, not {code}: {done.stderr}"
-    return done
-
-
-def answer(*words):
-    return json.loads(run(*words, "--json").stdout)
-
-
-def refused(code, *words):
-    error = json.loads(run(*words, "--json", code=3).stdout)["error"]
-    assert error["code"] == code, error
-    return error["message"]
 
 
 def uv(xyz):
@@ -154,7 +135,7 @@ def real_panels_against_every_setting():
 
 
 def what_cannot_be_is_said():
-    assert "nearest" in refused("unreachable", "match", PANELS, "--light", "m9", "--to", "3000K")
+    refused("unreachable", "match", PANELS, "--light", "m9", "--to", "3000K", says="nearest")
     refused("no_spectrum", "match", PANELS, "--light", "panel", "--to", "3500K", "--camera", "all")
     refused("outside_states", "match", PANELS, "--light", "panel", "--to", PANELS, "--to-light",
             "module", "--to-state", "dimmer=5")
@@ -163,9 +144,8 @@ def what_cannot_be_is_said():
     # Beside it 18,902 lx of the module: the panel gives at most 9,180.
     assert abs(weak["matches"][0]["dimmer_stops"] + np.log2(18902 / 9180)) < 0.05
     assert [w["code"] for w in weak["warnings"]] == ["lamp_too_weak"]
-    mix = refused("no_level", "match", PANELS, "--light", "panel", "--to", "4000K", "--with",
-                  "illuminant:A")
-    assert "unit" in mix
+    refused("no_level", "match", PANELS, "--light", "panel", "--to", "4000K", "--with",
+            "illuminant:A", says="unit")
     run("match", "3200K", "--to", "3200K", "--to-state", "dimmer=5", code=2)
 
 
