@@ -105,7 +105,8 @@ constexpr CommandRow kCommands[] = {
     {"state", "A lamp at a state of its controls, read or between: labels are not light",
      "  lightcal state sample_data/sessions/dimmed_panels\n"
      "  lightcal state sample_data/sessions/dimmed_panels --light panel --at dimmer=37,cct_K=4000\n"
-     "  lightcal state sample_data/sessions/dimmed_panels --light module --at dimmer=40 --json",
+     "  lightcal state sample_data/sessions/dimmed_panels --light module --at dimmer=40 --json\n"
+     "  lightcal state sample_data/sessions/mixing_panel --at dimmer=33,cct_K=3600 --spectrum a.csv",
      BuildState},
     {"tradeoff", "What accuracy costs in time on this session, and the setting to take",
      "  lightcal tradeoff sample_data/sessions/three_real_lights --tol 1% -o tradeoff\n"

@@ -12,24 +12,12 @@
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/files/import_file.h"
 #include "session_names.h"
+#include "spectrum_csv.h"
 
 namespace lightcal::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A spectrum as a file our own importer reads back.
-std::string SpectrumCsv(const ImportedSpectrum& one, const std::string& source, bool color_only) {
-  const bool absolute = one.spectrum.quantity == SpectralQuantity::kIrradiance && !color_only;
-  std::string text =
-      "# written by " + GeneratorName() + ": spectrum " + one.name + " of " + source + "\n";
-  text += absolute ? "wavelength_nm,irradiance_W_m2_nm\n" : "wavelength_nm,relative\n";
-  for (std::size_t i = 0; i < one.spectrum.values.size(); ++i) {
-    text += ShortestText(one.spectrum.wavelengths_nm[i]) + "," +
-            ShortestText(one.spectrum.values[i]) + "\n";
-  }
-  return text;
-}
 
 std::string FileNamePart(std::string_view name) {
   std::string part(name);
@@ -189,7 +177,8 @@ class Planner {
       const std::string name = source.stem().string() +
                                (imported.spectra.size() > 1 ? "-" + part : "") +
                                (strip ? "-color" : "") + ".csv";
-      return captures_.Add(name, SpectrumCsv(one, source.filename().string(), strip));
+      return captures_.Add(
+          name, SpectrumCsv(one.spectrum, one.name + " of " + source.filename().string(), !strip));
     }
     if (std::string inside = captures_.InSession(path); !inside.empty()) return inside;
     const auto bytes = ReadInputFile(path);

@@ -56,6 +56,11 @@ ReportExtras ExtrasOf(const LightFile& lights,
 ReportExtras ExtrasOf(const CalibratedSession& calibrated) {
   ReportExtras extras = ExtrasOf(calibrated.lights);
   for (const NamedSpectrum& one : calibrated.spectra) {
+    // A lamp with controls has one a state; its first is drawn.
+    const bool drawn = std::ranges::any_of(extras.spectra, [&](const LightSpectrum& drawn_one) {
+      return drawn_one.light == one.light;
+    });
+    if (drawn) continue;
     extras.spectra.push_back({one.light, one.file, one.spectrum, RenderingOf(one.spectrum)});
   }
   for (const RecordedPicture& picture : calibrated.pictures) {

@@ -17,12 +17,15 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/states/state_answer.h"
 #include "lightcal/records/light_codec.h"
+#include "output_files.h"
+#include "spectrum_csv.h"
 
 namespace lightcal::app {
 namespace {
 
 struct StateOptions {
-  std::string input, light, at;
+  std::string input, light, at, spectrum;
+  bool force = false;
 };
 
 constexpr std::array<std::string_view, 3> kBasisTexts = {
@@ -94,6 +97,24 @@ std::string StrengthText(const Uncertain& u, const std::string& unit) {
   return ValueText(u) + " " + unit + " (" + app::RangeText(u) + ") " + StopsText(u);
 }
 
+// "a mixture of 2 emitters, told by the spectra of 9 states within 0.3 %"
+std::string SpectrumText(const FittedLight& light, const StateAnswer& answer) {
+  if (!answer.spectrum) {
+    const bool any = std::ranges::any_of(
+        light.states, [](const MeasuredState& one) { return one.spectrum.has_value(); });
+    return any ? "not known: too few were read to show what it mixes" : "";
+  }
+  std::string text = answer.basis == StateBasis::kMeasured ? "as it was read" : "";
+  if (!light.emitters) return text;
+  const FixtureEmitters& emitters = *light.emitters;
+  if (!text.empty()) text += "; ";
+  text += emitters.found.size() == 1
+              ? "of one emitter"
+              : "a mixture of " + std::to_string(emitters.found.size()) + " emitters";
+  return text + ", told by the spectra of " + std::to_string(emitters.spectra) + " states within " +
+         PercentText(emitters.residual);
+}
+
 std::string Told(const FittedLight& light, const StateAnswer& answer) {
   std::string text = light.name + " at " + StateText(answer.state) + ": " +
                      std::string(kBasisTexts[static_cast<std::size_t>(answer.basis)]) + "\n";
@@ -115,6 +136,8 @@ std::string Told(const FittedLight& light, const StateAnswer& answer) {
     const double duv = std::abs(color.duv->value) < kNoDuv ? 0.0 : color.duv->value;
     text += LabelledLine("Duv", RoundedText(duv, 2) + " ± " + RoundedText(color.duv->u95, 2));
   }
+  const std::string spectrum = SpectrumText(light, answer);
+  if (!spectrum.empty()) text += LabelledLine("spectrum", spectrum);
   return text;
 }
 
@@ -126,6 +149,25 @@ Node ColorNode(const FittedColor& color) {
     node.Put("duv_u95", color.duv->u95);
   }
   if (color.xy) node.Put("xy", Node{color.xy->x, color.xy->y});
+  return node;
+}
+
+// What is known of its spectrum.
+Node SpectrumNode(const FittedLight& light, const StateAnswer& answer) {
+  Node node = Node::Table();
+  const StateSpectrum& spectrum = *answer.spectrum;
+  Node values = {{"quantity", "irradiance"}};
+  values.Put("wavelengths_nm", spectrum.spectrum.wavelengths_nm);
+  values.Put("values", spectrum.spectrum.values);
+  if (!spectrum.u95.empty()) values.Put("u95", spectrum.u95);
+  node.Put("spectrum", std::move(values));
+  if (!light.emitters) return node;
+  Node emitters = Node::Table();
+  emitters.Put("found", static_cast<int>(light.emitters->found.size()));
+  emitters.Put("spectra", light.emitters->spectra);
+  emitters.Put("residual", light.emitters->residual);
+  if (!spectrum.shares.empty()) emitters.Put("shares", spectrum.shares);
+  node.Put("emitters", std::move(emitters));
   return node;
 }
 
@@ -237,6 +279,9 @@ Result<void> RunState(const StateOptions& options, Console& console) {
   const bool any = std::ranges::any_of(file->lights, [&](const FittedLight& one) {
     return !one.states.empty() && (options.light.empty() || one.name == options.light);
   });
+  if (at.empty() && !options.spectrum.empty()) {
+    return WrongUsage("--spectrum", "is of one state: say which by --at");
+  }
   if (at.empty() && any) return TellTables(*file, options, console);
   const auto light = LightOf(*file, options);
   if (!light) return tl::unexpected(light.error());
@@ -246,8 +291,20 @@ Result<void> RunState(const StateOptions& options, Console& console) {
     console.Warn(*combined);
   if (const auto shared = SharedGeometryWarning(**light, at)) console.Warn(*shared);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  console.Print(Told(**light, *answer));
-  console.PrintDocument(AnswerNode(**light, *answer));
+  std::vector<OutputFile> files;
+  if (!options.spectrum.empty()) {
+    const auto spectrum = SpectrumAtState(**light, at);
+    if (!spectrum) return tl::unexpected(spectrum.error());
+    files.push_back(
+        {options.spectrum,
+         SpectrumCsv(spectrum->spectrum, "of " + (*light)->name + " at " + StateText(at))});
+    if (auto written = WriteOutputs(files, options.force); !written) return written;
+  }
+  console.Print(Told(**light, *answer) + WroteLine(files, "") + (files.empty() ? "" : "\n"));
+  Node node = AnswerNode(**light, *answer);
+  if (answer->spectrum) node.Put(SpectrumNode(**light, *answer));
+  if (!files.empty()) node.Put("files", Node::List(PathsOf(files)));
+  console.PrintDocument(std::move(node));
   return {};
 }
 
@@ -259,6 +316,10 @@ Run BuildState(CLI::App& parser) {
   parser.add_option("--light", options->light, "Which light [the one that has states]");
   parser.add_option("--at", options->at,
                     "What its controls say: dimmer=12,cct_K=4500 [a table of all that was read]");
+  parser.add_option(
+      "--spectrum", options->spectrum,
+      "Write its spectrum there, W m-2 nm-1: as it was read, or what its emitters mix");
+  parser.add_flag("--force", options->force, "Replace a file that lightcal did not write");
   return [options](Console& console) { return RunState(*options, console); };
 }
 

@@ -64,7 +64,17 @@ inline LightFile FullLightFile() {
                     0.02};
   dim.illuminance_lx = Uncertain{12.3, 0.4, 11.9, 12.7};
   dim.readings = 1;
+  full.spectrum =
+      Spectrum{{400.0, 500.5, 601.0}, {0.1, 1.0 / 3.0, -0.002}, SpectralQuantity::kIrradiance};
+  full.emitter_amounts = {0.25, 1.0 / 7.0};
+  dim.emitter_amounts = {0.125, 0.0};
   light.states = {full, dim};
+  light.spectrum = Spectrum{{400.0, 500.0}, {0.1, 0.9}, SpectralQuantity::kRelative};
+  light.emitters = FixtureEmitters{{400.0, 500.0, 600.0},
+                                   {{{0.0, 1.0 / 3.0, 1.0}, Xy{0.52, 0.41}, full.state, 0.97},
+                                    {{1.0, 0.25, 0.0}, std::nullopt, dim.state, 0.61}},
+                                   2,
+                                   0.0031};
   StateGeometry bare_front;
   bare_front.state = {{"dimmer", 100.0}, {"cct_K", 4000.0}, {"modifier", 0.0, "bare"}};
   bare_front.kind = LightKind::kRect;

@@ -15,6 +15,7 @@
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/states/emitters.h"
 #include "lightcal/records/session_reader.h"
 
 namespace lightcal {
@@ -92,7 +93,7 @@ Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, 
     reading.illuminance = Lux(xyz->Y);
   }
   evidence.AddFile(path);
-  evidence.AddSpectrum(reading.light, reading.spectrum_file, one->imported.spectrum);
+  evidence.AddSpectrum(reading.light, reading.spectrum_file, one->imported.spectrum, reading.state);
   return reading;
 }
 
@@ -193,6 +194,22 @@ Result<FoundLights> FindLights(const Session& session, const Sources& sources,
   return found;
 }
 
+// Each state keeps the spectrum that was read at it, and the lamp that of its own.
+void TakeSpectra(const std::vector<NamedSpectrum>& spectra, FittedLight& light) {
+  constexpr double kKept_nm = 5.0;
+  const auto thinned = [](const Spectrum& whole) { return ThinnedTo(whole, kKept_nm); };
+  for (const NamedSpectrum& one : spectra) {
+    if (one.light != light.name) continue;
+    if (SameState(one.state, light.state) && !light.spectrum) {
+      light.spectrum = thinned(one.spectrum);
+    }
+    for (MeasuredState& state : light.states) {
+      if (SameState(one.state, state.state)) state.spectrum = thinned(one.spectrum);
+    }
+  }
+  fit::FindEmitters(light);
+}
+
 // What measured a light beside its readings, where that counts for how sure it is.
 void AddPriors(const Session& session, const std::vector<BallPlacement>& placed,
                FittedLight& light) {
@@ -211,6 +228,7 @@ Result<FoundLights> FindLightsWithProvenance(MeasuredSession& measured, const So
   if (!found) return found;
   for (FittedLight& light : found->file.lights) {
     AddPriors(measured.session, measured.placed, light);
+    TakeSpectra(evidence.spectra, light);
   }
   measured.session.input_files = evidence.files;
   auto provenance = ProvenanceOf(measured.session, sources, settings.time);

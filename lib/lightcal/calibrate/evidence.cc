@@ -10,9 +10,11 @@ void Evidence::AddFile(const std::string& path) {
 }
 
 void Evidence::AddSpectrum(const std::string& light, const std::string& file,
-                           const Spectrum& spectrum) {
-  const bool known = std::ranges::find(spectra, light, &NamedSpectrum::light) != spectra.end();
-  if (!known) spectra.push_back({light, file, spectrum});
+                           const Spectrum& spectrum, const FixtureState& state) {
+  const bool known = std::ranges::any_of(spectra, [&](const NamedSpectrum& one) {
+    return one.light == light && SameState(one.state, state);
+  });
+  if (!known) spectra.push_back({light, file, spectrum, state});
 }
 
 void Evidence::AddWarnings(const Warnings& more) {

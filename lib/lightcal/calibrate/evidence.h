@@ -8,14 +8,16 @@
 #include "lightcal/calibrate/captures/recorded_picture.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/result.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal {
 
-// The first spectrum of a light, as its file has it.
+// The first spectrum of a light, or of one state of its controls, as its file has it.
 struct NamedSpectrum {
   std::string light;
   std::string file;  // as the session names it
   Spectrum spectrum;
+  FixtureState state{};
 };
 
 struct Evidence {
@@ -25,7 +27,8 @@ struct Evidence {
   Warnings warnings;
 
   void AddFile(const std::string& path);
-  void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum);
+  void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum,
+                   const FixtureState& state = {});
   void AddWarnings(const Warnings& more);
 };
 

@@ -20,8 +20,8 @@
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/plan/plan_forward.h"
-#include "lightcal/fit/states/geometry.h"
 #include "lightcal/fit/states/measure_states.h"
+#include "lightcal/fit/states/split_geometries.h"
 
 namespace lightcal {
 namespace {

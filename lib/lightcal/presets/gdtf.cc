@@ -119,12 +119,26 @@ double WorstOf(const GdtfProfile& profile, const std::vector<DimmerPoint>& point
   return worst;
 }
 
+// As irradiance at 1 m, of the candela beside it; nothing where no spectrum was read.
+GdtfMeasurement MeasurementOf(double percent, double candela,
+                              const std::optional<Spectrum>& spectrum) {
+  GdtfMeasurement out{percent, candela, {}, {}};
+  if (!spectrum) return out;
+  Spectrum absolute = *spectrum;
+  absolute.quantity = SpectralQuantity::kIrradiance;
+  const auto xyz = XyzFromSpectrum(absolute);
+  if (!xyz || !(xyz->Y > 0.0)) return out;
+  out.wavelengths_nm = absolute.wavelengths_nm;
+  for (const double value : absolute.values) out.energy.push_back(value * candela / xyz->Y);
+  return out;
+}
+
 // States that differ in the dimmer alone are one emitter's measurements.
 std::vector<GdtfEmitter> EmittersOf(const FittedLight& lamp) {
   std::vector<GdtfEmitter> emitters;
   if (lamp.states.empty()) {
     GdtfEmitter one{"Lamp", lamp.color.xy, 100.0, {}};
-    one.measurements.push_back({100.0, lamp.intensity_cd->value, {}, {}});
+    one.measurements.push_back(MeasurementOf(100.0, lamp.intensity_cd->value, lamp.spectrum));
     return {one};
   }
   double most = 0.0;
@@ -145,7 +159,8 @@ std::vector<GdtfEmitter> EmittersOf(const FittedLight& lamp) {
       emitters.push_back({without.empty() ? "Lamp" : StateText(without), {}, 0.0, {}});
     }
     GdtfEmitter& emitter = emitters[index];
-    emitter.measurements.push_back({percent, state.intensity_cd->value, {}, {}});
+    emitter.measurements.push_back(
+        MeasurementOf(percent, state.intensity_cd->value, state.spectrum));
     if (percent <= highest[index]) continue;
     highest[index] = percent;
     emitter.xy = state.color.xy;

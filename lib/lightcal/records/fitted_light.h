@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
@@ -149,7 +150,26 @@ struct MeasuredState {
   double repeatability = 0.0;  // 1 sigma, relative: of this state's readings alone
   std::optional<Uncertain> intensity_cd{}, illuminance_lx{};
   FittedColor color{};
-  int readings = 0;  // that told its light
+  int readings = 0;                    // that told its light
+  std::optional<Spectrum> spectrum{};  // of the first of them that has one, by 5 nm
+  // Of each of the light's emitters; empty where they, or this state's spectrum, are not known.
+  std::vector<double> emitter_amounts{};
+};
+
+// The emitters of a fixture as the spectra of its states tell them: S = sum over k of a_k e_k, no
+// a_k below 0. S is of the state's relative.value lx in W m-2 nm-1, each e_k has its peak at 1.
+// What no state shows (nearly) alone can be told no further than that the states lie between.
+struct FixtureEmitter {
+  std::vector<double> values;  // on wavelengths_nm
+  std::optional<Xy> xy;        // of them; absent of one beyond the visible
+  FixtureState purest;         // the state that shows most of it
+  double purest_share = 0.0;   // of that state's power, what is this emitter's
+};
+struct FixtureEmitters {
+  std::vector<double> wavelengths_nm;
+  std::vector<FixtureEmitter> found;
+  int spectra = 0;        // of states, that tell them
+  double residual = 0.0;  // rms of what no mixture gives of them, each over its own rms
 };
 
 // E = I/(d + d0)^2 (cos tilt) + E0. Keys that do not apply are absent. intensity is axial (peak of
@@ -188,6 +208,8 @@ struct FittedLight {
   std::vector<LampInRoom> in_room{};
   FixtureState state{};                 // the light is given at, "reference"; empty = no controls
   std::vector<MeasuredState> states{};  // the reference first
+  std::optional<Spectrum> spectrum{};   // of the lamp at its own state; by 5 nm
+  std::optional<FixtureEmitters> emitters{};
   std::vector<StateGeometry> geometries{};  // other than the light's own, where they are known
 };
 

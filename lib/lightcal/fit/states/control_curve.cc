@@ -166,19 +166,34 @@ struct ControlCurve::Hypotheses {
     return Kinks(a.labels[i], b.labels[i], std::exp(a.ln_level), std::exp(b.ln_level));
   }
 
+  // Of size 1, of all controls but levels.
+  [[nodiscard]] double OtherRest(const Seen& a, const Seen& b) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      if (kinds[i] != ControlKind::kLevel) sum += Matern(a.along[i] - b.along[i], kOtherLength);
+    }
+    return scale().other_rest * scale().other_rest * sum;
+  }
+  // Of size 1, of all controls together.
+  [[nodiscard]] double JointRest(const Seen& a, const Seen& b) const {
+    double product = scale().joint_rest * scale().joint_rest;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const double length = kinds[i] == ControlKind::kLevel ? 1.5 : 0.7;
+      product *= Matern(a.along[i] - b.along[i], length);
+    }
+    return product;
+  }
+
   [[nodiscard]] double Covariance(const One& one, const Seen& a, const Seen& b) const {
     const TargetScale& by = scale();
     const double level = by.level_rest * one.rests.level;
-    const double other = by.other_rest * one.rests.other;
     double sum = kConstantVariance;
-    double joint = one.rests.joint > 0.0 ? 1.0 : 0.0;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const double u = a.along[i];
       const double v = b.along[i];
       const bool is_level = kinds[i] == ControlKind::kLevel;
       if (!is_level) {
         sum += by.other_slope * by.other_slope * u * v;
-        if (other > 0.0) sum += other * other * Matern(u - v, kOtherLength);
       } else if (static_cast<int>(i) == one.form.control) {
         sum += one.form.power_sd * one.form.power_sd * a.ln_level * b.ln_level +
                one.form.step * one.form.step * a.by_zero * b.by_zero;
@@ -186,10 +201,11 @@ struct ControlCurve::Hypotheses {
         sum += by.level_slope * by.level_slope * u * v;
       }
       if (is_level && level > 0.0) sum += level * level * LevelRest(one.form, one.rests, a, b, i);
-      if (joint > 0.0) joint *= Matern(u - v, is_level ? 1.5 : 0.7);
     }
-    const double size = by.joint_rest * one.rests.joint;
-    return sum + size * size * joint;
+    const Rests& rests = one.rests;
+    if (rests.other > 0.0) sum += rests.other * rests.other * OtherRest(a, b);
+    if (rests.joint > 0.0) sum += rests.joint * rests.joint * JointRest(a, b);
+    return sum;
   }
 
   // of(a, b) over all pairs of points.
@@ -211,16 +227,15 @@ struct ControlCurve::Hypotheses {
     kernels.form = form;
     std::vector<Seen> seen;
     for (const CurvePoint& point : points) seen.push_back(See(point.at, form));
-    One one;
-    one.form = form;
-    const auto with = [&](const Rests& rests) {
-      one.rests = rests;
-      return Pairs(seen, [&](const Seen& a, const Seen& b) { return Covariance(one, a, b); });
-    };
-    kernels.base = with({});
+    One none;
+    none.form = form;
+    kernels.base =
+        Pairs(seen, [&](const Seen& a, const Seen& b) { return Covariance(none, a, b); });
     kernels.other = kernels.joint = Eigen::MatrixXd::Zero(kernels.base.rows(), kernels.base.cols());
-    if (HasOthers()) kernels.other = with({0.0, 1.0, false, 1.0, 0.0, 1.0}) - kernels.base;
-    if (kinds.size() > 1) kernels.joint = with({0.0, 1.0, false, 0.0, 1.0, 1.0}) - kernels.base;
+    const auto other = [&](const Seen& a, const Seen& b) { return OtherRest(a, b); };
+    const auto joint = [&](const Seen& a, const Seen& b) { return JointRest(a, b); };
+    if (HasOthers()) kernels.other = Pairs(seen, other);
+    if (kinds.size() > 1) kernels.joint = Pairs(seen, joint);
     kernels.seen = std::make_shared<const std::vector<Seen>>(std::move(seen));
     return kernels;
   }

@@ -48,6 +48,9 @@ Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& a
   if (out.distribution) out.distribution->table = out.distribution->table.Scaled(std::exp(ln));
   TakeShape(GeometryAt(light, at, answer->intensity_cd), out);
   out.color = answer->color;
+  out.spectrum.reset();
+  if (answer->spectrum) out.spectrum = answer->spectrum->spectrum;
+  out.emitters.reset();
   out.state = at;
   // Readings and their covariance are of the reference state.
   out.residuals.clear();

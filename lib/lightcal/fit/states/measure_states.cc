@@ -13,7 +13,7 @@
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/states/drift.h"
-#include "lightcal/fit/states/geometry.h"
+#include "lightcal/fit/states/split_geometries.h"
 #include "lightcal/light/fixture.h"
 
 namespace lightcal::fit {

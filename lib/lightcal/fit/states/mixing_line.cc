@@ -61,18 +61,29 @@ std::optional<double> DuvOnLine(const MixingLine& line, Kelvin cct) {
   const auto mired_at = [&](double t) {
     return 1e6 / CctFromXy(Along(line, t)).temperature.value();
   };
+  const double wanted = 1e6 / cct.value();
   double low = 0.0;
   double high = 1.0;
-  const double wanted = 1e6 / cct.value();
-  const bool rising = mired_at(1.0) > mired_at(0.0);
-  if ((wanted > mired_at(rising ? 1.0 : 0.0)) || (wanted < mired_at(rising ? 0.0 : 1.0))) {
-    return std::nullopt;
+  double off_low = mired_at(low) - wanted;
+  double off_high = mired_at(high) - wanted;
+  if (off_low * off_high > 0.0) return std::nullopt;
+  // False position, halving the end that stays (Illinois): a CCT costs sums over the whole table.
+  constexpr double kNear_mired = 1e-9;
+  double at = std::abs(off_low) < std::abs(off_high) ? low : high;
+  for (int step = 0; step < 50 && std::abs(off_high - off_low) > kNear_mired; ++step) {
+    at = low - off_low * (high - low) / (off_high - off_low);
+    const double off = mired_at(at) - wanted;
+    if (std::abs(off) < kNear_mired) break;
+    if (off * off_high < 0.0) {
+      low = high;
+      off_low = off_high;
+    } else {
+      off_low *= 0.5;
+    }
+    high = at;
+    off_high = off;
   }
-  for (int step = 0; step < 50; ++step) {
-    const double middle = 0.5 * (low + high);
-    ((mired_at(middle) < wanted) == rising ? low : high) = middle;
-  }
-  return CctFromXy(Along(line, 0.5 * (low + high))).duv;
+  return CctFromXy(Along(line, at)).duv;
 }
 
 }  // namespace lightcal::fit

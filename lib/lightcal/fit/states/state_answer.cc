@@ -12,6 +12,7 @@
 #include "lightcal/fit/states/control_curve.h"
 #include "lightcal/fit/states/ln_of.h"
 #include "lightcal/fit/states/mixing_line.h"
+#include "lightcal/fit/states/state_spectrum.h"
 
 namespace lightcal {
 namespace {
@@ -133,6 +134,20 @@ class States {
     kept_.resize(kNearestStates + kNearestToFull);
   }
 
+  // From the state asked for, in parts of each control's range; colour temperatures by their
+  // mireds.
+  [[nodiscard]] std::vector<double> OffsetOf(const MeasuredState& one) const {
+    const std::vector<double> here = LabelsOf(at_);
+    std::vector<double> offset = LabelsOf(one.state);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const Axis& axis = axes_[i];
+      const bool kelvin = axis.kind == ControlKind::kTemperature && axis.least > 0.0;
+      offset[i] = kelvin ? (1.0 / offset[i] - 1.0 / here[i]) / (1.0 / axis.least - 1.0 / axis.most)
+                         : OffsetAlong(axis, here[i], offset[i]);
+    }
+    return offset;
+  }
+
   // The brightest this lamp is with the other controls as asked.
   [[nodiscard]] FixtureState Full() const {
     FixtureState full = at_;
@@ -156,15 +171,18 @@ class States {
     });
   }
 
+  [[nodiscard]] static double OffsetAlong(const Axis& axis, double here, double there) {
+    return axis.kind == ControlKind::kLevel ? std::log((there + 0.03) / (here + 0.03)) / 3.0
+                                            : (there - here) / (axis.most - axis.least);
+  }
+
   void SortByDistance(const FixtureState& from, std::vector<const MeasuredState*>::iterator begin) {
     const std::vector<double> here = LabelsOf(from);
     const auto far = [&](const MeasuredState* one) {
       const std::vector<double> there = LabelsOf(one->state);
       double sum = 0.0;
       for (std::size_t i = 0; i < here.size(); ++i) {
-        const bool level = axes_[i].kind == ControlKind::kLevel;
-        const double off = level ? std::log((there[i] + 0.03) / (here[i] + 0.03)) / 3.0
-                                 : (there[i] - here[i]) / (axes_[i].most - axes_[i].least);
+        const double off = OffsetAlong(axes_[i], here[i], there[i]);
         sum += off * off;
       }
       return sum;
@@ -263,6 +281,17 @@ FittedColor ColorBetween(const States& states, const FixtureState& at) {
   return out;
 }
 
+// The states whose mixtures are known, as they lie from the one asked for.
+std::vector<fit::MixtureNear> MixturesAround(const States& states) {
+  std::vector<fit::MixtureNear> around;
+  for (const MeasuredState* one : states.kept()) {
+    if (one->emitter_amounts.empty()) continue;
+    around.push_back({states.OffsetOf(*one), one->emitter_amounts});
+    for (double& amount : around.back().amounts) amount /= one->relative.value;
+  }
+  return around;
+}
+
 Result<void> CheckControlsOf(const FittedLight& light, const FixtureState& at) {
   if (light.states.empty()) {
     return Refused(
@@ -305,6 +334,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     answer.intensity_cd = read->intensity_cd;
     answer.illuminance_lx = read->illuminance_lx;
     answer.color = read->color;
+    fit::AddSpectrumRead(light, *read, answer);
     const double sd = read == full ? 0.0 : std::hypot(read->repeatability, full->repeatability);
     answer.relative_to_full =
         read == full ? Uncertain{1.0, 0.0, {}, {}}
@@ -333,6 +363,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     answer.intensity_cd = read->intensity_cd;
     answer.illuminance_lx = read->illuminance_lx;
     answer.color = read->color;
+    fit::AddSpectrumRead(light, *read, answer);
     return answer;
   }
   const CurveValue light_there = curve.At(labels);
@@ -341,6 +372,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, light_there.sd);
   answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, light_there.sd);
   answer.color = ColorBetween(states, at);
+  fit::AddSpectrumBetween(light, MixturesAround(states), answer);
   return answer;
 }
 

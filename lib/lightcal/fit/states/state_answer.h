@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/fitted_light.h"
@@ -18,6 +19,14 @@ enum class StateBasis : std::uint8_t {
   kCombined,  // within the range of every control, but no two such: put together from others
 };
 
+// The spectrum of a lamp at a state.
+struct StateSpectrum {
+  // W m-2 nm-1 at 1 m; of a directional lamp, and of one without an intensity, where it was read.
+  Spectrum spectrum;
+  std::vector<double> u95;     // of each value at this illuminance; empty where nothing tells it
+  std::vector<double> shares;  // of its light, one of each of the lamp's emitters; or empty
+};
+
 struct StateAnswer {
   FixtureState state;
   StateBasis basis = StateBasis::kMeasured;
@@ -28,6 +37,8 @@ struct StateAnswer {
   FixtureState full;
   Uncertain relative_to_full;
   FittedColor color;
+  // As it was read, or what its emitters mix; absent where nothing tells it.
+  std::optional<StateSpectrum> spectrum{};
   std::optional<double> promised_of_full;  // by the label: dimmer/100
   std::optional<double> promised_cct_K;
 };
@@ -35,12 +46,20 @@ struct StateAnswer {
 // Light and colour of `light` at a state. One that was read answers with what was read. Between
 // them: light by fit/states/control_curve.h; colour by the same law of ln mired and Duv, and where
 // the lamp mixes two emitters (its states' chromaticities lie on a line) the Duv of that line at
-// the CCT, so that no colour is answered that its emitters cannot make. Intervals hold what the
-// reference's intensity has.
+// the CCT, so that no colour is answered that its emitters cannot make. Where spectra told the
+// emitters (fit/states/emitters.h) what they mix to that colour is its spectrum, and of two a colour
+// beside their line gives way to the nearest on it. Intervals hold what the reference's intensity
+// has.
 // Refused: no_states (the lamp has no controls), state_controls (other controls than were read),
 // outside_states (beyond what was read in a control: nothing tells how the fixture goes on),
 // state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
+
+// The spectrum alone. Refused: as AnswerState; no_spectra (none was read), spectra_too_few (there
+// are no fewer emitters than spectra, so that nothing shows them mixing), state_spectrum (none of
+// the states with these words has a spectrum).
+[[nodiscard]] Result<StateSpectrum> SpectrumAtState(const FittedLight& light,
+                                                    const FixtureState& at);
 
 // Whose offset, size and beam a state has.
 enum class GeometryBasis : std::uint8_t {

@@ -327,7 +327,17 @@ def nearest(kept, axes, at):
     return (kept[:NEAREST_TO_FULL] + rest)[:NEAREST + NEAREST_TO_FULL]
 
 
-def color_between(kept, axes, at):
+def mixable(xy, emitters):
+    """What two emitters can make: the line through them; a colour .002 beside it strays as readings do."""
+    ends = [np.array(one['xy']) for one in emitters.get('found', []) if 'xy' in one]
+    if len(ends) != 2 or len(emitters['found']) != 2 or (ends[0] == ends[1]).all():
+        return list(xy)
+    along = ends[1] - ends[0]
+    there = ends[0] + (np.array(xy) - ends[0]) @ along / (along @ along) * along
+    return list(there if math.hypot(*(there - xy)) > 0.002 else xy)
+
+
+def color_between(kept, axes, at, emitters):
     with_color = [one for one in kept if {'cct_K', 'duv', 'xy'} <= one.get('color', {}).keys()]
     if len(with_color) < 2:
         return {}
@@ -355,9 +365,14 @@ def color_between(kept, axes, at):
         duv = line[0] + past_locus, max(line[1], REPEATS['duv'])
     past_krystek = [a - b for a, b in zip(near['xy'], xy_at(1e6 / near['cct_K']['value'],
                                                             near['duv']))]
-    return {'cct_K': from_ln(math.log(1e6) - ln_mired, math.hypot(sd, shared[0])), 'duv': duv[0],
-            'duv_u95': Z95 * math.hypot(duv[1], shared[1]), 'xy': [a + b for a, b in zip(
-                xy_at(mired, duv[0]), past_krystek)]}
+    there = [a + b for a, b in zip(xy_at(mired, duv[0]), past_krystek)]
+    made, duv_there = mixable(there, emitters), duv[0]
+    if made != there:
+        found, expected = nearest_locus(made), nearest_locus(there)
+        ln_mired += math.log(found[0] / expected[0])
+        duv_there += found[1] - expected[1]
+    return {'cct_K': from_ln(math.log(1e6) - ln_mired, math.hypot(sd, shared[0])),
+            'duv': duv_there, 'duv_u95': Z95 * math.hypot(duv[1], shared[1]), 'xy': made}
 
 
 def light_at(light, at):
@@ -400,7 +415,8 @@ def light_at(light, at):
             if key in light:
                 changed[key] = from_ln(math.log(light[key]['value']) + ln,
                                        math.hypot(sd_of_ln(light[key]), sd))
-        changed['color'] = color_between(kept, axes, at) or light.get('color', {})
+        changed['color'] = (color_between(kept, axes, at, light.get('emitters', {})) or
+                            light.get('color', {}))
     if 'distribution' in light:
         scale = math.exp(ln)
         table = light['distribution']

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/fit/states/geometry.h"
+#include "lightcal/fit/states/split_geometries.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "lightcal/fit/states/geometry.h"
 #include "lightcal/fit/states/ln_of.h"
+#include "lightcal/fit/states/split_geometries.h"
 #include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal {
