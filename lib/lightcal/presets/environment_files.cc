@@ -170,17 +170,14 @@ EncodedPicture ExrFile(const EnvironmentPicture& picture, const ColorTarget& col
   EncodedPicture out;
   PictureColor convert(color);
   const auto width = static_cast<std::size_t>(picture.width);
-  std::vector<Column3> pixels;
-  pixels.reserve(picture.rgb.size() / 3);
-  double most = 0.0;
-  for (std::size_t i = 0; i < picture.rgb.size() / 3; ++i) {
-    const float* at = picture.rgb.data() + 3 * i;
-    const double omega =
-        PixelSolidAngle(static_cast<int>(i / width), picture.width, picture.height);
-    pixels.push_back(convert.Of({at[0], at[1], at[2]}, omega));
-    most = std::max({most, pixels.back()[0], pixels.back()[1], pixels.back()[2]});
+  const auto height = static_cast<std::size_t>(picture.height);
+  PictureColor look(color);
+  bool half = true;
+  for (std::size_t i = 0; i < picture.rgb.size() && half; i += 3) {
+    const float* at = picture.rgb.data() + i;
+    const Column3 rgb = look.Of({at[0], at[1], at[2]}, 0.0);
+    half = std::max({rgb[0], rgb[1], rgb[2]}) <= kLargestHalf;
   }
-  const bool half = most <= kLargestHalf;
   const auto number = [&](auto value) {
     out.bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
   };
@@ -216,16 +213,25 @@ EncodedPicture ExrFile(const EnvironmentPicture& picture, const ColorTarget& col
   number(1.0F);
   out.bytes.push_back('\0');
   const std::size_t row = width * 3 * (half ? 2 : 4);
-  const auto height = static_cast<std::size_t>(picture.height);
   const std::size_t first = out.bytes.size() + 8 * height;
+  out.bytes.reserve(first + height * (8 + row));
+  std::vector<Column3> line(width);
   for (std::size_t y = 0; y < height; ++y) number(std::uint64_t{first + y * (8 + row)});
   for (std::size_t y = 0; y < height; ++y) {
     number(static_cast<std::int32_t>(y));
     number(static_cast<std::int32_t>(row));
+    const double omega = PixelSolidAngle(static_cast<int>(y), picture.width, picture.height);
+    for (std::size_t x = 0; x < width; ++x) {
+      const float* at = picture.rgb.data() + 3 * (y * width + x);
+      line[x] = convert.Of({at[0], at[1], at[2]}, omega);
+    }
     for (const std::size_t c : {2U, 1U, 0U}) {
-      for (std::size_t x = 0; x < width; ++x) {
-        const double value = pixels[y * width + x][c];
-        half ? AppendHalf(value, out.bytes) : AppendFloat(out.bytes, value);
+      for (const Column3& rgb : line) {
+        if (half) {
+          AppendHalf(rgb[c], out.bytes);
+        } else {
+          AppendFloat(out.bytes, rgb[c]);
+        }
       }
     }
   }

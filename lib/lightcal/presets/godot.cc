@@ -74,7 +74,9 @@ DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, do
     warnings.push_back({"ambient_at_one_exposure", light.name(),
                         "Godot exposes the light of a sky twice: right at this file's ev100; "
                         "with any other exposure scale background_intensity by its inverse and the "
-                        "sky material's energy_multiplier by it"});
+                        "sky material's energy_multiplier by it. Its blur of the sky lights some "
+                        "directions a tenth too much (rendered in 4.6.3) and drops a sun that was "
+                        "left in the picture: take it out as a light"});
     return out;
   }
   if (light.form == LightForm::kDome) {
