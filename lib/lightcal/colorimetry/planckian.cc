@@ -82,21 +82,29 @@ TristimulusSums SumsAt(double mireds) {
   const auto& terms = PlanckTerms();
   const auto& table = Cie1931Cmf();
   const ScaledRatio ratio(terms.back().x_per_mired * mireds);
-  TristimulusSums sums;
+  // Sums of their own: in registers, not in the arrays.
+  double x0 = 0.0, y0 = 0.0, z0 = 0.0;
+  double x1 = 0.0, y1 = 0.0, z1 = 0.0;
+  double x2 = 0.0, y2 = 0.0, z2 = 0.0;
   for (int i = 0; i < kCmfCount; ++i) {
     const double s = terms[i].x_per_mired;
-    const double x = s * mireds;
     const double weight = terms[i].weight;
-    const Ratio r = ratio.At(x);
+    const Ratio r = ratio.At(s * mireds);
     const CmfRow& row = table[static_cast<std::size_t>(i)];
-    const std::array<double, 3> cmf = {row.x_bar, row.y_bar, row.z_bar};
-    for (int k = 0; k < 3; ++k) {
-      sums.value[k] += weight * r.g * cmf[k];
-      sums.first[k] += weight * r.g1 * s * cmf[k];
-      sums.second[k] += weight * r.g2 * s * s * cmf[k];
-    }
+    const double value = weight * r.g;
+    const double first = weight * r.g1 * s;
+    const double second = weight * r.g2 * s * s;
+    x0 += value * row.x_bar;
+    y0 += value * row.y_bar;
+    z0 += value * row.z_bar;
+    x1 += first * row.x_bar;
+    y1 += first * row.y_bar;
+    z1 += first * row.z_bar;
+    x2 += second * row.x_bar;
+    y2 += second * row.y_bar;
+    z2 += second * row.z_bar;
   }
-  return sums;
+  return {{x0, y0, z0}, {x1, y1, z1}, {x2, y2, z2}};
 }
 
 // u = 4X/(X+15Y+3Z), v = 6Y/(X+15Y+3Z).
