@@ -132,13 +132,24 @@ TEST_F(Aligned, ALampOnBlackStaysWhereItIs) {
   EXPECT_EQ(answer["width"], 300);
 }
 
-// Nothing of one scene is in the other.
+// Nothing of it is in the wall.
+test::SyntheticXyz Other(int x, int y) {
+  return test::XyzOf(3000.0 + 2500.0 * std::sin(0.31 * x + 0.002 * y * y) *
+                                  std::cos(0.23 * y - 0.001 * x * x));
+}
+
 TEST_F(Aligned, AnotherSceneIsRefused) {
-  const SyntheticScene other = [](int x, int y) {
-    return test::XyzOf(3000.0 + 2500.0 * std::sin(0.31 * x + 0.002 * y * y) *
-                                    std::cos(0.23 * y - 0.001 * x * x));
-  };
-  ExpectRefused(Shot({Moved(0, 0), other, other}), output_, "misaligned", {"--align", "auto"});
+  ExpectRefused(Shot({Moved(0, 0), Other, Other}), output_, "misaligned", {"--align", "auto"});
+}
+
+// Only the dark is noisier without a longer frame; a shorter one alone shows what is bright.
+TEST_F(Aligned, ALongerFrameThatCannotBeFollowedIsLeftOut) {
+  const json answer =
+      MergeJson(Shot({Moved(4.3, -2.6, 1.2), Moved(0, 0), Other}), output_, {"--align", "auto"});
+  EXPECT_TRUE(Warns(answer, "frame_left_out")) << answer.dump();
+  ExpectTurned(answer["frames"][0], 1.2, 4.3, -2.6);
+  ExpectRefused(Shot({Other, Moved(0, 0), Moved(4.3, -2.6, 1.2)}), folder_.path() + "/other.exr",
+                "misaligned", {"--align", "auto"});
 }
 
 // Every channel at every pixel: moved by odd pixels too.

@@ -145,8 +145,8 @@ Warnings LeaveOut(BracketMotion& motion, PreparedFrames& prepared) {
   for (std::size_t k = motion.frames.size(); k-- > 0;) {
     if (!motion.frames[k].left_out) continue;
     warnings.push_back({"frame_left_out", prepared.signals[k].name,
-                        "next to nothing of it is neither clipped nor dark, so that nobody knows "
-                        "how the camera moved; the picture is made without it"});
+                        "how the camera moved is not known for certain: " + motion.frames[k].why +
+                            "; the picture is made without it"});
     const auto at = static_cast<std::ptrdiff_t>(k);
     motion.frames.erase(motion.frames.begin() + at);
     prepared.signals.erase(prepared.signals.begin() + at);
@@ -231,8 +231,9 @@ Result<void> AlignPrepared(MergeRequest merge, std::span<const double> labels,
   }
   const double width = prepared.signals.front().width, height = prepared.signals.front().height;
   auto motion = MotionOf(prepared, plan.noise);
-  if (!whole && !motion) return tl::unexpected(motion.error());
-  if (motion && IsStill(*motion, width, height)) {
+  // A whole shift that explains most of what differs may hide a turn: it does not stand alone.
+  if (!motion) return tl::unexpected(motion.error());
+  if (IsStill(*motion, width, height)) {
     FrameAlignment nowhere;
     nowhere.moved.resize(prepared.signals.size());
     nowhere.width = prepared.signals.front().width;
@@ -241,7 +242,7 @@ Result<void> AlignPrepared(MergeRequest merge, std::span<const double> labels,
     prepared.alignment = std::move(nowhere);
     return {};
   }
-  const bool by_whole = whole && (!motion || IsWhole(*whole, *motion, width, height));
+  const bool by_whole = whole && IsWhole(*whole, *motion, width, height);
   if (by_whole) {
     prepared.alignment = std::move(*whole);
     if (!prepared.alignment->any()) return {};

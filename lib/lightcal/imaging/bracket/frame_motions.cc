@@ -14,12 +14,11 @@ namespace lightcal {
 namespace {
 
 constexpr int kLongest = 1200;        // cells of the finest level
-constexpr double kMostSd = 0.15;      // pixels: .3 at two standard deviations
-constexpr double kMostOpen = 0.4;     // pixels by which there and back, .3 each, may miss
-constexpr double kOpenSds = 4.0;      // and at least so many standard deviations
+constexpr double kMostSd = 0.1;       // pixels: .3 at three standard deviations
 constexpr double kDarkestFrom = 1.1;  // times as much as all channels show
-constexpr double kLeastSeen = 0.05;
-constexpr double kMostApart = 0.6;   // and by which two ways to a frame may
+constexpr double kLeastSeen = 0.2;
+constexpr double kMostApart = 0.6;   // pixels by which two ways to a frame may be
+constexpr double kApartSds = 4.0;    // and at least so many standard deviations
 constexpr double kMostUnlike = 0.6;  // of the evidence
 
 class Finder {
@@ -27,36 +26,33 @@ class Finder {
   Finder(std::span<const SignalFrame> frames, std::span<const NoiseProfile> noise, double floor)
       : frames_(frames), width_(frames[0].width), height_(frames[0].height) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
-      for (const MotionChannels channels : {MotionChannels::kAll, MotionChannels::kDarkest}) {
-        auto& pyramids = channels == MotionChannels::kAll ? all_ : darkest_;
-        pyramids.push_back(MotionPyramidOf(frames[i], noise[i], floor, kLongest, channels));
-      }
+      MotionPyramids pyramids = MotionPyramidsOf(frames[i], noise[i], floor, kLongest);
+      all_.push_back(std::move(pyramids.all));
+      darkest_.push_back(std::move(pyramids.darkest));
     }
   }
 
   // `nearer`, whose motion is known, lies between the reference and `k`.
   Result<FrameMotion> Find(std::size_t reference, std::size_t nearer, std::size_t k,
                            const FrameMotion& known) const {
-    const auto step = FromAnywhere(nearer, k);
+    const auto step = BothWays(nearer, k, FromAnywhere(nearer, k));
     if (!step) {
-      return Unsure(k, "nothing in it can be followed to " + frames_[nearer].name);
+      return Unsure("nothing in it can be followed to " + frames_[nearer].name);
     }
     const FrameMotion chained{step->to_other.After(known.from_reference),
                               std::hypot(step->sd_pixels, known.sd_pixels), step->unlike};
     if (nearer != reference) {
-      const auto direct = Refine(reference, k, chained.from_reference);
+      const auto direct = BothWays(reference, k, Refine(reference, k, chained.from_reference));
       if (direct && direct->sd_pixels < chained.sd_pixels) {
         const FrameMotion motion{direct->to_other, direct->sd_pixels, direct->unlike};
         const double apart =
             RmsBetween(motion.from_reference, chained.from_reference, width_, height_);
-        const double sds = kOpenSds * std::hypot(motion.sd_pixels, chained.sd_pixels);
-        if (apart < std::max(kMostApart, sds) && WhyUnsure(reference, k, *direct, motion).empty()) {
-          return motion;
-        }
+        const double sds = kApartSds * std::hypot(motion.sd_pixels, chained.sd_pixels);
+        if (apart < std::max(kMostApart, sds) && WhyUnsure(motion).empty()) return motion;
       }
     }
-    if (const std::string why = WhyUnsure(nearer, k, *step, chained); !why.empty()) {
-      return Unsure(k, why);
+    if (const std::string why = WhyUnsure(chained); !why.empty()) {
+      return Unsure(why);
     }
     return chained;
   }
@@ -78,48 +74,62 @@ class Finder {
     const auto& pyramids = For(a, b);
     return RefineMotion(pyramids[a], pyramids[b], width_, height_, start);
   }
-  [[nodiscard]] static double Open(double sd) { return std::max(kMostOpen, kOpenSds * sd); }
-
   [[nodiscard]] std::optional<PairMotion> FromAnywhere(std::size_t a, std::size_t b) const {
+    const auto good = [](const PairMotion& motion) {
+      return motion.sd_pixels < kMostSd && motion.unlike < kMostUnlike;
+    };
     std::optional<PairMotion> best;
-    const auto rough = SearchMotion(For(a, b)[a], For(a, b)[b], width_, height_);
-    if (rough) best = Refine(a, b, rough->to_other);
-    if (best && best->sd_pixels < kMostSd && best->unlike < kMostUnlike) return best;
-    const auto still = Refine(a, b, Homography{});
-    if (still && (!best || still->unlike < best->unlike)) best = still;
+    const auto from = [&](const Homography& start) {
+      const auto found = Refine(a, b, start);
+      if (!found) return;
+      const bool better = !best || (good(*found) && !good(*best)) ||
+                          (good(*found) == good(*best) && found->unlike < best->unlike);
+      if (better) best = found;
+    };
+    for (const RoughMotion& rough : SearchMotion(For(a, b)[a], For(a, b)[b], width_, height_)) {
+      from(rough.to_other);
+      if (best && good(*best)) return best;
+    }
+    from(Homography{});
     return best;
   }
 
-  // Empty where a motion, found as `pair` against `against`, can be relied on.
-  [[nodiscard]] std::string WhyUnsure(std::size_t against, std::size_t k, const PairMotion& pair,
-                                      const FrameMotion& motion) const {
+  // Empty where a motion can be relied on.
+  [[nodiscard]] static std::string WhyUnsure(const FrameMotion& motion) {
     if (motion.sd_pixels > kMostSd) {
-      return "its place is known to " + RoundedText(2.0 * motion.sd_pixels, 2) +
+      return "its place is known to " + RoundedText(3.0 * motion.sd_pixels, 2) +
              " pixels only, and 0.3 are needed";
     }
     if (motion.unlike > kMostUnlike) {
       return PercentText(motion.unlike) + " of it does not fit where the rest does";
     }
-    const double open = OpenBy(against, k, pair);
-    if (open <= Open(pair.sd_pixels)) return {};
-    return "there and back from " + frames_[against].name + " misses by " + RoundedText(open, 2) +
-           " pixels";
+    return {};
   }
 
-  // How far there and back misses.
-  [[nodiscard]] double OpenBy(std::size_t a, std::size_t b, const PairMotion& pair) const {
-    const auto inverse = pair.to_other.Inverse();
-    if (!inverse) return HUGE_VAL;
+  // The middle of the way there and the way back. What either misses the middle by is what noise
+  // and compression that both pictures share hide from the tiles' scatter.
+  [[nodiscard]] std::optional<PairMotion> BothWays(std::size_t a, std::size_t b,
+                                                   const std::optional<PairMotion>& there) const {
+    if (!there) return std::nullopt;
+    const auto inverse = there->to_other.Inverse();
+    if (!inverse) return std::nullopt;
     const auto back = Refine(b, a, *inverse);
-    if (!back) return HUGE_VAL;
-    return RmsBetween(back->to_other.After(pair.to_other), Homography{}, width_, height_);
+    if (!back) return std::nullopt;
+    const auto returned = back->to_other.Inverse();
+    if (!returned) return std::nullopt;
+    const double open = RmsBetween(*returned, there->to_other, width_, height_);
+    PairMotion middle;
+    for (std::size_t i = 0; i < middle.to_other.m.size(); ++i) {
+      middle.to_other.m[i] =
+          0.5 * (there->to_other.m[i] / there->to_other.m[8] + returned->m[i] / returned->m[8]);
+    }
+    middle.sd_pixels = std::hypot(std::max(there->sd_pixels, back->sd_pixels), 0.5 * open);
+    middle.unlike = std::max(there->unlike, back->unlike);
+    return middle;
   }
 
-  [[nodiscard]] tl::unexpected<Error> Unsure(std::size_t k, const std::string& why) const {
-    return Refused("misaligned", frames_[k].name,
-                   "it cannot be aligned for certain: " + why +
-                       ". Leave this frame out, or shoot again with frames nearer in exposure, or "
-                       "on a tripod");
+  [[nodiscard]] static tl::unexpected<Error> Unsure(const std::string& why) {
+    return Refused("misaligned", {}, why);
   }
 
   std::span<const SignalFrame> frames_;
@@ -141,7 +151,16 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
       motion.frames[k] = *found;
       return k;
     }
-    if (finder.Seen(k) >= kLeastSeen) return tl::unexpected(found.error());
+    // Without a longer frame the dark is noisier and all else is as it was; a shorter one alone
+    // shows what is bright.
+    const std::string& why = found.error().message;
+    if (k < motion.reference && finder.Seen(k) >= kLeastSeen) {
+      return Refused("misaligned", frames[k].name,
+                     "it cannot be aligned for certain: " + why +
+                         ". Leave this frame out, or shoot again with frames nearer in exposure, "
+                         "or on a tripod");
+    }
+    motion.frames[k].why = why;
     motion.frames[k].left_out = true;
     return nearer;
   };

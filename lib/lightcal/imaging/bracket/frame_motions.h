@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -17,7 +18,8 @@ struct FrameMotion {
   Homography from_reference;  // a place of the reference -> of this frame, pixels
   double sd_pixels = 0.0;     // root mean square over the picture, one standard deviation
   double unlike = 0.0;        // share of the evidence that it does not explain: people, depth
-  bool left_out = false;      // next to nothing of it is neither clipped nor dark
+  bool left_out = false;      // how the camera moved is not known
+  std::string why{};          // it is left out
 };
 
 struct BracketMotion {
@@ -28,10 +30,11 @@ struct BracketMotion {
 // Of frames in order of exposure, each of its own noise; `floor`: signal below which codes say
 // nothing. Every frame is found against its neighbour in exposure, which shares most of its range
 // (SearchMotion, RefineMotion), chained to the reference and refined against that directly where
-// this is surer; and back, which must close. A frame that cannot be followed is left out where less
-// than a twentieth of it says anything.
-// Refused: misaligned (a frame whose place is not known to .3 pixels root mean square at two
-// standard deviations: which, how far off, what to do).
+// this is surer; and back: the middle of both is taken, and half of what they miss each other by is
+// in its standard deviation. A frame that cannot be followed is left out where it is longer than
+// the reference, or less than a fifth of it says anything. Refused: misaligned (a frame whose place
+// is not known to .3 pixels root mean square at three standard deviations: which, how far off, what
+// to do).
 [[nodiscard]] Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
                                                   std::span<const NoiseProfile> noise,
                                                   double floor);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "lightcal/core/parallel.h"
@@ -13,7 +14,12 @@
 namespace lightcal {
 namespace {
 
-constexpr int kCoarsest = 48;        // cells on the longer side
+constexpr int kCoarsest = 48;  // cells on the longer side
+constexpr std::size_t kNoiseLevels = 40;
+constexpr double kNoiseLevelLn = 0.35, kLeastNoiseLevel = 1e-6;  // signal
+constexpr std::size_t kLeastOfALevel = 60;
+constexpr double kLowerQuartile = 0.3186;  // of |normal|
+constexpr double kDeepest = 0.1;           // of the mean around, of a cell that counts
 constexpr double kLeastClear = 4.0;  // signal over noise of a cell whose logarithm says something
 
 // Signals and variances of cells; a negative variance: clipped.
@@ -21,6 +27,11 @@ struct MotionCells {
   int width = 0, height = 0;
   double cell = 1.0;
   std::vector<float> mean, variance;
+
+  [[nodiscard]] std::size_t At(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  }
 };
 
 // Of one cell, for each channel.
@@ -29,9 +40,19 @@ struct ChannelSums {
   std::array<bool, 4> clipped{};
 };
 
-// A cell's mean and its variance, negative where it is clipped.
-std::pair<double, double> CellOf(const ChannelSums& cell, MotionChannels channels,
-                                 const NoiseProfile& noise) {
+struct MotionCell {
+  double mean = 0.0, variance = 0.0;  // negative: clipped
+};
+struct CellPair {
+  MotionCell all, darkest;
+};
+
+CellPair CellsOf(const ChannelSums& cell, const NoiseProfile& noise) {
+  const auto of = [&](double sum, double count, bool clipped) {
+    const double mean = sum / count;
+    return MotionCell{mean,
+                      clipped ? -1.0 : (noise.scale * std::max(mean, 0.0) + noise.offset) / count};
+  };
   double sum = 0.0, count = 0.0;
   bool clipped = false;
   std::size_t least = 0;
@@ -45,18 +66,14 @@ std::pair<double, double> CellOf(const ChannelSums& cell, MotionChannels channel
       least = c;
     }
   }
-  if (channels == MotionChannels::kDarkest) {
-    sum = cell.sum[least];
-    count = cell.count[least];
-    clipped = cell.clipped[least];
-  }
-  const double mean = sum / count;
-  if (clipped) return {mean, -1.0};
-  return {mean, (noise.scale * std::max(mean, 0.0) + noise.offset) / count};
+  return {of(sum, count, clipped), of(cell.sum[least], cell.count[least], cell.clipped[least])};
 }
 
-MotionCells MotionCellsOf(const SignalFrame& frame, const NoiseProfile& noise, int longest,
-                          MotionChannels channels) {
+struct CellsOfBoth {
+  MotionCells all, darkest;
+};
+
+CellsOfBoth MotionCellsOf(const SignalFrame& frame, const NoiseProfile& noise, int longest) {
   const int period = std::lcm(frame.row_period, frame.column_period);
   const int least = (std::max(frame.width, frame.height) + longest - 1) / longest;
   const int size = std::max(1, (least + period - 1) / period * period);
@@ -67,6 +84,7 @@ MotionCells MotionCellsOf(const SignalFrame& frame, const NoiseProfile& noise, i
   const auto across = static_cast<std::size_t>(cells.width);
   cells.mean.resize(across * static_cast<std::size_t>(cells.height));
   cells.variance.resize(cells.mean.size());
+  CellsOfBoth both{cells, cells};
   const auto samples = static_cast<std::size_t>(size * frame.channels);
   ParallelFor(cells.height, [&](int y) {
     std::vector<float> row(frame.row_samples());
@@ -84,13 +102,72 @@ MotionCells MotionCellsOf(const SignalFrame& frame, const NoiseProfile& noise, i
       }
     }
     for (std::size_t x = 0; x < across; ++x) {
-      const auto [mean, variance] = CellOf(sums[x], channels, noise);
+      const CellPair pair = CellsOf(sums[x], noise);
       const std::size_t at = static_cast<std::size_t>(y) * across + x;
-      cells.mean[at] = static_cast<float>(mean);
-      cells.variance[at] = static_cast<float>(variance);
+      both.all.mean[at] = static_cast<float>(pair.all.mean);
+      both.all.variance[at] = static_cast<float>(pair.all.variance);
+      both.darkest.mean[at] = static_cast<float>(pair.darkest.mean);
+      both.darkest.variance[at] = static_cast<float>(pair.darkest.variance);
     }
   });
-  return cells;
+  return both;
+}
+
+// The mean of 5 x 5 cells, without those that are clipped. What is chosen or weighted by it does
+// not depend on a cell's own noise: cells chosen because their noise lifts them would pull.
+std::vector<float> MeansAround(const MotionCells& cells) {
+  constexpr int kReach = 2;
+  std::vector<float> around(cells.mean.size(), 0.0F);
+  ParallelFor(cells.height, [&](int y) {
+    for (int x = 0; x < cells.width; ++x) {
+      float sum = 0.0F, count = 0.0F;
+      for (int v = std::max(0, y - kReach); v <= std::min(cells.height - 1, y + kReach); ++v) {
+        for (int u = std::max(0, x - kReach); u <= std::min(cells.width - 1, x + kReach); ++u) {
+          const std::size_t at = cells.At(u, v);
+          if (cells.variance[at] < 0.0F) continue;
+          sum += cells.mean[at];
+          count += 1.0F;
+        }
+      }
+      if (count > 0.0F) around[cells.At(x, y)] = sum / count;
+    }
+  });
+  return around;
+}
+
+// Where a mean lies among the levels whose noise is told apart.
+std::size_t NoiseLevelOf(double mean) {
+  const double level = (std::log(mean) - std::log(kLeastNoiseLevel)) / kNoiseLevelLn;
+  return static_cast<std::size_t>(std::clamp(level, 0.0, kNoiseLevels - 1.0));
+}
+
+// The noise that the cells themselves show: of each level the lower quartile of |second difference|
+// (edges are the upper part), whose variance is 1.5 times a cell's.
+void RaiseToOwnNoise(std::span<const float> around, MotionCells& cells) {
+  std::array<std::vector<float>, kNoiseLevels> differences;
+  const auto width = static_cast<std::size_t>(cells.width);
+  for (std::size_t at = 1; at + 1 < cells.mean.size(); ++at) {
+    const std::size_t x = at % width;
+    if (x == 0 || x + 1 == width || !(around[at] > 0.0F)) continue;
+    if (cells.variance[at - 1] < 0.0F || cells.variance[at] < 0.0F) continue;
+    if (cells.variance[at + 1] < 0.0F) continue;
+    differences[NoiseLevelOf(around[at])].push_back(
+        std::abs(cells.mean[at] - 0.5F * (cells.mean[at - 1] + cells.mean[at + 1])));
+  }
+  std::array<double, kNoiseLevels> variance{};
+  for (std::size_t level = 0; level < kNoiseLevels; ++level) {
+    std::vector<float>& of = differences[level];
+    if (of.size() < kLeastOfALevel) continue;
+    const auto quarter = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 4);
+    std::nth_element(of.begin(), quarter, of.end());
+    const double sd = double{*quarter} / kLowerQuartile;
+    variance[level] = sd * sd / 1.5;
+  }
+  for (std::size_t at = 0; at < cells.mean.size(); ++at) {
+    if (cells.variance[at] < 0.0F || !(around[at] > 0.0F)) continue;
+    cells.variance[at] =
+        std::max(cells.variance[at], static_cast<float>(variance[NoiseLevelOf(around[at])]));
+  }
 }
 
 MotionCells Halved(const MotionCells& from) {
@@ -121,15 +198,18 @@ MotionCells Halved(const MotionCells& from) {
 }
 
 MotionPicture Logarithms(const MotionCells& cells, double floor) {
-  MotionPicture picture{cells.width, cells.height, cells.cell, {}, {}};
+  MotionPicture picture{cells.width, cells.height, cells.cell, {}, {}, {}};
   picture.ln.resize(cells.mean.size());
+  picture.around.resize(cells.mean.size());
   picture.variance.assign(cells.mean.size(), -1.0F);
+  const std::vector<float> around = MeansAround(cells);
   for (std::size_t i = 0; i < cells.mean.size(); ++i) {
-    const double mean = cells.mean[i], variance = cells.variance[i];
-    const bool clear =
-        variance >= 0.0 && mean > floor && mean * mean > kLeastClear * kLeastClear * variance;
+    const double mean = cells.mean[i], variance = cells.variance[i], level = around[i];
+    const bool clear = variance >= 0.0 && level > floor && mean > kDeepest * level &&
+                       level * level > kLeastClear * kLeastClear * variance;
     if (!clear) continue;
     picture.ln[i] = static_cast<float>(std::log(mean));
+    picture.around[i] = static_cast<float>(std::log(level));
     picture.variance[i] = static_cast<float>(variance / (mean * mean));
   }
   return picture;
@@ -137,10 +217,11 @@ MotionPicture Logarithms(const MotionCells& cells, double floor) {
 
 }  // namespace
 
-MotionPyramid MotionPyramidOf(const SignalFrame& frame, const NoiseProfile& noise, double floor,
-                              int longest, MotionChannels channels) {
+namespace {
+
+MotionPyramid PyramidOf(MotionCells cells, double floor) {
   MotionPyramid pyramid;
-  MotionCells cells = MotionCellsOf(frame, noise, longest, channels);
+  RaiseToOwnNoise(MeansAround(cells), cells);
   pyramid.levels.push_back(Logarithms(cells, floor));
   const auto& finest = pyramid.levels.front().variance;
   pyramid.seen =
@@ -152,6 +233,14 @@ MotionPyramid MotionPyramidOf(const SignalFrame& frame, const NoiseProfile& nois
     pyramid.levels.push_back(Logarithms(cells, floor));
   }
   return pyramid;
+}
+
+}  // namespace
+
+MotionPyramids MotionPyramidsOf(const SignalFrame& frame, const NoiseProfile& noise, double floor,
+                                int longest) {
+  CellsOfBoth cells = MotionCellsOf(frame, noise, longest);
+  return {PyramidOf(std::move(cells.all), floor), PyramidOf(std::move(cells.darkest), floor)};
 }
 
 }  // namespace lightcal

@@ -16,6 +16,7 @@ struct MotionPicture {
   double cell = 1.0;
   std::vector<float> ln;        // ln(signal); anything where the variance is negative
   std::vector<float> variance;  // of ln; negative: clipped, or drowned in noise
+  std::vector<float> around;    // ln of the mean of 5 x 5 cells
 
   [[nodiscard]] std::size_t At(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
@@ -29,12 +30,16 @@ struct MotionPyramid {
   double seen = 0.0;  // share of the finest level's cells that say something
 };
 
-// Of a cell's channels: their mean, which is the last to drown, or the darkest, the last to clip.
-enum class MotionChannels { kAll, kDarkest };
+// Of a cell's channels: their mean, which is the last to drown, and the darkest, the last to clip.
+struct MotionPyramids {
+  MotionPyramid all, darkest;
+};
 
 // The finest level is about `longest` cells long at most; whole periods of a colour pattern become
-// one cell.   `noise` of one sample; `floor`: signal below which codes say nothing.
-[[nodiscard]] MotionPyramid MotionPyramidOf(const SignalFrame& frame, const NoiseProfile& noise,
-                                            double floor, int longest, MotionChannels channels);
+// one cell.   `noise` of one sample, at least: the cells' own (the second difference along rows, of
+// all cells as bright) counts where it is more, as of JPEGs nobody knows it.   `floor`: signal
+// below which codes say nothing.
+[[nodiscard]] MotionPyramids MotionPyramidsOf(const SignalFrame& frame, const NoiseProfile& noise,
+                                              double floor, int longest);
 
 }  // namespace lightcal

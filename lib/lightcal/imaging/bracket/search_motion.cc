@@ -16,6 +16,7 @@ constexpr double kShiftShare = 0.13;  // of the longer side, each way
 constexpr double kTurnStep_deg = 0.75;
 constexpr int kTurnsEachWay = 4;      // each way
 constexpr double kNearerWins = 0.15;  // of the likeness, at the end of the search: windows repeat
+constexpr std::size_t kCandidates = 5;
 constexpr double kLeastOverlap = 0.3;
 
 // ln(signal) less its mean around, 0 where nothing is seen; `seen` says where.
@@ -55,9 +56,23 @@ struct ShiftCandidate {
   int dx = 0, dy = 0;
 };
 
-// The best whole shift of one turn.
-ShiftCandidate BestShift(const MotionPicture& size, const Detail& a, const Detail& b,
-                         const MotionPicture& other, double turn, int most) {
+// The best few, none next to a better one.
+std::vector<ShiftCandidate> Apart(std::vector<ShiftCandidate> all) {
+  std::ranges::sort(all, std::ranges::greater{}, &ShiftCandidate::alike);
+  std::vector<ShiftCandidate> kept;
+  for (const ShiftCandidate& candidate : all) {
+    if (kept.size() == kCandidates) break;
+    const bool next_to = std::ranges::any_of(kept, [&](const ShiftCandidate& better) {
+      return std::abs(better.dx - candidate.dx) <= 1 && std::abs(better.dy - candidate.dy) <= 1;
+    });
+    if (!next_to) kept.push_back(candidate);
+  }
+  return kept;
+}
+
+// The best whole shifts of one turn, best first.
+std::vector<ShiftCandidate> BestShifts(const MotionPicture& size, const Detail& a, const Detail& b,
+                                       const MotionPicture& other, double turn, int most) {
   const double c = std::cos(turn), s = std::sin(turn);
   const double cx = 0.5 * size.width, cy = 0.5 * size.height;
   struct Place {
@@ -76,8 +91,7 @@ ShiftCandidate BestShift(const MotionPicture& size, const Detail& a, const Detai
   }
   const auto both = std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(places.size()),
                                              std::count(b.seen.begin(), b.seen.end(), 1));
-  ShiftCandidate best;
-  best.turn = turn;
+  std::vector<ShiftCandidate> all;
   for (int dy = -most; dy <= most; ++dy) {
     for (int dx = -most; dx <= most; ++dx) {
       double ab = 0.0, aa = 0.0, bb = 0.0, count = 0.0;
@@ -95,38 +109,37 @@ ShiftCandidate BestShift(const MotionPicture& size, const Detail& a, const Detai
       if (!(aa > 0.0) || !(bb > 0.0)) continue;
       const double reach = std::hypot(dx, dy) / most;
       const double alike = ab / std::sqrt(aa * bb) * (1.0 - kNearerWins * reach * reach);
-      if (alike > best.alike) {
-        best.alike = alike;
-        best.dx = dx;
-        best.dy = dy;
-      }
+      all.push_back({alike, turn, dx, dy});
     }
   }
-  return best;
+  return Apart(std::move(all));
 }
 
 }  // namespace
 
-std::optional<RoughMotion> SearchMotion(const MotionPyramid& frame, const MotionPyramid& other,
-                                        double width, double height) {
+std::vector<RoughMotion> SearchMotion(const MotionPyramid& frame, const MotionPyramid& other,
+                                      double width, double height) {
   const MotionPicture& a = frame.levels.back();
   const MotionPicture& b = other.levels.back();
   const Detail of_a = DetailOf(a), of_b = DetailOf(b);
   const int most = static_cast<int>(std::ceil(kShiftShare * std::max(a.width, a.height)));
-  std::vector<ShiftCandidate> found(2 * kTurnsEachWay + 1);
+  std::vector<std::vector<ShiftCandidate>> found(2 * kTurnsEachWay + 1);
   ParallelFor(static_cast<int>(found.size()), [&](int i) {
     const double turn = (i - kTurnsEachWay) * kTurnStep_deg * std::numbers::pi / 180.0;
-    found[static_cast<std::size_t>(i)] = BestShift(a, of_a, of_b, b, turn, most);
+    found[static_cast<std::size_t>(i)] = BestShifts(a, of_a, of_b, b, turn, most);
   });
-  const ShiftCandidate& best = *std::ranges::max_element(found, {}, &ShiftCandidate::alike);
-  if (best.alike < 0.0) return std::nullopt;
-  const double c = std::cos(best.turn), s = std::sin(best.turn);
-  const double x = 0.5 * width, y = 0.5 * height;
-  RoughMotion rough;
-  rough.alike = best.alike;
-  rough.to_other.m = {c,   -s,  x - c * x + s * y + best.dx * a.cell,
-                      s,   c,   y - s * x - c * y + best.dy * a.cell,
-                      0.0, 0.0, 1.0};
+  std::vector<ShiftCandidate> all;
+  for (const auto& of_turn : found) all.insert(all.end(), of_turn.begin(), of_turn.end());
+  std::vector<RoughMotion> rough;
+  for (const ShiftCandidate& best : Apart(std::move(all))) {
+    const double c = std::cos(best.turn), s = std::sin(best.turn);
+    const double x = 0.5 * width, y = 0.5 * height;
+    RoughMotion& motion = rough.emplace_back();
+    motion.alike = best.alike;
+    motion.to_other.m = {c,   -s,  x - c * x + s * y + best.dx * a.cell,
+                         s,   c,   y - s * x - c * y + best.dy * a.cell,
+                         0.0, 0.0, 1.0};
+  }
   return rough;
 }
 
