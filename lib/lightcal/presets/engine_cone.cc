@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -115,11 +118,12 @@ double CostOf(const std::vector<Sample>& samples, EngineConeLaw law, const ConeP
          10.0 * outside;
 }
 
-// Nelder and Mead's simplex from one place.
+// Nelder and Mead's simplex from one place, until it is too small to be told in a file's digits.
 template <class Cost>
 std::pair<double, ConePlace> Descend(const Cost& cost, const ConePlace& from,
                                      const ConePlace& step) {
   constexpr int kMoves = 120;
+  constexpr double kSmall = 1e-9;
   std::array<std::pair<double, ConePlace>, 3> simplex;
   for (std::size_t i = 0; i < 3; ++i) {
     ConePlace at = from;
@@ -130,6 +134,12 @@ std::pair<double, ConePlace> Descend(const Cost& cost, const ConePlace& from,
   for (int move = 0; move < kMoves; ++move) {
     std::ranges::sort(simplex, by_cost);
     auto& worst = simplex[2];
+    double extent = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      extent = std::max({extent, std::abs(simplex[1].second[k] - simplex[0].second[k]),
+                         std::abs(worst.second[k] - simplex[0].second[k])});
+    }
+    if (extent < kSmall) break;
     const auto beyond = [&](double t) {
       ConePlace at{};
       for (std::size_t k = 0; k < 2; ++k) {
@@ -164,11 +174,26 @@ double EndOf(const BeamProfile& beam) {
   return end;
 }
 
+// Every fourth sample, with the weight of the four: enough to find the valley.
+std::vector<Sample> Thinned(const std::vector<Sample>& samples) {
+  constexpr std::size_t kEvery = 4;
+  std::vector<Sample> few;
+  for (std::size_t i = 0; i < samples.size(); i += kEvery) {
+    few.push_back(samples[i]);
+    for (std::size_t j = i + 1; j < std::min(i + kEvery, samples.size()); ++j) {
+      few.back().weight += samples[j].weight;
+    }
+  }
+  return few;
+}
+
 ConePlace BestPlace(EngineConeLaw law, const BeamProfile& beam,
                     const std::vector<Sample>& samples) {
   constexpr int kOuters = 20, kOthers = 10;
   constexpr std::size_t kSeeds = 3;
   const double widest = std::min(kRightAngle, 1.3 * EndOf(beam));
+  const std::vector<Sample> few = Thinned(samples);
+  const auto roughly = [&](const ConePlace& at) { return CostOf(few, law, at); };
   const auto cost = [&](const ConePlace& at) { return CostOf(samples, law, at); };
   std::vector<std::pair<double, ConePlace>> tried;
   for (int i = 1; i <= kOuters; ++i) {
@@ -176,18 +201,18 @@ ConePlace BestPlace(EngineConeLaw law, const BeamProfile& beam,
       const double part = (j + 0.5) / kOthers;
       const ConePlace at = {widest * i / kOuters,
                             law == EngineConeLaw::kPower ? -1.2 + 5.0 * part : part};
-      tried.emplace_back(cost(at), at);
+      tried.emplace_back(roughly(at), at);
     }
   }
   std::ranges::partial_sort(tried, tried.begin() + kSeeds);
-  auto best = tried.front();
+  const ConePlace first = {widest / kOuters, 0.08};
+  auto valley = tried.front();
   for (std::size_t i = 0; i < kSeeds; ++i) {
-    const ConePlace first = {widest / kOuters, 0.08};
-    auto found = Descend(cost, tried[i].second, first);
-    // Once more: a worst error has edges, on which a simplex may lie down too early.
-    found = std::min(found, Descend(cost, found.second, {-0.3 * first[0], -0.02}));
-    best = std::min(best, found);
+    valley = std::min(valley, Descend(roughly, tried[i].second, first));
   }
+  auto best = Descend(cost, valley.second, {0.3 * first[0], 0.02});
+  // Once more: a worst error has edges, on which a simplex may lie down too early.
+  best = std::min(best, Descend(cost, best.second, {-0.3 * first[0], -0.02}));
   return best.second;
 }
 
@@ -253,11 +278,18 @@ double ConeFactor(const EngineCone& cone, Radians from_axis) {
 
 EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam) {
   const std::vector<Sample> samples = SamplesOf(beam);
-  if (law == EngineConeLaw::kSquared && beam.squared) {
-    return JudgedCone(TermsOf(law, beam.squared->inner.value(), beam.squared->outer.value(), 1.0),
-                      samples);
-  }
-  return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
+  if (!beam.squared) return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
+  const double inner = beam.squared->inner.value(), outer = beam.squared->outer.value();
+  if (law == EngineConeLaw::kSquared) return JudgedCone(TermsOf(law, inner, outer, 1.0), samples);
+  // Flat lamps without number stand for the same cone in engines of few laws: each is searched
+  // once.
+  static std::mutex mutex;
+  static std::map<std::tuple<EngineConeLaw, double, double>, ConePlace> found;
+  const std::tuple key(law, inner, outer);
+  const std::lock_guard lock(mutex);
+  auto known = found.find(key);
+  if (known == found.end()) known = found.emplace(key, BestPlace(law, beam, samples)).first;
+  return JudgedCone(TermsAt(law, known->second), samples);
 }
 
 EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam, double inner_share) {

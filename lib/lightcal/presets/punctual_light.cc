@@ -207,16 +207,18 @@ Result<PunctualLight> PunctualLightFrom(const FittedLight& lamp, const ColorTarg
 }
 
 void WarnOfStackedLights(const LightFile& file, Warnings& warnings) {
+  constexpr int kNamed = 8;
   std::string names;
   int count = 0;
   for (const FittedLight& lamp : file.lights) {
     if (lamp.position_m || lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) {
       continue;
     }
-    names += (names.empty() ? "" : ", ") + lamp.name;
     ++count;
+    if (count <= kNamed) names += (names.empty() ? "" : ", ") + lamp.name;
   }
   if (count < 2) return;
+  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
   warnings.push_back({"position_unknown", names,
                       "no position_m was given: all stand at the origin and add up there; give "
                       "positions, or show one light at a time"});

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one least-squares problem of this room: minimises
-//   1/2 sum_i rho(r_i(theta)^2) + 1/2 sum_k ((theta_k - mean_k)/sd_k)^2
-// of few parameters, and says how well they are known. A problem P tells
-//   P::kCount                       how many parameters there are
-//   problem.rules                   std::array<ParameterRule, kCount>: free or held, priors
-//   problem.BoundsOf(k)             where a free one must stay
-//   problem.RowCount()              how many rows
-//   problem.Residual(i, theta, r)   row i over its sigma, T = double or Jet; false: it has no value
-// so that a further parameter is a line in P's rules and its place in the row's law.
+// Solves the one least-squares problem of this room (least_squares_problem.h) and says how well its
+// parameters are known.
 // Internal to this room: needs Eigen and Ceres's header-only parts alone (least_squares.cc: Ceres).
 #pragma once
 
-#include <ceres/jet.h>
 #include <ceres/tiny_solver.h>
 
 #include <Eigen/Dense>
@@ -27,150 +19,14 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/model/least_squares_problem.h"
 #include "lightcal/fit/model/parameter.h"
+#include "lightcal/fit/model/polish.h"
 #include "lightcal/fit/model/truncated_normal.h"
 
 namespace lightcal::fit {
 
-template <class P>
-using ValuesOf = std::array<double, P::kCount>;
-template <class P>
-using VectorOf = Eigen::Matrix<double, P::kCount, 1>;
-template <class P>
-using SquareOf = Eigen::Matrix<double, P::kCount, P::kCount>;
-template <class P>
-using RowsOf = Eigen::Matrix<double, Eigen::Dynamic, P::kCount>;
-
-template <class P>
-[[nodiscard]] bool HasPrior(const P& problem, int k) {
-  return problem.rules[k].free && problem.rules[k].prior_sd > 0.0;
-}
-
-// Whether a free parameter lies on a bound of its own or beyond.
-template <class P>
-[[nodiscard]] bool AtBound(const P& problem, const ValuesOf<P>& theta, int k) {
-  const Bounds bounds = problem.BoundsOf(k);
-  return problem.rules[k].free && (theta[k] <= bounds.low || theta[k] >= bounds.high);
-}
-
-// Row i at theta, infinite where it has no value.
-template <class P>
-[[nodiscard]] double ResidualAt(const P& problem, std::size_t i, const double* theta) {
-  double residual = 0.0;
-  return problem.Residual(i, theta, &residual) ? residual : std::numeric_limits<double>::infinity();
-}
-
-// The same, and its derivatives by every parameter.
-template <class P>
-double DifferentiateAt(const P& problem, std::size_t i, const double* theta, double* gradient) {
-  using Jet = ceres::Jet<double, P::kCount>;
-  std::array<Jet, P::kCount> variables;
-  for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
-  Jet residual(0.0);
-  if (!problem.Residual(i, variables.data(), &residual)) {
-    std::fill_n(gradient, P::kCount, 0.0);
-    return std::numeric_limits<double>::infinity();
-  }
-  std::copy_n(residual.v.data(), P::kCount, gradient);
-  return residual.a;
-}
-
-// 1/2 sum r_i^2 with the priors of free parameters.
-template <class P>
-[[nodiscard]] double HalfChiSquaredOf(const P& problem, const ValuesOf<P>& theta) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
-    const double r = ResidualAt(problem, i, theta.data());
-    sum += r * r;
-  }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const double r = (theta[k] - problem.rules[k].prior_mean) / problem.rules[k].prior_sd;
-    sum += r * r;
-  }
-  return 0.5 * sum;
-}
-
 // ---- solving ----
-
-// J^T J and J^T r of rows and priors over all parameters.
-template <class P>
-struct NormalEquations {
-  SquareOf<P> normal = SquareOf<P>::Zero();
-  VectorOf<P> gradient = VectorOf<P>::Zero();
-};
-
-template <class P>
-[[nodiscard]] NormalEquations<P> NormalEquationsAt(const P& problem, const ValuesOf<P>& theta) {
-  NormalEquations<P> out;
-  VectorOf<P> j;
-  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
-    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
-    out.normal += j * j.transpose();
-    out.gradient += j * residual;
-  }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const ParameterRule& rule = problem.rules[k];
-    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
-    out.normal(k, k) += weight;
-    out.gradient[k] += weight * (theta[k] - rule.prior_mean);
-  }
-  return out;
-}
-
-// Rows and columns of a held parameter become those of the unit matrix.
-template <class Matrix>
-void Hold(Matrix& normal, int k) {
-  normal.row(k).setZero();
-  normal.col(k).setZero();
-  normal(k, k) = 1.0;
-}
-
-// One Gauss-Newton step over the free parameters that are not at a bound. Ceres stops when the cost
-// no longer falls, which leaves half of the digits of the parameters; a parameter held at its bound
-// slows it further, because the step of the others is not the one along the bound.
-template <class P>
-[[nodiscard]] ValuesOf<P> GaussNewtonStep(const P& problem, ValuesOf<P> theta) {
-  NormalEquations<P> at = NormalEquationsAt(problem, theta);
-  for (int k = 0; k < P::kCount; ++k) {
-    if (problem.rules[k].free && !AtBound(problem, theta, k)) continue;
-    Hold(at.normal, k);
-    at.gradient[k] = 0.0;
-  }
-  // A parameter that no row and no prior knows here has no step.
-  if (!(at.normal.diagonal().minCoeff() > 0.0)) return theta;
-  const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
-  const SquareOf<P> scaled = scale.asDiagonal() * at.normal * scale.asDiagonal();
-  const VectorOf<P> step =
-      -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * at.gradient));
-  for (int k = 0; k < P::kCount; ++k) theta[k] += step[k];
-  return theta;
-}
-
-// A few steps more, as long as they are small and the cost does not grow beyond rounding.
-template <class P>
-[[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
-  constexpr int kSteps = 8;
-  constexpr double kLargestStep = 0.05;
-  const double cost = HalfChiSquaredOf(problem, theta);
-  for (int i = 0; i < kSteps; ++i) {
-    const ValuesOf<P> next = GaussNewtonStep(problem, theta);
-    double step = 0.0;
-    bool inside = true;
-    for (int k = 0; k < P::kCount; ++k) {
-      step = std::max(step, std::abs(next[k] - theta[k]));
-      const Bounds bounds = problem.BoundsOf(k);
-      const bool within = next[k] >= bounds.low && next[k] <= bounds.high;
-      inside = inside && (within || !problem.rules[k].free);
-    }
-    if (!(step < kLargestStep) || !inside) break;
-    if (!(HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20)) break;
-    theta = next;
-    if (step < 1e-13) break;
-  }
-  return theta;
-}
 
 // The rows and priors as TinySolver takes them, column-major; what is not free has no derivative.
 template <class P>
@@ -216,7 +72,8 @@ class TinyRows {
 };
 
 // The squared-loss optimum to 1e-7 of a parameter by ceres::TinySolver, which knows no bounds,
-// `held` parameters kept at their start. Absent where it does not converge.
+// `held` parameters kept at their start. Where its steps come to no end (rows that bend), the polish
+// finishes them. Absent where that is no optimum either.
 template <class P>
 [[nodiscard]] std::optional<ValuesOf<P>> SolveTiny(const P& problem, const ValuesOf<P>& start,
                                                    const std::array<bool, P::kCount>& held = {}) {
@@ -229,11 +86,12 @@ template <class P>
   solver.options.parameter_tolerance = 1e-7;  // the polish takes the last digits
   VectorOf<P> x = Eigen::Map<const VectorOf<P>>(start.data());
   const auto& summary = solver.Solve(rows, &x);
-  const bool converged = summary.status != ceres::TinySolver<TinyRows<P>>::HIT_MAX_ITERATIONS;
-  if (!converged || !x.allFinite() || !std::isfinite(summary.final_cost)) return std::nullopt;
+  if (!x.allFinite() || !std::isfinite(summary.final_cost)) return std::nullopt;
   ValuesOf<P> out;
   std::copy_n(x.data(), P::kCount, out.begin());
-  return out;
+  if (summary.status != ceres::TinySolver<TinyRows<P>>::HIT_MAX_ITERATIONS) return out;
+  out = Polish(problem, out);
+  return AtRest(problem, out) ? std::optional(out) : std::nullopt;
 }
 
 // What the full solver sees of any problem.

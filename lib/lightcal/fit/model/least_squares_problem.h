@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one least-squares problem of this room (least_squares.h solves it): minimises
+//   1/2 sum_i rho(r_i(theta)^2) + 1/2 sum_k ((theta_k - mean_k)/sd_k)^2
+// of few parameters. A problem P tells
+//   P::kCount                       how many parameters there are
+//   problem.rules                   std::array<ParameterRule, kCount>: free or held, priors
+//   problem.BoundsOf(k)             where a free one must stay
+//   problem.RowCount()              how many rows
+//   problem.Residual(i, theta, r)   row i over its sigma, T = double or Jet; false: it has no value
+// so that a further parameter is a line in P's rules and its place in the row's law.
+// Internal to this room: needs Eigen and Ceres's Jet alone.
+#pragma once
+
+#include <ceres/jet.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "lightcal/fit/model/parameter.h"
+
+namespace lightcal::fit {
+
+template <class P>
+using ValuesOf = std::array<double, P::kCount>;
+template <class P>
+using VectorOf = Eigen::Matrix<double, P::kCount, 1>;
+template <class P>
+using SquareOf = Eigen::Matrix<double, P::kCount, P::kCount>;
+template <class P>
+using RowsOf = Eigen::Matrix<double, Eigen::Dynamic, P::kCount>;
+
+template <class P>
+[[nodiscard]] bool HasPrior(const P& problem, int k) {
+  return problem.rules[k].free && problem.rules[k].prior_sd > 0.0;
+}
+
+// Whether a free parameter lies on a bound of its own or beyond.
+template <class P>
+[[nodiscard]] bool AtBound(const P& problem, const ValuesOf<P>& theta, int k) {
+  const Bounds bounds = problem.BoundsOf(k);
+  return problem.rules[k].free && (theta[k] <= bounds.low || theta[k] >= bounds.high);
+}
+
+// Row i at theta, infinite where it has no value.
+template <class P>
+[[nodiscard]] double ResidualAt(const P& problem, std::size_t i, const double* theta) {
+  double residual = 0.0;
+  return problem.Residual(i, theta, &residual) ? residual : std::numeric_limits<double>::infinity();
+}
+
+// The same, and its derivatives by every parameter.
+template <class P>
+double DifferentiateAt(const P& problem, std::size_t i, const double* theta, double* gradient) {
+  using Jet = ceres::Jet<double, P::kCount>;
+  std::array<Jet, P::kCount> variables;
+  for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
+  Jet residual(0.0);
+  if (!problem.Residual(i, variables.data(), &residual)) {
+    std::fill_n(gradient, P::kCount, 0.0);
+    return std::numeric_limits<double>::infinity();
+  }
+  std::copy_n(residual.v.data(), P::kCount, gradient);
+  return residual.a;
+}
+
+// 1/2 sum r_i^2 with the priors of free parameters.
+template <class P>
+[[nodiscard]] double HalfChiSquaredOf(const P& problem, const ValuesOf<P>& theta) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double r = ResidualAt(problem, i, theta.data());
+    sum += r * r;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const double r = (theta[k] - problem.rules[k].prior_mean) / problem.rules[k].prior_sd;
+    sum += r * r;
+  }
+  return 0.5 * sum;
+}
+
+}  // namespace lightcal::fit

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last digits of a least-squares optimum: solvers stop when the cost no longer falls, which
+// leaves half of the digits of the parameters.
+// Internal to this room.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "lightcal/fit/model/least_squares_problem.h"
+
+namespace lightcal::fit {
+
+// J^T J and J^T r of rows and priors over all parameters.
+template <class P>
+struct NormalEquations {
+  SquareOf<P> normal = SquareOf<P>::Zero();
+  VectorOf<P> gradient = VectorOf<P>::Zero();
+};
+
+template <class P>
+[[nodiscard]] NormalEquations<P> NormalEquationsAt(const P& problem, const ValuesOf<P>& theta) {
+  NormalEquations<P> out;
+  VectorOf<P> j;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
+    out.normal += j * j.transpose();
+    out.gradient += j * residual;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
+    out.normal(k, k) += weight;
+    out.gradient[k] += weight * (theta[k] - rule.prior_mean);
+  }
+  return out;
+}
+
+// Rows and columns of a held parameter become those of the unit matrix.
+template <class Matrix>
+void Hold(Matrix& normal, int k) {
+  normal.row(k).setZero();
+  normal.col(k).setZero();
+  normal(k, k) = 1.0;
+}
+
+// One Gauss-Newton step over the free parameters that are not at a bound. Ceres stops when the cost
+// no longer falls, which leaves half of the digits of the parameters; a parameter held at its bound
+// slows it further, because the step of the others is not the one along the bound.
+template <class P>
+[[nodiscard]] ValuesOf<P> GaussNewtonStep(const P& problem, ValuesOf<P> theta) {
+  NormalEquations<P> at = NormalEquationsAt(problem, theta);
+  for (int k = 0; k < P::kCount; ++k) {
+    if (problem.rules[k].free && !AtBound(problem, theta, k)) continue;
+    Hold(at.normal, k);
+    at.gradient[k] = 0.0;
+  }
+  // A parameter that no row and no prior knows here has no step.
+  if (!(at.normal.diagonal().minCoeff() > 0.0)) return theta;
+  const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
+  const SquareOf<P> scaled = scale.asDiagonal() * at.normal * scale.asDiagonal();
+  const VectorOf<P> step =
+      -(scale.asDiagonal() * scaled.ldlt().solve(scale.asDiagonal() * at.gradient));
+  for (int k = 0; k < P::kCount; ++k) theta[k] += step[k];
+  return theta;
+}
+
+// What is left of the gradient over the free parameters that are not at a bound, each over the root
+// of its own curvature: 1 = a standard deviation, were it alone.
+template <class P>
+[[nodiscard]] double GradientLeft(const P& problem, const ValuesOf<P>& theta,
+                                  const NormalEquations<P>& at) {
+  double most = 0.0;
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!problem.rules[k].free || AtBound(problem, theta, k) || !(at.normal(k, k) > 0.0)) continue;
+    most = std::max(most, std::abs(at.gradient[k]) / std::sqrt(at.normal(k, k)));
+  }
+  return most;
+}
+
+// One step of Newton's method over the same parameters, with the derivative of the exact gradient
+// by central differences. Gauss and Newton's leaves out how rows bend: where offset and walls trade
+// nearly evenly it goes on by parts of the way for ever. Unmoved where that is no minimum.
+template <class P>
+[[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta) {
+  constexpr double kPartOfDeviation = 1e-4;
+  NormalEquations<P> at = NormalEquationsAt(problem, theta);
+  std::array<bool, P::kCount> moves{};
+  SquareOf<P> bend = SquareOf<P>::Zero();
+  for (int k = 0; k < P::kCount; ++k) {
+    moves[k] = problem.rules[k].free && !AtBound(problem, theta, k);
+    if (!moves[k]) continue;
+    if (!(at.normal(k, k) > 0.0)) return theta;  // no row and no prior knows it
+    const double h = kPartOfDeviation / std::sqrt(at.normal(k, k));
+    ValuesOf<P> more = theta, less = theta;
+    more[k] += h;
+    less[k] -= h;
+    bend.col(k) =
+        (NormalEquationsAt(problem, more).gradient - NormalEquationsAt(problem, less).gradient) /
+        (more[k] - less[k]);
+  }
+  bend = (0.5 * (bend + bend.transpose())).eval();
+  for (int k = 0; k < P::kCount; ++k) {
+    if (moves[k]) continue;
+    Hold(bend, k);
+    at.gradient[k] = 0.0;
+  }
+  if (!bend.allFinite() || !(bend.diagonal().minCoeff() > 0.0)) return theta;
+  const VectorOf<P> scale = bend.diagonal().cwiseSqrt().cwiseInverse();
+  const SquareOf<P> scaled = scale.asDiagonal() * bend * scale.asDiagonal();
+  const auto factors = scaled.ldlt();
+  if (!factors.isPositive()) return theta;
+  const VectorOf<P> step = -(scale.asDiagonal() * factors.solve(scale.asDiagonal() * at.gradient));
+  for (int k = 0; k < P::kCount; ++k) theta[k] += step[k];
+  return theta;
+}
+
+// The largest change of a parameter, absent where it is no polish: a free one leaves its bounds, or
+// a step that is not small.
+template <class P>
+[[nodiscard]] std::optional<double> SmallStep(const P& problem, const ValuesOf<P>& from,
+                                              const ValuesOf<P>& to) {
+  constexpr double kLargestStep = 0.05;
+  double step = 0.0;
+  for (int k = 0; k < P::kCount; ++k) {
+    step = std::max(step, std::abs(to[k] - from[k]));
+    const Bounds bounds = problem.BoundsOf(k);
+    const bool within = to[k] >= bounds.low && to[k] <= bounds.high;
+    if (problem.rules[k].free && !within) return std::nullopt;
+  }
+  return step < kLargestStep ? std::optional(step) : std::nullopt;
+}
+
+// A few steps more, as long as they are small and the cost does not grow beyond rounding; where
+// they come to no end, Newton's, as long as the gradient falls too.
+template <class P>
+[[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
+  constexpr int kSteps = 8, kNewtonSteps = 4;
+  constexpr double kDone = 1e-13, kNearlyDone = 1e-11;
+  const auto no_worse = [&problem, cost = HalfChiSquaredOf(problem, theta)](const auto& next) {
+    return HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20;
+  };
+  for (int i = 0; i < kSteps; ++i) {
+    const ValuesOf<P> next = GaussNewtonStep(problem, theta);
+    const auto step = SmallStep(problem, theta, next);
+    if (!step || !no_worse(next)) break;
+    theta = next;
+    if (*step < (i + 1 < kSteps ? kDone : kNearlyDone)) return theta;
+  }
+  double left = GradientLeft(problem, theta, NormalEquationsAt(problem, theta));
+  for (int i = 0; i < kNewtonSteps && left > kDone; ++i) {
+    const ValuesOf<P> next = NewtonStep(problem, theta);
+    const auto step = SmallStep(problem, theta, next);
+    if (!step || *step == 0.0 || !no_worse(next)) break;
+    const double then = GradientLeft(problem, next, NormalEquationsAt(problem, next));
+    if (!(then < left)) break;
+    left = then;
+    theta = next;
+  }
+  return theta;
+}
+
+// Whether theta is the optimum to 1e-9 of a standard deviation of every free parameter.
+template <class P>
+[[nodiscard]] bool AtRest(const P& problem, const ValuesOf<P>& theta) {
+  return GradientLeft(problem, theta, NormalEquationsAt(problem, theta)) < 1e-9;
+}
+
+}  // namespace lightcal::fit
