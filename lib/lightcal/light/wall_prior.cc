@@ -97,11 +97,11 @@ const Family* FamilyOf(const LampSpread& lamp) {
   return nullptr;
 }
 
-// Lamps stand anywhere on a floor, of which a third lies within half a metre of a wall (rooms of 3-8
-// x 3-7 m), or hang in the middle: one in five is near a wall. That wall is a Lambertian image of the
-// lamp, whose light adds most where the meter is nearest: more b3 and the slope below are its integral
-// (tests/bench/rooms/near_wall.py), not a figure of the rooms that judge. One room in twenty is not
-// ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
+// Lamps stand anywhere on a floor, of which a third lies within half a metre of a wall (rooms of
+// 3-8 x 3-7 m), or hang in the middle: one in five is near a wall. That wall is a Lambertian image
+// of the lamp, whose light adds most where the meter is nearest: more b3 and the slope below are
+// its integral (tests/bench/rooms/near_wall.py), not a figure of the rooms that judge. One room in
+// twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
 std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrior& prior) {
   constexpr double kNear = 0.20, kFar = 0.05;
   if (family.flux == 0.0) return {{1.0, prior}};
