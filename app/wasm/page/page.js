@@ -11,8 +11,24 @@ const make = (tag, text = '', attributes = {}) => {
   return element;
 };
 
+// Z85 (ZeroMQ RFC 32): five letters are four bytes.
+function bytesFromZ85(text, count) {
+  const letters =
+    '0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-:+=^!/*?&<>()[]{}@%$#';
+  const digit = new Uint8Array(128);
+  for (let i = 0; i < letters.length; i += 1) digit[letters.charCodeAt(i)] = i;
+  const words = new DataView(new ArrayBuffer((text.length / 5) * 4));
+  for (let at = 0; at < text.length; at += 5) {
+    let word = 0;
+    for (let i = 0; i < 5; i += 1) word = word * 85 + digit[text.charCodeAt(at + i)];
+    words.setUint32((at / 5) * 4, word);
+  }
+  return new Uint8Array(words.buffer, 0, count);
+}
+
 async function loadModule() {
-  const packed = Uint8Array.from(atob(byId('wasm').textContent.trim()), (c) => c.charCodeAt(0));
+  const kept = byId('wasm');
+  const packed = bytesFromZ85(kept.textContent.trim(), Number(kept.dataset.bytes));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'));
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }

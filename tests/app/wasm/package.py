@@ -7,6 +7,7 @@ that needs no picture gives the program's files; what it cannot do it says.
 """
 import argparse
 import difflib
+import io
 import json
 import os
 import pathlib
@@ -15,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 from module_answers import difference
 
@@ -23,6 +25,15 @@ SESSIONS = ROOT / "sample_data/sessions"
 LARGEST = 3 * 1024 * 1024
 WITHIN = 1e-9
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
+
+
+def as_text(name, data):
+    """A file as text; of a GDTF archive all that it holds, one after another."""
+    if not name.endswith(".gdtf"):
+        return data.decode()
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return "".join(f"{entry}\n{archive.read(entry).decode('latin-1')}"
+                       for entry in sorted(archive.namelist()))
 
 
 def numbers_apart(a, b):
@@ -126,7 +137,7 @@ def main():
                     same += 1
                     continue
                 apart += 1
-                a, b = wanted.decode(), got.decode()
+                a, b = as_text(file, wanted), as_text(file, got)
                 found = (difference(json.loads(a), json.loads(b), "") if file.endswith(".json")
                          else (numbers_apart(a, b), ""))
                 worst = max(worst, (found[0], f"{name}/{file} {found[1]}"))

@@ -17,7 +17,7 @@ from module_answers import WITHIN, color, difference, exposure, quick
 
 HERE = pathlib.Path(__file__).resolve().parent
 GATE = HERE.parents[1] / "report/browser/gate.mjs"
-LARGEST = 2 * 1024 * 1024
+LARGEST = 2_000_000
 LIGHTS = {"a </script> lamp": "ends no script"}
 
 
