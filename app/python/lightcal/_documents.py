@@ -102,8 +102,10 @@ class Light(TypedDict, total=False):
     meter: Dict[str, Any]
     of_file: Uncertain
     in_room: List[Dict[str, Any]]
+    spectrum: Dict[str, Any]
     state: Dict[str, Union[float, str]]
     states: List[Dict[str, Any]]
+    emitters: Dict[str, Any]
 
 
 class LightDocument(TypedDict, total=False):
