@@ -145,7 +145,8 @@ TEST(QuickAnswer, WhatALampIsCostsNoMinuteToSay) {
   EXPECT_LE(LinesOf(out).size(), 12U) << out;
   const std::string said = Said({"quick", "58lx@1m", "--fixture", "bulb"});
   EXPECT_THAT(said, Not(HasSubstr("0 minutes better")));
-  EXPECT_LT(StopsSaid(said), 0.7 * StopsSaid(out));
+  // A bulb may stand near a wall: with .62 of the width unseen rooms held it in 79 % (room_coverage).
+  EXPECT_LT(StopsSaid(said), 0.75 * StopsSaid(out));
 }
 
 // A panel of 50 x 50 cm gives a quarter less at half a metre than a point would, 40 % at .35 m.
