@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Of how many readings `sweep --until 3%` leaves out, over fixtures of fixtures.py.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """How often the interval of a state that nobody read holds the truth, over fixtures of fixtures.py.
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """How often the interval of a spectrum between states holds the truth, over fixtures mixed here in numpy
 of two to four emitters (narrow bands, phosphors).

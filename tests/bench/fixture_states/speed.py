@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """What a fixture of 200 states costs: the whole `lightcal fit` of them, and one answer of `state`.
 
