@@ -72,8 +72,8 @@ class TinyRows {
 };
 
 // The squared-loss optimum to 1e-7 of a parameter by ceres::TinySolver, which knows no bounds,
-// `held` parameters kept at their start. Where its steps come to no end (rows that bend), the polish
-// finishes them. Absent where that is no optimum either.
+// `held` parameters kept at their start. Where its steps come to no end (rows that bend), the
+// polish finishes them. Absent where that is no optimum either.
 template <class P>
 [[nodiscard]] std::optional<ValuesOf<P>> SolveTiny(const P& problem, const ValuesOf<P>& start,
                                                    const std::array<bool, P::kCount>& held = {}) {
@@ -90,6 +90,7 @@ template <class P>
   ValuesOf<P> out;
   std::copy_n(x.data(), P::kCount, out.begin());
   if (summary.status != ceres::TinySolver<TinyRows<P>>::HIT_MAX_ITERATIONS) return out;
+  if (!kEndsByNewton<P>) return std::nullopt;
   out = Polish(problem, out);
   return AtRest(problem, out) ? std::optional(out) : std::nullopt;
 }

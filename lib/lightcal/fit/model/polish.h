@@ -136,6 +136,10 @@ template <class P>
   return step < kLargestStep ? std::optional(step) : std::nullopt;
 }
 
+// Newton's steps take two gradients a parameter: of a beam's 26 that is dearer than its fit.
+template <class P>
+inline constexpr bool kEndsByNewton = P::kCount <= 12;
+
 // A few steps more, as long as they are small and the cost does not grow beyond rounding; where
 // they come to no end, Newton's, as long as the gradient falls too.
 template <class P>
@@ -152,6 +156,7 @@ template <class P>
     theta = next;
     if (*step < (i + 1 < kSteps ? kDone : kNearlyDone)) return theta;
   }
+  if (!kEndsByNewton<P>) return theta;
   double left = GradientLeft(problem, theta, NormalEquationsAt(problem, theta));
   for (int i = 0; i < kNewtonSteps && left > kDone; ++i) {
     const ValuesOf<P> next = NewtonStep(problem, theta);
