@@ -293,7 +293,7 @@ Result<void> RunState(const StateOptions& options, Console& console) {
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<OutputFile> files;
   if (!options.spectrum.empty()) {
-    const auto spectrum = SpectrumAtState(**light, at);
+    const auto spectrum = SpectrumOf(**light, *answer);
     if (!spectrum) return tl::unexpected(spectrum.error());
     files.push_back(
         {options.spectrum,

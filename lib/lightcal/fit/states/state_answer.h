@@ -47,19 +47,17 @@ struct StateAnswer {
 // them: light by fit/states/control_curve.h; colour by the same law of ln mired and Duv, and where
 // the lamp mixes two emitters (its states' chromaticities lie on a line) the Duv of that line at
 // the CCT, so that no colour is answered that its emitters cannot make. Where spectra told the
-// emitters (fit/states/emitters.h) what they mix to that colour is its spectrum, and of two a colour
-// beside their line gives way to the nearest on it. Intervals hold what the reference's intensity
-// has.
-// Refused: no_states (the lamp has no controls), state_controls (other controls than were read),
-// outside_states (beyond what was read in a control: nothing tells how the fixture goes on),
-// state_word (a word that was never read), too_few_states (one state alone).
+// emitters (fit/states/emitters.h) what they mix to that colour is its spectrum, and of two a
+// colour beside their line gives way to the nearest on it. Intervals hold what the reference's
+// intensity has. Refused: no_states (the lamp has no controls), state_controls (other controls than
+// were read), outside_states (beyond what was read in a control: nothing tells how the fixture goes
+// on), state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
 
-// The spectrum alone. Refused: as AnswerState; no_spectra (none was read), spectra_too_few (there
-// are no fewer emitters than spectra, so that nothing shows them mixing), state_spectrum (none of
-// the states with these words has a spectrum).
-[[nodiscard]] Result<StateSpectrum> SpectrumAtState(const FittedLight& light,
-                                                    const FixtureState& at);
+// The spectrum of an answer. Refused: no_spectra (none was read), spectra_too_few (there are no
+// fewer emitters than spectra, so that nothing shows them mixing), state_spectrum (none of the
+// states with these words has a spectrum).
+[[nodiscard]] Result<StateSpectrum> SpectrumOf(const FittedLight& light, const StateAnswer& answer);
 
 // Whose offset, size and beam a state has.
 enum class GeometryBasis : std::uint8_t {

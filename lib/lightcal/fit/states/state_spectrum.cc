@@ -268,10 +268,8 @@ void AddSpectrumBetween(const FittedLight& light, const std::vector<MixtureNear>
 
 namespace lightcal {
 
-Result<StateSpectrum> SpectrumAtState(const FittedLight& light, const FixtureState& at) {
-  auto answer = AnswerState(light, at);
-  if (!answer) return Propagate(std::move(answer));
-  if (answer->spectrum) return *std::move(answer->spectrum);
+Result<StateSpectrum> SpectrumOf(const FittedLight& light, const StateAnswer& answer) {
+  if (answer.spectrum) return *answer.spectrum;
   const auto read = std::ranges::count_if(
       light.states, [](const MeasuredState& one) { return one.spectrum.has_value(); });
   if (read == 0) {
@@ -281,14 +279,14 @@ Result<StateSpectrum> SpectrumAtState(const FittedLight& light, const FixtureSta
   }
   if (light.emitters) {
     return Refused("state_spectrum", light.name,
-                   "no state with the words of " + StateText(at) +
+                   "no state with the words of " + StateText(answer.state) +
                        " has a spectrum; what its front does to the emitters is not known: read " +
                        "one there");
   }
   return Refused("spectra_too_few", light.name,
                  "has spectra of " + std::to_string(read) + (read == 1 ? " state" : " states") +
                      ", too few to show which emitters it mixes; read the spectrum at " +
-                     StateText(at) + ", or at more states between");
+                     StateText(answer.state) + ", or at more states between");
 }
 
 }  // namespace lightcal
