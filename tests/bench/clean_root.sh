@@ -7,7 +7,7 @@
 make_clean_root() {
   local folder=$1 base=$1/base.tar mirror
   mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' | awk '$2 == "bookworm" {print $1; exit}')
-  root=$folder/root
+  root=$(realpath -m "$folder/root")
   mkdir -p "$folder"
   if [ ! -s "$base" ]; then
     rm -rf "$folder/base"
@@ -15,15 +15,17 @@ make_clean_root() {
     tar -C "$folder/base" -cf "$base" .
     rm -rf "$folder/base"
   fi
-  rm -rf "$root"
+  # A run that was killed may have left something mounted in there: never remove through a mount.
+  findmnt --noheadings --list --output TARGET | { grep "^$root/" || true; } | sort -r | xargs -r umount
+  rm -rf --one-file-system "$root"
   mkdir -p "$root"
   tar -C "$root" -xf "$base"
   cp /etc/resolv.conf "$root/etc/resolv.conf"
   # The proxy or mirror settings of this machine's apt, if it has any.
   cp /etc/apt/apt.conf.d/*proxy* "$root/etc/apt/apt.conf.d/" 2>/dev/null || true
+  # debootstrap made device nodes of its own: no door to this machine's /dev.
   mount -t proc proc "$root/proc"
-  mount --bind /dev "$root/dev"
-  trap 'umount "$root/proc" "$root/dev"' EXIT
+  trap 'umount --lazy "$root/proc"' EXIT
 }
 
 in_root() {
