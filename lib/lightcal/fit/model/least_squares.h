@@ -90,9 +90,11 @@ template <class P>
   ValuesOf<P> out;
   std::copy_n(x.data(), P::kCount, out.begin());
   if (summary.status != ceres::TinySolver<TinyRows<P>>::HIT_MAX_ITERATIONS) return out;
-  if (!kEndsByNewton<P>) return std::nullopt;
-  out = Polish(problem, out);
-  return AtRest(problem, out) ? std::optional(out) : std::nullopt;
+  if constexpr (kEndsByNewton<P>) {
+    out = Polish(problem, out);
+    if (AtRest(problem, out)) return out;
+  }
+  return std::nullopt;
 }
 
 // What the full solver sees of any problem.

@@ -140,11 +140,28 @@ template <class P>
 template <class P>
 inline constexpr bool kEndsByNewton = P::kCount <= 12;
 
+// Newton's steps as long as they are small, the gradient falls and the cost is no worse.
+template <class P, class NoWorse>
+void FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_worse) {
+  constexpr int kSteps = 4;
+  constexpr double kDone = 1e-13;
+  double left = GradientLeft(problem, theta, NormalEquationsAt(problem, theta));
+  for (int i = 0; i < kSteps && left > kDone; ++i) {
+    const ValuesOf<P> next = NewtonStep(problem, theta);
+    const auto step = SmallStep(problem, theta, next);
+    if (!step || *step == 0.0 || !no_worse(next)) break;
+    const double then = GradientLeft(problem, next, NormalEquationsAt(problem, next));
+    if (!(then < left)) break;
+    left = then;
+    theta = next;
+  }
+}
+
 // A few steps more, as long as they are small and the cost does not grow beyond rounding; where
-// they come to no end, Newton's, as long as the gradient falls too.
+// they come to no end, Newton's.
 template <class P>
 [[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
-  constexpr int kSteps = 8, kNewtonSteps = 4;
+  constexpr int kSteps = 8;
   constexpr double kDone = 1e-13, kNearlyDone = 1e-11;
   const auto no_worse = [&problem, cost = HalfChiSquaredOf(problem, theta)](const auto& next) {
     return HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20;
@@ -156,17 +173,7 @@ template <class P>
     theta = next;
     if (*step < (i + 1 < kSteps ? kDone : kNearlyDone)) return theta;
   }
-  if (!kEndsByNewton<P>) return theta;
-  double left = GradientLeft(problem, theta, NormalEquationsAt(problem, theta));
-  for (int i = 0; i < kNewtonSteps && left > kDone; ++i) {
-    const ValuesOf<P> next = NewtonStep(problem, theta);
-    const auto step = SmallStep(problem, theta, next);
-    if (!step || *step == 0.0 || !no_worse(next)) break;
-    const double then = GradientLeft(problem, next, NormalEquationsAt(problem, next));
-    if (!(then < left)) break;
-    left = then;
-    theta = next;
-  }
+  if constexpr (kEndsByNewton<P>) FinishByNewton(problem, theta, no_worse);
   return theta;
 }
 
