@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(LIGHTCAL_ONE_PROCESSOR)
 #define LIGHTCAL_EVERY_CPU \
   __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
