@@ -3,12 +3,7 @@
 
 #include <cmath>
 
-#if defined(__x86_64__) && !defined(LIGHTCAL_ONE_PROCESSOR)
-#define LIGHTCAL_EVERY_CPU \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define LIGHTCAL_EVERY_CPU
-#endif
+#include "lightcal/core/every_processor.h"
 
 namespace lightcal::kernels {
 namespace {

@@ -49,9 +49,11 @@ struct StateAnswer {
 // the CCT, so that no colour is answered that its emitters cannot make. Where spectra told the
 // emitters (fit/states/emitters.h) what they mix to that colour is its spectrum, and of two a
 // colour beside their line gives way to the nearest on it. Intervals hold what the reference's
-// intensity has. Refused: no_states (the lamp has no controls), state_controls (other controls than
-// were read), outside_states (beyond what was read in a control: nothing tells how the fixture goes
-// on), state_word (a word that was never read), too_few_states (one state alone).
+// intensity has.
+//
+// Refused: no_states (the lamp has no controls), state_controls (other controls than were read),
+// outside_states (beyond what was read in a control: nothing tells how the fixture goes on),
+// state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
 
 // The spectrum of an answer. Refused: no_spectra (none was read), spectra_too_few (there are no

@@ -5,12 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__x86_64__) && !defined(LIGHTCAL_ONE_PROCESSOR)
-#define LIGHTCAL_EVERY_CPU \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define LIGHTCAL_EVERY_CPU
-#endif
+#include "lightcal/core/every_processor.h"
 
 // Of the loop that follows: what one pointer writes no other one reads. GCC gives up on vectorising
 // where it would have to check more than ten pairs of pointers.
