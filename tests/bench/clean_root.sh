@@ -3,21 +3,28 @@
 # this machine's apt uses.
 #   make_clean_root FOLDER    FOLDER/root, new; FOLDER/base.tar is kept and reused for the base system
 #   in_root COMMAND...        runs it in there
+#   remove_root FOLDER        takes one away
+
+# A folder away, whatever a run that was killed left mounted in it: never through a mount.
+remove_root() {
+  findmnt --noheadings --list --output TARGET | { grep "^$1/" || true; } | sort -r | xargs -r umount
+  rm -rf --one-file-system "$1"
+}
 
 make_clean_root() {
-  local folder=$1 base=$1/base.tar mirror
+  local folder base mirror
+  folder=$(realpath -m "$1")
+  base=$folder/base.tar
   mirror=$(apt-get indextargets --format '$(SITE) $(RELEASE)' | awk '$2 == "bookworm" {print $1; exit}')
-  root=$(realpath -m "$folder/root")
+  root=$folder/root
   mkdir -p "$folder"
   if [ ! -s "$base" ]; then
-    rm -rf "$folder/base"
+    remove_root "$folder/base"
     debootstrap --variant=minbase bookworm "$folder/base" "$mirror" >"$folder/debootstrap.log"
     tar -C "$folder/base" -cf "$base" .
-    rm -rf "$folder/base"
+    remove_root "$folder/base"
   fi
-  # A run that was killed may have left something mounted in there: never remove through a mount.
-  findmnt --noheadings --list --output TARGET | { grep "^$root/" || true; } | sort -r | xargs -r umount
-  rm -rf --one-file-system "$root"
+  remove_root "$root"
   mkdir -p "$root"
   tar -C "$root" -xf "$base"
   cp /etc/resolv.conf "$root/etc/resolv.conf"
