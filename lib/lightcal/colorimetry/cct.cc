@@ -42,7 +42,7 @@ struct Nearest {
 };
 
 Nearest Describe(const LocusTable& locus, int segment, double t, Uv1960 p) {
-  const Curve c = locus.segments[segment].At(t);
+  const Curve c = locus.SegmentAt(segment).At(t);
   const double eu = p.u - c.u;
   const double ev = p.v - c.v;
   const double speed = std::sqrt(c.du * c.du + c.dv * c.dv);
@@ -60,8 +60,8 @@ double NewtonStep(const Curve& c, Uv1960 p) {
 
 // Where the straight line between the projections at the two ends crosses zero.
 double FirstGuess(const LocusTable& locus, int segment, Uv1960 p) {
-  const double ahead = locus.nodes[segment].Ahead(p);
-  const double behind = locus.nodes[segment + 1].Ahead(p);
+  const double ahead = locus.NodeAt(segment).Ahead(p);
+  const double behind = locus.NodeAt(segment + 1).Ahead(p);
   return ahead > behind ? std::clamp(ahead / (ahead - behind), 0.0, 1.0) : 0.5;
 }
 
@@ -71,7 +71,7 @@ double FirstGuess(const LocusTable& locus, int segment, Uv1960 p) {
 int LastSegmentAhead(const LocusTable& locus, Uv1960 p) {
   int low = 0;
   const auto ahead = [&](int node) {
-    return static_cast<int>(locus.nodes[std::min(node, kSegments)].Ahead(p) > 0.0);
+    return static_cast<int>(locus.NodeAt(std::min(node, kSegments)).Ahead(p) > 0.0);
   };
   for (int step = kLargestStep; step > 0; step /= 4) {
     low += step * (ahead(low + step) + ahead(low + 2 * step) + ahead(low + 3 * step));
@@ -82,7 +82,7 @@ int LastSegmentAhead(const LocusTable& locus, Uv1960 p) {
 // Near the locus: the projection falls monotonically, two Newton steps reach rounding.
 Nearest NearestByBisection(const LocusTable& locus, Uv1960 p) {
   const int segment = LastSegmentAhead(locus, p);
-  const Segment& s = locus.segments[segment];
+  const Segment& s = locus.SegmentAt(segment);
   double t = FirstGuess(locus, segment, p);
   for (int i = 0; i < 2; ++i) t = std::clamp(t + NewtonStep(s.At(t), p), 0.0, 1.0);
   return Describe(locus, segment, t, p);
@@ -90,7 +90,7 @@ Nearest NearestByBisection(const LocusTable& locus, Uv1960 p) {
 
 // One segment whose ends pull towards its inside: Newton, safeguarded by bisection.
 Nearest NearestInSegment(const LocusTable& locus, int segment, Uv1960 p) {
-  const Segment& s = locus.segments[segment];
+  const Segment& s = locus.SegmentAt(segment);
   double low = 0.0;
   double high = 1.0;
   double t = FirstGuess(locus, segment, p);
@@ -112,9 +112,9 @@ Nearest NearestByScan(const LocusTable& locus, Uv1960 p) {
     if (candidate.distance < best.distance) best = candidate;
   };
   consider(Describe(locus, kSegments - 1, 1.0, p));
-  double ahead = locus.nodes[0].Ahead(p);
+  double ahead = locus.NodeAt(0).Ahead(p);
   for (int i = 0; i < kSegments; ++i) {
-    const double next_ahead = locus.nodes[i + 1].Ahead(p);
+    const double next_ahead = locus.NodeAt(i + 1).Ahead(p);
     if (ahead > 0.0 && next_ahead <= 0.0) consider(NearestInSegment(locus, i, p));
     ahead = next_ahead;
   }
@@ -168,7 +168,7 @@ std::optional<CctJacobian> CctJacobianAt(Xy xy) {
   const Uv1960 uv = Uv1960FromXy(xy);
   const Nearest nearest = NearestOnLocus(Locus(), uv);
   if (nearest.InMireds() < kInfinityMireds) return std::nullopt;
-  const Curve c = Locus().segments[nearest.segment].At(nearest.t);
+  const Curve c = Locus().SegmentAt(nearest.segment).At(nearest.t);
   const double speed2 = c.du * c.du + c.dv * c.dv;
   const double stiffness = Stiffness(c, uv);
   if (!(stiffness > 1e-9 * speed2)) return std::nullopt;

@@ -110,7 +110,7 @@ void LoadSegments(const locus::LocusTable& table, const Start* starts, Block& b)
     const auto segment = static_cast<std::int32_t>(inside);
     b.segment[i] = segment;
     b.t[i] = inside - segment;
-    const locus::Segment& s = table.segments[static_cast<std::size_t>(segment)];
+    const locus::Segment& s = table.SegmentAt(segment);
     for (std::size_t k = 0; k < 6; ++k) {
       b.c[k][i] = s.u.c[k];
       b.c[k + 6][i] = s.v.c[k];
@@ -198,7 +198,8 @@ void InBlocks(std::span<const Color> colors, std::span<CctResult> results, const
 }  // namespace
 
 void CctBatch(std::span<const Uv1960> colors, std::span<CctResult> results) {
-  InBlocks(colors, results, [](Uv1960 uv) { return uv; }, [](Uv1960 uv) { return CctFromUv(uv); });
+  InBlocks(
+      colors, results, [](Uv1960 uv) { return uv; }, [](Uv1960 uv) { return CctFromUv(uv); });
 }
 
 void CctBatch(std::span<const Xy> colors, std::span<CctResult> results) {

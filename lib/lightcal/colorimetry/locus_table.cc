@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/colorimetry/locus_table.h"
 
-#include "lightcal/colorimetry/planckian.h"
 #include "lightcal/core/units.h"
 
 namespace lightcal::locus {
@@ -18,18 +17,26 @@ Quintic Hermite(double p, double a, double e, double q, double b, double f) {
 
 }  // namespace
 
-LocusTable::LocusTable() {
+void LocusTable::LearnNode(std::size_t i) const {
+  const std::lock_guard lock(learning_);
+  if (node_known_[i].load(std::memory_order_relaxed)) return;
+  exact_[i] = PlanckianLocusAt(Mireds(static_cast<double>(i) * kStepMireds));
+  nodes_[i] = {exact_[i].uv.u, exact_[i].uv.v, exact_[i].du, exact_[i].dv};
+  node_known_[i].store(true, std::memory_order_release);
+}
+
+void LocusTable::LearnSegment(std::size_t i) const {
+  static_cast<void>(NodeAt(static_cast<int>(i)));
+  static_cast<void>(NodeAt(static_cast<int>(i) + 1));
+  const std::lock_guard lock(learning_);
+  if (segment_known_[i].load(std::memory_order_relaxed)) return;
   const double h = kStepMireds;
-  LocusPoint from = PlanckianLocusAt(Mireds(0.0));
-  for (int i = 0; i <= kSegments; ++i) {
-    nodes[i] = {from.uv.u, from.uv.v, from.du, from.dv};
-    if (i == kSegments) break;
-    const LocusPoint to = PlanckianLocusAt(Mireds((i + 1) * h));
-    segments[i] = {
-        Hermite(from.uv.u, h * from.du, h * h * from.d2u, to.uv.u, h * to.du, h * h * to.d2u),
-        Hermite(from.uv.v, h * from.dv, h * h * from.d2v, to.uv.v, h * to.dv, h * h * to.d2v)};
-    from = to;
-  }
+  const LocusPoint& from = exact_[i];
+  const LocusPoint& to = exact_[i + 1];
+  segments_[i] = {
+      Hermite(from.uv.u, h * from.du, h * h * from.d2u, to.uv.u, h * to.du, h * h * to.d2u),
+      Hermite(from.uv.v, h * from.dv, h * h * from.d2v, to.uv.v, h * to.dv, h * h * to.d2v)};
+  segment_known_[i].store(true, std::memory_order_release);
 }
 
 const LocusTable& Locus() {

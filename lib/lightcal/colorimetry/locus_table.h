@@ -5,8 +5,12 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstddef>
+#include <mutex>
 
 #include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/colorimetry/planckian.h"
 
 namespace lightcal::locus {
 
@@ -52,14 +56,35 @@ struct Node {
   [[nodiscard]] double Ahead(Uv1960 p) const { return (p.u - u) * du + (p.v - v) * dv; }
 };
 
-struct LocusTable {
-  std::array<Node, kSegments + 1> nodes;
-  std::array<Segment, kSegments> segments;
+// Each part is computed when it is first asked for (10 us; all of them 5 ms, of which one colour
+// asks for a thirtieth), then shared. Used by several threads at once.
+class LocusTable {
+ public:
+  // At kStepMireds times `i`, 0 to kSegments.
+  [[nodiscard]] const Node& NodeAt(int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    if (!node_known_[at].load(std::memory_order_acquire)) LearnNode(at);
+    return nodes_[at];
+  }
+  // From node i to node i + 1.
+  [[nodiscard]] const Segment& SegmentAt(int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    if (!segment_known_[at].load(std::memory_order_acquire)) LearnSegment(at);
+    return segments_[at];
+  }
 
-  LocusTable();
+ private:
+  void LearnNode(std::size_t i) const;
+  void LearnSegment(std::size_t i) const;
+
+  mutable std::mutex learning_;  // held by who writes below
+  mutable std::array<std::atomic<bool>, kSegments + 1> node_known_{};
+  mutable std::array<std::atomic<bool>, kSegments> segment_known_{};
+  mutable std::array<LocusPoint, kSegments + 1> exact_{};
+  mutable std::array<Node, kSegments + 1> nodes_{};
+  mutable std::array<Segment, kSegments> segments_{};
 };
 
-// Computed at first use (half a millisecond), then shared.
 [[nodiscard]] const LocusTable& Locus();
 
 }  // namespace lightcal::locus
