@@ -24,8 +24,9 @@ install(DIRECTORY sample_data/sessions sample_data/tapes DESTINATION ${CMAKE_INS
 
 # Everything `cmake --install` needs, without the tests.
 get_property(rooms GLOBAL PROPERTY LIGHTCAL_ROOMS)
+get_property(modules GLOBAL PROPERTY LIGHTCAL_MODULES)
 add_custom_target(lightcal_installed
-  DEPENDS ${rooms} lightcal lightcal_board lightcal_pictures lightcal_tether lightcal_shell_files)
+  DEPENDS ${rooms} ${modules} lightcal lightcal_shell_files)
 foreach(optional IN ITEMS lightcal_python lightcal_page)  # where their packages are
   if(TARGET ${optional})
     add_dependencies(lightcal_installed ${optional})

@@ -16,6 +16,8 @@ import tempfile
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 FILES = """
 usr/bin/lightcal
+usr/lib/lightcal/lightcal_archive.so
+usr/lib/lightcal/lightcal_frames.so
 usr/lib/lightcal/lightcal_pictures.so
 usr/lib/lightcal/lightcal_tether.so
 usr/lib/lightcal/lightcal_board.so
@@ -53,7 +55,7 @@ def of_python(module, root):
     run("dpkg-deb", "-x", module, root)
     depends = run("dpkg-deb", "-f", module, "Depends")
     problems += [f"{module.name} does not depend on {name}"
-                 for name in ("lightcal (= ", "python3 (<< ", "python3-numpy", "libraw20")
+                 for name in ("lightcal (= ", "python3 (<< ", "python3-numpy", "libusb-1.0-0")
                  if name not in depends]
     listed = run("dpkg-deb", "-c", module)
     problems += [f"{line} is not Python's" for line in listed.splitlines()

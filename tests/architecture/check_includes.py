@@ -35,12 +35,12 @@ DOORS = [
     (r"nlohmann/", r"(_codec\.cc$)|(lib/lightcal/presets/.*\.cc$)|(^app/)"),
     (r"toml\+\+/", r"_codec\.cc$|^app/"),
     (r"pugixml", r"devices/lightcal_devices/files/.*\.cc$|lib/lightcal/presets/.*\.cc$"),
-    (r"archive\.h|archive_entry\.h", r"devices/lightcal_devices/files/.*\.cc$"),
+    (r"^archive(_entry)?\.h", r"devices/lightcal_devices/files/archive_reading\.cc$"),
     (r"gphoto2/", r"devices/lightcal_devices/captures/gphoto_module\.cc$"),
     (r"hidapi|libusb", r"devices/lightcal_devices/transport/.*\.cc$"),
     (r"CLI/", r"^app/"),
     (r"pybind11/|Python\.h", r"^app/python/"),
-    (r"openssl/", r"devices/lightcal_devices/disk_sources\.cc$"),
+    (r"nettle/", r"devices/lightcal_devices/disk_sources\.cc$"),
     (r"librsvg/|cairo(-pdf)?\.h", r"^app/picture_file\.cc$"),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.M)

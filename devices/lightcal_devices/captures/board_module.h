@@ -24,7 +24,6 @@ struct BoardFunctions {
   std::vector<PictureFeature> (*find_features)(View2d<const std::uint8_t> grey,
                                                View2d<const std::uint8_t> seen, int most);
 };
-using BoardEntry = const BoardFunctions* (*)() noexcept;
 inline constexpr const char* kBoardEntrySymbol = "lightcal_board_functions";
 
 // Opens the module at the first call and keeps it.  Fails: no_board_module.

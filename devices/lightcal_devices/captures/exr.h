@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenEXR files, read through OpenEXR itself: OpenImageIO refuses luminance/chroma files, and costs
-// 0.2 s where OpenEXR costs 1 ms. The functions mean what picture.h says; a half float's infinity
-// comes as 65504, the most it holds, and a picture that holds that names it as its levels' maximum.
+// OpenEXR files, through OpenEXR itself, in the module of frame_files_module.h: OpenImageIO refuses
+// luminance/chroma files, and costs 0.2 s to load where OpenEXR costs 1 ms. The functions mean what
+// picture.h says; a half float's infinity comes as 65504, the most it holds, and a picture that
+// holds that names it as its levels' maximum.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
 #include "lightcal_devices/captures/mapped_file.h"
+#include "lightcal_devices/captures/picture.h"
 
 namespace lightcal::devices {
 
@@ -16,5 +18,6 @@ namespace lightcal::devices {
 [[nodiscard]] Result<FrameInfo> ReadExrInfo(const std::string& path, const MappedFile& file);
 [[nodiscard]] Result<Frame> ReadExr(const std::string& path, const MappedFile& file,
                                     SampleStore store);
+[[nodiscard]] Result<void> WriteExrFile(const std::string& path, const ExrPicture& picture);
 
 }  // namespace lightcal::devices

@@ -10,7 +10,7 @@
 #include <exception>
 #include <thread>
 
-#include "lightcal_devices/captures/picture.h"
+#include "lightcal_devices/captures/exr.h"
 #include "lightcal_devices/captures/sample_check.h"
 
 namespace lightcal::devices {
@@ -57,7 +57,7 @@ void Write(const std::string& path, const ExrPicture& picture) {
 
 }  // namespace
 
-Result<void> WriteExr(const std::string& path, const ExrPicture& picture) {
+Result<void> WriteExrFile(const std::string& path, const ExrPicture& picture) {
   if (picture.samples.empty() ||
       picture.channel_names.size() != static_cast<std::size_t>(picture.samples.channels())) {
     return Failed("unwritable", path, "a picture needs pixels, and a name for each channel");

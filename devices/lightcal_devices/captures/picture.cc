@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lightcal_devices/captures/exposure_tags.h"
-#include "lightcal_devices/captures/exr.h"
+#include "lightcal_devices/captures/frame_files_module.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/memory_at_hand.h"
@@ -244,7 +244,11 @@ Result<Opened> Open(const std::string& path, OpenFiles* files) {
 Result<Frame> ReadUnchecked(const std::string& path, SampleStore store, OpenFiles* files) {
   auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
-  if (opened->format == "exr") return ReadExr(path, opened->file, store);
+  if (opened->format == "exr") {
+    const auto module = FrameFilesModule();
+    if (!module) return tl::unexpected(module.error());
+    return (*module)->read_exr(path, opened->file, store);
+  }
   auto picture = ReadThroughModule(*opened, path, true);
   if (!picture) return Propagate(std::move(picture));
   auto info = Describe(*picture, path, opened->format, opened->bytes());
@@ -257,7 +261,11 @@ Result<Frame> ReadUnchecked(const std::string& path, SampleStore store, OpenFile
 Result<FrameInfo> ReadPictureInfo(const std::string& path, OpenFiles* files) {
   auto opened = Open(path, files);
   if (!opened) return Propagate(std::move(opened));
-  if (opened->format == "exr") return ReadExrInfo(path, opened->file);
+  if (opened->format == "exr") {
+    const auto module = FrameFilesModule();
+    if (!module) return tl::unexpected(module.error());
+    return (*module)->read_exr_info(path, opened->file);
+  }
   auto picture = ReadThroughModule(*opened, path, false);
   if (!picture) return Propagate(std::move(picture));
   return Describe(*picture, path, opened->format, opened->bytes());
@@ -293,6 +301,12 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore sto
   auto whole = Kept(std::move(samples), std::move(frame->info), store);
   if (!whole) return Propagate(std::move(whole));
   return MaskedPicture{std::move(*whole), std::move(masked)};
+}
+
+Result<void> WriteExr(const std::string& path, const ExrPicture& picture) {
+  const auto module = FrameFilesModule();
+  if (!module) return tl::unexpected(module.error());
+  return (*module)->write_exr(path, picture);
 }
 
 }  // namespace lightcal::devices

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "lightcal_devices/captures/module_door.h"
+#include "lightcal_devices/transport/module_door.h"
 
 namespace lightcal::devices {
 namespace {

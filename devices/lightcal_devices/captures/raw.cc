@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal_devices/captures/frame_files_module.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/raw_answer.h"
-#include "lightcal_devices/captures/raw_decode.h"
 #include "lightcal_devices/captures/raw_info.h"
 #include "lightcal_devices/captures/safe_process.h"
 
@@ -38,7 +38,10 @@ Result<Answered> Ask(const std::string& path, SampleStore store, bool with_sampl
   auto scratch =
       OpenScratch(store == SampleStore::kMemory ? ScratchPlace::kMemory : ScratchPlace::kDisk);
   if (!scratch) return Propagate(std::move(scratch));
-  const auto ended = RunInSafeProcess([&] { DecodeRaw(path, *raw, with_samples, scratch->get()); });
+  const auto module = FrameFilesModule();
+  if (!module) return tl::unexpected(module.error());
+  const auto ended =
+      RunInSafeProcess([&] { (*module)->decode_raw(path, *raw, with_samples, scratch->get()); });
   if (!ended) return tl::unexpected(ended.error());
   auto file = MapWritten(*scratch, path);
   if (!file) return Propagate(std::move(file));

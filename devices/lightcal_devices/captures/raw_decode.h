@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of reading a RAW that foreign code does. It runs in a process of its own: LibRaw 0.20.2
-// reads outside its memory on damaged files (see lib/DECISIONS.md).
+// The part of reading a RAW that foreign code does, in the module of frame_files_module.h. It runs
+// in a process of its own: LibRaw 0.20.2 reads outside its memory on damaged files (see
+// lib/DECISIONS.md).
 #pragma once
 
 #include <string>

@@ -9,7 +9,7 @@
 
 #include "lightcal/core/joined.h"
 #include "lightcal_devices/captures/gphoto_module.h"
-#include "lightcal_devices/captures/module_door.h"
+#include "lightcal_devices/transport/module_door.h"
 #include "lightcal_devices/transport/sysfs.h"
 #include "lightcal_devices/transport/transport.h"
 #include "lightcal_devices/transport/usb.h"

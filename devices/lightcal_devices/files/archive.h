@@ -14,7 +14,9 @@ inline constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
 
 [[nodiscard]] bool IsZip(std::string_view bytes);
 // The one file in a .zip; the resource forks macOS adds (__MACOSX/, ._name) do not count.
-// Refused: bad_archive (damaged, encrypted, no file or several), too_large.
+// Refused: bad_archive (damaged, encrypted, no file or several), too_large. Here and below, fails:
+// no_archive_module (the program is badly installed): libarchive stands in a module, opened at the
+// first call.
 [[nodiscard]] Result<std::string> OnlyFileInZip(std::string_view bytes, std::string_view name);
 // The file of that path in a .zip, of at most so many bytes when unpacked; the others are not
 // unpacked. Refused: bad_archive (damaged, encrypted, without it, over 10,000 files), too_large.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal_devices/captures/module_door.h"
+#include "lightcal_devices/transport/module_door.h"
 
 #include <dlfcn.h>
 

@@ -15,4 +15,13 @@ namespace lightcal::devices {
 [[nodiscard]] Result<void*> OpenModule(const std::string& name, const char* symbol,
                                        const std::string& code, const std::string& what);
 
+// The functions that a module answers, where `symbol` is a `const Functions* ()`. Fails as above.
+template <class Functions>
+Result<const Functions*> OpenModuleFunctions(const std::string& name, const char* symbol,
+                                             const std::string& code, const std::string& what) {
+  const auto entry = OpenModule(name, symbol, code, what);
+  if (!entry) return tl::unexpected(entry.error());
+  return reinterpret_cast<const Functions* (*)()>(*entry)();
+}
+
 }  // namespace lightcal::devices
