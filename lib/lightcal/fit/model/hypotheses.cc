@@ -99,18 +99,27 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
   return out;
 }
 
-double SettleScatter(Estimation& estimation, const Theta& theta) {
-  double most = 0.0;
-  for (ReadingRow& row : estimation.rows) {
-    if (!row.walls) continue;
-    const double walls = std::exp(theta[kLnIntensity]) * WallsPerCandela(row, theta.data());
-    const double scatter = row.walls->scatter * walls;
-    const double whole = row.form == RowForm::kLinear ? 1.0 : RowIlluminance(row, theta.data());
-    const double before = row.sigma;
-    row.sigma = whole > 0.0 ? std::hypot(row.own_sigma, scatter / whole) : row.own_sigma;
-    most = std::max(most, std::abs(std::log(row.sigma / before)));
-  }
-  return most;
+namespace {
+
+double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
+  if (!row.walls) return row.sigma;
+  const double walls = std::exp(theta[kLnIntensity]) * WallsPerCandela(row, theta.data());
+  const double scatter = row.walls->scatter * walls;
+  const double whole = row.form == RowForm::kLinear ? 1.0 : RowIlluminance(row, theta.data());
+  return whole > 0.0 ? std::hypot(row.own_sigma, scatter / whole) : row.own_sigma;
+}
+
+bool IsSettled(const Estimation& estimation, const Theta& theta) {
+  constexpr double kSettled = 0.02;
+  return std::ranges::all_of(estimation.rows, [&](const ReadingRow& row) {
+    return std::abs(std::log(SigmaWithScatter(row, theta) / row.sigma)) <= kSettled;
+  });
+}
+
+}  // namespace
+
+void SettleScatter(Estimation& estimation, const Theta& theta) {
+  for (ReadingRow& row : estimation.rows) row.sigma = SigmaWithScatter(row, theta);
 }
 
 Result<Theta> SolveSettled(Estimation& estimation) {
@@ -118,13 +127,16 @@ Result<Theta> SolveSettled(Estimation& estimation) {
   const Theta start =
       ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
   constexpr int kRounds = 8;
-  constexpr double kSettled = 0.02;
   SettleScatter(estimation, start);
-  Result<Theta> theta = Solve(estimation, start);
-  if (!estimation.rules[kLnWalls].free) return theta;
-  for (int i = 0; i < kRounds && theta && SettleScatter(estimation, *theta) > kSettled; ++i) {
-    theta = Solve(estimation, *theta);
+  if (!estimation.rules[kLnWalls].free) return Solve(estimation, start);
+  // The last digits only where no other round follows.
+  Result<Theta> theta = SolveNearly(estimation, start);
+  for (int i = 0; i < kRounds && theta && !IsSettled(estimation, *theta); ++i) {
+    SettleScatter(estimation, *theta);
+    theta = SolveNearly(estimation, *theta);
   }
+  if (theta) theta = Finish(estimation, *theta);
+  if (theta) SettleScatter(estimation, *theta);
   return theta;
 }
 

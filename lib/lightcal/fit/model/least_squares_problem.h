@@ -7,7 +7,9 @@
 //   problem.BoundsOf(k)             where a free one must stay
 //   problem.RowCount()              how many rows
 //   problem.Residual(i, theta, r)   row i over its sigma, T = double or Jet; false: it has no value
-// so that a further parameter is a line in P's rules and its place in the row's law.
+// so that a further parameter is a line in P's rules and its place in the row's law. Where rows are
+// many and their derivatives short, P may also tell
+//   problem.Differentiate(i, theta, r, gradient)   the same with its derivatives, in doubles
 // Internal to this room: needs Eigen and Ceres's Jet alone.
 #pragma once
 
@@ -55,16 +57,22 @@ template <class P>
 // The same, and its derivatives by every parameter.
 template <class P>
 double DifferentiateAt(const P& problem, std::size_t i, const double* theta, double* gradient) {
-  using Jet = ceres::Jet<double, P::kCount>;
-  std::array<Jet, P::kCount> variables;
-  for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
-  Jet residual(0.0);
-  if (!problem.Residual(i, variables.data(), &residual)) {
-    std::fill_n(gradient, P::kCount, 0.0);
-    return std::numeric_limits<double>::infinity();
+  double value = 0.0;
+  bool has_value = false;
+  if constexpr (requires { problem.Differentiate(i, theta, &value, gradient); }) {
+    has_value = problem.Differentiate(i, theta, &value, gradient);
+  } else {
+    using Jet = ceres::Jet<double, P::kCount>;
+    std::array<Jet, P::kCount> variables;
+    for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
+    Jet residual(0.0);
+    has_value = problem.Residual(i, variables.data(), &residual);
+    value = residual.a;
+    std::copy_n(residual.v.data(), P::kCount, gradient);
   }
-  std::copy_n(residual.v.data(), P::kCount, gradient);
-  return residual.a;
+  if (has_value) return value;
+  std::fill_n(gradient, P::kCount, 0.0);
+  return std::numeric_limits<double>::infinity();
 }
 
 // 1/2 sum r_i^2 with the priors of free parameters.

@@ -9,18 +9,35 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "lightcal/fit/model/least_squares_problem.h"
 
 namespace lightcal::fit {
 
-// J^T J and J^T r of rows and priors over all parameters.
+// J^T J and J^T r of rows and priors over all parameters; J^T r alone.
 template <class P>
 struct NormalEquations {
   SquareOf<P> normal = SquareOf<P>::Zero();
   VectorOf<P> gradient = VectorOf<P>::Zero();
 };
+
+template <class P>
+[[nodiscard]] VectorOf<P> GradientAt(const P& problem, const ValuesOf<P>& theta) {
+  VectorOf<P> gradient = VectorOf<P>::Zero();
+  VectorOf<P> j;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
+    gradient += j * residual;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    gradient[k] += (theta[k] - rule.prior_mean) / (rule.prior_sd * rule.prior_sd);
+  }
+  return gradient;
+}
 
 template <class P>
 [[nodiscard]] NormalEquations<P> NormalEquationsAt(const P& problem, const ValuesOf<P>& theta) {
@@ -84,12 +101,12 @@ template <class P>
 }
 
 // One step of Newton's method over the same parameters, with the derivative of the exact gradient
-// by central differences. Gauss and Newton's leaves out how rows bend: where offset and walls trade
-// nearly evenly it goes on by parts of the way for ever. Unmoved where that is no minimum.
+// by central differences; `at` are the equations at theta. Gauss and Newton's leaves out how rows
+// bend: where offset and walls trade nearly evenly it goes on by parts of the way for ever. Unmoved
+// where that is no minimum.
 template <class P>
-[[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta) {
+[[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta, NormalEquations<P> at) {
   constexpr double kPartOfDeviation = 1e-4;
-  NormalEquations<P> at = NormalEquationsAt(problem, theta);
   std::array<bool, P::kCount> moves{};
   SquareOf<P> bend = SquareOf<P>::Zero();
   for (int k = 0; k < P::kCount; ++k) {
@@ -100,9 +117,7 @@ template <class P>
     ValuesOf<P> more = theta, less = theta;
     more[k] += h;
     less[k] -= h;
-    bend.col(k) =
-        (NormalEquationsAt(problem, more).gradient - NormalEquationsAt(problem, less).gradient) /
-        (more[k] - less[k]);
+    bend.col(k) = (GradientAt(problem, more) - GradientAt(problem, less)) / (more[k] - less[k]);
   }
   bend = (0.5 * (bend + bend.transpose())).eval();
   for (int k = 0; k < P::kCount; ++k) {
@@ -145,12 +160,14 @@ template <class P, class NoWorse>
 void FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_worse) {
   constexpr int kSteps = 4;
   constexpr double kDone = 1e-13;
-  double left = GradientLeft(problem, theta, NormalEquationsAt(problem, theta));
+  NormalEquations<P> at = NormalEquationsAt(problem, theta);
+  double left = GradientLeft(problem, theta, at);
   for (int i = 0; i < kSteps && left > kDone; ++i) {
-    const ValuesOf<P> next = NewtonStep(problem, theta);
+    const ValuesOf<P> next = NewtonStep(problem, theta, at);
     const auto step = SmallStep(problem, theta, next);
     if (!step || *step == 0.0 || !no_worse(next)) break;
-    const double then = GradientLeft(problem, next, NormalEquationsAt(problem, next));
+    at = NormalEquationsAt(problem, next);
+    const double then = GradientLeft(problem, next, at);
     if (!(then < left)) break;
     left = then;
     theta = next;
@@ -158,11 +175,13 @@ void FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_wors
 }
 
 // A few steps more, as long as they are small and the cost does not grow beyond rounding; where
-// they come to no end, Newton's.
+// they come to no end, or to it by parts of the way, Newton's.
 template <class P>
 [[nodiscard]] ValuesOf<P> Polish(const P& problem, ValuesOf<P> theta) {
   constexpr int kSteps = 8;
   constexpr double kDone = 1e-13, kNearlyDone = 1e-11;
+  constexpr double kSlow = 0.1;  // of the step before
+  double former = std::numeric_limits<double>::infinity();
   const auto no_worse = [&problem, cost = HalfChiSquaredOf(problem, theta)](const auto& next) {
     return HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20;
   };
@@ -172,6 +191,8 @@ template <class P>
     if (!step || !no_worse(next)) break;
     theta = next;
     if (*step < (i + 1 < kSteps ? kDone : kNearlyDone)) return theta;
+    if (kEndsByNewton<P> && *step > kSlow * former) break;
+    former = *step;
   }
   if constexpr (kEndsByNewton<P>) FinishByNewton(problem, theta, no_worse);
   return theta;

@@ -106,4 +106,8 @@ template <class T>
   return WhitenedResidual(row.form, row.measured, row.sigma, RowIlluminance(row, theta), residual);
 }
 
+// The same with its derivatives by every parameter.
+[[nodiscard]] bool RowResidual(const ReadingRow& row, const double* theta, double* residual,
+                               double* gradient);
+
 }  // namespace lightcal::fit

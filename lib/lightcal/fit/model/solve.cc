@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/model/solve.h"
 
+#include <ceres/jet.h>
+
+#include <cmath>
+
 #include "lightcal/fit/model/least_squares.h"
 
 namespace lightcal::fit {
@@ -13,6 +17,10 @@ struct OneRow {
   template <class T>
   [[nodiscard]] bool Residual(std::size_t /*i*/, const T* theta, T* residual) const {
     return RowResidual(row, theta, residual);
+  }
+  [[nodiscard]] bool Differentiate(std::size_t /*i*/, const double* theta, double* residual,
+                                   double* gradient) const {
+    return RowResidual(row, theta, residual, gradient);
   }
 };
 
@@ -44,6 +52,18 @@ Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss,
   return SolveInFull(estimation, start, loss, scale);
 }
 
+Result<Theta> SolveNearly(const Estimation& estimation, const Theta& start) {
+  if (estimation.choice.solver == SolverChoice::kQuick) {
+    if (const std::optional<Theta> theta = SolveCoarsely(estimation, start)) return *theta;
+  }
+  return Solve(estimation, start);
+}
+
+Theta Finish(const Estimation& estimation, const Theta& nearly) {
+  const bool quick = estimation.choice.solver == SolverChoice::kQuick;
+  return quick ? Polish(estimation, nearly) : nearly;
+}
+
 Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss loss,
                           double scale) {
   FullSolver how{.loss = loss, .scale = scale, .first_trust_region = 1e8};
@@ -58,6 +78,28 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
     how.polish = false;
   }
   return SolveInFullBy(estimation, start, how, "estimate");
+}
+
+// The chain rule written out, so that only the distance offset goes through automatic
+// differentiation.
+bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient) {
+  using Jet = ceres::Jet<double, 1>;
+  const Jet direct =
+      row.direct_gain > 0.0 ? LuxPerCandela(row, Jet(theta[kDistanceOffset], 0)) : Jet(row.bounce);
+  const double walls = WallsPerCandela(row, theta);
+  const double intensity = std::exp(theta[kLnIntensity]);
+  const double lamp = intensity * (direct.a + walls);
+  const double predicted = lamp + row.ambient_gain * theta[kAmbient];
+  if (!WhitenedResidual(row.form, row.measured, row.sigma, predicted, residual)) return false;
+  const bool silent = row.form == RowForm::kCensored && !(*residual > 0.0);
+  const double by_illuminance =
+      silent ? 0.0 : -1.0 / (row.form == RowForm::kLinear ? row.sigma : row.sigma * predicted);
+  gradient[kLnIntensity] = by_illuminance * lamp;
+  gradient[kDistanceOffset] = by_illuminance * intensity * direct.v[0];
+  gradient[kAmbient] = by_illuminance * row.ambient_gain;
+  gradient[kLnWalls] = by_illuminance * intensity * walls;
+  gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
+  return true;
 }
 
 double RowResidual(const ReadingRow& row, const Theta& theta) {

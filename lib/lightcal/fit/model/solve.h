@@ -33,6 +33,10 @@ struct Estimation {
   [[nodiscard]] bool Residual(std::size_t i, const T* theta, T* residual) const {
     return RowResidual(rows[i], theta, residual);
   }
+  [[nodiscard]] bool Differentiate(std::size_t i, const double* theta, double* residual,
+                                   double* gradient) const {
+    return RowResidual(rows[i], theta, residual, gradient);
+  }
 };
 
 // Minimises 1/2 sum rho(r_i^2) + priors with Ceres from `start`, d0 and E0 in their boxes. `scale`
@@ -40,6 +44,9 @@ struct Estimation {
 // As estimation.choice.solver says: squared losses try SolveQuickly first by default.
 [[nodiscard]] Result<Theta> Solve(const Estimation& estimation, const Theta& start,
                                   Loss loss = Loss::kSquared, double scale = 1.0);
+// The same in two: to 1e-7 of a parameter, and the last digits from there.
+[[nodiscard]] Result<Theta> SolveNearly(const Estimation& estimation, const Theta& start);
+[[nodiscard]] Theta Finish(const Estimation& estimation, const Theta& nearly);
 // The same always by the full solver.
 [[nodiscard]] Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start,
                                         Loss loss = Loss::kSquared, double scale = 1.0);
