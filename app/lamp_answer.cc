@@ -13,6 +13,7 @@
 #include "light_table.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/fit/plan/plan_readings.h"
 #include "lightcal/light/fixture.h"
@@ -278,9 +279,16 @@ std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
 std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
   const EngineAnswers engines = EngineAnswersOf(*question.lights);
   const std::vector<std::string_view> titles = TitlesOf(question.targets);
-  std::vector<LampAnswer> answers;
-  for (const FittedLight& light : question.lights->lights) {
-    LampAnswer answer;
+  const std::vector<FittedLight>& lights = question.lights->lights;
+  std::vector<LampAnswer> answers(lights.size());
+  // What to do next is worked out by fits of their own: most of the time of many lamps.
+  ParallelFor(static_cast<int>(lights.size()), [&](int i) {
+    answers[static_cast<std::size_t>(i)].next =
+        AdviseNext(*question.session, lights[static_cast<std::size_t>(i)]);
+  });
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const FittedLight& light = lights[i];
+    LampAnswer& answer = answers[i];
     answer.light = &light;
     answer.label = LabelOf(question, light);
     answer.color = ColorText(question, light);
@@ -289,13 +297,11 @@ std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
         if (figure.light == light.name && figure.engine == title) answer.figures.push_back(figure);
       }
     }
-    answer.next = AdviseNext(*question.session, light);
     answer.say_what = SayWhat(question, light);
     if (answer.next.reading) {
       answer.better = question.syntax ? question.syntax(light, *answer.next.reading) : "";
       if (answer.better.empty()) answer.better = SayPlannedReading(*answer.next.reading);
     }
-    answers.push_back(std::move(answer));
   }
   return answers;
 }

@@ -76,8 +76,12 @@ Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInt
 }
 
 LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
+  if (table.symmetry() == TableSymmetry::kAxial) {  // all half-planes are alike
+    const HalfPlane any(table, 0.0, TableInterpolation::kLinear);
+    const Radians whole(2.0 * any.EdgeAt(level * table.peak().intensity.value()));
+    return {whole, whole, whole};
+  }
   const Radians c0 = LobeWidth(table, Radians(0.0), level);
-  if (table.symmetry() == TableSymmetry::kAxial) return {c0, c0, c0};
   const Radians c90 = LobeWidth(table, Radians(0.5 * std::numbers::pi), level);
   return {0.5 * (c0 + c90), c0, c90};
 }
