@@ -6,7 +6,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
+#include <string>
 
 #include "run_cli.h"
 #include "run_cli_json.h"
@@ -208,6 +210,18 @@ TEST(QuickPlan, FromReadingsItDrawsAccuracyAgainstMinutes) {
   EXPECT_NE(result.out.find("as it is"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("light: now ± "), std::string::npos) << result.out;
   EXPECT_NE(ReadFile(svg).find("minutes of measuring"), std::string::npos);
+}
+
+// Readings that contradict one another, outdoors: what a card would leave was 1 % of the light or
+// nothing, as two roundings fell.
+TEST(QuickPlan, TheAdviceDoesNotHangOnTheTenthDigit) {
+  std::set<std::string> advice;
+  for (const char* lux : {"43.58", "43.589", "43.5899", "43.59", "43.5901", "43.591", "43.6"}) {
+    advice.insert(
+        QuickJson({std::string(lux) + "lx@1m,card=2.268lx", "19.76lx@1.5m", "12.52lx@2m", "--cct",
+                   "6372K", "--meter", "phone", "--room", "outdoors"})["next_step"]);
+  }
+  EXPECT_EQ(advice.size(), 1U) << testing::PrintToString(advice);
 }
 
 TEST(QuickPlan, AskedWrongItSaysWhatToWrite) {

@@ -151,13 +151,17 @@ template <class P>
   return step < kLargestStep ? std::optional(step) : std::nullopt;
 }
 
+// Of a standard deviation of every free parameter: the optimum.
+inline constexpr double kAtRest = 1e-9;
+
 // Newton's steps take two gradients a parameter: of a beam's 26 that is dearer than its fit.
 template <class P>
 inline constexpr bool kEndsByNewton = P::kCount <= 12;
 
-// Newton's steps as long as they are small, the gradient falls and the cost is no worse.
+// Newton's steps as long as they are small, the gradient falls and the cost is no worse. Whether
+// they came to an end.
 template <class P, class NoWorse>
-void FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_worse) {
+bool FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_worse) {
   constexpr int kSteps = 4;
   constexpr double kDone = 1e-13;
   NormalEquations<P> at = NormalEquationsAt(problem, theta);
@@ -172,6 +176,7 @@ void FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_wors
     left = then;
     theta = next;
   }
+  return left < kAtRest;
 }
 
 // A few steps more, as long as they are small and the cost does not grow beyond rounding; where
@@ -191,17 +196,20 @@ template <class P>
     if (!step || !no_worse(next)) break;
     theta = next;
     if (*step < (i + 1 < kSteps ? kDone : kNearlyDone)) return theta;
-    if (kEndsByNewton<P> && *step > kSlow * former) break;
+    const bool slow = *step > kSlow * former;
     former = *step;
+    if constexpr (kEndsByNewton<P>) {
+      if (slow && FinishByNewton(problem, theta, no_worse)) return theta;
+    }
   }
   if constexpr (kEndsByNewton<P>) FinishByNewton(problem, theta, no_worse);
   return theta;
 }
 
-// Whether theta is the optimum to 1e-9 of a standard deviation of every free parameter.
+// Whether theta is the optimum.
 template <class P>
 [[nodiscard]] bool AtRest(const P& problem, const ValuesOf<P>& theta) {
-  return GradientLeft(problem, theta, NormalEquationsAt(problem, theta)) < 1e-9;
+  return GradientLeft(problem, theta, NormalEquationsAt(problem, theta)) < kAtRest;
 }
 
 }  // namespace lightcal::fit

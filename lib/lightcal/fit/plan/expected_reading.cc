@@ -17,13 +17,16 @@ double AmbientOf(const FittedLight* now) {
   return now != nullptr && now->ambient_lx ? std::max(0.0, now->ambient_lx->value) : 0.0;
 }
 
-// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient.
+// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient; none where
+// that is what two roundings leave.
 double WallsAt(const FittedLight* now, int index, const PlannedReading& planned) {
+  constexpr double kRounding = 1e-9;
   if (now == nullptr || !now->intensity_cd || !planned.distance) return 0.0;
   const auto own = PredictIlluminance(*now, *planned.distance, 0.05);
   for (const ResidualRow& row : now->residuals) {
     if (own && row.index == index) {
-      return std::max(0.0, row.predicted_lx - own->model_lx.value);
+      const double other = row.predicted_lx - own->model_lx.value;
+      return other > kRounding * row.predicted_lx ? other : 0.0;
     }
   }
   return 0.0;
