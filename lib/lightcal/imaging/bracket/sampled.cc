@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <cstdint>
 
+#include "lightcal/core/every_processor.h"
 #include "lightcal/core/statistics.h"
 
 namespace lightcal {
@@ -14,19 +15,53 @@ constexpr double kGateSigmas = 4.0;
 constexpr double kOrdinary = 0.999;  // of the samples, where no clip is known
 constexpr float kAboveOrdinary = 1.5F;
 
-// The level bin of two samples of one place; absent near the clip.
-std::optional<std::size_t> BinOf(double ya, double yb, double clip, const PairSetting& setting) {
-  if (ya > kClippedFrom * clip || yb > kClippedFrom * clip) return std::nullopt;
+constexpr std::size_t kAtOnce = 512;
+constexpr std::int32_t kNoBin = -1;
+using Bins = std::array<std::int32_t, kAtOnce>;
+
+// The level bin of two samples of one place; kNoBin near the clip. At most kAtOnce of them, without
+// a branch, so that several are worked out side by side.
+LIGHTCAL_EVERY_CPU
+void FindBins(std::span<const float> a, std::span<const float> b, std::span<const float> clip,
+              const PairSetting& setting, Bins& bins) {
   const double r = setting.ratio;
-  // In units of a: x from both, first as if the noise were all shot noise.
-  const double rough = std::max(0.0, (ya + yb) / (1.0 + r));
-  const double variance_a = setting.noise.scale * rough + setting.noise.offset;
-  const double variance_b = setting.noise.scale * rough * r + setting.noise.offset;
-  const double total = variance_b + r * r * variance_a;
-  const double x = total > 0.0 ? (ya * variance_b + yb * r * variance_a) / total : rough;
-  const double level = x * std::max(r, 1.0) / clip;
-  if (!(level < 1.0)) return std::nullopt;
-  return level <= 0.0 ? 0 : static_cast<std::size_t>(kLevelBins * std::sqrt(level));
+  const double scale = setting.noise.scale;
+  const double offset = setting.noise.offset;
+  const double larger = std::max(r, 1.0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double ya = a[i];
+    const double yb = b[i];
+    const double full = clip[i];
+    // In units of a: x from both, first as if the noise were all shot noise.
+    const double rough = std::max(0.0, (ya + yb) / (1.0 + r));
+    const double variance_a = scale * rough + offset;
+    const double variance_b = scale * rough * r + offset;
+    const double total = variance_b + r * r * variance_a;
+    const bool noisy = total > 0.0;
+    const double weighted = (ya * variance_b + yb * r * variance_a) / (noisy ? total : 1.0);
+    const double x = noisy ? weighted : rough;
+    const double level = x * larger / full;
+    const double ceiling = kClippedFrom * full;
+    const double above = std::max(ya, yb) - ceiling;
+    const double seen = level < 1.0 && !(above > 0.0) ? std::max(level, 0.0) : -1.0;
+    const double bin = kLevelBins * std::sqrt(std::max(seen, 0.0));
+    bins[i] = static_cast<std::int32_t>(seen < 0.0 ? -1.0 : bin);
+  }
+}
+
+// Calls add(i, bin) for every sample that has one, in their order.
+template <class Add>
+void ForEachBinned(std::span<const float> a, std::span<const float> b, std::span<const float> clip,
+                   const PairSetting& setting, const Add& add) {
+  Bins bins;
+  for (std::size_t from = 0; from < a.size(); from += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, a.size() - from);
+    FindBins(a.subspan(from, count), b.subspan(from, count), clip.subspan(from, count), setting,
+             bins);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (bins[i] != kNoBin) add(from + i, static_cast<std::size_t>(bins[i]));
+    }
+  }
 }
 
 }  // namespace
@@ -74,19 +109,17 @@ PairClips ClipsOfPair(const SampledSignals& signals, std::size_t a, std::size_t 
 PairSums ComparePair(std::span<const float> a, std::span<const float> b,
                      std::span<const float> clip, const PairSetting& setting) {
   PairSums sums;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto bin = BinOf(a[i], b[i], clip[i], setting);
-    if (!bin) continue;
+  ForEachBinned(a, b, clip, setting, [&](std::size_t i, std::size_t bin) {
     const double d = b[i] - setting.ratio * a[i];
-    const double gate = setting.gate[*bin];
-    if (gate > 0.0 && std::abs(d) > gate) continue;
-    LevelSums& sum = sums[*bin];
+    const double gate = setting.gate[bin];
+    if (gate > 0.0 && std::abs(d) > gate) return;
+    LevelSums& sum = sums[bin];
     sum.count += 1.0;
     sum.a += a[i];
     sum.b += b[i];
     sum.d += d;
     sum.d2 += d * d;
-  }
+  });
   return sums;
 }
 
@@ -106,14 +139,12 @@ std::array<double, kLevelBins> FirstGates(std::span<const float> a, std::span<co
   constexpr double kSmallest = -24.0;
   std::vector<std::array<std::size_t, kSizes>> sizes(kLevelBins);
   std::array<std::size_t, kLevelBins> counts{};
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto bin = BinOf(a[i], b[i], clip[i], setting);
-    if (!bin) continue;
+  ForEachBinned(a, b, clip, setting, [&](std::size_t i, std::size_t bin) {
     const double d = std::abs(b[i] - setting.ratio * a[i]);
     const double octaves = d > 0.0 ? std::log2(d) - kSmallest : 0.0;
-    ++sizes[*bin][static_cast<std::size_t>(std::clamp(4.0 * octaves, 0.0, kSizes - 1.0))];
-    ++counts[*bin];
-  }
+    ++sizes[bin][static_cast<std::size_t>(std::clamp(4.0 * octaves, 0.0, kSizes - 1.0))];
+    ++counts[bin];
+  });
   std::array<double, kLevelBins> gates{};
   for (std::size_t bin = 0; bin < gates.size(); ++bin) {
     std::size_t seen = 0;
