@@ -16,7 +16,28 @@
 
 namespace lightcal::fit {
 
-// J^T J and J^T r of rows and priors over all parameters; J^T r alone.
+// J^T r of rows and priors over all parameters; J^T J is added to `normal` where asked.
+template <class P>
+[[nodiscard]] VectorOf<P> GradientAt(const P& problem, const ValuesOf<P>& theta,
+                                     SquareOf<P>* normal = nullptr) {
+  VectorOf<P> gradient = VectorOf<P>::Zero();
+  VectorOf<P> j;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
+    if (normal != nullptr) *normal += j * j.transpose();
+    gradient += j * residual;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
+    if (normal != nullptr) (*normal)(k, k) += weight;
+    gradient[k] += weight * (theta[k] - rule.prior_mean);
+  }
+  return gradient;
+}
+
+// Both.
 template <class P>
 struct NormalEquations {
   SquareOf<P> normal = SquareOf<P>::Zero();
@@ -24,37 +45,9 @@ struct NormalEquations {
 };
 
 template <class P>
-[[nodiscard]] VectorOf<P> GradientAt(const P& problem, const ValuesOf<P>& theta) {
-  VectorOf<P> gradient = VectorOf<P>::Zero();
-  VectorOf<P> j;
-  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
-    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
-    gradient += j * residual;
-  }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const ParameterRule& rule = problem.rules[k];
-    gradient[k] += (theta[k] - rule.prior_mean) / (rule.prior_sd * rule.prior_sd);
-  }
-  return gradient;
-}
-
-template <class P>
 [[nodiscard]] NormalEquations<P> NormalEquationsAt(const P& problem, const ValuesOf<P>& theta) {
   NormalEquations<P> out;
-  VectorOf<P> j;
-  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
-    const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
-    out.normal += j * j.transpose();
-    out.gradient += j * residual;
-  }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const ParameterRule& rule = problem.rules[k];
-    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
-    out.normal(k, k) += weight;
-    out.gradient[k] += weight * (theta[k] - rule.prior_mean);
-  }
+  out.gradient = GradientAt(problem, theta, &out.normal);
   return out;
 }
 
