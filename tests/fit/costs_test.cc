@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lightcal/fit/model/solve.h"
@@ -69,6 +71,28 @@ TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
       const double slope = (RowResidual(row, above) - RowResidual(row, below)) / (2.0 * kStep);
       EXPECT_NEAR(at.gradient[k], slope, 1e-6 * (1.0 + std::abs(slope)));
       EXPECT_NE(at.gradient[k], 0.0);
+    }
+  }
+}
+
+TEST_P(EachCost, HasTheSecondDerivativesOfItsFirst) {
+  ReadingRow row = RowAtTruth(GetParam(), {AxialShape::Outline::kRect, 0.3, 0.5});
+  row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
+  row.measured = 1.2 * RowIlluminance(row, kTruth.data());
+  double residual = 0.0;
+  std::array<double, kParameters> gradient{};
+  std::array<double, kParameters * kParameters> bend{};
+  ASSERT_TRUE(RowResidual(row, kTruth.data(), &residual, gradient.data(), bend.data()));
+  for (int k = 0; k < kParameters; ++k) {
+    constexpr double kStep = 1e-5;
+    Theta above = kTruth, below = kTruth;
+    above[k] += kStep;
+    below[k] -= kStep;
+    const RowDerivative more = DifferentiateRow(row, above), less = DifferentiateRow(row, below);
+    for (int j = k; j < kParameters; ++j) {
+      const double slope = (more.gradient[j] - less.gradient[j]) / (2.0 * kStep);
+      const double scale = std::max(1.0, std::abs(slope));
+      EXPECT_NEAR(bend[j + k * kParameters], slope, 2e-5 * scale) << j << " by " << k;
     }
   }
 }

@@ -16,7 +16,7 @@ namespace lightcal {
 
 enum class SolverChoice : std::uint8_t {
   kFull,        // ceres::Solve to the last digit
-  kQuick,       // ceres::TinySolver, the full solver where it does not converge; the same to 1e-9
+  kQuick,       // Newton's steps or TinySolver, where both fail the full solver; the same to 1e-9
   kLoose,       // ceres::Solve to 1e-3 of the cost, without the last steps
   kClosedForm,  // the linear start alone
 };

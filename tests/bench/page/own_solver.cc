@@ -53,7 +53,7 @@ void OwnSolver(const std::vector<Numbers>& table) {
     });
   }
   rows.PrintEach("lightcal", "for samples", [&](std::size_t i) {
-    const auto theta = fit::SolveCoarsely(all[i], starts[i]);
+    const auto theta = fit::SolveCoarsely(all[i], starts[i], fit::kLastStep);
     return theta ? (*theta)[fit::kLnIntensity] : kNone;
   });
   rows.PrintEach("lightcal", "closed form",

@@ -97,6 +97,65 @@ template <class P>
   return std::nullopt;
 }
 
+// The same by Newton's steps, damped where they would raise the cost; Gauss and Newton's where the
+// cost does not bend upwards. Absent where it comes to no end, or to no minimum.
+template <TellsBend P>
+[[nodiscard]] std::optional<ValuesOf<P>> SolveByNewton(const P& problem, ValuesOf<P> theta,
+                                                       const std::array<bool, P::kCount>& held,
+                                                       double last_step) {
+  constexpr int kSteps = 40;
+  constexpr double kLeastDamping = 1e-3, kMostDamping = 1e8, kDampingStep = 10.0;
+  double damping = 0.0;
+  SecondOrder<P> at = SecondOrderAt(problem, theta);
+  if (!std::isfinite(at.cost)) return std::nullopt;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int k = 0; k < P::kCount; ++k) {
+      if (problem.rules[k].free && !held[k]) continue;
+      Hold(at.normal, k);
+      Hold(at.bend, k);
+      at.gradient[k] = 0.0;
+    }
+    if (!(at.normal.diagonal().minCoeff() > 0.0)) return std::nullopt;
+    const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
+    const VectorOf<P> downhill = -(scale.asDiagonal() * at.gradient);
+    const auto scaled = [&](const SquareOf<P>& curvature) {
+      SquareOf<P> out = scale.asDiagonal() * curvature * scale.asDiagonal();
+      out.diagonal().array() += damping;
+      return out;
+    };
+    const Eigen::LLT<SquareOf<P>> bent(scaled(at.bend));
+    const bool minimum = bent.info() == Eigen::Success;
+    const VectorOf<P> step =
+        minimum ? VectorOf<P>(bent.solve(downhill)) : scaled(at.normal).ldlt().solve(downhill);
+    if (!step.allFinite()) return std::nullopt;
+    ValuesOf<P> next = theta;
+    for (int k = 0; k < P::kCount; ++k) next[k] += scale[k] * step[k];
+    const bool done = minimum && damping == 0.0 && step.cwiseAbs().maxCoeff() < last_step;
+    if (done) return next;
+    SecondOrder<P> then = SecondOrderAt(problem, next);
+    if (!(then.cost <= at.cost * (1.0 + 1e-12) + 1e-20)) {
+      damping = std::max(kLeastDamping, damping * kDampingStep);
+      if (damping > kMostDamping) return std::nullopt;
+      continue;
+    }
+    damping = damping > kLeastDamping ? damping / kDampingStep : 0.0;
+    theta = next;
+    at = std::move(then);
+  }
+  return std::nullopt;
+}
+
+// The nearest way there is.
+template <class P>
+[[nodiscard]] std::optional<ValuesOf<P>> SolveNear(const P& problem, const ValuesOf<P>& start,
+                                                   const std::array<bool, P::kCount>& held = {},
+                                                   double last_step = kLastStep) {
+  if constexpr (TellsBend<P>) {
+    if (const auto theta = SolveByNewton(problem, start, held, last_step)) return theta;
+  }
+  return SolveTiny(problem, start, held);
+}
+
 // What the full solver sees of any problem.
 struct ErasedProblem {
   std::span<const ParameterRule> rules;
@@ -166,7 +225,8 @@ template <int N>
     Eigen::Matrix<double, N, 1> row = rows.row(i);
     for (int k = 0; k < N; ++k) {
       if (row[k] == 0.0) continue;
-      const double length = std::hypot(r(k, k), row[k]);
+      const double square = r(k, k) * r(k, k) + row[k] * row[k];
+      const double length = std::isnormal(square) ? std::sqrt(square) : std::hypot(r(k, k), row[k]);
       const double c = r(k, k) / length;
       const double s = row[k] / length;
       for (int j = k; j < N; ++j) {

@@ -10,6 +10,8 @@
 // so that a further parameter is a line in P's rules and its place in the row's law. Where rows are
 // many and their derivatives short, P may also tell
 //   problem.Differentiate(i, theta, r, gradient)   the same with its derivatives, in doubles
+//   problem.Bend(i, theta, r, gradient, bend)      and with its second ones: Newton's steps then
+//                                                  cost no more than Gauss and Newton's
 // Internal to this room: needs Eigen and Ceres's Jet alone.
 #pragma once
 
@@ -19,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 
@@ -39,6 +42,11 @@ template <class P>
 [[nodiscard]] bool HasPrior(const P& problem, int k) {
   return problem.rules[k].free && problem.rules[k].prior_sd > 0.0;
 }
+
+template <class P>
+concept TellsBend = requires(const P& problem, double* out) {
+  { problem.Bend(std::size_t{}, out, out, out, out) } -> std::same_as<bool>;
+};
 
 // Whether a free parameter lies on a bound of its own or beyond.
 template <class P>

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/fit/model/least_squares.h"
 
 namespace lightcal::fit {
 namespace {
@@ -16,6 +17,7 @@ constexpr int kFigures = 4;  // mean, sd, low, high
 constexpr int kFewestBlocks = 2;
 constexpr double kTail = 0.025;
 constexpr std::size_t kSamplesAFailure = 100;  // at least, for each draw without an optimum
+constexpr double kLastStep = 1e-2;             // standard deviations: what is left is its square
 
 using Figures = std::array<double, kFigures>;
 
@@ -52,10 +54,16 @@ class Draws {
             log ? InfluenceOn(row, input.considered[c], intensity) : 0.0;
       }
     }
+    const Linearised<Estimation> at = Linearise(*input.estimation, input.theta);
+    const auto covariance = CovarianceAt(*input.estimation, at);
+    moved_ = Eigen::VectorXd::Zero(at.residual.size());
+    gain_ = RowsOf<Estimation>::Zero(at.residual.size(), kParameters).transpose();
+    if (covariance) gain_ = -*covariance * at.jacobian.transpose();
   }
 
-  // The next draw's problem; `start` becomes the optimum's linear prediction for held parameters.
+  // The next draw's problem; `start` becomes the optimum's linear prediction.
   const Estimation& Next(Theta& start) {
+    Eigen::VectorXd& moved = moved_;
     for (double& z : shared_) z = normal_(random_);
     const std::size_t influences = input_.considered.size();
     for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
@@ -69,6 +77,10 @@ class Draws {
       drawn_.rows[i].measured = given.form == ReadingRow::Form::kLinear
                                     ? given.measured * (1.0 + relative) + own
                                     : given.measured * std::exp(relative + own);
+      moved[static_cast<Eigen::Index>(i)] =
+          given.form == ReadingRow::Form::kLinear
+              ? (drawn_.rows[i].measured - given.measured) / given.sigma
+              : (relative + own) / given.sigma;
     }
     for (int k = 0; k < kParameters; ++k) {
       const ParameterRule& rule = input_.estimation->rules[k];
@@ -76,10 +88,14 @@ class Draws {
       const double value = rule.prior_mean + rule.prior_sd * normal_(random_);
       if (rule.free) {
         drawn_.rules[k].prior_mean = value;
+        moved[static_cast<Eigen::Index>(drawn_.rows.size()) + k] =
+            (rule.prior_mean - value) / rule.prior_sd;
       } else {
         start[k] = k == kDistanceOffset ? std::max(value, drawn_.least_distance_offset) : value;
       }
     }
+    const VectorOf<Estimation> step = gain_ * moved;
+    for (int k = 0; k < kParameters; ++k) start[k] += step[k];
     return drawn_;
   }
 
@@ -91,6 +107,8 @@ class Draws {
   int instruments_ = 0;
   std::vector<double> shared_;     // of each instrument, then of each considered influence
   std::vector<double> influence_;  // of each row and influence, relative
+  Eigen::VectorXd moved_;          // what a draw adds to the whitened rows and priors
+  Eigen::Matrix<double, kParameters, Eigen::Dynamic> gain_;  // d(optimum)/d(whitened rows)
 };
 
 Figures FiguresOf(std::vector<double>& samples) {
@@ -141,7 +159,7 @@ Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& inp
   while (samples.front().size() < count) {
     Theta start = input.theta;
     const Estimation& drawn = draws.Next(start);
-    std::optional<Theta> theta = SolveCoarsely(drawn, start);
+    std::optional<Theta> theta = SolveCoarsely(drawn, start, kLastStep);
     if (!theta) {
       const Result<Theta> full = SolveInFull(drawn, start);
       if (full) theta = *full;

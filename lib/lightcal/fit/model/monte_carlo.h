@@ -34,7 +34,7 @@ struct SamplingRule {
 
 // Draws what was measured from its distribution (each reading's own error, each instrument's
 // calibration, the considered influences and the priors, normal in the rows' own forms), finds the
-// optimum of each draw by TinySolver from the linear prediction, in blocks until twice
+// optimum of each draw by Newton's steps from the linear prediction, in blocks until twice
 // the standard deviation of the mean over blocks of mean, sd, low and high stays below half the
 // last digit asked for, for every free parameter (adaptive procedure of JCGM 101:2008, 7.9). Seeded
 // by the rows themselves. Refused: underdetermined. Fails: no_convergence (more than one draw in a

@@ -51,6 +51,60 @@ template <class P>
   return out;
 }
 
+// The cost and its first and second derivatives: `bend` adds to J^T J how the rows bend. The cost
+// is infinite where a row has no value.
+template <class P>
+struct SecondOrder : NormalEquations<P> {
+  double cost = 0.0;
+  SquareOf<P> bend = SquareOf<P>::Zero();
+};
+
+template <TellsBend P>
+[[nodiscard]] SecondOrder<P> SecondOrderAt(const P& problem, const ValuesOf<P>& theta) {
+  SecondOrder<P> out;
+  VectorOf<P> j;
+  for (std::size_t i = 0; i < problem.RowCount(); ++i) {
+    double residual = 0.0;
+    SquareOf<P> second = SquareOf<P>::Zero();
+    if (!problem.Bend(i, theta.data(), &residual, j.data(), second.data())) {
+      out.cost = std::numeric_limits<double>::infinity();
+      return out;
+    }
+    out.cost += 0.5 * residual * residual;
+    out.normal += j * j.transpose();
+    out.bend += residual * second;
+    out.gradient += j * residual;
+  }
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    const double z = (theta[k] - rule.prior_mean) / rule.prior_sd;
+    out.cost += 0.5 * z * z;
+    out.normal(k, k) += 1.0 / (rule.prior_sd * rule.prior_sd);
+    out.gradient[k] += z / rule.prior_sd;
+  }
+  out.bend += out.normal;
+  out.bend.template triangularView<Eigen::StrictlyUpper>() = out.bend.transpose();
+  return out;
+}
+
+// The same derivative of the exact gradient by central differences, of what may move.
+template <class P>
+[[nodiscard]] SquareOf<P> BendByDifferences(const P& problem, const ValuesOf<P>& theta,
+                                            const NormalEquations<P>& at) {
+  constexpr double kPartOfDeviation = 1e-4;
+  SquareOf<P> bend = SquareOf<P>::Zero();
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!problem.rules[k].free || AtBound(problem, theta, k)) continue;
+    const double h = kPartOfDeviation / std::sqrt(at.normal(k, k));
+    ValuesOf<P> more = theta, less = theta;
+    more[k] += h;
+    less[k] -= h;
+    bend.col(k) = (GradientAt(problem, more) - GradientAt(problem, less)) / (more[k] - less[k]);
+  }
+  return 0.5 * (bend + bend.transpose());
+}
+
 // Rows and columns of a held parameter become those of the unit matrix.
 template <class Matrix>
 void Hold(Matrix& normal, int k) {
@@ -93,28 +147,23 @@ template <class P>
   return most;
 }
 
-// One step of Newton's method over the same parameters, with the derivative of the exact gradient
-// by central differences; `at` are the equations at theta. Gauss and Newton's leaves out how rows
-// bend: where offset and walls trade nearly evenly it goes on by parts of the way for ever. Unmoved
-// where that is no minimum.
+// One step of Newton's method over the same parameters; `at` are the equations at theta. Gauss and
+// Newton's leaves out how rows bend: where offset and walls trade nearly evenly it goes on by parts
+// of the way for ever. Unmoved where that is no minimum.
 template <class P>
 [[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta, NormalEquations<P> at) {
-  constexpr double kPartOfDeviation = 1e-4;
-  std::array<bool, P::kCount> moves{};
-  SquareOf<P> bend = SquareOf<P>::Zero();
+  const auto moves = [&](int k) { return problem.rules[k].free && !AtBound(problem, theta, k); };
   for (int k = 0; k < P::kCount; ++k) {
-    moves[k] = problem.rules[k].free && !AtBound(problem, theta, k);
-    if (!moves[k]) continue;
-    if (!(at.normal(k, k) > 0.0)) return theta;  // no row and no prior knows it
-    const double h = kPartOfDeviation / std::sqrt(at.normal(k, k));
-    ValuesOf<P> more = theta, less = theta;
-    more[k] += h;
-    less[k] -= h;
-    bend.col(k) = (GradientAt(problem, more) - GradientAt(problem, less)) / (more[k] - less[k]);
+    if (moves(k) && !(at.normal(k, k) > 0.0)) return theta;  // no row and no prior knows it
   }
-  bend = (0.5 * (bend + bend.transpose())).eval();
+  SquareOf<P> bend;
+  if constexpr (TellsBend<P>) {
+    bend = SecondOrderAt(problem, theta).bend;
+  } else {
+    bend = BendByDifferences(problem, theta, at);
+  }
   for (int k = 0; k < P::kCount; ++k) {
-    if (moves[k]) continue;
+    if (moves(k)) continue;
     Hold(bend, k);
     at.gradient[k] = 0.0;
   }
@@ -183,6 +232,9 @@ template <class P>
   const auto no_worse = [&problem, cost = HalfChiSquaredOf(problem, theta)](const auto& next) {
     return HalfChiSquaredOf(problem, next) <= cost * (1.0 + 1e-12) + 1e-20;
   };
+  if constexpr (TellsBend<P>) {
+    if (FinishByNewton(problem, theta, no_worse)) return theta;
+  }
   for (int i = 0; i < kSteps; ++i) {
     const ValuesOf<P> next = GaussNewtonStep(problem, theta);
     const auto step = SmallStep(problem, theta, next);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 
 #include "lightcal/fit/model/off_axis_pose.h"
 #include "lightcal/light/axial_shape.h"
@@ -40,7 +41,11 @@ template <class T>
     return true;
   }
   if (!(predicted > T(0.0))) return false;
-  *residual = (std::log(measured) - log(predicted)) / sigma;
+  if constexpr (std::is_same_v<T, double>) {
+    *residual = std::log(measured / predicted) / sigma;
+  } else {
+    *residual = (std::log(measured) - log(predicted)) / sigma;
+  }
   if (form == RowForm::kCensored && !(*residual > T(0.0))) *residual = T(0.0);
   return true;
 }
@@ -106,8 +111,9 @@ template <class T>
   return WhitenedResidual(row.form, row.measured, row.sigma, RowIlluminance(row, theta), residual);
 }
 
-// The same with its derivatives by every parameter.
+// The same with its derivatives by every parameter, and where asked its second ones (`bend`,
+// kParameters^2 of them, the lower triangle written; 0 beforehand).
 [[nodiscard]] bool RowResidual(const ReadingRow& row, const double* theta, double* residual,
-                               double* gradient);
+                               double* gradient, double* bend = nullptr);
 
 }  // namespace lightcal::fit

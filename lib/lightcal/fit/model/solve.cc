@@ -26,19 +26,20 @@ struct OneRow {
 
 }  // namespace
 
-std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start) {
-  std::optional<Theta> theta = SolveTiny(estimation, start);
+std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start,
+                                   double last_step) {
+  std::optional<Theta> theta = SolveNear(estimation, start, {}, last_step);
   if (!theta || AtBound(estimation, *theta, kDistanceOffset)) return std::nullopt;
   if (!estimation.rules[kAmbient].free || (*theta)[kAmbient] >= 0.0) return theta;
   (*theta)[kAmbient] = 0.0;
-  theta = SolveTiny(estimation, *theta, {false, false, true});
+  theta = SolveNear(estimation, *theta, {false, false, true}, last_step);
   if (!theta || AtBound(estimation, *theta, kDistanceOffset)) return std::nullopt;
   if (NormalEquationsAt(estimation, *theta).gradient[kAmbient] < 0.0) return std::nullopt;
   return theta;
 }
 
 std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
-  const std::optional<Theta> theta = SolveCoarsely(estimation, start);
+  const std::optional<Theta> theta = SolveCoarsely(estimation, start, kLastStep);
   if (!theta) return std::nullopt;
   return Polish(estimation, *theta);
 }
@@ -54,7 +55,9 @@ Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss,
 
 Result<Theta> SolveNearly(const Estimation& estimation, const Theta& start) {
   if (estimation.choice.solver == SolverChoice::kQuick) {
-    if (const std::optional<Theta> theta = SolveCoarsely(estimation, start)) return *theta;
+    if (const std::optional<Theta> theta = SolveCoarsely(estimation, start, kLastStep)) {
+      return *theta;
+    }
   }
   return Solve(estimation, start);
 }
@@ -81,11 +84,13 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
 }
 
 // The chain rule written out, so that only the distance offset goes through automatic
-// differentiation.
-bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient) {
+// differentiation; d2E/dd0^2 by differences of that: Newton's steps need no more.
+bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient,
+                 double* bend) {
   using Jet = ceres::Jet<double, 1>;
-  const Jet direct =
-      row.direct_gain > 0.0 ? LuxPerCandela(row, Jet(theta[kDistanceOffset], 0)) : Jet(row.bounce);
+  const auto direct_at = [&row](double offset) { return LuxPerCandela(row, Jet(offset, 0)); };
+  const bool lit = row.direct_gain > 0.0;
+  const Jet direct = lit ? direct_at(theta[kDistanceOffset]) : Jet(row.bounce);
   const double walls = WallsPerCandela(row, theta);
   const double intensity = std::exp(theta[kLnIntensity]);
   const double lamp = intensity * (direct.a + walls);
@@ -99,6 +104,25 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   gradient[kAmbient] = by_illuminance * row.ambient_gain;
   gradient[kLnWalls] = by_illuminance * intensity * walls;
   gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
+  if (bend == nullptr || silent) return true;
+  // Of ln E: -dE_i dE_j/E^2 + d2E_ij/E; of E the second alone, whose entries repeat the first ones.
+  const Eigen::Map<const Eigen::Matrix<double, kParameters, 1>> g(gradient);
+  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> second(bend);
+  if (row.form != RowForm::kLinear) second = row.sigma * g * g.transpose();
+  second(kLnIntensity, kLnIntensity) += g[kLnIntensity];
+  second(kDistanceOffset, kLnIntensity) += g[kDistanceOffset];
+  if (lit) {
+    constexpr double kPartOfDistance = 1e-6;
+    const double more = theta[kDistanceOffset] + kPartOfDistance * row.distance;
+    const double by_offset = (direct_at(more).v[0] - direct.v[0]) / (more - theta[kDistanceOffset]);
+    second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * by_offset;
+  }
+  if (!row.walls) return true;
+  second(kLnWalls, kLnIntensity) += g[kLnWalls];
+  second(kLnWalls, kLnWalls) += g[kLnWalls];
+  second(kWallsSlope, kLnIntensity) += g[kWallsSlope];
+  second(kWallsSlope, kLnWalls) += g[kWallsSlope];
+  second(kWallsSlope, kWallsSlope) += g[kWallsSlope] * row.walls->x;
   return true;
 }
 

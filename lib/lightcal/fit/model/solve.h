@@ -37,6 +37,10 @@ struct Estimation {
                                    double* gradient) const {
     return RowResidual(rows[i], theta, residual, gradient);
   }
+  [[nodiscard]] bool Bend(std::size_t i, const double* theta, double* residual, double* gradient,
+                          double* bend) const {
+    return RowResidual(rows[i], theta, residual, gradient, bend);
+  }
 };
 
 // Minimises 1/2 sum rho(r_i^2) + priors with Ceres from `start`, d0 and E0 in their boxes. `scale`
@@ -50,12 +54,15 @@ struct Estimation {
 // The same always by the full solver.
 [[nodiscard]] Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start,
                                         Loss loss = Loss::kSquared, double scale = 1.0);
-// The squared-loss optimum by ceres::TinySolver, a tenth of the full solver's time and the same to
-// 1e-9; E0 at its bound is held there. Absent where it does not converge or d0 leaves its box.
+// The squared-loss optimum by Newton's steps or ceres::TinySolver, a tenth of the full solver's
+// time and the same to 1e-9; E0 at its bound is held there. Absent where it does not converge or d0
+// leaves its box.
 [[nodiscard]] std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start);
 
-// The same to 1e-7 of a parameter, for samples.
-[[nodiscard]] std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start);
+// The same to about the square of its last step (standard deviations of a parameter, were it
+// alone), for samples.
+[[nodiscard]] std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start,
+                                                 double last_step);
 
 // Whitened residual of one row at theta.
 [[nodiscard]] double RowResidual(const ReadingRow& row, const Theta& theta);
