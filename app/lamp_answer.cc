@@ -277,14 +277,18 @@ std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
 }
 
 std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
-  const EngineAnswers engines = EngineAnswersOf(*question.lights);
+  EngineAnswers engines;
   const std::vector<std::string_view> titles = TitlesOf(question.targets);
   const std::vector<FittedLight>& lights = question.lights->lights;
   std::vector<LampAnswer> answers(lights.size());
   // What to do next is worked out by fits of their own: most of the time of many lamps.
-  ParallelFor(static_cast<int>(lights.size()), [&](int i) {
-    answers[static_cast<std::size_t>(i)].next =
-        AdviseNext(*question.session, lights[static_cast<std::size_t>(i)]);
+  ParallelFor(static_cast<int>(lights.size()) + 1, [&](int i) {
+    if (i == 0) {
+      engines = EngineAnswersOf(*question.lights);
+      return;
+    }
+    const auto at = static_cast<std::size_t>(i - 1);
+    answers[at].next = AdviseNext(*question.session, lights[at]);
   });
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const FittedLight& light = lights[i];

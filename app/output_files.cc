@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "input_files.h"
+#include "lightcal/core/parallel.h"
 #include "provenance_mark.h"
 
 namespace lightcal::app {
@@ -160,6 +161,23 @@ Result<void> Sync(const std::string& path) {
   return {};
 }
 
+// The file's contents on the disk under a temporary's name; nothing where that fails.
+Result<std::string> WriteBeside(const OutputWriter& file) {
+  const fs::path directory = fs::path(file.path).parent_path();
+  std::error_code error;
+  if (!directory.empty()) fs::create_directories(directory, error);
+  if (error) return Unwritable(directory.string(), error.value());
+  auto temporary = MakeTemporary(file.path);
+  if (!temporary) return temporary;
+  auto written = file.write(*temporary);
+  if (written) written = Sync(*temporary);
+  if (written) return temporary;
+  ::unlink(temporary->c_str());
+  Error failure = written.error();
+  failure.subject = file.path;
+  return tl::unexpected(failure);
+}
+
 Result<void> CheckTarget(const std::string& path, std::string_view format, bool format_known,
                          bool force) {
   std::error_code error;
@@ -218,9 +236,11 @@ OutputWriter WriterOf(OutputFile file) {
 }
 
 Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force) {
-  std::vector<OutputWriter> writers;
-  writers.reserve(files.size());
-  for (const OutputFile& file : files) writers.push_back(WriterOf(file));
+  std::vector<OutputWriter> writers(files.size());
+  ParallelFor(static_cast<int>(files.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    writers[at] = WriterOf(files[at]);
+  });
   return WriteOutputsWith(writers, force);
 }
 
@@ -239,35 +259,23 @@ Result<void> CheckOutputs(const std::vector<PlannedOutput>& files, bool force) {
 Result<void> WriteOutputsWith(const std::vector<OutputWriter>& files, bool force) {
   if (auto checked = CheckTargets(files, force); !checked) return checked;
   RemoveLeftoversOf(files);
-  std::vector<std::string> temporaries;
+  std::vector<Result<std::string>> temporaries(files.size());
   const auto discard = [&] {
-    for (const std::string& name : temporaries) ::unlink(name.c_str());
+    for (const auto& name : temporaries) {
+      if (name && !name->empty()) ::unlink(name->c_str());
+    }
   };
-  for (const OutputWriter& file : files) {
-    const fs::path directory = fs::path(file.path).parent_path();
-    std::error_code error;
-    if (!directory.empty()) fs::create_directories(directory, error);
-    if (error) {
-      discard();
-      return Unwritable(directory.string(), error.value());
-    }
-    auto temporary = MakeTemporary(file.path);
-    if (!temporary) {
-      discard();
-      return Propagate(std::move(temporary));
-    }
-    temporaries.push_back(*std::move(temporary));
-    auto written = file.write(temporaries.back());
-    if (written) written = Sync(temporaries.back());
-    if (!written) {
-      discard();
-      Error failure = written.error();
-      failure.subject = file.path;
-      return tl::unexpected(failure);
-    }
+  ParallelFor(static_cast<int>(files.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    temporaries[at] = WriteBeside(files[at]);
+  });
+  const auto failed = std::ranges::find_if(temporaries, [](const auto& one) { return !one; });
+  if (failed != temporaries.end()) {
+    discard();
+    return Propagate(std::move(*failed));
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (::rename(temporaries[i].c_str(), files[i].path.c_str()) != 0) {
+    if (::rename(temporaries[i]->c_str(), files[i].path.c_str()) != 0) {
       const int error_number = errno;
       discard();
       return Unwritable(files[i].path, error_number);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session_answer.h"
 
+#include <array>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/parallel.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
@@ -41,16 +44,23 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
                                                const std::vector<std::string>& targets, bool rig,
                                                Console& console) {
   const LightFile& lights = run.calibrated.lights;
-  auto json = LightFileToJson(lights);
+  const std::string& stem = run.calibrated.session.stem;
+  Result<std::string> json;
+  Result<ExportedPresets> presets;
+  std::string report;
+  const std::array<std::function<void()>, 3> jobs = {
+      [&] {
+        report = ReportHtml(run.calibrated, EnginesAsked(run.answers, targets),
+                            AdviceOf(run.answers, stem));
+      },
+      [&] { presets = ExportPresets(lights, targets, stem, {.rig = rig}); },
+      [&] { json = LightFileToJson(lights); }};
+  ParallelFor(static_cast<int>(jobs.size()), [&](int i) { jobs[static_cast<std::size_t>(i)](); });
   if (!json) return Propagate(std::move(json));
-  const Session& session = run.calibrated.session;
-  auto presets = ExportPresets(lights, targets, session.stem, {.rig = rig});
   if (!presets) return Propagate(std::move(presets));
   console.Warn(presets->warnings);
-  std::vector<OutputFile> files = {
-      {"light.json", std::move(*json)},
-      {"report.html", ReportHtml(run.calibrated, EnginesAsked(run.answers, targets),
-                                 AdviceOf(run.answers, session.stem))}};
+  std::vector<OutputFile> files = {{"light.json", std::move(*json)},
+                                   {"report.html", std::move(report)}};
   for (PresetFile& file : presets->files) {
     files.push_back({std::move(file.name), std::move(file.contents)});
   }

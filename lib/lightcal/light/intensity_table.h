@@ -2,6 +2,7 @@
 // A measured distribution: luminous intensity by direction, as photometric files hold it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -79,6 +80,8 @@ class IntensityTable {
     Candela intensity;  // the largest node
     Radians c, gamma;   // where; the first of several
   };
+  // cd, of its nodes.
+  [[nodiscard]] double least_cd() const { return *std::ranges::min_element(values_); }
   [[nodiscard]] const Peak& peak() const { return peak_; }
 
   // The same distribution `factor` > 0 times as bright.

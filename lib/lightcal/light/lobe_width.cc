@@ -77,8 +77,10 @@ Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInt
 
 LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
   if (table.symmetry() == TableSymmetry::kAxial) {  // all half-planes are alike
+    const double limit = level * table.peak().intensity.value();
     const HalfPlane any(table, 0.0, TableInterpolation::kLinear);
-    const Radians whole(2.0 * any.EdgeAt(level * table.peak().intensity.value()));
+    const double edge = table.least_cd() > limit ? std::numbers::pi : any.EdgeAt(limit);
+    const Radians whole(2.0 * edge);
     return {whole, whole, whole};
   }
   const Radians c0 = LobeWidth(table, Radians(0.0), level);
