@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/states/control_prior.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kConstantVariance = 25.0;
+
+// How far each target may go for one unit of the rests' sizes, and by the slopes' priors.
+struct TargetScale {
+  double level_rest, other_rest, joint_rest;
+  double level_slope, other_slope;
+};
+constexpr std::array<TargetScale, 3> kScales = {
+    {{1.0, 1.0, 1.0, 0.0, 0.5}, {0.2, 0.4, 0.3, 0.3, 0.3}, {0.05, 0.03, 0.05, 0.002, 0.004}}};
+constexpr double kOtherLength = 0.45;  // of a control's range
+
+const TargetScale& ScaleOf(CurveTarget target) { return kScales[static_cast<std::size_t>(target)]; }
+
+double Matern(double distance, double length) {
+  const double r = std::sqrt(3.0) * std::abs(distance) / length;
+  return (1.0 + r) * std::exp(-r);
+}
+
+// A driver's output in pieces of straight line: its slope walks at random from label 0 (integrated
+// Brownian motion, Rasmussen and Williams 6.3), by this many times the rest's size up to full; over
+// the output itself, which turns it into a part of it.
+constexpr double kSlopeOfRest = 6.5;
+double Kinks(double a, double b, double output_a, double output_b) {
+  const double s = std::min(a, b);
+  const double t = std::max(a, b);
+  return kSlopeOfRest * kSlopeOfRest * s * s * (3.0 * t - s) / 6.0 / (output_a * output_b);
+}
+
+// Of size 1, of the level i.
+double RestOfLevel(const LevelForm& form, const Rests& rests, const Seen& a, const Seen& b,
+                   std::size_t i) {
+  if (!rests.by_label) return Matern(a.along[i] - b.along[i], rests.level_length);
+  if (static_cast<int>(i) != form.control) {
+    return Matern(a.labels[i] - b.labels[i], rests.level_length);
+  }
+  return Kinks(a.labels[i], b.labels[i], std::exp(a.ln_level), std::exp(b.ln_level));
+}
+
+}  // namespace
+
+ControlPrior::ControlPrior(std::vector<ControlKind> kinds, CurveTarget target,
+                           const std::vector<CurvePoint>& points)
+    : kinds_(std::move(kinds)), target_(target) {
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    double sum = 0.0;
+    for (const CurvePoint& point : points) {
+      const double along = Plain(i, point.at[i]);
+      least = std::min(least, along);
+      most = std::max(most, along);
+      sum += along;
+    }
+    middle_.push_back(sum / static_cast<double>(points.size()));
+    span_.push_back(most > least ? most - least : 1.0);
+  }
+  if (!HasLevels()) return;
+  const auto level = std::ranges::find(kinds_, ControlKind::kLevel);
+  formed_ = static_cast<std::size_t>(level - kinds_.begin());
+  least_ = std::numeric_limits<double>::infinity();
+  for (const CurvePoint& point : points) least_ = std::min(least_, point.at[formed_]);
+}
+
+double ControlPrior::Plain(std::size_t control, double label) const {
+  switch (kinds_[control]) {
+    case ControlKind::kLevel:
+      return std::log(label + kLevelFloor);
+    case ControlKind::kTemperature:
+      return std::log(1e6 / label);
+    case ControlKind::kOther:
+      break;
+  }
+  return label;
+}
+
+Seen ControlPrior::See(const std::vector<double>& labels, const LevelForm& form) const {
+  Seen out;
+  out.labels = labels;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const bool formed = static_cast<int>(i) == form.control;
+    double along = Plain(i, labels[i]);
+    if (formed) {
+      const double above = std::max(1e-6, labels[i] + form.zero);
+      along = out.ln_level = std::log(above);
+      out.by_zero = form.power / above;
+      out.mean += form.power * out.ln_level;
+    } else if (kinds_[i] == ControlKind::kLevel) {
+      if (target_ == CurveTarget::kLnLight) out.mean += along;
+    } else {
+      if (kinds_[i] == ControlKind::kTemperature && target_ == CurveTarget::kLnMired) {
+        out.mean += along;
+      }
+      along = (along - middle_[i]) / span_[i];
+    }
+    out.along.push_back(along);
+  }
+  return out;
+}
+
+double ControlPrior::LevelRest(const LevelForm& form, const Rests& rests, const Seen& a,
+                               const Seen& b) const {
+  const double by = ScaleOf(target_).level_rest;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    if (kinds_[i] == ControlKind::kLevel) sum += by * by * RestOfLevel(form, rests, a, b, i);
+  }
+  return sum;
+}
+
+double ControlPrior::OtherRest(const Seen& a, const Seen& b) const {
+  const double by = ScaleOf(target_).other_rest;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    if (kinds_[i] != ControlKind::kLevel) sum += Matern(a.along[i] - b.along[i], kOtherLength);
+  }
+  return by * by * sum;
+}
+
+double ControlPrior::JointRest(const Seen& a, const Seen& b) const {
+  const double by = ScaleOf(target_).joint_rest;
+  double product = by * by;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const double length = kinds_[i] == ControlKind::kLevel ? 1.5 : 0.7;
+    product *= Matern(a.along[i] - b.along[i], length);
+  }
+  return product;
+}
+
+double ControlPrior::Covariance(const LevelForm& form, const Rests& rests, const Seen& a,
+                                const Seen& b) const {
+  const TargetScale& by = ScaleOf(target_);
+  const double level = by.level_rest * rests.level;
+  double sum = kConstantVariance;
+  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+    const double u = a.along[i];
+    const double v = b.along[i];
+    const bool is_level = kinds_[i] == ControlKind::kLevel;
+    if (!is_level) {
+      sum += by.other_slope * by.other_slope * u * v;
+    } else if (static_cast<int>(i) == form.control) {
+      sum += form.power_sd * form.power_sd * a.ln_level * b.ln_level +
+             form.step * form.step * a.by_zero * b.by_zero;
+    } else {
+      sum += by.level_slope * by.level_slope * u * v;
+    }
+    if (is_level && level > 0.0) sum += level * level * RestOfLevel(form, rests, a, b, i);
+  }
+  if (rests.other > 0.0) sum += rests.other * rests.other * OtherRest(a, b);
+  if (rests.joint > 0.0) sum += rests.joint * rests.joint * JointRest(a, b);
+  return sum;
+}
+
+bool ControlPrior::HasLevels() const {
+  return std::ranges::find(kinds_, ControlKind::kLevel) != kinds_.end();
+}
+
+bool ControlPrior::HasOthers() const {
+  return std::ranges::any_of(kinds_, [](ControlKind kind) { return kind != ControlKind::kLevel; });
+}
+
+std::vector<LevelForm> ControlPrior::Forms() const {
+  if (target_ != CurveTarget::kLnLight || !HasLevels()) return {LevelForm{}};
+  constexpr double kStep = 0.2;
+  const double smallest = std::max(least_, 0.01);
+  const double end = std::log(12.0 * smallest + 0.3);
+  std::vector<LevelForm> forms;
+  for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kStep) {
+    const double above = std::exp(ln);
+    LevelForm form{static_cast<int>(formed_), above - least_, 0.5 * kStep * above, 1.0, 0.02, 1.0};
+    forms.push_back(form);
+    form.power = 2.0;
+    form.power_sd = 1.2;
+    form.weight = 0.5;
+    forms.push_back(form);
+  }
+  return forms;
+}
+
+std::vector<Rests> ControlPrior::AllRests() const {
+  using Sized = std::pair<double, double>;  // size, weight
+  const bool level = HasLevels();
+  struct Level {
+    double length = 1.0;
+    bool by_label = false;
+  };
+  const std::vector<Sized> none = {{0.0, 1.0}};
+  const std::vector<Sized> level_sizes =
+      level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 3.0}} : none;
+  const std::vector<Sized> other_sizes =
+      HasOthers() ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
+  const std::vector<Sized> joint_sizes =
+      HasMany() ? std::vector<Sized>{{0.002, 1.5}, {0.015, 1.0}} : none;
+  // Drivers bend at labels; what lamps do goes with the logarithm.
+  const std::vector<Level> levels =
+      level ? std::vector<Level>{{0.25, false}, {1.5, false}, {0.3, true}}
+            : std::vector<Level>{Level{}};
+  std::vector<Rests> out;
+  for (const auto& [a, by_a] : level_sizes) {
+    for (const Level& one : levels) {
+      for (const auto& [b, by_b] : other_sizes) {
+        for (const auto& [c, by_c] : joint_sizes) {
+          out.push_back({a, one.length, one.by_label, b, c, by_a * by_b * by_c});
+        }
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace lightcal::fit
