@@ -180,6 +180,7 @@ double QuantileOf(std::span<const NormalPart> mixture, double probability) {
       if (part.sd > 0.0) density += part.weight * per_sd * std::exp(-0.5 * z * z) / part.sd;
     }
     const double missing = probability * whole - below;
+    if (missing == 0.0) break;
     (missing > 0.0 ? low : high) = at;
     double next = at + missing / density;
     if (!(next > low && next < high)) next = 0.5 * (low + high);

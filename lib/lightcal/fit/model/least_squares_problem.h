@@ -43,6 +43,7 @@ template <class P>
   return problem.rules[k].free && problem.rules[k].prior_sd > 0.0;
 }
 
+// Whether P tells its rows' second derivatives.
 template <class P>
 concept TellsBend = requires(const P& problem, double* out) {
   { problem.Bend(std::size_t{}, out, out, out, out) } -> std::same_as<bool>;

@@ -17,7 +17,8 @@ constexpr int kFigures = 4;  // mean, sd, low, high
 constexpr int kFewestBlocks = 2;
 constexpr double kTail = 0.025;
 constexpr std::size_t kSamplesAFailure = 100;  // at least, for each draw without an optimum
-constexpr double kLastStep = 1e-2;             // standard deviations: what is left is its square
+// Standard deviations; what is left is about its square.
+constexpr double kLastStepOfSample = 1e-2;
 
 using Figures = std::array<double, kFigures>;
 
@@ -63,7 +64,6 @@ class Draws {
 
   // The next draw's problem; `start` becomes the optimum's linear prediction.
   const Estimation& Next(Theta& start) {
-    Eigen::VectorXd& moved = moved_;
     for (double& z : shared_) z = normal_(random_);
     const std::size_t influences = input_.considered.size();
     for (std::size_t i = 0; i < drawn_.rows.size(); ++i) {
@@ -77,7 +77,7 @@ class Draws {
       drawn_.rows[i].measured = given.form == ReadingRow::Form::kLinear
                                     ? given.measured * (1.0 + relative) + own
                                     : given.measured * std::exp(relative + own);
-      moved[static_cast<Eigen::Index>(i)] =
+      moved_[static_cast<Eigen::Index>(i)] =
           given.form == ReadingRow::Form::kLinear
               ? (drawn_.rows[i].measured - given.measured) / given.sigma
               : (relative + own) / given.sigma;
@@ -88,13 +88,13 @@ class Draws {
       const double value = rule.prior_mean + rule.prior_sd * normal_(random_);
       if (rule.free) {
         drawn_.rules[k].prior_mean = value;
-        moved[static_cast<Eigen::Index>(drawn_.rows.size()) + k] =
+        moved_[static_cast<Eigen::Index>(drawn_.rows.size()) + k] =
             (rule.prior_mean - value) / rule.prior_sd;
       } else {
         start[k] = k == kDistanceOffset ? std::max(value, drawn_.least_distance_offset) : value;
       }
     }
-    const VectorOf<Estimation> step = gain_ * moved;
+    const VectorOf<Estimation> step = gain_ * moved_;
     for (int k = 0; k < kParameters; ++k) start[k] += step[k];
     return drawn_;
   }
@@ -159,7 +159,7 @@ Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& inp
   while (samples.front().size() < count) {
     Theta start = input.theta;
     const Estimation& drawn = draws.Next(start);
-    std::optional<Theta> theta = SolveCoarsely(drawn, start, kLastStep);
+    std::optional<Theta> theta = SolveCoarsely(drawn, start, kLastStepOfSample);
     if (!theta) {
       const Result<Theta> full = SolveInFull(drawn, start);
       if (full) theta = *full;
