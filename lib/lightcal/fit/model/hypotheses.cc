@@ -175,14 +175,18 @@ double QuantileOf(std::span<const NormalPart> mixture, double probability) {
     double below = 0.0;
     double density = 0.0;
     for (const NormalPart& part : mixture) {
+      if (!(part.sd > 0.0)) {
+        below += at >= part.mean ? part.weight : 0.0;
+        continue;
+      }
       const double z = (at - part.mean) / part.sd;
-      below += part.weight * (part.sd > 0.0 ? Normal(z) : (at >= part.mean ? 1.0 : 0.0));
-      if (part.sd > 0.0) density += part.weight * per_sd * std::exp(-0.5 * z * z) / part.sd;
+      below += part.weight * Normal(z);
+      density += part.weight * per_sd * std::exp(-0.5 * z * z) / part.sd;
     }
     const double missing = probability * whole - below;
     if (missing == 0.0) break;
     (missing > 0.0 ? low : high) = at;
-    double next = at + missing / density;
+    double next = density > 0.0 ? at + missing / density : high;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::abs(next - at);
     at = next;
