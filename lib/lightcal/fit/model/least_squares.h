@@ -145,14 +145,12 @@ template <TellsBend P>
   return std::nullopt;
 }
 
-// The nearest way there is.
-template <class P>
+// By Newton's steps, where those come to no end by TinySolver's.
+template <TellsBend P>
 [[nodiscard]] std::optional<ValuesOf<P>> SolveNear(const P& problem, const ValuesOf<P>& start,
-                                                   const std::array<bool, P::kCount>& held = {},
-                                                   double last_step = kLastStep) {
-  if constexpr (TellsBend<P>) {
-    if (const auto theta = SolveByNewton(problem, start, held, last_step)) return theta;
-  }
+                                                   const std::array<bool, P::kCount>& held,
+                                                   double last_step) {
+  if (const auto theta = SolveByNewton(problem, start, held, last_step)) return theta;
   return SolveTiny(problem, start, held);
 }
 

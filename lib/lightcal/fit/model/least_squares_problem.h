@@ -84,6 +84,18 @@ double DifferentiateAt(const P& problem, std::size_t i, const double* theta, dou
   return std::numeric_limits<double>::infinity();
 }
 
+// sum ((theta_k - mean_k)/sd_k)^2 of free parameters.
+template <class P>
+[[nodiscard]] double PriorChiSquaredOf(const P& problem, const ValuesOf<P>& theta) {
+  double sum = 0.0;
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const double r = (theta[k] - problem.rules[k].prior_mean) / problem.rules[k].prior_sd;
+    sum += r * r;
+  }
+  return sum;
+}
+
 // 1/2 sum r_i^2 with the priors of free parameters.
 template <class P>
 [[nodiscard]] double HalfChiSquaredOf(const P& problem, const ValuesOf<P>& theta) {
@@ -92,12 +104,7 @@ template <class P>
     const double r = ResidualAt(problem, i, theta.data());
     sum += r * r;
   }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const double r = (theta[k] - problem.rules[k].prior_mean) / problem.rules[k].prior_sd;
-    sum += r * r;
-  }
-  return 0.5 * sum;
+  return 0.5 * (sum + PriorChiSquaredOf(problem, theta));
 }
 
 }  // namespace lightcal::fit

@@ -58,8 +58,7 @@ class Draws {
     const Linearised<Estimation> at = Linearise(*input.estimation, input.theta);
     const auto covariance = CovarianceAt(*input.estimation, at);
     moved_ = Eigen::VectorXd::Zero(at.residual.size());
-    gain_ = RowsOf<Estimation>::Zero(at.residual.size(), kParameters).transpose();
-    if (covariance) gain_ = -*covariance * at.jacobian.transpose();
+    gain_ = -covariance.value_or(SquareOf<Estimation>::Zero()) * at.jacobian.transpose();
   }
 
   // The next draw's problem; `start` becomes the optimum's linear prediction.

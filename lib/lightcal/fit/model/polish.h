@@ -16,6 +16,19 @@
 
 namespace lightcal::fit {
 
+// What the priors of free parameters add to J^T r and, where asked, to J^T J.
+template <class P>
+void AddPriors(const P& problem, const ValuesOf<P>& theta, VectorOf<P>& gradient,
+               SquareOf<P>* normal) {
+  for (int k = 0; k < P::kCount; ++k) {
+    if (!HasPrior(problem, k)) continue;
+    const ParameterRule& rule = problem.rules[k];
+    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
+    if (normal != nullptr) (*normal)(k, k) += weight;
+    gradient[k] += weight * (theta[k] - rule.prior_mean);
+  }
+}
+
 // J^T r of rows and priors over all parameters; J^T J is added to `normal` where asked.
 template <class P>
 [[nodiscard]] VectorOf<P> GradientAt(const P& problem, const ValuesOf<P>& theta,
@@ -27,13 +40,7 @@ template <class P>
     if (normal != nullptr) *normal += j * j.transpose();
     gradient += j * residual;
   }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const ParameterRule& rule = problem.rules[k];
-    const double weight = 1.0 / (rule.prior_sd * rule.prior_sd);
-    if (normal != nullptr) (*normal)(k, k) += weight;
-    gradient[k] += weight * (theta[k] - rule.prior_mean);
-  }
+  AddPriors(problem, theta, gradient, normal);
   return gradient;
 }
 
@@ -51,8 +58,8 @@ template <class P>
   return out;
 }
 
-// The cost and its first and second derivatives: `bend` adds to J^T J how the rows bend. The cost
-// is infinite where a row has no value.
+// The cost and its first and second derivatives: `bend` adds to J^T J how the rows bend. Cost and
+// gradient are infinite where a row has no value.
 template <class P>
 struct SecondOrder : NormalEquations<P> {
   double cost = 0.0;
@@ -68,6 +75,7 @@ template <TellsBend P>
     SquareOf<P> second = SquareOf<P>::Zero();
     if (!problem.Bend(i, theta.data(), &residual, j.data(), second.data())) {
       out.cost = std::numeric_limits<double>::infinity();
+      out.gradient.setConstant(out.cost);
       return out;
     }
     out.cost += 0.5 * residual * residual;
@@ -75,17 +83,21 @@ template <TellsBend P>
     out.bend += residual * second;
     out.gradient += j * residual;
   }
-  for (int k = 0; k < P::kCount; ++k) {
-    if (!HasPrior(problem, k)) continue;
-    const ParameterRule& rule = problem.rules[k];
-    const double z = (theta[k] - rule.prior_mean) / rule.prior_sd;
-    out.cost += 0.5 * z * z;
-    out.normal(k, k) += 1.0 / (rule.prior_sd * rule.prior_sd);
-    out.gradient[k] += z / rule.prior_sd;
-  }
+  out.cost += 0.5 * PriorChiSquaredOf(problem, theta);
+  AddPriors(problem, theta, out.gradient, &out.normal);
   out.bend += out.normal;
   out.bend.template triangularView<Eigen::StrictlyUpper>() = out.bend.transpose();
   return out;
+}
+
+// What Newton's steps start from: the second derivatives where they come with the first.
+template <class P>
+[[nodiscard]] auto NewtonEquationsAt(const P& problem, const ValuesOf<P>& theta) {
+  if constexpr (TellsBend<P>) {
+    return SecondOrderAt(problem, theta);
+  } else {
+    return NormalEquationsAt(problem, theta);
+  }
 }
 
 // The same derivative of the exact gradient by central differences, of what may move.
@@ -150,15 +162,15 @@ template <class P>
 // One step of Newton's method over the same parameters; `at` are the equations at theta. Gauss and
 // Newton's leaves out how rows bend: where offset and walls trade nearly evenly it goes on by parts
 // of the way for ever. Unmoved where that is no minimum.
-template <class P>
-[[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta, NormalEquations<P> at) {
+template <class P, class Equations>
+[[nodiscard]] ValuesOf<P> NewtonStep(const P& problem, ValuesOf<P> theta, Equations at) {
   const auto moves = [&](int k) { return problem.rules[k].free && !AtBound(problem, theta, k); };
   for (int k = 0; k < P::kCount; ++k) {
     if (moves(k) && !(at.normal(k, k) > 0.0)) return theta;  // no row and no prior knows it
   }
   SquareOf<P> bend;
   if constexpr (TellsBend<P>) {
-    bend = SecondOrderAt(problem, theta).bend;
+    bend = at.bend;
   } else {
     bend = BendByDifferences(problem, theta, at);
   }
@@ -206,13 +218,13 @@ template <class P, class NoWorse>
 bool FinishByNewton(const P& problem, ValuesOf<P>& theta, const NoWorse& no_worse) {
   constexpr int kSteps = 4;
   constexpr double kDone = 1e-13;
-  NormalEquations<P> at = NormalEquationsAt(problem, theta);
+  auto at = NewtonEquationsAt(problem, theta);
   double left = GradientLeft(problem, theta, at);
   for (int i = 0; i < kSteps && left > kDone; ++i) {
     const ValuesOf<P> next = NewtonStep(problem, theta, at);
     const auto step = SmallStep(problem, theta, next);
     if (!step || *step == 0.0 || !no_worse(next)) break;
-    at = NormalEquationsAt(problem, next);
+    at = NewtonEquationsAt(problem, next);
     const double then = GradientLeft(problem, next, at);
     if (!(then < left)) break;
     left = then;
