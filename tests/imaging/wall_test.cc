@@ -18,6 +18,7 @@
 #include "lightcal/imaging/scene/charuco.h"
 #include "lightcal/imaging/scene/wall_samples.h"
 #include "synthetic_wall.h"
+#include "trials.h"
 
 namespace lightcal::test {
 namespace {
@@ -226,7 +227,7 @@ struct Trials {
 
 Trials Try(const SyntheticIntensity& lamp, bool lens_known, int fewest) {
   const char* more = std::getenv("LIGHTCAL_WALL_TRIALS");
-  Trials out{.count = more != nullptr ? std::atoi(more) : fewest};
+  Trials out{.count = more != nullptr ? std::atoi(more) : TrialsOf(fewest)};
   std::vector<double> peaks, fluxes;
   for (int i = 0; i < out.count; ++i) {
     SyntheticWall wall = Scene(lamp);

@@ -15,6 +15,7 @@
 
 #include "lightcal/light/gate.h"
 #include "lightcal/light/room_bounce.h"
+#include "trials.h"
 
 namespace lightcal {
 namespace {
@@ -145,7 +146,7 @@ void JudgeRoom(std::mt19937_64& random, int kind, RoomTally& tally) {
 }
 
 TEST(GateAgainstTruth, TheBouncesBoundHoldsAgainstRadiosity) {
-  const int rooms = CountFrom("LIGHTCAL_BOUNCE_ROOMS", 60);
+  const int rooms = CountFrom("LIGHTCAL_BOUNCE_ROOMS", test::TrialsOf(60));
   constexpr std::array kNames = {"even lamps", "Lambertian", "beams"};
   std::mt19937_64 random(20261122);
   std::array<RoomTally, 3> tallies;
