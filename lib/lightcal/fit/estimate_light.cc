@@ -247,4 +247,19 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   return out;
 }
 
+Result<void> CheckKnown(const LightEstimate& estimate, const std::string& light) {
+  // Such an interval says nothing, and its ends overflow.
+  constexpr double kMostSdOfLn = 3.5;
+  if (estimate.upper_limit) return {};
+  if (!std::isnormal(std::exp(estimate.theta[kLnIntensity]))) {
+    return Refused("out_of_range", light,
+                   "illuminance and distance give an intensity that no number can hold; check "
+                   "their units");
+  }
+  if (SdOf(estimate.covariance, kLnIntensity) < kMostSdOfLn) return {};
+  return Refused("underdetermined", light,
+                 "the readings leave its strength open by more than a factor of 1000 each way: at "
+                 "such distances an error of a centimetre decides; measure from farther away");
+}
+
 }  // namespace lightcal::fit

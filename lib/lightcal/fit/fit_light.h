@@ -2,6 +2,7 @@
 // Session -> FittedLight.
 #pragma once
 
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,19 @@ struct FittedSession {
   LightFile lights;                  // provenance left empty for the caller
   Warnings warnings;                 // prior_conflict, row_rejected, bimodal, cct_withheld, ...
   std::vector<std::string> notes{};  // what sampling found, a sentence a light
+
+  void Warn(Warnings&& more) {
+    warnings.insert(warnings.end(), std::make_move_iterator(more.begin()),
+                    std::make_move_iterator(more.end()));
+  }
 };
 
 // Fits every light of the session:
 //   E = I g(r)/r^2 cos(tilt) + E0,  r = d + d0,  g the finite source's factor (1 for a point),
-// by weighted least squares of ln E with d0 ~ N(0, (0.15 d_min)^2), E0 = 0 unless lamp-off readings
-// or four distances tell it; shadow-card readings are subtracted from the readings at their
-// distance. A light without position_m whose readings give theirs is located (locate.h). A light
+// and what the walls throw back (light/wall_prior.h), by weighted least squares of ln E with d0 under
+// the prior of its fixture (light/fixture.h), E0 = 0 unless lamp-off readings or, where no wall
+// shines, four distances tell it (estimate_light.h); shadow-card readings are subtracted from the
+// readings at their distance. A light without position_m whose readings give theirs is located (locate.h). A light
 // that was never read answers from its data sheet (everything a prior), or, beside others that were
 // read, is left out with the warning no_readings. Refused: no_readings, no_valid_readings,
 // over_range, units_ambiguous (readings apart by a ratio of units), increasing_with_distance,

@@ -93,10 +93,6 @@ Uncertain Within(double value, double low, double high) {
   return {value, 0.5 * (high - low), low, high};
 }
 
-double SdOf(const Covariance& covariance, Parameter k) {
-  return std::sqrt(covariance[k * kParameters + k]);
-}
-
 }  // namespace
 
 FittedLight Describe(const LightDescription& light) {

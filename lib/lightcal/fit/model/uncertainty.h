@@ -15,6 +15,9 @@
 namespace lightcal::fit {
 
 using Covariance = std::array<double, std::size_t{kParameters} * kParameters>;
+[[nodiscard]] inline double SdOf(const Covariance& covariance, Parameter k) {
+  return std::sqrt(covariance[k * kParameters + k]);
+}
 
 // A systematic influence that is not fitted: one standard deviation of it changes every ln E by
 // `relative` (the same sign in all rows, growing with distance to the power `distance_power`).

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/fit_by_distance.h"
+
+#include <optional>
+#include <utility>
+
+#include "lightcal/fit/beam/spot_beam.h"
+#include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/asked_sampling.h"
+#include "lightcal/fit/model/budget.h"
+#include "lightcal/fit/model/data_sheet.h"
+#include "lightcal/fit/model/fill_light.h"
+#include "lightcal/fit/model/input_checks.h"
+#include "lightcal/fit/model/meter_calibration.h"
+#include "lightcal/fit/model/off_axis.h"
+#include "lightcal/fit/model/reading_times.h"
+#include "lightcal/fit/plan/plan_forward.h"
+
+namespace lightcal::fit {
+namespace {
+
+// A cone was found under one offset's prior, and in all its readings: the intensity keeps to both.
+void KeepToBeam(ForwardModel& model) {
+  model.offsets = {MatchedOffset(model.offsets)};
+  model.judge_misfit = false;
+}
+
+// What is not known of the cone is not known of its axis's intensity.
+void WidenByCone(double variance_of_ln, LightEstimate& estimate) {
+  constexpr int kOfIntensity = kLnIntensity * kParameters + kLnIntensity;
+  estimate.covariance[kOfIntensity] += variance_of_ln;
+  for (LampInRoom& one : estimate.in_room) one.covariance[kOfIntensity] += variance_of_ln;
+  estimate.variance_parts.push_back({"cone", variance_of_ln});
+}
+
+}  // namespace
+
+Result<FittedLight> FitByDistance(const Session& session, const LightDescription& light,
+                                  Observations observations, const FitSettings& settings,
+                                  FittedLight out, FittedSession& session_out) {
+  Warnings& warnings = session_out.warnings;
+  std::optional<SpotBeam> beam;
+  if (NeedsBeam(observations, light)) {
+    Result<SpotBeam> found = FitSpotBeam(observations, light);
+    if (!found) return Propagate(std::move(found));
+    beam = *found;
+    FillBeam(*beam, light, out);
+  }
+  const LightDescription seen = beam ? WithBeam(light, *beam) : light;
+  const int beyond = PlaceOnSource(seen, beam.has_value(), observations);
+  if (observations.rows.empty()) {
+    return Refused("no_valid_readings", light.name,
+                   "the lamp shines on none of the readings by its position_m, aim and size");
+  }
+  if (auto units = CheckUnits(observations, light.name); !units) {
+    return Propagate(std::move(units));
+  }
+  const bool distance_law = HasDistanceLaw(light.kind);
+  // Across a beam that was found, illuminance falls by its shape more than by distance.
+  if (distance_law && !beam) {
+    if (auto falloff = CheckFalloff(observations, light.name, warnings); !falloff) {
+      return Propagate(std::move(falloff));
+    }
+  }
+  session_out.Warn(std::move(observations.warnings));
+  Result<ForwardPlan> plan = PlanForward(session, seen, observations, settings);
+  if (!plan) return Propagate(std::move(plan));
+  const std::optional<SamplingRule> sampling = SamplingOf(settings);
+  const auto estimate_by = [&](ForwardModel& model) {
+    if (beam) KeepToBeam(model);
+    return EstimateLight(observations, model, light.name, beam ? std::nullopt : sampling);
+  };
+  Result<LightEstimate> estimate = estimate_by(plan->model);
+  if (!estimate) return Propagate(std::move(estimate));
+  Result<std::optional<ForwardPlan>> again =
+      PlanAfterFit(*plan, seen, observations, settings, *estimate);
+  if (!again) return Propagate(std::move(again));
+  if (*again) {
+    plan = **std::move(again);
+    estimate = estimate_by(plan->model);
+    if (!estimate) return Propagate(std::move(estimate));
+  }
+  if (auto known = CheckKnown(*estimate, light.name); !known) return Propagate(std::move(known));
+  if (sampling) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
+  session_out.Warn(std::move(estimate->warnings));
+  if (beam) {
+    WidenByCone(beam->ln_intensity_extra_variance, *estimate);
+    estimate->diagnostics.used += beyond;
+    estimate->diagnostics.learned.emplace_back("cone");
+  }
+  FillParameters(*estimate, distance_law, out);
+  out.fit = estimate->diagnostics;
+  out.residuals = estimate->residuals;
+  out.effects = ReportEffects(*plan, observations, *estimate);
+  ReportCalibration(observations, out.effects);
+  out.meter = MeterOf(session, light.name, observations);
+  if (!estimate->upper_limit) out.budget = BudgetOf(estimate->variance_parts);
+  AddDerivedQuantities(seen, out);
+  if (distance_law) CheckDataSheet(light, out, warnings);
+  CheckDrift(session, out, warnings);
+  return out;
+}
+
+}  // namespace lightcal::fit
