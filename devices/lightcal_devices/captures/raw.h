@@ -22,7 +22,8 @@ class OpenFiles;  // mapped_file.h: here and below, opens the file where given
 [[nodiscard]] Result<FrameInfo> ReadRawInfo(const std::string& path, OpenFiles* files = nullptr);
 
 // The sensor values themselves: uint16, the active area, black not subtracted, nothing scaled,
-// demosaiced or clamped.
+// demosaiced or clamped. Where rows or columns have a black of their own (DNG BlackLevelDeltaV, H),
+// float, that part of it taken off.
 // Fails and refuses as ReadRawInfo; Fails: no_scratch_space.
 [[nodiscard]] Result<Frame> ReadRaw(const std::string& path,
                                     SampleStore store = SampleStore::kMemory,

@@ -124,6 +124,39 @@ Result<void> WriteRows(const Sample* samples, const libraw_image_sizes_t& sizes,
                sizes.height * std::size_t{sizes.raw_pitch});
 }
 
+tl::unexpected<Error> OddDeltas(const std::string& path) {
+  return Refused("unsupported_picture", path,
+                 "its black levels by row or column (BlackLevelDeltaV, BlackLevelDeltaH) are not as "
+                 "many as its picture has rows or columns, or its picture is no mosaic; convert it "
+                 "to a DNG with one black level");
+}
+
+// The same as floats, each less what the black of its row and column is above that of the file.
+Result<void> WriteLessDeltas(const std::uint16_t* samples, const libraw_image_sizes_t& sizes,
+                             const RawTagWalk& walk, const std::string& path, int descriptor,
+                             RawAnswer& answer) {
+  const std::size_t width = sizes.width, height = sizes.height;
+  const auto& columns = walk.black_of_columns;
+  const auto& rows = walk.black_of_rows;
+  if ((!columns.empty() && columns.size() != width) || (!rows.empty() && rows.size() != height)) {
+    return OddDeltas(path);
+  }
+  answer.samples = RawAnswer::Samples::kFloat;
+  answer.row_bytes = static_cast<std::int64_t>(width * sizeof(float));
+  std::vector<float> out;
+  out.reserve(width * height);
+  for (std::size_t y = 0; y < height; ++y) {
+    const std::uint16_t* row =
+        samples + (y + sizes.top_margin) * (sizes.raw_pitch / sizeof(std::uint16_t)) +
+        sizes.left_margin;
+    for (std::size_t x = 0; x < width; ++x) {
+      const double delta = (rows.empty() ? 0.0 : rows[y]) + (columns.empty() ? 0.0 : columns[x]);
+      out.push_back(static_cast<float>(row[x] - delta));
+    }
+  }
+  return Write(descriptor, kSamplesAt, out.data(), out.size() * sizeof(float));
+}
+
 // Pixels of four colours LibRaw holds, as the channels lightcal has.
 template <class Pixel>
 Result<void> WriteColors(const Pixel* pixels, const libraw_image_sizes_t& sizes, int channels,
@@ -149,6 +182,10 @@ Result<void> WriteSamples(OpenRaw& open, const std::string& path, int descriptor
   const libraw_rawdata_t& data = open.raw.imgdata.rawdata;
   const libraw_image_sizes_t& sizes = open.raw.imgdata.sizes;
   const int channels = open.raw.imgdata.idata.colors == 1 ? 1 : 3;
+  if (open.walk.has_black_deltas()) {
+    if (data.raw_image == nullptr) return OddDeltas(path);
+    return WriteLessDeltas(data.raw_image, sizes, open.walk, path, descriptor, answer);
+  }
   if (data.raw_image != nullptr) return WriteRows(data.raw_image, sizes, descriptor, answer);
   if (data.float_image != nullptr && (open.raw.imgdata.idata.filters != 0 || channels == 1)) {
     return WriteRows(data.float_image, sizes, descriptor, answer);

@@ -14,7 +14,7 @@ namespace lightcal::devices {
 namespace {
 
 constexpr unsigned kNoFilters = 0, kCatchlight = 1, kXTrans = 9;
-constexpr int kOtherChannel = 3;
+constexpr std::uint8_t kOtherChannel = 3;
 constexpr Kelvin kD65{6502.71};  // as DNG readers round it
 constexpr double kMostBaselineStops = 16.0;
 constexpr double kUnknownDistance = 0.0, kInfiniteDistance = 4294967295.0;
@@ -210,7 +210,8 @@ SensorLevels SensorLevelsOf(const RawAnswer& answer, const Periodic2d<std::uint8
     for (int x = 0; x < levels.black.width; ++x) {
       unsigned black = color.black + color.cblack[LibRawColor(camera, x, y)];
       if (pattern) black += color.cblack[6 + y % rows * columns + x % columns];
-      levels.black.values.push_back(static_cast<float>(black));
+      levels.black.values.push_back(
+          static_cast<float>(static_cast<double>(black) - answer.tags.black_of_deltas));
     }
   }
 
@@ -244,6 +245,13 @@ Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) 
   info.height = answer.sizes.height;
   info.meaning = camera.filters != kNoFilters ? SampleMeaning::kMosaic : SampleMeaning::kSensor;
   if (info.meaning == SampleMeaning::kMosaic) info.cfa = ColorFilterArray(camera);
+  if (std::ranges::find(info.cfa.values, kOtherChannel) != info.cfa.values.end()) {
+    return Refused("unsupported_picture", path,
+                   "its mosaic has filters of other colours (LibRaw calls them " +
+                       std::string(camera.cdesc, strnlen(camera.cdesc, sizeof(camera.cdesc))) +
+                       "), and lightcal knows red, green and blue alone; convert it to a linear DNG "
+                       "(three colours a pixel) or a 16 bit TIFF in a RAW converter");
+  }
   if (info.meaning == SampleMeaning::kSensor) info.channels = camera.colors == 1 ? 1 : 3;
   info.levels = SensorLevelsOf(answer, info.cfa);
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr std::size_t kMostNumbers = std::tuple_size_v<decltype(RawTags::noise_profile)>;
 constexpr std::size_t kMostStrips = 1 << 20;
+constexpr std::size_t kMostDeltas = 65536;  // as many as LibRaw reads
 constexpr std::size_t kMostOpcodeBytes = 65536;  // a gain map's header stands at the front
 
 // EXIF 2.32 and DNG 1.6 tag numbers.
@@ -34,6 +36,8 @@ enum Tag : int {
   kShutterSpeedValue = 0x9201,
   kApertureValue = 0x9202,
   kSubjectDistance = 0x9206,
+  kBlackLevelDeltaH = 0xC61B,
+  kBlackLevelDeltaV = 0xC61C,
   kOpcodeList2 = 0xC741,
   kOpcodeList3 = 0xC74E,
   kNoiseProfile = 0xC761,
@@ -157,6 +161,14 @@ void TakeNoise(const std::vector<double>& numbers, RawTags& tags) {
   std::copy(numbers.begin(), numbers.end(), tags.noise_profile.begin());
 }
 
+// LibRaw 0.20 adds the mean of each list to its black, to the nearest whole number.
+void TakeDeltas(const std::vector<double>& deltas, std::vector<double>& kept, RawTags& tags) {
+  if (deltas.empty() || !kept.empty()) return;
+  kept = deltas;
+  const double sum = std::accumulate(deltas.begin(), deltas.end(), 0.0);
+  tags.black_of_deltas += std::floor(sum / static_cast<double>(deltas.size()) + 0.5);
+}
+
 void Take(RawTagWalk& walk, int tag, const TagData& data) {
   RawTags& tags = walk.tags;
   switch (tag) {
@@ -191,6 +203,10 @@ void Take(RawTagWalk& walk, int tag, const TagData& data) {
     case kNoiseProfile:
       if (tags.noise_numbers == 0) TakeNoise(data.Numbers(), tags);
       return;
+    case kBlackLevelDeltaH:
+      return TakeDeltas(data.Numbers(kMostDeltas), walk.black_of_columns, tags);
+    case kBlackLevelDeltaV:
+      return TakeDeltas(data.Numbers(kMostDeltas), walk.black_of_rows, tags);
     case kOpcodeList2:
     case kOpcodeList3:
       tags.has_gain_map = tags.has_gain_map || HoldsGainMap(data.Bytes(kMostOpcodeBytes));

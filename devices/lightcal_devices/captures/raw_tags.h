@@ -20,6 +20,7 @@ struct RawTags {
   std::array<double, 8> noise_profile{};  // scale and offset of each plane
   int noise_numbers = 0;                  // of these
   bool has_gain_map = false;              // lens shading that a reader is asked to apply
+  double black_of_deltas = 0.0;  // what LibRaw put into its black for the deltas below
 };
 
 // What the walk through a file collects.
@@ -28,7 +29,13 @@ struct RawTagWalk {
   int count = 0;  // tags seen: none means that the file is no TIFF at all
   // Where the picture's data should lie, strip by strip or tile by tile, of every directory.
   std::vector<double> data_offsets, data_sizes;
+  // DNG BlackLevelDeltaH and V: what the black of a column and of a row of the active area is above
+  // BlackLevel. LibRaw knows their means alone.
+  std::vector<double> black_of_columns, black_of_rows;
 
+  [[nodiscard]] bool has_black_deltas() const {
+    return !black_of_columns.empty() || !black_of_rows.empty();
+  }
   // The file's size below which some of that is missing.
   [[nodiscard]] double EndOfData() const;
 };
