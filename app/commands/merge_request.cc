@@ -12,6 +12,7 @@
 #include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
 #include "picture_words.h"
 #include "progress_line.h"
 
@@ -248,7 +249,8 @@ Node DocumentOf(const MergedBracket& merged) {
            {{"source", NoiseWord(merged.noise_source)},
             {"scale", merged.plan.noise.front().scale},
             {"offset", merged.plan.noise.front().offset},
-            {"fixed_pattern", merged.plan.fixed_pattern}}},
+            {"fixed_pattern", merged.plan.fixed_pattern},
+            {"curve_misfit", merged.plan.encoded ? Node(merged.plan.encoded->misfit) : Node()}}},
           {"aligned_to", Node::UnlessEmpty(merged.aligned_to)},
           {"crop", crop ? Node{crop->x, crop->y, crop->width, crop->height} : Node()},
           {"masked_pixels", merged.masked_pixels > 0 ? Node(merged.masked_pixels) : Node()},

@@ -198,7 +198,10 @@ Blocks BlocksOf(const BracketMerger& merger, std::size_t k) {
   }
   for (std::size_t i = 0; i < count; ++i) {
     const float signal = blocks.mean[i] / samples;
-    blocks.mean[i] = signal / exposure;
+    // The merge does not believe codes as dark as that either: their curve is a guess.
+    const auto floor = static_cast<float>(merger.plan().floor);
+    const bool seen = floor == 0.0F || signal >= floor;
+    blocks.mean[i] = seen ? signal / exposure : std::numeric_limits<float>::quiet_NaN();
     blocks.variance[i] = static_cast<float>(noise.scale * std::max(0.0F, signal) + noise.offset) /
                          (samples * exposure * exposure);
   }

@@ -14,7 +14,7 @@ namespace lightcal {
 // Means of a frame's signals over blocks of `size` pixels each way, divided by the exposure.
 struct Blocks {
   int width = 0, height = 0, size = 1;
-  std::vector<float> mean;                // scene units; NaN inside only: too bright to compare
+  std::vector<float> mean;                // scene units; NaN inside only: too bright or dark
   std::vector<float> variance;            // of the mean
   static constexpr float kClear = 10.0F;  // signal over noise of a block worth comparing
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/signal_kernels.h"
 
@@ -17,6 +18,7 @@ constexpr double kLargestFixedPattern = 2.0;  // of the usual one
 constexpr int kTile = 16;                     // samples of one place of the pattern, each way
 constexpr int kStrips = 12;                   // of rows, spread over the picture
 constexpr std::size_t kLeastTiles = 16;
+constexpr std::size_t kTilesAsked = 4, kTilesAskedOfCodes = 20;  // the flattest of so many
 constexpr double kTileSpread = 0.12;   // relative standard deviation of a tile's scatter
 constexpr double kWellExposed = 0.03;  // relative noise of a sample, at most
 
@@ -87,47 +89,97 @@ Result<BracketMerger> BracketMerger::Make(std::span<const SignalFrame> frames,
   return merger;
 }
 
-std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
-                                     View2d<float> variance) const {
-  const auto constants = ConstantsOf(plan_);
-  const auto limits = LimitsOf(frames_[0], plan_.usable);
-  const auto clips = LimitsOf(frames_[0], 1.0);
-  std::vector<float> signals(frames_.size() * kernels::kBlock);
-  std::vector<float> precisions(signals.size());
-  const bool interpolated = std::ranges::any_of(
-      frames_, [](const SignalFrame& frame) { return frame.shares != nullptr; });
-  std::vector<float> shares(interpolated ? signals.size() : 0, 1.0F);
-  std::array<float, kernels::kBlock> used{};
-  const std::size_t row_samples = frames_[0].row_samples();
-  const auto pattern = static_cast<float>(plan_.fixed_pattern);
-  std::size_t clipped = 0;
-  for (int i = 0; i < count; ++i) {
-    const int y = first + i;
+namespace {
+
+// Merges row by row; not for two threads at once.
+class RowMerger {
+ public:
+  RowMerger(std::span<const SignalFrame> frames, const MergePlan& plan)
+      : frames_(frames),
+        plan_(plan),
+        constants_(ConstantsOf(plan)),
+        limits_(LimitsOf(frames[0], plan.usable)),
+        clips_(LimitsOf(frames[0], 1.0)),
+        signals_(frames.size() * kernels::kBlock),
+        precisions_(signals_.size()) {
+    if (std::ranges::any_of(frames, [](const auto& frame) { return frame.shares != nullptr; })) {
+      shares_.assign(signals_.size(), 1.0F);
+    }
+    if (plan.encoded && !plan.encoded->places.factor.empty()) places_.resize(kernels::kBlock);
+  }
+
+  // Row y; how many of its samples are clipped in every frame. Pointers of `out` as those of
+  // kernels::BlockOut, at the row's first sample; used is filled here.
+  std::size_t Merge(int y, const kernels::BlockOut& out) {
+    const auto pattern = static_cast<float>(plan_.fixed_pattern);
+    const auto phase = static_cast<std::size_t>(y % frames_[0].row_period);
+    const std::size_t row_samples = frames_[0].row_samples();
+    std::size_t clipped = 0;
     for (std::size_t x = 0; x < row_samples; x += kernels::kBlock) {
       const std::size_t samples = std::min(kernels::kBlock, row_samples - x);
-      for (std::size_t k = 0; k < frames_.size(); ++k) {
-        ReadSignals(frames_[k], y, x, std::span(signals).subspan(k * kernels::kBlock, samples));
-        if (frames_[k].shares == nullptr) continue;
-        frames_[k].shares->Row(y, x, std::span(shares).subspan(k * kernels::kBlock, samples));
-      }
-      const auto phase = static_cast<std::size_t>(y % frames_[0].row_period);
-      kernels::MergeBlock({.frames = constants,
-                           .signals = signals.data(),
-                           .precisions = precisions.data(),
-                           .shares = interpolated ? shares.data() : nullptr,
+      Read(y, x, samples);
+      kernels::MergeBlock({.frames = constants_,
+                           .signals = signals_.data(),
+                           .precisions = precisions_.data(),
+                           .shares = shares_.empty() ? nullptr : shares_.data(),
+                           .places = places_.empty() ? nullptr : places_.data(),
                            .count = samples,
-                           .limit = &limits[phase],
-                           .clip = &clips[phase],
+                           .limit = &limits_[phase],
+                           .clip = &clips_[phase],
                            .fixed_pattern2 = pattern * pattern,
                            .estimator = plan_.estimator},
-                          {.value = value.row(i).data() + x,
-                           .variance = variance.row(i).data() + x,
-                           .used = used.data()});
+                          {.value = out.value + x,
+                           .variance = out.variance + x,
+                           .used = used_.data(),
+                           .chi2 = out.chi2 == nullptr ? nullptr : out.chi2 + x,
+                           .degrees = out.degrees == nullptr ? nullptr : out.degrees + x});
       clipped += static_cast<std::size_t>(
-          std::count(used.begin(), used.begin() + static_cast<std::ptrdiff_t>(samples), -1.0F));
+          std::count(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(samples), -1.0F));
     }
+    return clipped;
+  }
+
+ private:
+  void Read(int y, std::size_t x, std::size_t samples) {
+    for (std::size_t k = 0; k < frames_.size(); ++k) {
+      ReadSignals(frames_[k], y, x, std::span(signals_).subspan(k * kernels::kBlock, samples));
+      if (frames_[k].shares == nullptr) continue;
+      frames_[k].shares->Row(y, x, std::span(shares_).subspan(k * kernels::kBlock, samples));
+    }
+    if (places_.empty()) return;
+    plan_.encoded->places.Row(y, x, frames_[0].channels, std::span(places_).first(samples));
+  }
+
+  std::span<const SignalFrame> frames_;
+  const MergePlan& plan_;
+  std::vector<kernels::FrameConstants> constants_;
+  std::vector<kernels::Lanes> limits_, clips_;
+  std::vector<float> signals_, precisions_, shares_, places_;
+  std::array<float, kernels::kBlock> used_{};
+};
+
+}  // namespace
+
+std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
+                                     View2d<float> variance) const {
+  RowMerger merger(frames_, plan_);
+  std::size_t clipped = 0;
+  for (int i = 0; i < count; ++i) {
+    clipped += merger.Merge(first + i, {.value = value.row(i).data(),
+                                        .variance = variance.row(i).data(),
+                                        .used = nullptr});
   }
   return clipped;
+}
+
+void BracketMerger::ScatterOfRow(int y, std::span<float> chi2, std::span<float> degrees) const {
+  std::vector<float> value(frames_[0].row_samples()), variance(value.size());
+  RowMerger merger(frames_, plan_);
+  static_cast<void>(merger.Merge(y, {.value = value.data(),
+                                     .variance = variance.data(),
+                                     .used = nullptr,
+                                     .chi2 = chi2.data(),
+                                     .degrees = degrees.data()}));
 }
 
 namespace {
@@ -196,8 +248,9 @@ double EstimateFixedPattern(const BracketMerger& merger, const FrameDone& done_w
     }
   }
   if (upper.size() < kLeastTiles) return usual;
-  const double quartile = AtRank(upper, upper.size() / 4);
-  return std::min(kLargestFixedPattern * usual, std::sqrt(std::max(0.0, quartile)));
+  const std::size_t asked = frame.response != nullptr ? kTilesAskedOfCodes : kTilesAsked;
+  const double square = AtRank(upper, upper.size() / asked);
+  return std::min(kLargestFixedPattern * usual, std::sqrt(std::max(0.0, square)));
 }
 
 }  // namespace lightcal

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,8 @@
 
 namespace lightcal {
 
+struct EncodedErrors;  // encoded_errors.h
+
 struct MergePlan {
   // Of each frame, ascending, in any unit: signal = exposure X.
   std::vector<double> exposure;
@@ -24,6 +27,7 @@ struct MergePlan {
   double floor = 0.0;   // signal below which codes say nothing (encoded frames clip at black)
   double fixed_pattern = kMiddlingFixedPattern;  // p: pixels differ in sensitivity by p (1 sigma)
   MergeEstimator estimator = MergeEstimator::kLikelihood;
+  std::shared_ptr<const EncodedErrors> encoded{};  // of frames whose codes came through a curve
 };
 
 // Maximum likelihood for every sample, with t exposure, y signal:
@@ -33,7 +37,8 @@ struct MergePlan {
 // sample below the clip. Negative signals stay. Where frames contradict each other (chi-square five
 // standard deviations above its mean) Var is widened by chi-square per degree of freedom. Clipped
 // in every frame: X is the shortest frame's, a lower bound, and its standard deviation is X. The
-// other estimators differ in w, of the frames that count, and look for no contradictions:
+// other estimators differ in w, of the frames that count, and look for no contradictions. Of codes,
+// 1/sum w is taken times the place's factor (encoded_errors.h):
 //   sums     w = t / scale: sum y / sum t of frames at one ISO
 //   longest  all weight on the longest frame that counts
 //   Var X = sum (w/t)^2 (scale X t + offset) / (sum w)^2 + (p X)^2
@@ -46,6 +51,10 @@ class BracketMerger {
   // Rows [first, first + count): row i of the views is row first + i. Any number of threads.
   // Returns how many samples are clipped in every frame.
   std::size_t MergeRows(int first, int count, View2d<float> value, View2d<float> variance) const;
+
+  // chi-square of the frames about X, up to where they contradict each other, and its degrees of
+  // freedom (0 or less where one frame counts), of each sample of row y.
+  void ScatterOfRow(int y, std::span<float> chi2, std::span<float> degrees) const;
 
   [[nodiscard]] const MergePlan& plan() const { return plan_; }
   [[nodiscard]] std::span<const SignalFrame> frames() const { return frames_; }
@@ -60,7 +69,8 @@ class BracketMerger {
 // of the merged picture: what neighbours of a colour scatter beyond their variance, as a share of
 // the signal, in the lower quartile of tiles; at most twice what the plan has (1 %), which it stays
 // where fewer than 16 tiles are well exposed. A textured picture without flat places reads too
-// high, never too low.
+// high, never too low. Of codes the flattest twentieth is asked: compression leaves little of it,
+// and kHiddenDetail has what other places show.
 [[nodiscard]] double EstimateFixedPattern(const BracketMerger& merger,
                                           const FrameDone& done_with = {});
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/signal_kernels.h"
 
 namespace lightcal {
@@ -192,14 +193,48 @@ void ApplyRow(const float* samples, int channels, const std::array<double, 3>& r
   }
 }
 
+// Variances of the luminance of a row of codes (encoded_errors.h). `luminance`: of the row above,
+// the row and the row below.
+void EncodedVariances(const float* variances, int channels, const std::array<double, 3>& row,
+                      const EncodedErrors& errors,
+                      const std::array<std::vector<float>, 3>& luminance, std::span<float> out) {
+  const auto shared = static_cast<float>(errors.shared);
+  const auto misfit2 = static_cast<float>(errors.misfit * errors.misfit);
+  constexpr auto kHidden2 = static_cast<float>(kHiddenDetail * kHiddenDetail);
+  for (std::size_t x = 0; x < out.size(); ++x) {
+    const float* pixel = variances + x * static_cast<std::size_t>(channels);
+    float squares = 0.0F, sum = 0.0F;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+      const auto k = static_cast<float>(std::abs(row[c]));
+      squares += k * k * pixel[c];
+      sum += k * std::sqrt(pixel[c]);
+    }
+    const float y = luminance[1][x];
+    // Around its own value: numbers far from their spread lose it otherwise.
+    float mean = 0.0F, square = 0.0F;
+    for (const std::vector<float>& line : luminance) {
+      for (const std::size_t at : {x == 0 ? x : x - 1, x, std::min(x + 1, out.size() - 1)}) {
+        const float d = line[at] - y;
+        mean += d / 9.0F;
+        square += d * d / 9.0F;
+      }
+    }
+    const float detail = std::max(0.0F, square - mean * mean);
+    out[x] = (1.0F - shared) * squares + shared * sum * sum + misfit2 * y * y + kHidden2 * detail;
+  }
+}
+
 // How rows of merged samples become rows of the picture.
 class Mapper {
  public:
-  Mapper(const SignalFrame& frame, const PictureRows& rows)
-      : frame_(frame), rows_(rows), mosaic_(IsMosaic(frame)) {
+  Mapper(const BracketMerger& merger, const PictureRows& rows)
+      : frame_(merger.frames()[0]),
+        encoded_(merger.plan().encoded.get()),
+        rows_(rows),
+        mosaic_(IsMosaic(frame_)) {
     if (!mosaic_) return;
-    for (const auto& row : rows.picture) picture_.push_back(KernelOf(frame, row));
-    luminance_ = KernelOf(frame, rows.luminance);
+    for (const auto& row : rows.picture) picture_.push_back(KernelOf(frame_, row));
+    luminance_ = KernelOf(frame_, rows.luminance);
   }
   void Picture(const Strip& strip, int y, int first, std::size_t channel,
                std::span<float> out) const {
@@ -209,6 +244,15 @@ class Mapper {
   void Sigma(const Strip& strip, int y, int first, std::span<float> out) const {
     if (mosaic_) {
       ApplyKernel(luminance_[Phase(y)], strip, y, first, true, out);
+    } else if (encoded_ != nullptr) {
+      std::array<std::vector<float>, 3> luminance;
+      for (int i = 0; i < 3; ++i) {
+        auto& line = luminance[static_cast<std::size_t>(i)];
+        line.resize(out.size());
+        ApplyRow(strip.value(y + i - 1, first), frame_.channels, rows_.luminance, false, line);
+      }
+      EncodedVariances(strip.variance(y, first), frame_.channels, rows_.luminance, *encoded_,
+                       luminance, out);
     } else {
       ApplyRow(strip.variance(y, first), frame_.channels, rows_.luminance, true, out);
     }
@@ -220,6 +264,7 @@ class Mapper {
     return static_cast<std::size_t>(y % frame_.row_period);
   }
   const SignalFrame& frame_;
+  const EncodedErrors* encoded_;
   const PictureRows& rows_;
   bool mosaic_;
   std::vector<Kernel> picture_;
@@ -266,7 +311,7 @@ Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows&
   // Strips start on whole periods, so that a row of the picture has one place in them.
   const int strip_rows = kStripRows / frame.row_period * frame.row_period + frame.row_period;
   const int strips = (count + strip_rows - 1) / strip_rows;
-  const Mapper mapper(frame, rows);
+  const Mapper mapper(merger, rows);
   std::atomic<std::size_t> clipped{0};
   CountedProgress counted(progress, strips);
   ParallelFor(strips, [&](int i) {

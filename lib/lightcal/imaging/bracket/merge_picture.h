@@ -26,8 +26,8 @@ struct PictureRows {
 // Rows [first, first + count) of the picture, row i of the views being row first + i; `sigma` (one
 // channel, 1 standard deviation of the luminance row) may be empty. A mosaic's missing colours are
 // the mean of the same colour's nearest pixels in 3 x 3 (bilinear); a pixel's variance is that of
-// this sum, its neighbours' noise taken as independent. Works strip by strip, on all processors.
-// Returns how many samples are clipped in every frame.
+// this sum, its neighbours' noise taken as independent; of codes as encoded_errors.h has it. Works
+// strip by strip, on all processors. Returns how many samples are clipped in every frame.
 // Refused: pattern_unknown (a mosaic with a colour missing in some 3 x 3 pixels, or a picture
 // smaller than its pattern).
 [[nodiscard]] Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows& rows,

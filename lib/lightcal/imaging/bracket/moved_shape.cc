@@ -161,29 +161,4 @@ Differences WithShape(const Differences& found, const Blocks& a) {
   return ShapeFinder(found, a).Find();
 }
 
-double CurveMisfit(const BracketMerger& merger) {
-  double squares = 0.0, weight = 0.0;
-  Blocks before = BlocksOf(merger, 0);
-  for (std::size_t k = 1; k < merger.frames().size(); ++k) {
-    Blocks blocks = BlocksOf(merger, k);
-    const Differences d = Compare(before, blocks, before.mean);
-    std::vector<float> sizes, noise;
-    for (std::size_t i = 0; i < d.relative.size(); ++i) {
-      if (!d.relative[i]) continue;
-      sizes.push_back(std::abs(*d.relative[i]));
-      const float level = 0.5F * (before.mean[i] + blocks.mean[i]);
-      noise.push_back((before.variance[i] + blocks.variance[i]) / (level * level));
-    }
-    if (sizes.size() >= kLeastOfLevel) {
-      const double spread = double{kRobustSd} * UpperMedian(sizes);
-      const auto count = static_cast<double>(sizes.size());
-      squares += count * std::max(0.0, spread * spread - double{UpperMedian(noise)});
-      weight += count;
-    }
-    before = std::move(blocks);
-  }
-  constexpr double kMostMisfit = 0.05;
-  return weight > 0.0 ? std::min(kMostMisfit, std::sqrt(squares / weight / 2.0)) : 0.0;
-}
-
 }  // namespace lightcal

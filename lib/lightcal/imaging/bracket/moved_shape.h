@@ -17,9 +17,4 @@ namespace lightcal {
 // `relative` of the answer is what is left of each block's difference.
 [[nodiscard]] Differences WithShape(const Differences& found, const Blocks& a);
 
-// How far apart neighbouring frames of a still scene stand beyond their noise (1 sigma, relative,
-// of each frame): what the curve, quantisation and compression leave, which no pixel's own noise
-// tells. Robust: half of the blocks may have moved. At most 5 %.
-[[nodiscard]] double CurveMisfit(const BracketMerger& merger);
-
 }  // namespace lightcal

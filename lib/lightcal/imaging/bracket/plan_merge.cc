@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
-#include "lightcal/imaging/bracket/moved_shape.h"
 #include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
@@ -241,11 +241,13 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   }
   const auto merger = BracketMerger::Make(frames, planned.plan);
   if (!merger) return tl::unexpected(merger.error());
-  planned.plan.fixed_pattern = EstimateFixedPattern(*merger, [&](std::size_t k) {
+  const auto done = [&](std::size_t k) {
     if (request.done) request.done(planned.order[k]);
-  });
+  };
+  planned.plan.fixed_pattern = EstimateFixedPattern(*merger, done);
   if (frames.front().response != nullptr) {
-    planned.plan.fixed_pattern = std::hypot(planned.plan.fixed_pattern, CurveMisfit(*merger));
+    planned.plan.encoded =
+        std::make_shared<const EncodedErrors>(MeasureEncodedErrors(*merger, signals, done));
   }
   return planned;
 }

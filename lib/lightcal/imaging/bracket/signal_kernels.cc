@@ -227,6 +227,28 @@ void Vary(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   }
 }
 
+// The same where frames scatter otherwise than their noise says.
+LIGHTCAL_EVERY_CPU
+void VaryPlaces(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  for (std::size_t i = 0; i < in.count; ++i) {
+    const bool clipped = out.used[i] < 0.0F;
+    const float n = std::max(scratch.degrees[i], 1.0F);
+    const bool contradict = scratch.sum[i] > ContradictionAt(n);
+    const float widening = contradict ? std::max(scratch.sum[i] / n, in.places[i]) : in.places[i];
+    const float square = out.value[i] * out.value[i];
+    const float noise = clipped ? square : widening / scratch.weights[i];
+    out.variance[i] = noise + in.fixed_pattern2 * square;
+  }
+}
+
+void Tell(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  if (out.chi2 == nullptr) return;
+  for (std::size_t i = 0; i < in.count; ++i) {
+    out.degrees[i] = scratch.degrees[i];
+    out.chi2[i] = std::min(scratch.sum[i], ContradictionAt(std::max(scratch.degrees[i], 1.0F)));
+  }
+}
+
 // sum c y, sum c t and sum c^2 Var y of the frames that count.
 LIGHTCAL_EVERY_CPU
 void AddUp(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
@@ -314,7 +336,8 @@ void MergeBlock(const BlockIn& in, const BlockOut& out) {
   if (in.estimator == MergeEstimator::kLikelihood) {
     in.shares == nullptr ? Weigh(in, out, scratch) : WeighShares(in, out, scratch);
     Contradict(in, out, scratch);
-    return Vary(in, out, scratch);
+    Tell(in, out, scratch);
+    return in.places == nullptr ? Vary(in, out, scratch) : VaryPlaces(in, out, scratch);
   }
   for (float* zeroed : {sum, weights, noise}) std::fill_n(zeroed, kBlock, 0.0F);
   if (in.estimator == MergeEstimator::kSums) {
@@ -322,6 +345,7 @@ void MergeBlock(const BlockIn& in, const BlockOut& out) {
   } else {
     TakeLongest(in, out, scratch);
   }
+  for (std::size_t i = 0; in.places != nullptr && i < in.count; ++i) noise[i] *= in.places[i];
   Divide(in, out, scratch);
 }
 

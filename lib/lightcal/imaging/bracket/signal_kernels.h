@@ -40,6 +40,7 @@ struct BlockIn {
   float* precisions;     // scratch of the same size
   const float* shares;   // of interpolated frames: what is left of each sample's variance, as
                          // signals lie; null: all of it
+  const float* places;   // factor of each sample's variance; null: 1
   std::size_t count;     // of samples, at most kBlock
   const Lanes* limit;    // signal up to which a sensor is believed, per lane
   const Lanes* clip;     // signal from which a sample says nothing but that, per lane
@@ -50,6 +51,10 @@ struct BlockOut {
   float* value;     // X
   float* variance;  // of X
   float* used;      // index of the longest exposure used; -1 = clipped in every frame
+  // Chi-square up to where frames contradict each other, and its degrees of freedom; null: not
+  // wanted.
+  float* chi2 = nullptr;
+  float* degrees = nullptr;
 };
 void MergeBlock(const BlockIn& in, const BlockOut& out);
 

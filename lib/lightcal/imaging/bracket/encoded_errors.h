@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a merge of codes (JPEG, PNG) is wrong by, beyond the noise of its samples.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "lightcal/imaging/bracket/sampled.h"
+#include "lightcal/imaging/bracket/signal.h"
+
+namespace lightcal {
+
+class BracketMerger;
+struct MergePlan;
+
+// How much more or less than their noise says frames scatter about their mean, place by place:
+// compression smooths what is plain and wrongs what is not.
+struct ScatterOfPlaces {
+  static constexpr int kCell = 8;  // pixels each way; a JPEG's block
+  int width = 0, height = 0;       // in cells
+  std::vector<float> factor;       // of the variance
+
+  // Of samples [first, first + out.size()) of row y, `channels` a pixel.
+  void Row(int y, std::size_t first, int channels, std::span<float> out) const;
+};
+
+// sigma^2 of a pixel's luminance Y = sum k_c X_c:
+//   (1 - r) sum k_c^2 v_c + r (sum |k_c| v_c^.5)^2 + (m Y)^2 + (h D)^2
+// v_c the variance of a channel (its noise times the place's factor, and the pixels' unequal
+// sensitivity), D the standard deviation of Y in the 3 x 3 pixels around.
+struct EncodedErrors {
+  double misfit = 0.0;  // m: of curve and exposures, alike in all pixels of one level; relative
+  double shared = 0.0;  // r: of the noise, alike in all channels; luminance is compressed as one
+  ScatterOfPlaces places;
+};
+
+// h: this share of what a picture shows from pixel to pixel is not as it was, and alike in every
+// frame, so that no two of them tell it.
+// Source: simulated JPEGs of quality 75 to 98 with colour whole and at half size
+// (tests/bench/still_brackets, seeds 1000 to 1079): .3 to .35 where texture is 3 % and more. An
+// interpolated mosaic and sharpening add to it.
+inline constexpr double kHiddenDetail = 1.0 / 3.0;
+
+// m, of each frame: what neighbouring frames' means of a level differ by beyond noise, in the
+// middle of levels and channels (the darkest codes, and a channel bent by a style of colours, may
+// be worse). With two frames the curve takes all of it and 0 is left. At most 5 %.
+[[nodiscard]] double CurveMisfit(const SampledSignals& signals, int channels,
+                                 const MergePlan& plan);
+
+// r, from the residuals of neighbouring frames, 0 to 1; 0 of one channel.
+[[nodiscard]] double SharedNoise(const SampledSignals& signals, int channels,
+                                 const MergePlan& plan);
+
+// All of it, of the frames and the plan that the merger has. `done` as in signal.h.
+[[nodiscard]] EncodedErrors MeasureEncodedErrors(const BracketMerger& merger,
+                                                 const SampledSignals& signals,
+                                                 const FrameDone& done = {});
+
+}  // namespace lightcal
