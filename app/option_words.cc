@@ -34,6 +34,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"dome.shaded", "--lux-shaded"},
     {"exposure.f_number", "--f-number"},
     {"exposure.t_stop", "--t-stop"},
+    {"glare.vertical", "--glare-ev"},
     {"import.column", "--column"},
     {"light.aim", "aim"},
     {"light.beam", "beam_deg"},

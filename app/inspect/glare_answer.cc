@@ -129,6 +129,8 @@ records::Node GlareNode(const GlareAnswer& answer) {
   return {{"ev_lx", glare.vertical.value},
           {"ev_low95_lx", glare.vertical.low},
           {"ev_high95_lx", glare.vertical.high},
+          {"ev_source", answer.ev_stated ? "stated" : "picture"},
+          {"ev_of_picture_lx", glare.vertical_of_picture},
           {"ev_direct_lx", glare.light.direct},
           {"background_nits", glare.background},
           {"mean_nits", glare.mean},
@@ -152,7 +154,8 @@ std::string GlareTable(const GlareAnswer& answer) {
                                     std::move(unit)};
   };
   std::vector<std::vector<std::string>> rows = {
-      row("illuminance at the eye, Ev", glare.vertical, kGlareDigits, "lx"),
+      row("illuminance at the eye, Ev", glare.vertical, kGlareDigits,
+          answer.ev_stated ? "lx, stated" : "lx"),
       row("daylight glare probability, DGP", glare.dgp, 3, DgpWord(glare.dgp.value))};
   if (glare.ugr) rows.push_back(row("unified glare rating, UGR", *glare.ugr, 3, ""));
   if (glare.dgi) rows.push_back(row("daylight glare index, DGI", *glare.dgi, 3, ""));

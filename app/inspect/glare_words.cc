@@ -57,10 +57,11 @@ Result<void> CheckGlareWords(const GlareWords& words) {
   if (words.wanted) return {};
   const bool any = !words.threshold.empty() || !words.radius.empty() || !words.peak.empty() ||
                    words.no_peak || words.peaks_too || words.no_dim || !words.task.empty() ||
-                   !words.scale_u95.empty() || !words.sigma.empty() || !words.outputs.empty();
+                   !words.vertical.empty() || !words.scale_u95.empty() || !words.sigma.empty() ||
+                   !words.outputs.empty();
   if (any) {
     return WrongUsage("--glare",
-                      "-b, -r, -y, -Y, -x, --task, --sigma, --scale-u95 and -o belong to "
+                      "-b, -r, -y, -Y, -x, -i, --task, --sigma, --scale-u95 and -o belong to "
                       "--glare; add it");
   }
   return {};
@@ -90,6 +91,8 @@ void AddGlareOptions(CLI::App& parser, GlareWords& words) {
   parser.add_option("-Y,--glare-peak", words.peak,
                     "from here on pixels are sources of their own [50000cd/m2]");
   parser.add_flag("-x,--glare-no-peak", words.no_peak, "they are not");
+  parser.add_option("-i,--glare-ev", words.vertical,
+                    "Ev as a meter at the eye read it, instead of the picture's: 850lx");
   parser.add_flag("--glare-no-dim", words.no_dim, "DGP without its correction below 1000 lx");
   parser.add_option("--task", words.task, "where the eye works: x,y,width,height in pixels")
       ->delimiter(',')
@@ -128,6 +131,14 @@ Result<GlareSettings> GlareSettingsOf(const GlareWords& words) {
     if (words.task.size() != 4) return WrongUsage("--task", "takes x,y,width,height in pixels");
     settings.task = Region{words.task[0], words.task[1], words.task[2], words.task[3]};
   }
+  if (!words.vertical.empty()) {
+    const auto vertical = ParseIlluminance(words.vertical);
+    if (!vertical || !(vertical->value() > 0.0)) {
+      return WrongUsage("--glare-ev",
+                        "\"" + words.vertical + "\" is no illuminance such as 850 or 850lx");
+    }
+    settings.vertical = *vertical;
+  }
   settings.dim_correction = !words.no_dim;
   if (!words.scale_u95.empty()) {
     const auto share = ParseShare("--scale-u95", words.scale_u95);
@@ -157,6 +168,7 @@ Result<GlareAnswer> MeasureGlareOf(const GlareWords& words, GlareSettings settin
     settings.scale_u95 = std::min(0.95, inspected.scale_u95_relative.value_or(kUnstatedScaleU95));
   }
   answer.scale_u95 = settings.scale_u95;
+  answer.ev_stated = settings.vertical.has_value();
   std::vector<float> sigma;
   if (!words.sigma.empty()) {
     auto read = ReadSigma(words.sigma, inspected);

@@ -20,7 +20,7 @@ struct GlareWords {
   std::string threshold, radius, peak;
   bool no_peak = false, peaks_too = false, no_dim = false;
   std::vector<int> task;
-  std::string scale_u95, sigma;
+  std::string vertical, scale_u95, sigma;
   std::vector<std::string> outputs;
   bool force = false;
 };
@@ -32,6 +32,7 @@ void AddGlareOptions(CLI::App& parser, GlareWords& words);
 
 struct GlareAnswer {
   PictureGlare glare;
+  bool ev_stated = false;  // Ev was typed
   double scale_u95 = 0.0;
   std::string scale_source;  // "stated" "picture" "assumed"
 };

@@ -154,6 +154,38 @@ TEST(GlareCommand, OptionsOfEvalglareMeanTheSame) {
   EXPECT_LT(GlareOf(lobby, {"-r", "1"})["sources"].size(), GlareOf(lobby)["sources"].size());
 }
 
+// evalglare's -i: Ev from a meter, sources and E_d from the picture, L_b = (E_v - E_d)/pi.
+TEST(GlareCommand, AStatedIlluminanceTakesThePlaceOfThePictures) {
+  const TempDir dir;
+  constexpr double kHalf = 6.0, kNits = 8000.0, kStated = 900.0, pi = std::numbers::pi;
+  const std::string disk = DiskPicture(dir, kHalf, kNits, 900);
+  const json glare = GlareOf(disk, {"-i", "900lx", "--scale-u95", "1%"});
+  const double a = kHalf * pi / 180.0;
+  const double direct = pi * kNits * std::pow(std::sin(a), 2);
+  const double w = 2.0 * pi * (1.0 - std::cos(a));
+  const double background = (kStated - direct) / pi;
+  EXPECT_EQ(glare["ev_lx"], kStated);
+  EXPECT_EQ(glare["ev_low95_lx"], kStated);
+  EXPECT_EQ(glare["ev_high95_lx"], kStated);
+  EXPECT_EQ(glare["ev_source"], "stated");
+  EXPECT_NEAR(glare["ev_of_picture_lx"].get<double>() / GlareOf(disk)["ev_lx"].get<double>(), 1.0,
+              1e-9);
+  EXPECT_NEAR(glare["background_nits"].get<double>() / background, 1.0, 5e-3);
+  EXPECT_NEAR(glare["ugr"]["value"].get<double>(),
+              8.0 * std::log10(0.25 / background * kNits * kNits * w), 0.03);
+  const double x = std::exp(0.024 * kStated - 4.0);
+  const double dgp =
+      (5.87e-5 * kStated +
+       0.0918 * std::log10(1.0 + kNits * kNits * w / std::pow(kStated, 1.87)) + 0.16) *
+      x / (1.0 + x);
+  EXPECT_NEAR(glare["dgp"]["value"].get<double>(), dgp, 5e-4);
+  EXPECT_EQ(GlareOf(disk)["ev_source"], "picture");
+  const CliResult below = RunLightcal({"inspect", disk, "--glare", "--projection", "equidistant",
+                                       "--fov", "180", "-i", "200"});
+  EXPECT_EQ(below.exit_code, 3);
+  EXPECT_THAT(below.err, HasSubstr("more than the 200.0 lx of --glare-ev"));
+}
+
 TEST(GlareCommand, AViewLineSaysTheProjectionAndRadianceMeansItsOwnUnit) {
   const std::string file = SampleData(kVectors + "studio_60_10.hdr");
   std::string bytes = ReadFile(file);
@@ -211,6 +243,8 @@ TEST(GlareCommand, WhatCannotBeAnsweredIsRefused) {
   fails({file, "-b", "2000"}, 2, "--glare");
   fails({file, "--glare", "-b", "bright"}, 2, "2000cd/m2");
   fails({file, "--glare", "-r", "9"}, 2, "radians");
+  fails({file, "--glare", "-i", "bright"}, 2, "850lx");
+  fails({file, "-i", "850"}, 2, "--glare");
   fails({file, "--glare", "-o", "a.txt"}, 2, ".csv");
   fails({file, "--glare", "--projection", "equidistant", "--fov", "180", "--task", "0,0,3,3"}, 3,
         "outside the view");

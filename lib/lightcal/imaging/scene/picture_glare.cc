@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/scene/glare_clusters.h"
 
 namespace lightcal {
@@ -105,7 +106,8 @@ class GlareAnalysis {
     glare.source_of = GroupPixels(Above(threshold_.value() / scale, false), angles_, Reach());
     if (settings_.peak) TakePeaks(settings_.peak->value() / scale, glare.source_of);
     glare.sources = SourcesOf(glare.source_of, scale);
-    glare.light.vertical = Lux(seen_.vertical * scale);
+    glare.vertical_of_picture = Lux(seen_.vertical * scale);
+    glare.light.vertical = settings_.vertical.value_or(glare.vertical_of_picture);
     double direct = 0.0;
     for (const FoundGlareSource& found : glare.sources) direct += found.vertical.value();
     glare.light.direct = Lux(direct);
@@ -255,7 +257,10 @@ PixelNoise NoiseOf(const PictureGlare& glare, const FrontAngles& front, View2d<c
 }
 
 // First order, one part at a time, into the squares of the indices' standard deviations.
-std::array<double, 4> VarianceOf(const PictureGlare& glare, const PixelNoise& noise, bool dim) {
+std::array<double, 4> VarianceOf(const PictureGlare& glare, const PixelNoise& noise,
+                                 const GlareSettings& settings) {
+  const bool dim = settings.dim_correction;
+  const bool stated = settings.vertical.has_value();
   const std::vector<GlareSource> sources = SourceList(glare);
   const Indices best = IndicesOf(glare.light, sources, dim);
   std::array<double, 4> variance{};
@@ -269,7 +274,7 @@ std::array<double, 4> VarianceOf(const PictureGlare& glare, const PixelNoise& no
     }
   };
   GlareLight brighter = glare.light;
-  brighter.vertical = brighter.vertical + Lux(std::sqrt(noise.indirect));
+  if (!stated) brighter.vertical = brighter.vertical + Lux(std::sqrt(noise.indirect));
   add(brighter, sources);
   for (std::size_t i = 0; i < sources.size(); ++i) {
     std::vector<GlareSource> moved = sources;
@@ -278,7 +283,7 @@ std::array<double, 4> VarianceOf(const PictureGlare& glare, const PixelNoise& no
     GlareLight light = glare.light;
     const Lux lux(glare.sources[i].vertical.value() * more /
                   std::max(sources[i].luminance.value(), 1e-30));
-    light.vertical = light.vertical + lux;
+    if (!stated) light.vertical = light.vertical + lux;
     light.direct = light.direct + lux;
     add(light, moved);
   }
@@ -312,10 +317,11 @@ void FillIntervals(const GlareAnalysis& analysis, const GlareSettings& settings,
     }
   }
   const PixelNoise noise = NoiseOf(glare, analysis.front(), sigma);
-  const std::array<double, 4> variance = VarianceOf(glare, noise, dim);
+  const std::array<double, 4> variance = VarianceOf(glare, noise, settings);
   const double ev = glare.light.vertical.value();
-  glare.vertical = WithEnds(ev, ev * (1.0 - settings.scale_u95), ev * (1.0 + settings.scale_u95),
-                            noise.vertical);
+  const double u95 = settings.vertical ? 0.0 : settings.scale_u95;
+  glare.vertical = WithEnds(ev, ev * (1.0 - u95), ev * (1.0 + u95),
+                            settings.vertical ? 0.0 : noise.vertical);
   glare.dgp = WithEnds(best.dgp, low.dgp, high.dgp, variance[0]);
   glare.dgp.low = std::max(0.0, *glare.dgp.low);
   glare.dgp.high = std::min(1.0, *glare.dgp.high);
@@ -357,6 +363,14 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
   if (threshold <= kLeastLuminance) threshold *= task ? task->value() : mean;
   analysis.SetThreshold(Nits(threshold));
   PictureGlare glare = analysis.At(1.0);
+  if (settings.vertical && !(*settings.vertical > glare.light.direct)) {
+    return Refused("bad_vertical", "glare.vertical",
+                   "the glare sources alone make " + RoundedText(glare.light.direct.value(), 4) +
+                       " lx at the eye, more than the " +
+                       RoundedText(settings.vertical->value(), 4) +
+                       " lx of {glare.vertical}: picture and meter saw different light, or the "
+                       "picture's scale is wrong");
+  }
   glare.threshold = Nits(threshold);
   glare.mean = Nits(mean);
   glare.task = task;

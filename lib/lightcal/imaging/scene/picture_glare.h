@@ -25,6 +25,9 @@ struct GlareSettings {
   // From here on they are sources of their own; absent: nothing is taken out.
   std::optional<Nits> peak = Nits(50000.0);
   std::optional<Region> task;
+  // E_v as a meter at the eye read it, instead of the picture's: of a picture that does not hold
+  // all light that reaches the eye, or at another scale. The sources stay those of the picture.
+  std::optional<Lux> vertical;
   bool dim_correction = true;  // of DGP below 1000 lx
   double scale_u95 = 0.0;      // of all luminances in common, relative
 };
@@ -40,6 +43,7 @@ struct FoundGlareSource {
 
 struct PictureGlare {
   GlareLight light;
+  Lux vertical_of_picture;  // E_v as the picture has it
   Nits background, mean;  // of the view, by solid angle
   Nits threshold;         // in use
   std::optional<Nits> task;
@@ -54,7 +58,9 @@ struct PictureGlare {
 // half way, and the interval holds all of their answers.
 // The view is that of fisheyes of 180 degrees and more, or of a lat-long picture along its
 // horizon's middle; what lies behind it counts nothing.
-// Refused: bad_view (neither; sizes differ), bad_region (the task), no_light (E_v is not above 0).
+// A stated E_v is taken as sure.
+// Refused: bad_view (neither; sizes differ), bad_region (the task), no_light (E_v is not above 0),
+// bad_vertical (the sources alone make more light than the stated E_v).
 [[nodiscard]] Result<PictureGlare> MeasureGlare(View2d<const float> nits,
                                                 const PixelSolidAngles& angles,
                                                 const GlareSettings& settings,
