@@ -42,7 +42,8 @@ class Finder {
     const FrameMotion chained{step->to_other.After(known.from_reference),
                               std::hypot(step->sd_pixels, known.sd_pixels), step->unlike};
     if (nearer != reference) {
-      const auto direct = BothWays(reference, k, Refine(reference, k, chained.from_reference));
+      const auto direct =
+          BothWays(reference, k, Refine(reference, k, chained.from_reference, StartIs::kClose));
       if (direct && direct->sd_pixels < chained.sd_pixels) {
         const FrameMotion motion{direct->to_other, direct->sd_pixels, direct->unlike};
         const double apart =
@@ -70,9 +71,9 @@ class Finder {
     return darkest > kDarkestFrom * all ? darkest_ : all_;
   }
   [[nodiscard]] std::optional<PairMotion> Refine(std::size_t a, std::size_t b,
-                                                 const Homography& start) const {
+                                                 const Homography& start, StartIs start_is) const {
     const auto& pyramids = For(a, b);
-    return RefineMotion(pyramids[a], pyramids[b], width_, height_, start);
+    return RefineMotion(pyramids[a], pyramids[b], width_, height_, start, start_is);
   }
   [[nodiscard]] std::optional<PairMotion> FromAnywhere(std::size_t a, std::size_t b) const {
     const auto good = [](const PairMotion& motion) {
@@ -80,7 +81,7 @@ class Finder {
     };
     std::optional<PairMotion> best;
     const auto from = [&](const Homography& start) {
-      const auto found = Refine(a, b, start);
+      const auto found = Refine(a, b, start, StartIs::kRough);
       if (!found) return;
       const bool better = !best || (good(*found) && !good(*best)) ||
                           (good(*found) == good(*best) && found->unlike < best->unlike);
@@ -113,7 +114,7 @@ class Finder {
     if (!there) return std::nullopt;
     const auto inverse = there->to_other.Inverse();
     if (!inverse) return std::nullopt;
-    const auto back = Refine(b, a, *inverse);
+    const auto back = Refine(b, a, *inverse, StartIs::kClose);
     if (!back) return std::nullopt;
     const auto returned = back->to_other.Inverse();
     if (!returned) return std::nullopt;

@@ -197,8 +197,32 @@ MotionCells Halved(const MotionCells& from) {
   return out;
 }
 
+std::vector<SeenAround> SeenAroundOf(const MotionPicture& picture) {
+  std::vector<SeenAround> around(picture.variance.size(), SeenAround{});
+  const auto all = [&](int x, int y, int before, int after) {
+    if (x < before || y < before || x + after >= picture.width || y + after >= picture.height) {
+      return false;
+    }
+    for (int v = y - before; v <= y + after; ++v) {
+      for (int u = x - before; u <= x + after; ++u) {
+        if (picture.variance[picture.At(u, v)] < 0.0F) return false;
+      }
+    }
+    return true;
+  };
+  ParallelFor(picture.height, [&](int y) {
+    for (int x = 0; x < picture.width; ++x) {
+      SeenAround& seen = around[picture.At(x, y)];
+      seen.four = all(x, y, 0, 1);
+      seen.eight = seen.four && all(x, y, 1, 1);
+      seen.cubic = seen.eight && all(x, y, 1, 2);
+    }
+  });
+  return around;
+}
+
 MotionPicture Logarithms(const MotionCells& cells, double floor) {
-  MotionPicture picture{cells.width, cells.height, cells.cell, {}, {}, {}};
+  MotionPicture picture{cells.width, cells.height, cells.cell, {}, {}, {}, {}};
   picture.ln.resize(cells.mean.size());
   picture.around.resize(cells.mean.size());
   picture.variance.assign(cells.mean.size(), -1.0F);
@@ -212,6 +236,7 @@ MotionPicture Logarithms(const MotionCells& cells, double floor) {
     picture.around[i] = static_cast<float>(std::log(level));
     picture.variance[i] = static_cast<float>(variance / (mean * mean));
   }
+  picture.seen_around = SeenAroundOf(picture);
   return picture;
 }
 

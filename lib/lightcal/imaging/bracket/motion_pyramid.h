@@ -10,6 +10,13 @@
 
 namespace lightcal {
 
+// How many cells around one say something: what its slope and an interpolation need.
+struct SeenAround {
+  bool eight : 1;  // the cell and those next to it
+  bool four : 1;   // the cell, the next to the right and those below
+  bool cubic : 1;  // those and the twelve around them
+};
+
 // Means of cells of `cell` pixels each way.
 struct MotionPicture {
   int width = 0, height = 0;
@@ -17,6 +24,7 @@ struct MotionPicture {
   std::vector<float> ln;        // ln(signal); anything where the variance is negative
   std::vector<float> variance;  // of ln; negative: clipped, or drowned in noise
   std::vector<float> around;    // ln of the mean of 5 x 5 cells
+  std::vector<SeenAround> seen_around;
 
   [[nodiscard]] std::size_t At(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

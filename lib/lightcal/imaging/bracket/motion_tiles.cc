@@ -47,16 +47,10 @@ std::optional<SeenCell> SeenAt(const MotionPicture& picture, double x, double y)
   const double left = x - 0.5, top = y - 0.5;
   const int ix = static_cast<int>(std::floor(left)), iy = static_cast<int>(std::floor(top));
   if (ix < 1 || iy < 1 || ix + 2 >= picture.width || iy + 2 >= picture.height) return std::nullopt;
+  const SeenAround around = picture.seen_around[picture.At(ix, iy)];
+  if (!around.four) return std::nullopt;
   const auto u = static_cast<float>(left - ix), v = static_cast<float>(top - iy);
-  bool all = true;
-  for (int j = 0; j < 4; ++j) {
-    const std::size_t at = picture.At(ix - 1, iy - 1 + j);
-    for (std::size_t i = 0; i < 4; ++i) {
-      if (picture.variance[at + i] >= 0.0F) continue;
-      if ((i == 1 || i == 2) && (j == 1 || j == 2)) return std::nullopt;
-      all = false;
-    }
-  }
+  const bool all = around.cubic;
   const CubicTaps linear_u{{0.0F, 1.0F - u, u, 0.0F}, {0.0F, -1.0F, 1.0F, 0.0F}};
   const CubicTaps linear_v{{0.0F, 1.0F - v, v, 0.0F}, {0.0F, -1.0F, 1.0F, 0.0F}};
   const CubicTaps across = all ? TapsAt(u) : linear_u, down = all ? TapsAt(v) : linear_v;
@@ -83,12 +77,8 @@ std::optional<SeenCell> SeenAt(const MotionPicture& picture, double x, double y)
 // Right and down, from the eight cells around (Sobel's, so that little noise is in it); absent
 // where one of them says nothing.
 std::optional<std::pair<double, double>> SlopeAt(const MotionPicture& picture, std::size_t at) {
+  if (!picture.seen_around[at].eight) return std::nullopt;
   const auto row = static_cast<std::size_t>(picture.width);
-  for (const std::size_t line : {at - row, at, at + row}) {
-    for (const std::size_t i : {line - 1, line, line + 1}) {
-      if (picture.variance[i] < 0.0F) return std::nullopt;
-    }
-  }
   const auto ln = [&](std::size_t i) { return double{picture.ln[i]}; };
   const std::size_t up = at - row, down = at + row;
   const double right = ln(up + 1) + 2.0 * ln(at + 1) + ln(down + 1);

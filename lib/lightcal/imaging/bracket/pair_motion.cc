@@ -21,7 +21,10 @@ constexpr double kSettledCells = 0.01;
 constexpr double kNearCells = 0.05, kNearlySettledCells = 0.5;
 constexpr int kFastPasses = 8;
 constexpr double kHeld = 1e12;  // of a number that does not move
-constexpr int kMostPasses = 20;
+constexpr int kMostPasses = 20, kMostClosePasses = 8;
+constexpr double kCloseCells = 0.3;  // standard deviation of a coarser level's answer
+constexpr double kSureCells = 0.03;  // no coarser level is asked
+constexpr double kWideScale = 3.0;   // before residuals are known
 
 using MotionVector = Eigen::Matrix<double, kMotionNumbers, 1>;
 using MotionMatrix = Eigen::Matrix<double, kMotionNumbers, kMotionNumbers>;
@@ -102,16 +105,19 @@ MotionMatrix WithoutEach(const std::vector<MotionTile>& tiles, const MotionMatri
 struct Solved {
   MotionVector numbers;
   double sd = HUGE_VAL, unlike = 1.0;  // half diagonals
+  double scale = kWideScale;           // residuals' standard deviation over what is told of it
 };
 
+// Newton's method at one level. `close`: at the answer but for parts of a cell.
 std::optional<Solved> SolveLevel(const MotionPicture& a, const MotionPicture& b,
-                                 const HalfDiagonals& frame, MotionVector numbers) {
+                                 const HalfDiagonals& frame, const Solved& start, bool close) {
   const MotionTiles level(a, b, frame);
   const MotionMatrix prior = Prior();
-  double scale = 3.0;
-  Steering steering = Steering::kFast;
+  MotionVector numbers = start.numbers;
+  double scale = close ? start.scale : kWideScale;
+  Steering steering = close ? Steering::kUnbiased : Steering::kFast;
   std::optional<Solved> near;  // where to go on from at a finer level, though nothing is known here
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < (close ? kMostClosePasses : kMostPasses); ++pass) {
     const std::vector<MotionTile> tiles = level.Tiles(SpanOf(numbers), scale, steering);
     MotionMatrix normal = MotionMatrix::Zero();
     MotionVector score = MotionVector::Zero();
@@ -150,11 +156,12 @@ std::optional<Solved> SolveLevel(const MotionPicture& a, const MotionPicture& b,
       }
       continue;
     }
+    if (close && cells > kNearlySettledCells) return std::nullopt;
     if (!last && cells > kSettledCells) continue;
     if (last && cells > 0.1) return near;
     const MotionMatrix covariance =
         WithoutEach(tiles, solver.solve(MotionMatrix::Identity()), prior);
-    return Solved{numbers, RmsOf(covariance, frame), 1.0 - kept / weight};
+    return Solved{numbers, RmsOf(covariance, frame), 1.0 - kept / weight, scale};
   }
   return near;
 }
@@ -162,17 +169,29 @@ std::optional<Solved> SolveLevel(const MotionPicture& a, const MotionPicture& b,
 }  // namespace
 
 std::optional<PairMotion> RefineMotion(const MotionPyramid& frame, const MotionPyramid& other,
-                                       double width, double height, const Homography& start) {
+                                       double width, double height, const Homography& start,
+                                       StartIs start_is) {
   const HalfDiagonals places = FrameOf(width, height);
+  const auto solve = [&](std::size_t i, const Solved& from, bool close) {
+    return SolveLevel(frame.levels[i], other.levels[i], places, from, close);
+  };
+  Solved from{NumbersOf(
+      start.InPlaces(1.0 / places.half, -places.x / places.half, -places.y / places.half))};
   std::optional<Solved> best;
-  MotionVector numbers = NumbersOf(
-      start.InPlaces(1.0 / places.half, -places.x / places.half, -places.y / places.half));
-  for (std::size_t i = std::min(frame.levels.size(), other.levels.size()); i-- > 0;) {
-    const auto solved = SolveLevel(frame.levels[i], other.levels[i], places, numbers);
-    if (!solved) continue;
-    if (best && solved->sd > best->sd) continue;
-    best = solved;
-    numbers = solved->numbers;
+  const std::size_t levels = std::min(frame.levels.size(), other.levels.size());
+  // Noise may leave a finer level less sure than the one before.
+  for (std::size_t i = 0; start_is == StartIs::kClose && i < levels; ++i) {
+    const auto solved = solve(i, from, true);
+    if (best && (!solved || solved->sd > best->sd)) break;
+    if (solved) best = solved;
+    if (best && best->sd * places.half < kSureCells * frame.levels[0].cell) break;
+  }
+  for (std::size_t i = best ? 0 : levels; i-- > 0;) {
+    const bool close = best && best->sd * places.half < kCloseCells * frame.levels[i].cell;
+    auto solved = close ? solve(i, from, true) : std::nullopt;
+    if (!solved) solved = solve(i, from, false);
+    if (!solved || (best && solved->sd > best->sd)) continue;
+    best = from = *solved;
   }
   if (!best || !std::isfinite(best->sd)) return std::nullopt;
   return PairMotion{HomographyOf(SpanOf(best->numbers)).InPlaces(places.half, places.x, places.y),

@@ -27,6 +27,9 @@ struct RoughMotion {
                                                     const MotionPyramid& other, double width,
                                                     double height);
 
+// Of the start: within parts of a finest cell of the answer, or cells of the coarsest.
+enum class StartIs { kRough, kClose };
+
 // The homography that makes ln(signal) of both agree but for a constant and a gain in each tile of
 // 24 cells (so that neither exposure, nor a wrong response, nor the lens's fall-off counts):
 //   sum_tiles sum w psi(r) z = 0,  r = ln B(H x) - ln A(x) - c_tile - m_tile ln A(x),
@@ -39,6 +42,7 @@ struct RoughMotion {
 // Source: Baker & Matthews, IJCV 56 (2004); White, Econometrica 48 (1980).
 [[nodiscard]] std::optional<PairMotion> RefineMotion(const MotionPyramid& frame,
                                                      const MotionPyramid& other, double width,
-                                                     double height, const Homography& start);
+                                                     double height, const Homography& start,
+                                                     StartIs start_is);
 
 }  // namespace lightcal
