@@ -177,12 +177,14 @@ def six_lux(panorama, hidden=None, half_angle_deg=0.0):
     return dict(zip(SIX, lux))
 
 
-def with_sun(panorama, azimuth_deg, elevation_deg, lux):
-    """A sun of half a degree added: lux on the plane that faces it. Its direction comes with it."""
+def with_sun(panorama, azimuth_deg, elevation_deg, lux, wide=1.0):
+    """A sun of half a degree, times `wide`, added: lux on the plane that faces it. Its direction
+    comes with it."""
     a, e = np.radians([azimuth_deg, elevation_deg])
     sun = np.array([np.sin(a) * np.cos(e), np.cos(a) * np.cos(e), np.sin(e)])
     d, omega = directions(*panorama.shape[:2])
-    disc = np.clip((np.radians(0.45) - np.arccos(np.clip(d @ sun, -1, 1))) / np.radians(0.3), 0, 1)
+    away = np.arccos(np.clip(d @ sun, -1, 1)) / wide
+    disc = np.clip((np.radians(0.45) - away) / np.radians(0.3), 0, 1)
     out = panorama + (disc * lux / (disc * omega).sum())[..., None]
     return out, sun
 
