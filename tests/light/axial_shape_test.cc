@@ -53,6 +53,22 @@ TEST(AxialShape, ThinTubeAgreesWithTheCylinderItApproximates) {
   }
 }
 
+TEST(AxialShape, FalloffsDerivativesAreThoseThatFiniteDifferencesShow) {
+  for (const AxialShape& shape : {AxialShape{}, AxialShapeOf(LightKind::kDisk, DiskOf(0.6)),
+                                  AxialShapeOf(LightKind::kRect, RectOf(0.6, 1.2)),
+                                  AxialShapeOf(LightKind::kTube, TubeOf(1.2, 0.013))}) {
+    const auto value = [&](double r) { return AxialShapeFactor(shape, r) / (r * r); };
+    for (const double r : {0.05, 0.3, 1.0, 4.0, 40.0}) {
+      const AxialFalloff at = AxialFalloffAt(shape, r);
+      EXPECT_NEAR(at.value / value(r), 1.0, 1e-14);
+      const double h = 1e-4 * r;
+      EXPECT_NEAR(at.slope / ((value(r + h) - value(r - h)) / (2.0 * h)), 1.0, 1e-7);
+      const auto slope = [&](double s) { return AxialFalloffAt(shape, s).slope; };
+      EXPECT_NEAR(at.bend / ((slope(r + h) - slope(r - h)) / (2.0 * h)), 1.0, 1e-7);
+    }
+  }
+}
+
 TEST(AxialShape, DiskAtFiveDiametersIsOnePercentBelowThePoint) {
   const AxialShape disk = AxialShapeOf(LightKind::kDisk, DiskOf(1.0));
   EXPECT_NEAR(1.0 / AxialShapeFactor(disk, 5.0) - 1.0, 0.01, 1e-12);

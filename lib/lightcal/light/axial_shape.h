@@ -56,6 +56,15 @@ template <class T>
   return T(1.0);
 }
 
+// Of g(r)/r^2, the illuminance a candela casts on the axis (g as above), by r: its value, first and
+// second derivative in closed form, where automatic differentiation takes each arc tangent anew.
+struct AxialFalloff {
+  double value = 0.0;
+  double slope = 0.0;
+  double bend = 0.0;
+};
+[[nodiscard]] AxialFalloff AxialFalloffAt(const AxialShape& shape, double r);
+
 // What a session says of a source's size; what a kind does not have is absent.
 struct SourceSize {
   std::optional<Metres> diameter;        // sphere, disk

@@ -24,6 +24,23 @@ struct OneRow {
   }
 };
 
+// Illuminance per candela of the lamp alone by the distance offset. Off the axis by automatic
+// differentiation, its second derivative by differences of the first: Newton's steps need no more.
+AxialFalloff DirectAt(const ReadingRow& row, double offset) {
+  if (!(row.direct_gain > 0.0)) return {.value = row.bounce};
+  if (!row.off_axis) {
+    const AxialFalloff axial = AxialFalloffAt(row.shape, row.distance + offset);
+    return {row.direct_gain * axial.value + row.bounce, row.direct_gain * axial.slope,
+            row.direct_gain * axial.bend};
+  }
+  using Jet = ceres::Jet<double, 1>;
+  constexpr double kPartOfDistance = 1e-6;
+  const double more = offset + kPartOfDistance * row.distance;
+  const Jet at = LuxPerCandela(row, Jet(offset, 0));
+  const Jet beyond = LuxPerCandela(row, Jet(more, 0));
+  return {at.a, at.v[0], (beyond.v[0] - at.v[0]) / (more - offset)};
+}
+
 }  // namespace
 
 std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start,
@@ -83,24 +100,20 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
   return SolveInFullBy(estimation, start, how, "estimate");
 }
 
-// The chain rule written out, so that only the distance offset goes through automatic
-// differentiation; d2E/dd0^2 by differences of that: Newton's steps need no more.
+// The chain rule written out.
 bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient,
                  double* bend) {
-  using Jet = ceres::Jet<double, 1>;
-  const auto direct_at = [&row](double offset) { return LuxPerCandela(row, Jet(offset, 0)); };
-  const bool lit = row.direct_gain > 0.0;
-  const Jet direct = lit ? direct_at(theta[kDistanceOffset]) : Jet(row.bounce);
+  const AxialFalloff direct = DirectAt(row, theta[kDistanceOffset]);
   const double walls = WallsPerCandela(row, theta);
   const double intensity = std::exp(theta[kLnIntensity]);
-  const double lamp = intensity * (direct.a + walls);
+  const double lamp = intensity * (direct.value + walls);
   const double predicted = lamp + row.ambient_gain * theta[kAmbient];
   if (!WhitenedResidual(row.form, row.measured, row.sigma, predicted, residual)) return false;
   const bool silent = row.form == RowForm::kCensored && !(*residual > 0.0);
   const double by_illuminance =
       silent ? 0.0 : -1.0 / (row.form == RowForm::kLinear ? row.sigma : row.sigma * predicted);
   gradient[kLnIntensity] = by_illuminance * lamp;
-  gradient[kDistanceOffset] = by_illuminance * intensity * direct.v[0];
+  gradient[kDistanceOffset] = by_illuminance * intensity * direct.slope;
   gradient[kAmbient] = by_illuminance * row.ambient_gain;
   gradient[kLnWalls] = by_illuminance * intensity * walls;
   gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
@@ -111,12 +124,7 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   if (row.form != RowForm::kLinear) second = row.sigma * g * g.transpose();
   second(kLnIntensity, kLnIntensity) += g[kLnIntensity];
   second(kDistanceOffset, kLnIntensity) += g[kDistanceOffset];
-  if (lit) {
-    constexpr double kPartOfDistance = 1e-6;
-    const double more = theta[kDistanceOffset] + kPartOfDistance * row.distance;
-    const double by_offset = (direct_at(more).v[0] - direct.v[0]) / (more - theta[kDistanceOffset]);
-    second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * by_offset;
-  }
+  second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * direct.bend;
   if (!row.walls) return true;
   second(kLnWalls, kLnIntensity) += g[kLnWalls];
   second(kLnWalls, kLnWalls) += g[kLnWalls];
