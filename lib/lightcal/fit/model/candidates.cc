@@ -10,6 +10,8 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/hypotheses.h"
+#include "lightcal/fit/model/merged_rows.h"
+#include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
 namespace {
@@ -17,6 +19,78 @@ namespace {
 constexpr double kPriorConflict = 2.0;  // prior standard deviations
 // Logarithm of a blunder's density in ln E: one reading in fifty, anywhere within a factor of 150.
 const double kLnBlunder = std::log(0.02 / std::log(150.0));
+
+void SortByProbability(std::vector<Candidate>& candidates) {
+  std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::ln_probability);
+}
+
+// A hypothesis as its merged rows have it.
+struct MergedCandidate {
+  LampHypothesis hypothesis;
+  Theta theta{};
+  double ln_probability = 0.0;
+};
+
+// Each begins where it or the one before it is likelier: neighbours differ little.
+std::optional<std::vector<MergedCandidate>> SolveMerged(
+    const std::vector<LampHypothesis>& hypotheses, const Prepared& prepared,
+    const Observations& observations) {
+  std::vector<MergedCandidate> out;
+  for (const LampHypothesis& hypothesis : hypotheses) {
+    std::optional<MergedRows> merged = Merge(EstimationUnder(hypothesis, prepared, observations));
+    if (!merged) return std::nullopt;
+    Estimation& rows = merged->estimation;
+    if (!rows.rules[kLnWalls].free || rows.rules[kAmbient].free) return std::nullopt;
+    Theta start = ClosedFormStart(rows, rows.rules[kAmbient].prior_mean);
+    SettleScatter(rows, start);
+    if (!out.empty() && HalfChiSquared(rows, out.back().theta) < HalfChiSquared(rows, start)) {
+      start = out.back().theta;
+    }
+    const Result<Theta> theta = SolveSettledFrom(start, rows);
+    if (!theta) return std::nullopt;
+    out.push_back({hypothesis, *theta, std::log(hypothesis.weight) + LnEvidence(*merged, *theta)});
+  }
+  return out;
+}
+
+// Of many readings, only the hypotheses that their merged rows leave in question, each from there;
+// the likeliest first. Absent where merging tells nothing, or told the evidence by more than a third
+// of the margin wrong.
+std::optional<std::vector<Candidate>> SolveLikely(const Prepared& prepared,
+                                                  const ForwardModel& model,
+                                                  const Observations& observations) {
+  // Shares end at exp(-9.2) of the likeliest (SharesOf).
+  constexpr double kMargin = 18.0;
+  constexpr std::size_t kFewest = 24;
+  if (prepared.estimation.choice.solver != SolverChoice::kQuick) return std::nullopt;
+  if (prepared.estimation.rows.size() < kFewest) return std::nullopt;
+  const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
+  if (hypotheses.size() < 2) return std::nullopt;
+  const auto merged = SolveMerged(hypotheses, prepared, observations);
+  if (!merged) return std::nullopt;
+  const double most =
+      std::ranges::max(*merged, {}, &MergedCandidate::ln_probability).ln_probability;
+  std::vector<Candidate> out;
+  double least_off = std::numeric_limits<double>::infinity();
+  double most_off = -least_off;
+  for (const MergedCandidate& likely : *merged) {
+    if (!(likely.ln_probability >= most - kMargin)) continue;
+    Candidate one;
+    one.hypothesis = likely.hypothesis;
+    one.estimation = EstimationUnder(likely.hypothesis, prepared, observations);
+    const Result<Theta> theta = SolveSettledFrom(likely.theta, one.estimation);
+    if (!theta) return std::nullopt;
+    one.squared = *theta;
+    one.ln_prior = std::log(likely.hypothesis.weight);
+    one.ln_probability = one.ln_prior + LnEvidence(one.estimation, one.squared);
+    least_off = std::min(least_off, one.ln_probability - likely.ln_probability);
+    most_off = std::max(most_off, one.ln_probability - likely.ln_probability);
+    out.push_back(std::move(one));
+  }
+  if (!(most_off - least_off < kMargin / 3.0)) return std::nullopt;
+  SortByProbability(out);
+  return out;
+}
 
 // Every hypothesis solved, the likeliest first. Fails as Solve, where none has an optimum.
 Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const ForwardModel& model,
@@ -41,7 +115,7 @@ Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const Forward
     out.push_back(std::move(one));
   }
   if (out.empty()) return tl::unexpected(*std::move(failure));
-  std::ranges::stable_sort(out, std::ranges::greater(), &Candidate::ln_probability);
+  SortByProbability(out);
   return out;
 }
 
@@ -66,7 +140,7 @@ Result<void> ChooseRobustly(std::vector<Candidate>& candidates) {
     one.ln_probability = one.ln_prior + LnEvidence(one.estimate.kept, one.estimate.theta) +
                          kLnBlunder * static_cast<double>(one.estimate.rejected.size());
   }
-  std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::ln_probability);
+  SortByProbability(candidates);
   return {};
 }
 
@@ -110,12 +184,22 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
   candidates.resize(1);
   return {};
 }
+
+// Where a reading lies far from the likeliest, what it would be without that reading is in question
+// too: every hypothesis.
+Result<std::vector<Candidate>> SolveInQuestion(const Prepared& prepared, const ForwardModel& model,
+                                               const Observations& observations) {
+  std::optional<std::vector<Candidate>> likely = SolveLikely(prepared, model, observations);
+  if (likely && !HasFarRow(likely->front())) return *std::move(likely);
+  return SolveEach(prepared, model, observations);
+}
+
 }  // namespace
 
 Result<std::vector<Candidate>> SolveCandidates(const Prepared& prepared, const ForwardModel& model,
                                                const Observations& observations,
                                                const std::string& light, Warnings& warnings) {
-  Result<std::vector<Candidate>> solved = SolveEach(prepared, model, observations);
+  Result<std::vector<Candidate>> solved = SolveInQuestion(prepared, model, observations);
   if (!solved) return solved;
   if (auto chosen = ChooseRobustly(*solved); !chosen) return Propagate(std::move(chosen));
   if (auto widened = WidenOffset(*solved, prepared, light, warnings); !widened) {

@@ -126,6 +126,10 @@ Result<Theta> SolveSettled(Estimation& estimation) {
   const ParameterRule& ambient = estimation.rules[kAmbient];
   const Theta start =
       ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
+  return SolveSettledFrom(start, estimation);
+}
+
+Result<Theta> SolveSettledFrom(const Theta& start, Estimation& estimation) {
   constexpr int kRounds = 8;
   SettleScatter(estimation, start);
   if (!estimation.rules[kLnWalls].free) return Solve(estimation, start);

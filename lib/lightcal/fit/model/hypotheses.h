@@ -33,6 +33,8 @@ void SettleScatter(Estimation& estimation, const Theta& theta);
 
 // The optimum with its scatter settled. Fails as Solve.
 [[nodiscard]] Result<Theta> SolveSettled(Estimation& estimation);
+// The same from `start`.
+[[nodiscard]] Result<Theta> SolveSettledFrom(const Theta& start, Estimation& estimation);
 
 // Logarithm of the probability of the rows, up to a constant that all hypotheses share: Laplace's
 // approximation about theta.

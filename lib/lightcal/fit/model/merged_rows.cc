@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/merged_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include "lightcal/fit/model/hypotheses.h"
+
+namespace lightcal::fit {
+namespace {
+
+constexpr double kStretch = 1.2;  // farthest over nearest
+
+bool MayMerge(const ReadingRow& row) {
+  return row.form == RowForm::kLog && row.direct_gain > 0.0 && !row.off_axis && !row.data_sheet;
+}
+
+auto KindOf(const ReadingRow& row) {
+  return std::tuple(row.walls.has_value(), row.direct_gain, row.bounce, row.ambient_gain);
+}
+
+double WeightOf(const ReadingRow& row) { return 1.0 / (row.own_sigma * row.own_sigma); }
+
+struct OneRow {
+  ReadingRow row;
+  MergedRows::Spread spread;
+};
+
+// Weighted means; rows of equal sigmas keep the variance that their mean has.
+OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
+  if (rows.size() == 1) return {*rows.front(), {}};
+  double weights = 0.0;
+  double ln_distance = 0.0;
+  WallsOfRow walls;
+  double scatter = 0.0;
+  for (const ReadingRow* row : rows) {
+    const double weight = WeightOf(*row);
+    weights += weight;
+    ln_distance += weight * std::log(row->distance);
+    if (!row->walls) continue;
+    walls.x += weight * row->walls->x;
+    walls.constant += weight * row->walls->constant;
+    scatter += weight * weight * row->walls->scatter * row->walls->scatter;
+  }
+  ln_distance /= weights;
+  const auto moved = [&](const ReadingRow* row) {
+    return std::log(row->measured) + 2.0 * (std::log(row->distance) - ln_distance);
+  };
+  double ln_measured = 0.0;
+  for (const ReadingRow* row : rows) ln_measured += WeightOf(*row) * moved(row) / weights;
+  OneRow out{*rows.front(), {static_cast<int>(rows.size()) - 1, 0.0}};
+  // About a line: light from walls and offset turn them from the inverse square law.
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const ReadingRow* row : rows) {
+    const double x = std::log(row->distance) - ln_distance;
+    const double y = moved(row) - ln_measured;
+    xx += WeightOf(*row) * x * x;
+    xy += WeightOf(*row) * x * y;
+    yy += WeightOf(*row) * y * y;
+  }
+  out.spread.squares = xx > 0.0 ? std::max(0.0, yy - xy * xy / xx) : yy;
+  out.row.distance = std::exp(ln_distance);
+  out.row.measured = std::exp(ln_measured);
+  out.row.own_sigma = out.row.sigma = 1.0 / std::sqrt(weights);
+  if (out.row.walls) {
+    out.row.walls = {walls.x / weights, walls.constant / weights, std::sqrt(scatter) / weights};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<MergedRows> Merge(const Estimation& estimation) {
+  std::vector<const ReadingRow*> alike;
+  MergedRows out;
+  for (const ReadingRow& row : estimation.rows) {
+    if (MayMerge(row)) {
+      alike.push_back(&row);
+    } else {
+      out.estimation.rows.push_back(row);
+    }
+  }
+  out.spreads.resize(out.estimation.rows.size());
+  std::ranges::sort(alike, [](const ReadingRow* a, const ReadingRow* b) {
+    return std::tuple(KindOf(*a), a->distance) < std::tuple(KindOf(*b), b->distance);
+  });
+  for (auto first = alike.begin(); first != alike.end();) {
+    const ReadingRow* const nearest = *first;
+    const auto last = std::find_if(first, alike.end(), [nearest](const ReadingRow* row) {
+      return KindOf(*row) != KindOf(*nearest) || row->distance > kStretch * nearest->distance;
+    });
+    const OneRow one = MergeStretch({first, last});
+    out.estimation.rows.push_back(one.row);
+    out.spreads.push_back(one.spread);
+    first = last;
+  }
+  if (2 * out.spreads.size() >= estimation.rows.size()) return std::nullopt;
+  out.estimation.rules = estimation.rules;
+  out.estimation.least_distance_offset = estimation.least_distance_offset;
+  out.estimation.choice = estimation.choice;
+  return out;
+}
+
+double LnEvidence(const MergedRows& merged, const Theta& theta) {
+  double ln = LnEvidence(merged.estimation, theta);
+  for (std::size_t i = 0; i < merged.spreads.size(); ++i) {
+    const MergedRows::Spread& spread = merged.spreads[i];
+    if (spread.more == 0) continue;
+    const ReadingRow& row = merged.estimation.rows[i];
+    const double part = row.own_sigma / row.sigma;
+    ln -= 0.5 * spread.squares * part * part + spread.more * std::log(row.sigma);
+  }
+  return ln;
+}
+
+}  // namespace lightcal::fit
