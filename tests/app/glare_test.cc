@@ -175,13 +175,13 @@ TEST(GlareCommand, AStatedIlluminanceTakesThePlaceOfThePictures) {
               8.0 * std::log10(0.25 / background * kNits * kNits * w), 0.03);
   const double x = std::exp(0.024 * kStated - 4.0);
   const double dgp =
-      (5.87e-5 * kStated +
-       0.0918 * std::log10(1.0 + kNits * kNits * w / std::pow(kStated, 1.87)) + 0.16) *
+      (5.87e-5 * kStated + 0.0918 * std::log10(1.0 + kNits * kNits * w / std::pow(kStated, 1.87)) +
+       0.16) *
       x / (1.0 + x);
   EXPECT_NEAR(glare["dgp"]["value"].get<double>(), dgp, 5e-4);
   EXPECT_EQ(GlareOf(disk)["ev_source"], "picture");
-  const CliResult below = RunLightcal({"inspect", disk, "--glare", "--projection", "equidistant",
-                                       "--fov", "180", "-i", "200"});
+  const CliResult below = RunLightcal(
+      {"inspect", disk, "--glare", "--projection", "equidistant", "--fov", "180", "-i", "200"});
   EXPECT_EQ(below.exit_code, 3);
   EXPECT_THAT(below.err, HasSubstr("more than the 200.0 lx of --glare-ev"));
 }

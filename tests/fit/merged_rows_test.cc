@@ -126,9 +126,7 @@ TEST(MergedRows, TellHowMuchLikelierOneHypothesisIsThanAnother) {
   EXPECT_NEAR(near - far, near_merged - far_merged, 2.0);
 }
 
-TEST(MergedRows, AreNoneWhereTheyWouldNotBeFewer) {
-  EXPECT_FALSE(Merge(InARoom(8)).has_value());
-}
+TEST(MergedRows, AreNoneWhereTheyWouldNotBeFewer) { EXPECT_FALSE(Merge(InARoom(8)).has_value()); }
 
 }  // namespace
 }  // namespace lightcal::fit

@@ -125,10 +125,11 @@ Result<void> WriteRows(const Sample* samples, const libraw_image_sizes_t& sizes,
 }
 
 tl::unexpected<Error> OddDeltas(const std::string& path) {
-  return Refused("unsupported_picture", path,
-                 "its black levels by row or column (BlackLevelDeltaV, BlackLevelDeltaH) are not as "
-                 "many as its picture has rows or columns, or its picture is no mosaic; convert it "
-                 "to a DNG with one black level");
+  return Refused(
+      "unsupported_picture", path,
+      "its black levels by row or column (BlackLevelDeltaV, BlackLevelDeltaH) are not as "
+      "many as its picture has rows or columns, or its picture is no mosaic; convert it "
+      "to a DNG with one black level");
 }
 
 // The same as floats, each less what the black of its row and column is above that of the file.
@@ -146,9 +147,9 @@ Result<void> WriteLessDeltas(const std::uint16_t* samples, const libraw_image_si
   std::vector<float> out;
   out.reserve(width * height);
   for (std::size_t y = 0; y < height; ++y) {
-    const std::uint16_t* row =
-        samples + (y + sizes.top_margin) * (sizes.raw_pitch / sizeof(std::uint16_t)) +
-        sizes.left_margin;
+    const std::uint16_t* row = samples +
+                               (y + sizes.top_margin) * (sizes.raw_pitch / sizeof(std::uint16_t)) +
+                               sizes.left_margin;
     for (std::size_t x = 0; x < width; ++x) {
       const double delta = (rows.empty() ? 0.0 : rows[y]) + (columns.empty() ? 0.0 : columns[x]);
       out.push_back(static_cast<float>(row[x] - delta));

@@ -246,11 +246,12 @@ Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) 
   info.meaning = camera.filters != kNoFilters ? SampleMeaning::kMosaic : SampleMeaning::kSensor;
   if (info.meaning == SampleMeaning::kMosaic) info.cfa = ColorFilterArray(camera);
   if (std::ranges::find(info.cfa.values, kOtherChannel) != info.cfa.values.end()) {
-    return Refused("unsupported_picture", path,
-                   "its mosaic has filters of other colours (LibRaw calls them " +
-                       std::string(camera.cdesc, strnlen(camera.cdesc, sizeof(camera.cdesc))) +
-                       "), and lightcal knows red, green and blue alone; convert it to a linear DNG "
-                       "(three colours a pixel) or a 16 bit TIFF in a RAW converter");
+    return Refused(
+        "unsupported_picture", path,
+        "its mosaic has filters of other colours (LibRaw calls them " +
+            std::string(camera.cdesc, strnlen(camera.cdesc, sizeof(camera.cdesc))) +
+            "), and lightcal knows red, green and blue alone; convert it to a linear DNG "
+            "(three colours a pixel) or a 16 bit TIFF in a RAW converter");
   }
   if (info.meaning == SampleMeaning::kSensor) info.channels = camera.colors == 1 ? 1 : 3;
   info.levels = SensorLevelsOf(answer, info.cfa);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostNumbers = std::tuple_size_v<decltype(RawTags::noise_profile)>;
 constexpr std::size_t kMostStrips = 1 << 20;
-constexpr std::size_t kMostDeltas = 65536;  // as many as LibRaw reads
+constexpr std::size_t kMostDeltas = 65536;       // as many as LibRaw reads
 constexpr std::size_t kMostOpcodeBytes = 65536;  // a gain map's header stands at the front
 
 // EXIF 2.32 and DNG 1.6 tag numbers.

@@ -20,7 +20,7 @@ struct RawTags {
   std::array<double, 8> noise_profile{};  // scale and offset of each plane
   int noise_numbers = 0;                  // of these
   bool has_gain_map = false;              // lens shading that a reader is asked to apply
-  double black_of_deltas = 0.0;  // what LibRaw put into its black for the deltas below
+  double black_of_deltas = 0.0;           // what LibRaw put into its black for the deltas below
 };
 
 // What the walk through a file collects.

@@ -72,8 +72,8 @@ struct LightEstimate {
                                                   const std::string& light,
                                                   const std::optional<SamplingRule>& sampling = {});
 
-// Refused: underdetermined (a strength open by more than a factor of 1000 each way), out_of_range (a
-// lamp that no number can hold).
+// Refused: underdetermined (a strength open by more than a factor of 1000 each way), out_of_range
+// (a lamp that no number can hold).
 [[nodiscard]] Result<void> CheckKnown(const LightEstimate& estimate, const std::string& light);
 
 }  // namespace lightcal::fit

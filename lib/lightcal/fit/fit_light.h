@@ -37,15 +37,15 @@ struct FittedSession {
 
 // Fits every light of the session:
 //   E = I g(r)/r^2 cos(tilt) + E0,  r = d + d0,  g the finite source's factor (1 for a point),
-// and what the walls throw back (light/wall_prior.h), by weighted least squares of ln E with d0 under
-// the prior of its fixture (light/fixture.h), E0 = 0 unless lamp-off readings or, where no wall
-// shines, four distances tell it (estimate_light.h); shadow-card readings are subtracted from the
-// readings at their distance. A light without position_m whose readings give theirs is located (locate.h). A light
-// that was never read answers from its data sheet (everything a prior), or, beside others that were
-// read, is left out with the warning no_readings. Refused: no_readings, no_valid_readings,
-// over_range, units_ambiguous (readings apart by a ratio of units), increasing_with_distance,
-// negative_distance, underdetermined (a strength open by a factor of 1000 each way), out_of_range,
-// bad_beam, bad_effects, and as LocateLamp.
+// and what the walls throw back (light/wall_prior.h), by weighted least squares of ln E with d0
+// under the prior of its fixture (light/fixture.h), E0 = 0 unless lamp-off readings or, where no
+// wall shines, four distances tell it (estimate_light.h); shadow-card readings are subtracted from
+// the readings at their distance. A light without position_m whose readings give theirs is located
+// (locate.h). A light that was never read answers from its data sheet (everything a prior), or,
+// beside others that were read, is left out with the warning no_readings. Refused: no_readings,
+// no_valid_readings, over_range, units_ambiguous (readings apart by a ratio of units),
+// increasing_with_distance, negative_distance, underdetermined (a strength open by a factor of 1000
+// each way), out_of_range, bad_beam, bad_effects, and as LocateLamp.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval

@@ -15,11 +15,8 @@ namespace lightcal::fit {
 // Absent where it turns out to have no shape of its own: it shines alike in all directions, or as a
 // spot's cone, which its own fit takes on. `out`: described, with its colour. Warnings and notes go
 // to `session_out`.   Refused: as FitBeamLight, PlanForward and CheckKnown.
-[[nodiscard]] Result<std::optional<FittedLight>> FitProfile(const Session& session,
-                                                            const LightDescription& light,
-                                                            const Observations& observations,
-                                                            const FitSettings& settings,
-                                                            FittedLight out,
-                                                            FittedSession& session_out);
+[[nodiscard]] Result<std::optional<FittedLight>> FitProfile(
+    const Session& session, const LightDescription& light, const Observations& observations,
+    const FitSettings& settings, FittedLight out, FittedSession& session_out);
 
 }  // namespace lightcal::fit

@@ -66,8 +66,8 @@ void HoldWalls(const Observations& seen, ForwardModel& model) {
 }  // namespace
 
 Result<FittedLight> FitLocatedLight(const Session& session, const LightDescription& light,
-                               const Observations& observations, const FitSettings& settings,
-                               FittedLight out, FittedSession& session_out) {
+                                    const Observations& observations, const FitSettings& settings,
+                                    FittedLight out, FittedSession& session_out) {
   Warnings& warnings = session_out.warnings;
   Result<LampLocation> first = LocateLamp(observations, light, ForwardModel{});
   if (!first) return Propagate(std::move(first));

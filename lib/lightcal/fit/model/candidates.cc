@@ -54,8 +54,8 @@ std::optional<std::vector<MergedCandidate>> SolveMerged(
 }
 
 // Of many readings, only the hypotheses that their merged rows leave in question, each from there;
-// the likeliest first. Absent where merging tells nothing, or told the evidence by more than a third
-// of the margin wrong.
+// the likeliest first. Absent where merging tells nothing, or told the evidence by more than a
+// third of the margin wrong.
 std::optional<std::vector<Candidate>> SolveLikely(const Prepared& prepared,
                                                   const ForwardModel& model,
                                                   const Observations& observations) {

@@ -16,8 +16,8 @@ namespace lightcal::fit {
 struct MergedRows {
   Estimation estimation;
   // Of the rows that were merged, beside estimation.rows (0, 0 for a row that stands alone): how
-  // many more there are than one, and the sum of their squares about a line, over the variances that
-  // they have without the scatter of the walls' light.
+  // many more there are than one, and the sum of their squares about a line, over the variances
+  // that they have without the scatter of the walls' light.
   struct Spread {
     int more = 0;
     double squares = 0.0;

@@ -116,8 +116,8 @@ double SharedNoise(const SampledSignals& signals, int channels, const MergePlan&
 }
 
 void ScatterOfPlaces::Row(int y, std::size_t first, int channels, std::span<float> out) const {
-  const auto row = static_cast<std::size_t>(std::min(y / kCell, height - 1)) *
-                   static_cast<std::size_t>(width);
+  const auto row =
+      static_cast<std::size_t>(std::min(y / kCell, height - 1)) * static_cast<std::size_t>(width);
   const std::size_t samples = static_cast<std::size_t>(channels) * kCell;
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = factor[row + std::min((first + i) / samples, static_cast<std::size_t>(width) - 1)];
@@ -130,8 +130,7 @@ namespace {
 void FactorsOfRow(const BracketMerger& merger, int cell_row, ScatterOfPlaces& places) {
   const SignalFrame& frame = merger.frames()[0];
   const auto width = static_cast<std::size_t>(places.width);
-  const std::size_t samples =
-      static_cast<std::size_t>(frame.channels) * ScatterOfPlaces::kCell;
+  const std::size_t samples = static_cast<std::size_t>(frame.channels) * ScatterOfPlaces::kCell;
   std::vector<float> sum(width, kPriorSamples), degrees(width, kPriorSamples);
   std::vector<float> chi2(frame.row_samples()), free(frame.row_samples());
   const int first = cell_row * ScatterOfPlaces::kCell;

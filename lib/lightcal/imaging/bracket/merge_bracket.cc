@@ -165,9 +165,9 @@ std::size_t BracketMerger::MergeRows(int first, int count, View2d<float> value,
   RowMerger merger(frames_, plan_);
   std::size_t clipped = 0;
   for (int i = 0; i < count; ++i) {
-    clipped += merger.Merge(first + i, {.value = value.row(i).data(),
-                                        .variance = variance.row(i).data(),
-                                        .used = nullptr});
+    clipped += merger.Merge(
+        first + i,
+        {.value = value.row(i).data(), .variance = variance.row(i).data(), .used = nullptr});
   }
   return clipped;
 }

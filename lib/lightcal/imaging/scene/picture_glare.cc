@@ -320,8 +320,8 @@ void FillIntervals(const GlareAnalysis& analysis, const GlareSettings& settings,
   const std::array<double, 4> variance = VarianceOf(glare, noise, settings);
   const double ev = glare.light.vertical.value();
   const double u95 = settings.vertical ? 0.0 : settings.scale_u95;
-  glare.vertical = WithEnds(ev, ev * (1.0 - u95), ev * (1.0 + u95),
-                            settings.vertical ? 0.0 : noise.vertical);
+  glare.vertical =
+      WithEnds(ev, ev * (1.0 - u95), ev * (1.0 + u95), settings.vertical ? 0.0 : noise.vertical);
   glare.dgp = WithEnds(best.dgp, low.dgp, high.dgp, variance[0]);
   glare.dgp.low = std::max(0.0, *glare.dgp.low);
   glare.dgp.high = std::min(1.0, *glare.dgp.high);
