@@ -19,7 +19,6 @@ namespace {
 // Calibration is one factor on every reading.
 void WidenBeam(double calibration, BeamLight& found) {
   AddCalibration(calibration, found.estimate);
-  found.estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
   WidenInLn(found.flux_lm, 1.0, calibration);
   WidenInLn(*found.beam.axial, 1.0, calibration);
 }

@@ -84,9 +84,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
     return Propagate(std::move(known));
   }
   session_out.Warn(std::move(location->estimate.warnings));
-  const double calibration = LargestCalibration(seen);
-  AddCalibration(calibration, location->estimate);
-  location->estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
+  AddCalibration(LargestCalibration(seen), location->estimate);
   if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }

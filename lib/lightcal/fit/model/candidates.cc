@@ -24,6 +24,21 @@ void SortByProbability(std::vector<Candidate>& candidates) {
   std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::ln_probability);
 }
 
+Candidate CandidateUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
+                         const Observations& observations) {
+  Candidate out;
+  out.hypothesis = hypothesis;
+  out.estimation = EstimationUnder(hypothesis, prepared, observations);
+  return out;
+}
+
+// And how likely that makes it among others.
+void TakeOptimum(const Theta& theta, Candidate& candidate) {
+  candidate.squared = theta;
+  candidate.ln_prior = std::log(candidate.hypothesis.weight);
+  candidate.ln_probability = candidate.ln_prior + LnEvidence(candidate.estimation, theta);
+}
+
 // A hypothesis as its merged rows have it.
 struct MergedCandidate {
   LampHypothesis hypothesis;
@@ -75,14 +90,10 @@ std::optional<std::vector<Candidate>> SolveLikely(const Prepared& prepared,
   double most_off = -least_off;
   for (const MergedCandidate& likely : *merged) {
     if (!(likely.ln_probability >= most - kMargin)) continue;
-    Candidate one;
-    one.hypothesis = likely.hypothesis;
-    one.estimation = EstimationUnder(likely.hypothesis, prepared, observations);
+    Candidate one = CandidateUnder(likely.hypothesis, prepared, observations);
     const Result<Theta> theta = SolveSettledFrom(likely.theta, one.estimation);
     if (!theta) return std::nullopt;
-    one.squared = *theta;
-    one.ln_prior = std::log(likely.hypothesis.weight);
-    one.ln_probability = one.ln_prior + LnEvidence(one.estimation, one.squared);
+    TakeOptimum(*theta, one);
     least_off = std::min(least_off, one.ln_probability - likely.ln_probability);
     most_off = std::max(most_off, one.ln_probability - likely.ln_probability);
     out.push_back(std::move(one));
@@ -99,18 +110,16 @@ Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const Forward
   std::optional<Error> failure;
   const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
   for (const LampHypothesis& hypothesis : hypotheses) {
-    Candidate one;
-    one.hypothesis = hypothesis;
-    one.estimation = EstimationUnder(hypothesis, prepared, observations);
+    Candidate one = CandidateUnder(hypothesis, prepared, observations);
     const Result<Theta> theta = SolveSettled(one.estimation);
     if (!theta) {
       failure = theta.error();
       continue;
     }
-    one.squared = *theta;
     if (hypotheses.size() > 1) {
-      one.ln_prior = std::log(hypothesis.weight);
-      one.ln_probability = one.ln_prior + LnEvidence(one.estimation, one.squared);
+      TakeOptimum(*theta, one);
+    } else {
+      one.squared = *theta;  // nothing to weigh it against
     }
     out.push_back(std::move(one));
   }

@@ -23,6 +23,7 @@ void AddCalibration(double calibration, LightEstimate& estimate) {
       estimate.covariance[i * kParameters + j] += shift[i] * shift[j];
     }
   }
+  estimate.variance_parts.push_back({"meter_calibration", calibration * calibration});
 }
 
 std::optional<MeterShare> MeterOf(const Session& session, const std::string& light,

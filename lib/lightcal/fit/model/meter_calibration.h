@@ -17,7 +17,7 @@ namespace lightcal::fit {
 // read. 0: none has any.
 [[nodiscard]] double LargestCalibration(const Observations& observations);
 
-// One factor on every reading: ln I shifts by it, E0 grows with it.
+// One factor on every reading: ln I shifts by it, E0 grows with it; a part of its variance.
 void AddCalibration(double calibration, LightEstimate& estimate);
 
 // The one instrument that took every reading, if one did: its factor cancels in the ratio of two
