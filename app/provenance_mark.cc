@@ -42,13 +42,27 @@ bool IsOurs(const Node* generator) {
   return generator != nullptr && generator->text.starts_with(kOurName);
 }
 
+std::string SchemaOf(const Node& root) {
+  const std::string schema = root.TextAt("schema");
+  return schema.starts_with(kSchema) ? schema.substr(0, schema.find('/')) : std::string();
+}
+
+// Our documents begin with their schema: what follows can be millions of characters.
+std::string FirstSchema(std::string_view json) {
+  constexpr std::size_t kLongest = 200;
+  const std::size_t end = json.substr(0, kLongest).find(',');
+  if (end == std::string_view::npos) return {};
+  const auto first_member = records::ParseJson(std::string(json.substr(0, end)) + '}');
+  return first_member ? SchemaOf(*first_member) : std::string();
+}
+
 std::string OwnJson(std::string_view contents) {
+  if (std::string schema = FirstSchema(contents); !schema.empty()) return schema;
   auto root = records::ParseJson(contents);
   // A tape is a document a line; its first says whose it is.
   if (!root) root = records::ParseJson(contents.substr(0, contents.find('\n')));
   if (!root || root->kind != Node::Kind::kTable) return {};
-  const std::string schema = root->TextAt("schema");
-  if (schema.starts_with(kSchema)) return schema.substr(0, schema.find('/'));
+  if (std::string schema = SchemaOf(*root); !schema.empty()) return schema;
   if (const Node* asset = root->Find("asset"))
     return IsOurs(asset->Find("generator")) ? "gltf" : "";
   const Node* provenance = root->Find("provenance");

@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/stops.h"
-#include "lightcal/fit/plan/expected_reading.h"
 #include "lightcal/fit/plan/reading_candidates.h"
+#include "lightcal/fit/plan/reading_trial.h"
 
 namespace lightcal {
 namespace {
@@ -20,7 +19,6 @@ namespace {
 constexpr double kAsGood = 0.01;
 // A step of a ladder shortens the interval at least so much.
 constexpr double kLeastGain = 0.02;
-
 Reading LikeTheLast(const Session& session) {
   Reading like;
   like.light = session.lights.front().name;
@@ -47,13 +45,6 @@ double LastDigit(const Session& session) {
   return digit;
 }
 
-// Of a beam's full angle; none where there is no beam to be known.
-std::optional<double> BeamOf(const FittedLight& light) {
-  if (!light.beam || !light.beam->beam_deg) return std::nullopt;
-  const Uncertain& beam = *light.beam->beam_deg;
-  return beam.high ? std::max(*beam.high - beam.value, beam.u95) : beam.u95;
-}
-
 // What is to be small: the interval of the intensity and, of a beam, that of its angle.
 double OpenAfter(const PlannedReading& planned) {
   return planned.u95_relative * planned.beam_u95_deg.value_or(1.0);
@@ -65,34 +56,12 @@ struct Left {
   double stops = std::numeric_limits<double>::infinity();
 };
 
-double StopsLeft(const FittedLight& light) {
-  const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
-  return (u ? HalfWidthStops(*u) : std::nullopt).value_or(std::numeric_limits<double>::infinity());
-}
-
 // ln of how much shorter an interval is afterwards: in stops, as people are told; where one of
 // them reaches down to nothing, by its larger side.
 double GainOf(const Left& before, const PlannedReading& after) {
   const bool told = std::isfinite(before.stops) && std::isfinite(after.u95_stops);
   return told ? std::log(before.stops / after.u95_stops)
               : std::log(before.relative / after.u95_relative);
-}
-
-struct Outcome {
-  FittedLight light;
-  double u95_relative = std::numeric_limits<double>::infinity();
-  double u95_stops = std::numeric_limits<double>::infinity();
-};
-
-std::optional<Outcome> FitOf(const Session& session, const FitSettings& settings) {
-  auto fitted = FitSession(session, settings);
-  if (!fitted) return std::nullopt;
-  Outcome out{std::move(fitted->lights.lights.front())};
-  const auto u = RelativeUncertainty(out.light);
-  if (!u) return std::nullopt;
-  out.u95_relative = *u;
-  out.u95_stops = StopsLeft(out.light);
-  return out;
 }
 
 class Planner {
@@ -111,14 +80,14 @@ class Planner {
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
     if (auto begun = Begin(plan.u95_relative); !begun) return Propagate(std::move(begun));
-    if (now_ && plan.u95_relative) plan.beam_u95_deg = BeamOf(*now_);
+    if (now_ && plan.u95_relative) plan.beam_u95_deg = fit::BeamLeft(*now_);
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
       std::vector<PlannedReading> ranked = Rank();
       if (ranked.empty()) break;
       if (i == 0) plan.candidates = ranked;
       plan.steps.push_back(ranked.front());
-      Take(ranked.front());
+      if (i + 1 < steps) Take(ranked.front());
     }
     return plan;
   }
@@ -129,12 +98,12 @@ class Planner {
     if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
     ladder.meter_u95_relative = std::expm1(kZ95 * SharedCalibration());
     std::optional<Left> left;
-    if (ladder.u95_relative) left = Left{*ladder.u95_relative, StopsLeft(*now_)};
+    if (ladder.u95_relative) left = Left{*ladder.u95_relative, fit::StopsLeft(*now_)};
     double total = 0.0;
     for (int i = 0; i < wishes.steps; ++i) {
       std::optional<LadderStep> step = BestStep(left, wishes.minutes);
       if (!step) break;
-      Take(step->reading);
+      if (i + 1 < wishes.steps) Take(step->reading);
       if (step->reading.action != PlannedAction::kLampOff) stands_ = step->reading;
       left = Left{step->reading.u95_relative, step->reading.u95_stops};
       step->total_minutes = total += step->minutes;
@@ -189,17 +158,37 @@ class Planner {
     return 1.0 / std::sqrt(information);
   }
 
+  [[nodiscard]] std::vector<PlannedReading> Candidates() const {
+    std::vector<PlannedReading> out =
+        fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_);
+    std::erase_if(out, [&](const PlannedReading& candidate) {
+      const bool angle = candidate.action == PlannedAction::kRead && candidate.off_axis;
+      return (only_angles_ && !angle) || IsSkipped(candidate);
+    });
+    return out;
+  }
+
   // Those that would give an answer, in the order they are listed.
   [[nodiscard]] std::vector<PlannedReading> Judged() const {
     std::vector<PlannedReading> out;
-    for (PlannedReading& candidate :
-         fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_)) {
-      const bool angle = candidate.action == PlannedAction::kRead && candidate.off_axis;
-      if (only_angles_ && !angle) continue;
-      if (IsSkipped(candidate)) continue;
-      if (Judge(candidate) && IsReadable(candidate)) out.push_back(std::move(candidate));
+    for (const PlannedReading& candidate : Candidates()) {
+      auto trial = fit::TryExpected(Known(), candidate);
+      if (trial) trial = Settled(*trial);
+      if (trial) out.push_back(std::move(trial->planned));
     }
     return out;
+  }
+
+  [[nodiscard]] fit::KnownSoFar Known() const {
+    return {session_, settings_, like_, now_ ? &*now_ : nullptr};
+  }
+
+  // None where that gives no interval, or no meter could read it.
+  [[nodiscard]] std::optional<fit::ReadingTrial> Settled(const fit::ReadingTrial& guessed) const {
+    auto trial = fit::Settle(Known(), guessed);
+    const bool answers =
+        trial && std::isfinite(trial->planned.u95_relative) && IsReadable(trial->planned);
+    return answers ? trial : std::nullopt;
   }
 
   [[nodiscard]] bool IsSkipped(const PlannedReading& candidate) const {
@@ -227,16 +216,31 @@ class Planner {
   // nothing is worth taking.
   [[nodiscard]] std::optional<LadderStep> BestStep(const std::optional<Left>& left,
                                                    const MeasuringMinutes& minutes) const {
+    if (!left) {
+      std::vector<PlannedReading> ranked = Rank();
+      if (ranked.empty()) return std::nullopt;
+      const double took = MinutesOf(ranked.front(), minutes);
+      return LadderStep{std::move(ranked.front()), {}, took};
+    }
+    const auto rate = [&](const fit::ReadingTrial& trial, double more = 0.0) {
+      const double a_minute =
+          (GainOf(*left, trial.planned) + more) / MinutesOf(trial.planned, minutes);
+      return std::isnan(a_minute) ? -std::numeric_limits<double>::infinity() : a_minute;
+    };
+    std::vector<fit::ReadingTrial> trials;
+    for (const PlannedReading& candidate : Candidates()) {
+      if (auto trial = fit::TryExpected(Known(), candidate)) trials.push_back(*std::move(trial));
+    }
+    std::ranges::stable_sort(trials,
+                             [&](const auto& a, const auto& b) { return rate(a) > rate(b); });
     std::optional<LadderStep> best;
     double most = 0.0;
-    std::vector<PlannedReading> candidates = left ? Judged() : Rank();
-    for (PlannedReading& candidate : candidates) {
-      const double took = MinutesOf(candidate, minutes);
-      const double gain = left ? GainOf(*left, candidate) : std::numeric_limits<double>::infinity();
-      if (gain < kLeastGain || gain <= most * took) continue;
-      best = LadderStep{std::move(candidate), {}, took};
-      if (!left) break;
-      most = gain / took;
+    for (const fit::ReadingTrial& guessed : trials) {
+      if (fit::IsNearlySettled(guessed) && rate(guessed, fit::kMostBySettling) <= most) continue;
+      const std::optional<fit::ReadingTrial> trial = Settled(guessed);
+      if (!trial || GainOf(*left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
+      most = rate(*trial);
+      best = LadderStep{trial->planned, {}, MinutesOf(guessed.planned, minutes)};
     }
     return best;
   }
@@ -255,67 +259,9 @@ class Planner {
     return out;
   }
 
-  [[nodiscard]] SessionReading RowOf(const PlannedReading& planned) const {
-    SessionReading row{like_, "planned"};
-    row.reading.distance = planned.distance;
-    row.reading.position_m = planned.position_m;
-    row.reading.normal = planned.normal;
-    row.reading.off_axis = planned.off_axis.value_or(Radians(0.0));
-    row.reading.shadow_card = planned.action == PlannedAction::kShadowCard;
-    if (planned.action == PlannedAction::kLampOff) row.reading.lamp = LampState::kOff;
-    row.reading.illuminance = planned.expected;
-    return row;
-  }
-
-  // What the fit of a session predicts for its last reading.
-  static std::optional<double> PredictedOfLast(const Outcome& outcome) {
-    const int index = outcome.light.fit.readings - 1;
-    for (const ResidualRow& row : outcome.light.residuals) {
-      if (row.index == index && row.predicted_lx > 0.0) return row.predicted_lx;
-    }
-    return std::nullopt;
-  }
-
-  // The reading at the illuminance at which it would change nothing: what a fit with it predicts
-  // for it, and again. Where it tells much, the second answer is still drawn to the first guess,
-  // and the limit of the series is taken (Aitken, in logarithms).
-  bool Judge(PlannedReading& candidate) const {
-    Session with = session_;
-    double guess = fit::ExpectedIlluminance(session_, now_ ? &*now_ : nullptr, candidate).value();
-    if (!(guess >= 0.0)) return false;
-    with.readings.push_back(RowOf(candidate));
-    const auto fit_at = [&](double lux) {
-      candidate.expected = Lux(lux);
-      with.readings.back().reading.illuminance = candidate.expected;
-      return FitOf(with, settings_);
-    };
-    std::optional<Outcome> outcome = fit_at(guess);
-    if (candidate.action == PlannedAction::kRead && now_ && guess > 0.0 && outcome) {
-      constexpr double kSame = 0.01, kSlowest = 0.97;
-      double former_step = 0.0;
-      for (int i = 0; i < 2 && outcome; ++i) {
-        const auto predicted = PredictedOfLast(*outcome);
-        if (!predicted) break;
-        double step = std::log(*predicted / guess);
-        const double slow = former_step != 0.0 ? step / former_step : 0.0;
-        if (i > 0 && std::abs(step) < kSame) break;
-        former_step = step;
-        if (slow > 0.0 && slow < kSlowest) step /= 1.0 - slow;
-        guess *= std::exp(step);
-        outcome = fit_at(guess);
-      }
-    }
-    if (!outcome) return false;
-    candidate.u95_relative = outcome->u95_relative;
-    candidate.beam_u95_deg = BeamOf(outcome->light);
-    candidate.u95_stops = outcome->u95_stops;
-    return std::isfinite(candidate.u95_relative);
-  }
-
   void Take(const PlannedReading& planned) {
-    session_.readings.push_back(RowOf(planned));
-    auto outcome = FitOf(session_, settings_);
-    if (outcome) now_ = std::move(outcome->light);
+    session_.readings.push_back(fit::PlannedRow(planned, like_));
+    if (auto light = fit::FitAlone(session_, settings_)) now_ = std::move(light);
   }
 
   Session session_;
