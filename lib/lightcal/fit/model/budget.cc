@@ -87,14 +87,15 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   estimation.rules[kWallsSlope] = rules[kWallsSlope];
   const double with_walls = IntensityVariance(some);
   estimation.rules[kAmbient] = rules[kAmbient];
-  std::vector<VariancePart> parts =
-      VarianceParts("ambient", input.considered, [&](const std::vector<Consider>& considered) {
-        some.considered = considered;
-        return IntensityVariance(some);
-      });
-  if (parts.empty() || !(repeated >= 0.0) || !(with_offset >= 0.0)) return {};
   // Cutting E0 at zero may take from what the offset alone makes.
-  const double whole = parts.front().variance;
+  const double whole = IntensityVariance(some);
+  const std::vector<double> considered = ConsideredVariances(input);
+  const bool determined = whole >= 0.0 && repeated >= 0.0 && with_offset >= 0.0;
+  if (!determined || considered.size() != input.considered.size()) return {};
+  std::vector<VariancePart> parts = {{"ambient", whole}};
+  for (std::size_t i = 0; i < considered.size(); ++i) {
+    parts.push_back({input.considered[i].name, considered[i]});
+  }
   const double first = std::min(readings, whole);
   const double second = std::clamp(with_offset - readings, 0.0, whole - first);
   const double third = std::clamp(with_walls - with_offset, 0.0, whole - first - second);

@@ -40,29 +40,28 @@ void AddHeldParameters(const Estimation& estimation, const At& at, const Matrix3
   }
 }
 
-// An influence that changes the reading of row i by `relative(row)`, all rows alike.
+// How far an influence that changes the reading of row i by `relative(row)`, all rows alike, moves
+// the estimate (Schmidt's consider covariance).
 template <class Relative>
-void AddShared(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
-               const Relative& relative, Matrix3& total) {
-  Eigen::VectorXd whitened = Eigen::VectorXd::Zero(at.residual.size());
+Vector3 ShiftBy(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
+                const Relative& relative) {
+  Vector3 gradient = Vector3::Zero();
   for (std::size_t i = 0; i < input.estimation->rows.size(); ++i) {
     const ReadingRow& row = input.estimation->rows[i];
+    const double changed = relative(row);
+    if (changed == 0.0) continue;
     const double unit = row.form == ReadingRow::Form::kLinear ? row.measured : 1.0;
-    whitened[static_cast<Eigen::Index>(i)] = relative(row) * unit / (row.sigma * input.row_scale);
+    gradient += at.jacobian.row(static_cast<Eigen::Index>(i)).transpose() *
+                (changed * unit / (row.sigma * input.row_scale));
   }
-  const Vector3 shift = Carried<Estimation>(at, covariance, whitened);
-  total += shift * shift.transpose();
+  return -covariance * gradient;
 }
 
-void AddConsidered(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
-                   Matrix3& total) {
-  for (const Consider& influence : input.considered) {
-    const double intensity = std::exp(input.theta[kLnIntensity]);
-    const auto relative = [&](const ReadingRow& row) {
-      return InfluenceOn(row, influence, intensity);
-    };
-    AddShared(input, at, covariance, relative, total);
-  }
+Vector3 ShiftByConsidered(const UncertaintyInput& input, const At& at, const Matrix3& covariance,
+                          const Consider& influence) {
+  const double intensity = std::exp(input.theta[kLnIntensity]);
+  return ShiftBy(input, at, covariance,
+                 [&](const ReadingRow& row) { return InfluenceOn(row, influence, intensity); });
 }
 
 // Each instrument's calibration changes all of its rows by one factor.
@@ -73,10 +72,10 @@ void AddCalibrations(const UncertaintyInput& input, const At& at, const Matrix3&
     instruments = std::max(instruments, row.instrument + 1);
   }
   for (int k = 0; k < instruments; ++k) {
-    const auto relative = [k](const ReadingRow& row) {
+    const Vector3 shift = ShiftBy(input, at, covariance, [k](const ReadingRow& row) {
       return row.instrument == k ? row.calibration : 0.0;
-    };
-    AddShared(input, at, covariance, relative, total);
+    });
+    total += shift * shift.transpose();
   }
 }
 
@@ -92,9 +91,24 @@ Result<Covariance> EstimateCovariance(const UncertaintyInput& input) {
   Matrix3 total = *covariance;
   if (estimation.rules[kAmbient].free) CutAmbient(input, at, *covariance, total);
   AddHeldParameters(estimation, at, *covariance, total);
-  AddConsidered(input, at, *covariance, total);
+  for (const Consider& influence : input.considered) {
+    const Vector3 shift = ShiftByConsidered(input, at, *covariance, influence);
+    total += shift * shift.transpose();
+  }
   AddCalibrations(input, at, *covariance, total);
   return Symmetric<Estimation>(total);
+}
+
+std::vector<double> ConsideredVariances(const UncertaintyInput& input) {
+  const At at = Linearise(*input.estimation, input.theta, input.row_scale);
+  const std::optional<Matrix3> covariance = CovarianceAt(*input.estimation, at);
+  if (!covariance) return {};
+  std::vector<double> out;
+  for (const Consider& influence : input.considered) {
+    const double shift = ShiftByConsidered(input, at, *covariance, influence)[kLnIntensity];
+    out.push_back(shift * shift);
+  }
+  return out;
 }
 
 double ScaledCondition(const Estimation& estimation, const Theta& theta,

@@ -61,6 +61,10 @@ struct UncertaintyInput {
 // no prior determines).
 [[nodiscard]] Result<Covariance> EstimateCovariance(const UncertaintyInput& input);
 
+// What each considered influence alone adds to the variance of ln I there, in their order. Empty
+// where EstimateCovariance fails.
+[[nodiscard]] std::vector<double> ConsideredVariances(const UncertaintyInput& input);
+
 // Ratio of the largest to the smallest singular value of the whitened rows' Jacobian over the
 // parameters marked true, columns scaled to unit length; priors are left out. Infinite when a
 // column is zero or fewer rows than parameters are there.
