@@ -2,6 +2,7 @@
 #include "lightcal/fit/distribution/fit_distribution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/core/units.h"
+#include "lightcal/fit/distribution/chart_samples.h"
 #include "lightcal/fit/distribution/intensity_surface.h"
 #include "lightcal/light/lamp_axes.h"
 
@@ -23,10 +25,7 @@ using fit::ChartSample;
 using fit::SurfaceProblem;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kModelSigma = 0.003;  // of max(I, kDark peak): what no sample's sigma knows of
-constexpr double kDark = 0.02;
 constexpr int kFewestSamples = 100;
-constexpr int kSectors = 72;  // azimuths that the covered cone is judged by
 constexpr double kAzimuthStep = 5.0;
 constexpr std::array<int, 5> kIntervals = {6, 9, 13, 18, 24};  // knots over the longer side
 constexpr std::array<double, 5> kLambdas = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
@@ -35,76 +34,6 @@ constexpr double kOutlier = 6.0;      // robust sigmas
 constexpr double kManyOutliers = 0.1;
 constexpr double kNoticed = 0.01;        // share of the flux that was never seen
 constexpr double kInterpolatedSd = 0.1;  // of the flux where nothing was seen
-
-struct Direction {
-  double gamma = 0.0, c = 0.0;
-};
-
-Direction DirectionOf(const LampAxes& axes, const Vec3& d) {
-  const double x = Dot(d, axes.c0), y = Dot(d, axes.c90), z = Dot(d, axes.aim);
-  return {std::atan2(std::hypot(x, y), z), std::atan2(y, x)};
-}
-
-std::vector<ChartSample> OnChart(const LampAxes& axes, const std::vector<IntensitySample>& samples,
-                                 double peak) {
-  std::vector<ChartSample> out;
-  out.reserve(samples.size());
-  for (const IntensitySample& sample : samples) {
-    ChartSample& on = out.emplace_back();
-    if (!(sample.sigma_cd > 0.0)) continue;
-    const Direction at = DirectionOf(axes, sample.direction);
-    on.u = at.gamma * std::cos(at.c);
-    on.v = at.gamma * std::sin(at.c);
-    on.value = sample.intensity_cd;
-    const double model = kModelSigma * std::max(sample.intensity_cd, kDark * peak);
-    on.weight = 1.0 / (sample.sigma_cd * sample.sigma_cd + model * model);
-  }
-  return out;
-}
-
-// Near the brightest, and not a speck: of the used samples one in two hundred is brighter.
-double RoughPeak(const std::vector<IntensitySample>& samples) {
-  std::vector<double> values;
-  for (const IntensitySample& s : samples) {
-    if (s.sigma_cd > 0.0) values.push_back(s.intensity_cd);
-  }
-  if (values.empty()) return 0.0;
-  return AtRank(values, values.size() - 1 - values.size() / 200);
-}
-
-// Half angle of the widest cone whose rim has samples beyond it at every azimuth.
-double CoveredCone(const std::vector<ChartSample>& chart) {
-  std::array<double, kSectors> farthest{};
-  for (const ChartSample& s : chart) {
-    if (!(s.weight > 0.0)) continue;
-    const double turn = std::atan2(s.v, s.u) / (2.0 * std::numbers::pi) + 1.0;
-    const auto sector = static_cast<std::size_t>(turn * kSectors) % kSectors;
-    farthest[sector] = std::max(farthest[sector], std::hypot(s.u, s.v));
-  }
-  return *std::ranges::min_element(farthest);
-}
-
-ChartGrid GridOver(const std::vector<ChartSample>& chart, int intervals) {
-  double left = std::numeric_limits<double>::infinity(), right = -left, low = left, high = -left;
-  for (const ChartSample& s : chart) {
-    if (!(s.weight > 0.0)) continue;
-    left = std::min(left, s.u);
-    right = std::max(right, s.u);
-    low = std::min(low, s.v);
-    high = std::max(high, s.v);
-  }
-  ChartGrid grid;
-  grid.spacing = std::max(right - left, high - low) / intervals;
-  const auto count = [&](double span) {
-    return std::max(1, static_cast<int>(std::ceil(span / grid.spacing - 1e-9)));
-  };
-  const int across = count(right - left), up = count(high - low);
-  grid.columns = across + 3;
-  grid.rows = up + 3;
-  grid.u0 = 0.5 * (left + right - across * grid.spacing);
-  grid.v0 = 0.5 * (low + high - up * grid.spacing);
-  return grid;
-}
 
 struct Surface {
   ChartGrid grid;
@@ -127,7 +56,7 @@ Surface ChooseSurface(const std::vector<ChartSample>& chart) {
   std::optional<Surface> best;
   double score = std::numeric_limits<double>::infinity();
   for (const int intervals : kIntervals) {
-    const ChartGrid grid = GridOver(chart, intervals);
+    const ChartGrid grid = fit::GridOver(chart, intervals);
     SurfaceProblem problem(grid, chart);
     double least = std::numeric_limits<double>::infinity(), lambda = kLambdas.front();
     for (const double candidate : kLambdas) {
@@ -260,7 +189,7 @@ double RmsOf(const Surface& surface, const std::vector<ChartSample>& chart, doub
   for (const ChartSample& s : chart) {
     if (!(s.weight > 0.0)) continue;
     const double value = surface.At(s.u, s.v, surface.coefficients);
-    const double relative = (s.value - value) / std::max(value, kDark * peak);
+    const double relative = (s.value - value) / std::max(value, fit::kDarkDirection * peak);
     sum += relative * relative;
     ++count;
   }
@@ -300,7 +229,7 @@ Result<void> AddShifts(const DistributionData& data, const LampAxes& axes, const
                        FittedDistribution& out) {
   const double peak = out.table.peak().intensity.value(), flux = out.table.Flux().value();
   for (const DistributionShift& shift : data.shifts) {
-    std::vector<ChartSample> moved = OnChart(axes, shift.samples, peak);
+    std::vector<ChartSample> moved = fit::OnChart(axes, shift.samples, peak);
     for (std::size_t i = 0; i < moved.size(); ++i) {
       // A sample that this shift loses counts as it stands.
       if (!(moved[i].weight > 0.0)) moved[i] = chart[i];
@@ -366,8 +295,8 @@ void WarnOf(const std::string& light, FittedDistribution& out) {
 
 Result<FittedDistribution> FitDistribution(const DistributionData& data) {
   const LampAxes axes = AxesOfAim(data.aim);
-  const double rough = RoughPeak(data.samples);
-  std::vector<ChartSample> chart = OnChart(axes, data.samples, rough);
+  const double rough = fit::RoughPeak(data.samples);
+  std::vector<ChartSample> chart = fit::OnChart(axes, data.samples, rough);
   const auto usable =
       std::ranges::count_if(chart, [](const ChartSample& s) { return s.weight > 0.0; });
   if (usable < kFewestSamples || !(rough > 0.0)) {
@@ -375,7 +304,7 @@ Result<FittedDistribution> FitDistribution(const DistributionData& data) {
                    "only " + std::to_string(usable) + " directions carry light; " +
                        std::to_string(kFewestSamples) + " are needed");
   }
-  const double covered = CoveredCone(chart);
+  const double covered = fit::CoveredCone(chart);
   if (!(covered > 3.0 * kDegree)) {
     return Refused("axis_not_covered", data.light,
                    "the wall was not seen on every side of the lamp's aim; give aim = the middle "

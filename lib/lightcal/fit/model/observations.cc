@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/light/lamp_axes.h"
+#include "lightcal/fit/model/reading_geometry.h"
 
 namespace lightcal::fit {
 namespace {
@@ -22,8 +22,6 @@ constexpr double kLeastSigma = 1e-4;
 // A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
 // bounce differs from place to place.
 constexpr double kSigmaElsewhere = 0.3;
-// Nearer than this no meter's head fits and no distance is known.
-constexpr double kLeastDistance_m = 1e-3;
 // Readings within this many metres of each other stand in one place.
 constexpr double kSamePlace = 0.005;
 // People point a meter within a degree, 1 sigma, once they mean a tilt.
@@ -32,29 +30,8 @@ constexpr double kTiltSigma = std::numbers::pi / 180.0;
 constexpr double kUnderRangeMean = 0.5;
 const double kUnderRangeSigma = 1.0 / std::sqrt(3.0);  // relative to the mean
 
-struct Geometry {
-  double distance_m = 1.0;
-  double tilt_rad = 0.0;
-  bool from_center = false;
-};
-
-Geometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
-  const Vec3 to_lamp = lamp - meter;
-  const double distance = Length(to_lamp);
-  const double lengths = distance * Length(normal);
-  const double cosine = lengths > 0.0 ? Dot(to_lamp, normal) / lengths : 0.0;
-  return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
-}
-
 std::string RowName(const SessionReading& row, int index) {
   return row.where.empty() ? "reading " + std::to_string(index) : row.where;
-}
-
-// The radius around the reference point inside which no meter can stand.
-double InnerRadius(const LightDescription& light) {
-  if (light.kind == LightKind::kTube && light.radius) return light.radius->value();
-  if (light.kind == LightKind::kSphere && light.diameter) return 0.5 * light.diameter->value();
-  return 0.0;
 }
 
 // Whether the light from the walls is in a reading.
@@ -99,9 +76,9 @@ class Collector {
     const Reading& reading = row.reading;
     if (!reading.illuminance) return {};  // a colour reading
     const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
-    auto geometry = GeometryOf(row, index, lit);
+    auto geometry = GeometryOfReading(light_, reading, RowName(row, index), lit);
     if (!geometry) return tl::unexpected(std::move(geometry).error());
-    const std::string fault = FaultOf(reading, *geometry, lit);
+    const std::string fault = FaultOfReading(light_, reading, *geometry, lit);
     if (!fault.empty()) {
       out_.rejected.push_back(index);
       out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
@@ -124,7 +101,7 @@ class Collector {
     observation.sees_walls = SeesWalls(session_, light_, reading);
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
-    observation.table_part = TablePart(reading);
+    observation.table_part = TablePartTowards(light_, reading);
     if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
     observation.calibration = CalibrationRelative(session_, reading);
     observation.instrument = InstrumentIndex(reading);
@@ -148,63 +125,6 @@ class Collector {
     const auto index = static_cast<int>(known - instruments_.begin());
     if (known == instruments_.end()) instruments_.push_back(name);
     return index;
-  }
-
-  // Readings without positions stand on the lamp's aim; a lamp without an aim shines down.
-  [[nodiscard]] double TablePart(const Reading& reading) const {
-    if (!light_.distribution) return 1.0;
-    const IntensityTable& table = *light_.distribution;
-    Vec3 towards{0.0, 0.0, -1.0};
-    if (reading.position_m && light_.position_m) {
-      const LampAxes axes = AxesOfAim(light_.aim.value_or(Vec3{0.0, 0.0, -1.0}));
-      const Vec3 way = *reading.position_m - *light_.position_m;
-      towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
-    }
-    return table.Towards(towards) / table.peak().intensity;
-  }
-
-  Result<Geometry> GeometryOf(const SessionReading& row, int index, bool lit) const {
-    const Reading& reading = row.reading;
-    const std::string name = RowName(row, index);
-    if (reading.distance && reading.distance->value() < 0.0) {
-      return Refused("negative_distance", name, "a distance below 0 m has no meaning; correct it");
-    }
-    if (!HasDistanceLaw(light_.kind)) return Geometry{1.0, reading.tilt.value(), true};
-    if (reading.distance) return Geometry{reading.distance->value(), reading.tilt.value(), false};
-    if (!reading.position_m) {
-      if (!lit) return Geometry{};
-      return Refused("no_distance", name, "give distance_m, or position_m and normal");
-    }
-    if (!light_.position_m) {
-      return Geometry{1.0, reading.normal ? 0.0 : reading.tilt.value(), true};
-    }
-    if (reading.normal) {
-      return FromPositions(*light_.position_m, *reading.position_m, *reading.normal);
-    }
-    return Geometry{Length(*light_.position_m - *reading.position_m), reading.tilt.value(), true};
-  }
-
-  std::string FaultOf(const Reading& reading, const Geometry& geometry, bool lit) const {
-    const double lux = reading.illuminance->value();
-    if (!std::isfinite(lux)) return "its illuminance is not a number";
-    if (!std::isfinite(geometry.distance_m)) return "its distance is not a number";
-    if (lit && !(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
-    if (!std::isfinite(geometry.tilt_rad)) return "its tilt is not a number";
-    if (!lit) return {};
-    if (!(TablePart(reading) > 0.0)) {
-      return "the lamp's photometric file has no light in the meter's direction";
-    }
-    if (geometry.distance_m < InnerRadius(light_)) {
-      return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
-    }
-    if (HasDistanceLaw(light_.kind) && geometry.distance_m < kLeastDistance_m) {
-      return "it is nearer than 1 mm (" + ShortestText(geometry.distance_m) +
-             " m), where no distance is known: measure from farther away";
-    }
-    if (std::abs(geometry.tilt_rad) >= 0.5 * std::numbers::pi - 1e-9) {
-      return "the meter faces away from the lamp (tilt 90 degrees or more)";
-    }
-    return {};
   }
 
   // Readings with other lamps lit become differences; what they were subtracted from goes.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/reading_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/core/vec3.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/light/lamp_axes.h"
+
+namespace lightcal::fit {
+namespace {
+
+// Nearer than this no meter's head fits and no distance is known.
+constexpr double kLeastDistance_m = 1e-3;
+
+ReadingGeometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
+  const Vec3 to_lamp = lamp - meter;
+  const double distance = Length(to_lamp);
+  const double lengths = distance * Length(normal);
+  const double cosine = lengths > 0.0 ? Dot(to_lamp, normal) / lengths : 0.0;
+  return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
+}
+
+// The radius around the reference point inside which no meter can stand.
+double InnerRadius(const LightDescription& light) {
+  if (light.kind == LightKind::kTube && light.radius) return light.radius->value();
+  if (light.kind == LightKind::kSphere && light.diameter) return 0.5 * light.diameter->value();
+  return 0.0;
+}
+
+}  // namespace
+
+double TablePartTowards(const LightDescription& light, const Reading& reading) {
+  if (!light.distribution) return 1.0;
+  const IntensityTable& table = *light.distribution;
+  Vec3 towards{0.0, 0.0, -1.0};
+  if (reading.position_m && light.position_m) {
+    const LampAxes axes = AxesOfAim(light.aim.value_or(Vec3{0.0, 0.0, -1.0}));
+    const Vec3 way = *reading.position_m - *light.position_m;
+    towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
+  }
+  return table.Towards(towards) / table.peak().intensity;
+}
+
+Result<ReadingGeometry> GeometryOfReading(const LightDescription& light, const Reading& reading,
+                                          const std::string& name, bool lit) {
+  if (reading.distance && reading.distance->value() < 0.0) {
+    return Refused("negative_distance", name, "a distance below 0 m has no meaning; correct it");
+  }
+  if (!HasDistanceLaw(light.kind)) return ReadingGeometry{1.0, reading.tilt.value(), true};
+  if (reading.distance)
+    return ReadingGeometry{reading.distance->value(), reading.tilt.value(), false};
+  if (!reading.position_m) {
+    if (!lit) return ReadingGeometry{};
+    return Refused("no_distance", name, "give distance_m, or position_m and normal");
+  }
+  if (!light.position_m) {
+    return ReadingGeometry{1.0, reading.normal ? 0.0 : reading.tilt.value(), true};
+  }
+  if (reading.normal) {
+    return FromPositions(*light.position_m, *reading.position_m, *reading.normal);
+  }
+  return ReadingGeometry{Length(*light.position_m - *reading.position_m), reading.tilt.value(),
+                         true};
+}
+
+std::string FaultOfReading(const LightDescription& light, const Reading& reading,
+                           const ReadingGeometry& geometry, bool lit) {
+  const double lux = reading.illuminance->value();
+  if (!std::isfinite(lux)) return "its illuminance is not a number";
+  if (!std::isfinite(geometry.distance_m)) return "its distance is not a number";
+  if (lit && !(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
+  if (!std::isfinite(geometry.tilt_rad)) return "its tilt is not a number";
+  if (!lit) return {};
+  if (!(TablePartTowards(light, reading) > 0.0)) {
+    return "the lamp's photometric file has no light in the meter's direction";
+  }
+  if (geometry.distance_m < InnerRadius(light)) {
+    return "it stands inside the lamp (" + ShortestText(geometry.distance_m) + " m)";
+  }
+  if (HasDistanceLaw(light.kind) && geometry.distance_m < kLeastDistance_m) {
+    return "it is nearer than 1 mm (" + ShortestText(geometry.distance_m) +
+           " m), where no distance is known: measure from farther away";
+  }
+  if (std::abs(geometry.tilt_rad) >= 0.5 * std::numbers::pi - 1e-9) {
+    return "the meter faces away from the lamp (tilt 90 degrees or more)";
+  }
+  return {};
+}
+
+}  // namespace lightcal::fit
