@@ -3,12 +3,10 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -17,6 +15,7 @@
 #include <utility>
 
 #include "lightcal_devices/transport/file_descriptor.h"
+#include "lightcal_devices/transport/spawn.h"
 
 namespace lightcal::devices {
 namespace {
@@ -26,20 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr milliseconds kTermGrace{500};  // between SIGTERM and SIGKILL
 constexpr milliseconds kSlice{20};       // between two looks at whether the program is over
-
-struct Pipe {
-  FileDescriptor read_end;
-  FileDescriptor write_end;
-};
-
-// Neither end is seen by any program but the one that gets a copy. Fails: false, with errno.
-bool MakePipe(Pipe& made) {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return false;
-  made.read_end = FileDescriptor(ends[0]);
-  made.write_end = FileDescriptor(ends[1]);
-  return true;
-}
 
 // Keeps a write to a program that is over from ending us: for the scope, SIGPIPE is blocked, and
 // one that came is taken away again.
@@ -70,26 +55,6 @@ class WithoutSigpipe {
   bool was_pending_ = false;
 };
 
-// Our environment, in which `changes` ("NAME=value") stand instead of what had their names.
-std::vector<std::string> EnvironmentWith(const std::vector<std::string>& changes) {
-  std::vector<std::string> entries = changes;
-  const auto name_of = [](std::string_view entry) { return entry.substr(0, entry.find('=')); };
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-    const bool changed = std::ranges::any_of(
-        changes, [&](const std::string& change) { return name_of(change) == name_of(*entry); });
-    if (!changed) entries.emplace_back(*entry);
-  }
-  return entries;
-}
-
-std::vector<char*> Pointers(std::vector<std::string>& texts) {
-  std::vector<char*> pointers;
-  pointers.reserve(texts.size() + 1);
-  for (std::string& text : texts) pointers.push_back(text.data());
-  pointers.push_back(nullptr);
-  return pointers;
-}
-
 std::vector<std::string> SplitArguments(std::span<const std::byte> bytes) {
   std::vector<std::string> arguments;
   std::string current;
@@ -104,44 +69,6 @@ std::vector<std::string> SplitArguments(std::span<const std::byte> bytes) {
   if (!current.empty()) arguments.push_back(current);
   return arguments;
 }
-
-// What posix_spawn needs, freed at the end of the scope.
-class SpawnPlan {
- public:
-  SpawnPlan(int input, int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDERR_FILENO);
-    posix_spawnattr_init(&attributes_);
-    posix_spawnattr_setflags(
-        &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT}) {
-      sigaddset(&signals, signal);
-    }
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-  }
-  ~SpawnPlan() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnPlan(const SpawnPlan&) = delete;
-  SpawnPlan& operator=(const SpawnPlan&) = delete;
-
-  int Spawn(pid_t& child, std::vector<std::string> words, std::vector<std::string> environment) {
-    const auto argv = Pointers(words);
-    const auto envp = Pointers(environment);
-    return posix_spawnp(&child, argv[0], &actions_, &attributes_, argv.data(), envp.data());
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
 
 // Whether a child has ended; it stays a zombie, so that its number and its group's stay its own.
 bool HasEnded(pid_t child, siginfo_t& how) {
@@ -248,9 +175,9 @@ Result<void> ProcessTransport::Start(std::span<const std::byte> arguments) {
   if (!MakePipe(input) || !MakePipe(output)) return Io("no pipe");
   std::vector<std::string> words = SplitArguments(arguments);
   words.insert(words.begin(), settings_.program);
-  SpawnPlan plan(input.read_end.get(), output.write_end.get());
   pid_t child = -1;
-  errno = plan.Spawn(child, std::move(words), EnvironmentWith(settings_.environment));
+  errno = SpawnProgram(child, std::move(words), EnvironmentWith(settings_.environment),
+                       input.read_end.get(), output.write_end.get());
   if (errno == ENOENT || errno == ENOTDIR) {
     return Failed(std::string(fault::kNoDevice), Name(),
                   "there is no such program; install it, or give its whole path");
