@@ -8,7 +8,6 @@
 // Sources: OpenUSD pxr/usd/usdLux/schema.usda and overview.dox.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -17,6 +16,7 @@
 #include "lightcal/presets/frames.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_text.h"
+#include "lightcal/presets/usd_over_layer.h"
 #include "lightcal/presets/usd_readings.h"
 
 namespace lightcal {
@@ -210,91 +210,46 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
 
 // ---- lights that are there ----
 
-// /World/Lamps/Key as its parts; nothing where it is no path of a prim.
-std::vector<std::string> PartsOfPath(std::string_view path) {
-  std::vector<std::string> parts;
-  if (path.starts_with('/')) path.remove_prefix(1);
-  while (true) {
-    const std::size_t slash = std::min(path.find('/'), path.size());
-    std::set<std::string> none;
-    const std::string part(path.substr(0, slash));
-    if (part.empty() || Identifier(part, none) != part) return {};
-    parts.push_back(part);
-    if (slash == path.size()) return parts;
-    path.remove_prefix(slash + 1);
-  }
-}
-
-// Prims by name, each with its opinions and what stands below it.
-struct Over {
-  std::string opinions;  // of the prim itself: head, then body
-  std::string head;
-  std::map<std::string, Over> below;
-};
-
-std::string OverText(const std::string& name, const Over& over, const std::string& indent) {
-  std::string text = "\n" + indent + "over \"" + name + "\"" + over.head + "\n" + indent + "{\n";
-  for (std::size_t at = 0; at < over.opinions.size();) {
-    const std::size_t end = over.opinions.find('\n', at);
-    text += indent + over.opinions.substr(at, end - at) + "\n";
-    at = end + 1;
-  }
-  for (const auto& [child, one] : over.below) text += OverText(child, one, indent + "  ");
-  return text + indent + "}\n";
-}
-
-std::string UsdOpinions(const DerivedLight& derived) {
+std::string OpinionsText(const DerivedLight& derived) {
   std::string text;
   for (const DerivedField& field : derived.fields) text += UsdField(field, "    ");
   return text + "    bool inputs:enableColorTemperature = 0\n    float inputs:exposure = 0\n";
 }
 
-Over OpinionsOf(const PresetLight& light, const DerivedLight& derived,
-                const std::optional<PresetFile>& ies) {
+UsdOpinions OpinionsOf(const PresetLight& light, const DerivedLight& derived,
+                       const std::optional<PresetFile>& ies) {
   const bool table = light.form == LightForm::kTable && ies;
-  Over over;
+  UsdOpinions over;
   if (table || light.form == LightForm::kSpot) {
     over.head = " (\n    prepend apiSchemas = [\"ShapingAPI\"]\n  )";
   }
   const bool sized = light.form != LightForm::kPoint && light.form != LightForm::kSpot && !table;
-  over.opinions = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) +
-                  (sized ? "" : "; no size was measured: 5 mm, and so many nits") + "\n" +
-                  UsdOpinions(derived) + IesFigures(table ? &*ies : nullptr);
-  // As deep as the prim they stand in is indented by OverText.
-  for (std::size_t at = 0; (at = over.opinions.find("\n    ", at)) != std::string::npos; ++at) {
-    over.opinions.erase(at + 1, 2);
+  over.body = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) +
+              (sized ? "" : "; no size was measured: 5 mm, and so many nits") + "\n" +
+              OpinionsText(derived) + IesFigures(table ? &*ies : nullptr);
+  // As deep as the layer indents the prim they stand in.
+  for (std::size_t at = 0; (at = over.body.find("\n    ", at)) != std::string::npos; ++at) {
+    over.body.erase(at + 1, 2);
   }
   return over;
 }
 
-// An `over` layer: opinions on the prims of a person's stage, and nothing else.
-Result<std::string> OverLayer(const LightFile& file, const std::vector<PresetLight>& lights,
-                              const std::vector<DerivedLight>& derived,
-                              const std::vector<std::optional<PresetFile>>& ies,
-                              const PresetOptions& options) {
-  Over root;
-  for (const IntoRow& row : options.into) {
-    const std::vector<std::string> parts = PartsOfPath(row.object);
-    if (parts.empty()) {
-      return Refused("into_path", row.object,
-                     "is no path of a prim, and a USD layer names prims by nothing else: write "
-                     "/World/Lamps/Key, a line a prim in a map.csv");
-    }
-    Over* over = &root;
-    for (const std::string& part : parts) over = &over->below[part];
+// Of every prim of a person's stage that is to shine as one of the lights.
+std::vector<UsdOpinions> OpinionsOnStage(const std::vector<PresetLight>& lights,
+                                         const std::vector<DerivedLight>& derived,
+                                         const std::vector<std::optional<PresetFile>>& ies,
+                                         const std::vector<IntoRow>& into) {
+  std::vector<UsdOpinions> out;
+  for (const IntoRow& row : into) {
     const auto lamp = std::ranges::find(lights, row.lamp, &PresetLight::name);
     const auto i = static_cast<std::size_t>(lamp - lights.begin());
-    Over opinions = OpinionsOf(*lamp, derived[i], ies[i]);
-    over->head = std::move(opinions.head);
-    over->opinions = std::move(opinions.opinions);
+    out.push_back(OpinionsOf(*lamp, derived[i], ies[i]));
+    out.back().path = row.object;
   }
-  std::string text =
-      "#usda 1.0\n(\n  doc = \"" + preset_text::GeneratorOf(file) +
-      ": opinions for the lights of a stage whose metersPerUnit is 1; name this layer first in its "
-      "subLayers. Not executed in a renderer\"\n)\n";
-  for (const auto& [name, over] : root.below) text += OverText(name, over, "");
-  return text;
+  return out;
 }
+
+// ---- rig ----
 
 std::string CardPrims(const Rig& rig) {
   std::string text;
@@ -391,7 +346,8 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
   }
   const std::string name = preset_text::SceneStem(stem, options);
   if (!options.into.empty()) {
-    auto layer = OverLayer(lights, *forms, preset.derived, *ies, options);
+    auto layer = UsdOverLayer(preset_text::GeneratorOf(lights),
+                              OpinionsOnStage(*forms, preset.derived, *ies, options.into));
     if (!layer) return Propagate(std::move(layer));
     preset.files.insert(preset.files.begin(), PresetFile{stem + ".usda", *std::move(layer)});
     const std::string layer_path = std::string(kPasteDirectory) + "/" + stem + ".usda";
