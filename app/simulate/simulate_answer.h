@@ -45,10 +45,6 @@ struct Simulated {
   std::vector<std::string> files;
 };
 
-// Declared price of what was evaluated for one lamp, nanoseconds of one processor.
-[[nodiscard]] double DirectCost_ns(const PlacedLamp& lamp, const LampAccount& account);
-[[nodiscard]] double BounceCost_ns(const LampAccount& account);
-
 [[nodiscard]] std::string AnswerText(const Simulated& simulated);
 [[nodiscard]] records::Node AnswerNode(const Simulated& simulated);
 
