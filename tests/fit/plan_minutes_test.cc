@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lamp_twin.h"
+#include "lightcal/core/stops.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/plan/plan_readings.h"
 
@@ -125,6 +126,58 @@ TEST(PlanMinutes, TheMetersOwnCalibrationIsTheFloor) {
   const MinutesLadder own = LadderOf(EmptySession(0.0));
   EXPECT_EQ(own.meter_u95_relative, 0.0);
   for (const LadderStep& step : own.steps) EXPECT_FALSE(step.meter_limits);
+}
+
+// A step of those that PlanReadings ranks, each settled, takes so much off ln of the stops a
+// minute.
+double RateOf(const PlannedReading& step, double stops_now, double stands_m) {
+  const MeasuringMinutes minutes;
+  const bool stays = step.action == PlannedAction::kLampOff || step.distance->value() == stands_m;
+  const bool card = step.action == PlannedAction::kShadowCard;
+  const double took = (stays ? 0.0 : minutes.move) + (card ? minutes.card : minutes.reading);
+  return std::log(stops_now / step.u95_stops) / took;
+}
+
+// Readings that contradict one another, lamps whose offset is known or not, in rooms and in the
+// dark: what is judged at its first guess alone must not have been the best.
+TEST(PlanMinutes, TheFirstStepIsTheBestOfAllSettledToTheEnd) {
+  std::mt19937_64 random(29);
+  std::normal_distribution<double> normal;
+  int asked = 0, others = 0;
+  for (int i = 0; i < 60; ++i) {
+    LampTruth truth;
+    truth.intensity_cd = std::exp(5.0 + normal(random));
+    truth.offset_m = 0.1 * normal(random);
+    TwinSession twin(truth, i % 2 == 0 ? kSigma : 5.0 * kSigma, random());
+    const std::vector<double> distances = {0.35, 0.5, 0.7, 1.0, 1.4, 2.0};
+    const auto first = static_cast<std::size_t>(i) % 4;
+    double stands_m = 0.0;
+    for (std::size_t k = first; k < distances.size(); k += 1 + first) {
+      twin.On(stands_m = distances[k]);
+    }
+    Session session = twin.session();
+    if (i % 3 == 0) session.surroundings = Surroundings::kIndoors;
+    const auto fitted = FitSession(session, {});
+    const auto plan = PlanReadings(session, "lamp", {}, 1);
+    if (!fitted || !plan) continue;
+    const auto stops = HalfWidthStops(*fitted->lights.lights.front().intensity_cd);
+    if (!stops) continue;
+    LadderWishes wishes;
+    wishes.reach_m = 10.0;  // as far as PlanReadings goes
+    wishes.steps = 1;
+    const MinutesLadder ladder = LadderOf(session, wishes);
+    const auto rate = [&](const PlannedReading& step) { return RateOf(step, *stops, stands_m); };
+    const auto best = std::ranges::max_element(plan->candidates, {}, rate);
+    ++asked;
+    if (ladder.steps.empty()) {
+      EXPECT_LT(std::log(*stops / best->u95_stops), 0.02) << i;
+      continue;
+    }
+    EXPECT_NEAR(rate(ladder.steps.front().reading), rate(*best), 1e-9) << i;
+    others += SameStep(plan->candidates.front(), *best) ? 0 : 1;
+  }
+  EXPECT_GE(asked, 40);
+  EXPECT_GE(others, 5) << "the best of its minutes is not always what leaves least";
 }
 
 TEST(PlanMinutes, AnUnknownLightIsRefused) {
