@@ -32,13 +32,13 @@ def scene():
 TRUTH = scene()
 
 
-def electrons_to_codes(response, time, rng, black):
+def electrons_to_codes(response, time, rng, black, white=WHITE):
     """H = q L t/N^2: full scale is 78 N^2/(q S t) cd/m^2; 60,000 electrons, 3.5 of read noise."""
     full = 78.0 * N * N / (0.65 * ISO * time)
     e = np.minimum(rng.poisson(np.minimum(response * TRUTH / full, 3.0) * 60000.0), 60000)
     e = e + rng.normal(0.0, 3.5, e.shape)
-    codes = np.round(black + e / 60000.0 * (WHITE - BLACK))
-    return np.clip(codes, 0, WHITE).astype(np.uint16)
+    codes = np.round(black + e / 60000.0 * (white - BLACK))
+    return np.clip(codes, 0, white).astype(np.uint16)
 
 
 def mosaic(pattern, rows):
@@ -100,12 +100,20 @@ def directory(entries, at):
     return head + b"\0\0\0\0" + tail
 
 
-def dng(name, picture, time, more, photometric=32803, compression=1, leave_out=()):
+def strip(picture, bits):
+    """Rows of numbers of so many bits, the first bit highest, each row from a byte on (TIFF 6.0)."""
+    if bits == 16:
+        return picture.astype("<u2").tobytes()
+    rows = picture.reshape(HEIGHT, -1, 1) >> np.arange(bits - 1, -1, -1, dtype=np.uint16) & 1
+    return np.packbits(rows.reshape(HEIGHT, -1).astype(np.uint8), 1).tobytes()
+
+
+def dng(name, picture, time, more, photometric=32803, compression=1, leave_out=(), bits=16):
     samples = 1 if picture.ndim == 2 else picture.shape[2]
-    data = picture.astype("<u2").tobytes() if compression == 1 else lossless_jpeg(picture)
+    data = strip(picture, bits) if compression == 1 else lossless_jpeg(picture)
     exif = [entry(0x829A, "R", time), entry(0x829D, "R", N), entry(0x8827, "S", int(ISO))]
     entries = [entry(254, "L", 0), entry(256, "L", WIDTH), entry(257, "L", HEIGHT),
-               entry(258, "S", *[16] * samples), entry(259, "S", compression),
+               entry(258, "S", *[bits] * samples), entry(259, "S", compression),
                entry(262, "S", photometric), entry(271, "A", "Synthetic"),
                entry(272, "A", "Synthetic Two"), entry(273, "L", 0), entry(274, "S", 1),
                entry(277, "S", samples), entry(278, "L", HEIGHT), entry(279, "L", len(data)),
@@ -137,10 +145,10 @@ def colors(matrix=CAMERA):
 BLACK_TAG = [entry(50714, "L", BLACK)]
 
 
-def bracket(stem, response, more, black=BLACK, **options):
+def bracket(stem, response, more, black=BLACK, white=WHITE, **options):
     rng = np.random.default_rng(7)
-    return [dng(f"{stem}_{i}.dng", electrons_to_codes(response, t, rng, black), t, more, **options)
-            for i, t in enumerate(TIMES)]
+    return [dng(f"{stem}_{i}.dng", electrons_to_codes(response, t, rng, black, white), t, more,
+                **options) for i, t in enumerate(TIMES)]
 
 
 def patches(path):
@@ -188,15 +196,34 @@ expect_the_luminances("monochrome", bracket("monochrome", np.ones((HEIGHT, WIDTH
                                             photometric=34892))
 
 
-def linear_rgb():
+def linear_rgb(stem, white=WHITE, **options):
     rng = np.random.default_rng(7)
     more = colors() + [entry(50714, "L", BLACK, BLACK, BLACK)]
     for i, t in enumerate(TIMES):
-        planes = [electrons_to_codes(r, t, rng, BLACK) for r in CAMERA @ D65]
-        yield dng(f"linear_{i}.dng", np.stack(planes, -1), t, more, photometric=34892)
+        planes = [electrons_to_codes(r, t, rng, BLACK, white) for r in CAMERA @ D65]
+        yield dng(f"{stem}_{i}.dng", np.stack(planes, -1), t, more, photometric=34892, **options)
 
 
-expect_the_luminances("linear", list(linear_rgb()))
+expect_the_luminances("linear", list(linear_rgb("linear")))
+
+# Without WhiteLevel a picture is full at 2^BitsPerSample - 1 (DNG 1.4, tag 50717).
+NO_WHITE = {"leave_out": (50717,)}
+for bits, compression in ((12, 1), (14, 1), (16, 1), (12, 7), (14, 7), (16, 7)):
+    stem = f"no_white_{bits}_{compression}"
+    expect_the_luminances(stem, bayer_of(stem, colors() + BLACK_TAG, white=2 ** bits - 1, bits=bits,
+                                         compression=compression, **NO_WHITE))
+expect_the_luminances("no_white_linear", list(linear_rgb("no_white_linear", 65535, **NO_WHITE)))
+# One that was full earlier is named, with the tag.
+full_below = (bayer_of("full_below", colors() + BLACK_TAG, **NO_WHITE),
+              list(linear_rgb("linear_below", **NO_WHITE)))
+for frames in full_below:
+    error = refused("unsupported_picture", "merge", *frames, "-o", "full_below.exr",
+                    says="no WhiteLevel tag, which means 65535, .* are all 15871")
+    assert error["subject"].endswith(("_1.dng", "_2.dng")), error
+# Not what is merely bright: no sample of this bracket is full.
+dim = [frames[0] for frames in full_below]
+for name in dim:
+    answer("inspect", name, "--rect", "4,4,8,8")
 
 
 def two_illuminants(cool_first):

@@ -10,7 +10,9 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <numeric>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -177,9 +179,62 @@ Result<void> WriteColors(const Pixel* pixels, const libraw_image_sizes_t& sizes,
   return Write(descriptor, kSamplesAt, copy.data(), 2 * copy.size());
 }
 
+// How often each number stands in the picture.
+template <class Pixel>
+std::vector<std::size_t> CountNumbers(const Pixel* pixels, std::size_t row_pixels,
+                                      const libraw_image_sizes_t& sizes, int channels) {
+  std::vector<std::size_t> counts(65536);
+  for (std::size_t y = 0; y < sizes.height; ++y) {
+    const Pixel* row = pixels + (y + sizes.top_margin) * row_pixels + sizes.left_margin;
+    for (std::size_t x = 0; x < sizes.width; ++x) {
+      const auto* const first = reinterpret_cast<const std::uint16_t*>(row + x);
+      for (int c = 0; c < channels; ++c) ++counts[first[c]];
+    }
+  }
+  return counts;
+}
+
+std::vector<std::size_t> CountNumbers(const libraw_data_t& data) {
+  const libraw_rawdata_t& raw = data.rawdata;
+  const libraw_image_sizes_t& sizes = data.sizes;
+  const int channels = data.idata.colors == 1 ? 1 : 3;
+  if (raw.raw_image != nullptr) {
+    return CountNumbers(raw.raw_image, sizes.raw_pitch / sizeof(std::uint16_t), sizes, 1);
+  }
+  if (raw.color3_image != nullptr) {
+    return CountNumbers(raw.color3_image, sizes.raw_width, sizes, channels);
+  }
+  if (raw.color4_image != nullptr) {
+    return CountNumbers(raw.color4_image, sizes.raw_width, sizes, channels);
+  }
+  return {};
+}
+
+// A DNG without WhiteLevel is full at the largest number its bits hold (DNG 1.6, WhiteLevel), which
+// LibRaw knows. Where its brightest samples are one number below that, it was full there.
+Result<void> CheckUntoldWhite(const OpenRaw& open, const std::string& path) {
+  constexpr double kFull = 0.99;
+  constexpr std::size_t kLeastPile = 64, kNearShare = 64;
+  const libraw_data_t& data = open.raw.imgdata;
+  if (data.idata.dng_version == 0 || open.walk.has_white_level) return {};
+  const std::vector<std::size_t> counts = CountNumbers(data);
+  const auto brightest = std::find_if(counts.rbegin(), counts.rend(), [](auto n) { return n > 0; });
+  if (brightest == counts.rend() || *brightest < kLeastPile) return {};
+  const auto top = static_cast<std::size_t>(counts.rend() - brightest) - 1;
+  if (static_cast<double>(top) >= kFull * data.color.maximum) return {};
+  const auto at = counts.begin() + static_cast<std::ptrdiff_t>(top);
+  const auto near = std::accumulate(at - static_cast<std::ptrdiff_t>(top / kNearShare), at, 0UL);
+  if (*brightest <= near) return {};
+  return Refused("unsupported_picture", path,
+                 "it has no WhiteLevel tag, which means " + std::to_string(data.color.maximum) +
+                     ", but its brightest samples are all " + std::to_string(top) +
+                     ", as if the sensor were full there; write that into the tag");
+}
+
 Result<void> WriteSamples(OpenRaw& open, const std::string& path, int descriptor,
                           RawAnswer& answer) {
   if (auto ok = Checked(open.raw.unpack(), open, path); !ok) return ok;
+  if (auto ok = CheckUntoldWhite(open, path); !ok) return ok;
   const libraw_rawdata_t& data = open.raw.imgdata.rawdata;
   const libraw_image_sizes_t& sizes = open.raw.imgdata.sizes;
   const int channels = open.raw.imgdata.idata.colors == 1 ? 1 : 3;

@@ -254,6 +254,11 @@ Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) 
             "(three colours a pixel) or a 16 bit TIFF in a RAW converter");
   }
   if (info.meaning == SampleMeaning::kSensor) info.channels = camera.colors == 1 ? 1 : 3;
+  if (answer.color.maximum == 0) {
+    return Refused("unsupported_picture", path,
+                   "it tells no white level (WhiteLevel), and LibRaw knows none for its samples; "
+                   "convert it to a DNG of 16 bit integers");
+  }
   info.levels = SensorLevelsOf(answer, info.cfa);
 
   WrittenExposure written = tags.exposure;

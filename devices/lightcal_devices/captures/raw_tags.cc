@@ -38,6 +38,7 @@ enum Tag : int {
   kSubjectDistance = 0x9206,
   kBlackLevelDeltaH = 0xC61B,
   kBlackLevelDeltaV = 0xC61C,
+  kWhiteLevel = 0xC61D,
   kOpcodeList2 = 0xC741,
   kOpcodeList3 = 0xC74E,
   kNoiseProfile = 0xC761,
@@ -207,6 +208,9 @@ void Take(RawTagWalk& walk, int tag, const TagData& data) {
       return TakeDeltas(data.Numbers(kMostDeltas), walk.black_of_columns, tags);
     case kBlackLevelDeltaV:
       return TakeDeltas(data.Numbers(kMostDeltas), walk.black_of_rows, tags);
+    case kWhiteLevel:
+      walk.has_white_level = true;
+      return;
     case kOpcodeList2:
     case kOpcodeList3:
       tags.has_gain_map = tags.has_gain_map || HoldsGainMap(data.Bytes(kMostOpcodeBytes));

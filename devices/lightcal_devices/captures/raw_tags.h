@@ -32,6 +32,7 @@ struct RawTagWalk {
   // DNG BlackLevelDeltaH and V: what the black of a column and of a row of the active area is above
   // BlackLevel. LibRaw knows their means alone.
   std::vector<double> black_of_columns, black_of_rows;
+  bool has_white_level = false;  // DNG WhiteLevel is written
 
   [[nodiscard]] bool has_black_deltas() const {
     return !black_of_columns.empty() || !black_of_rows.empty();
