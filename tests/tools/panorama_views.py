@@ -3,7 +3,7 @@
 
 The world: x right of the panorama's centre, y into its centre, z up. A view's truth is the 3 x 3 matrix whose rows
 are its right, forward and up. Lens: r = f tan(theta) (rect) or r = f theta (equidistant), radially bent by
-r (1 + k ((r/R)^2 - 1)), darkened by (1 + v (r/R)^2)^-2, R being the corner of a rect and the circle of a fisheye.
+r (1 + k ((r/R)^2 - 1)), then shifted as a tilted lens does (Brown's decentring p, q, in R), darkened by (1 + v (r/R)^2)^-2, R being the corner of a rect and the circle of a fisheye.
 """
 import json
 import math
@@ -79,9 +79,9 @@ def lookup(panorama, direction):
 
 
 class Camera:
-    def __init__(self, kind, width, height, fov_deg, bend=0.0, dark=0.25, noise=0.004, samples=2):
+    def __init__(self, kind, width, height, fov_deg, bend=0.0, dark=0.25, noise=0.004, samples=2, tilt=(0.0, 0.0)):
         self.kind, self.width, self.height, self.fov_deg = kind, width, height, fov_deg
-        self.bend, self.dark, self.noise, self.samples = bend, dark, noise, samples
+        self.bend, self.dark, self.noise, self.samples, self.tilt = bend, dark, noise, samples, tilt
         half = math.radians(fov_deg) / 2
         if kind == "rect":
             self.focal, self.rim = width / 2 / math.tan(half), math.hypot(width, height) / 2
@@ -97,7 +97,9 @@ class Camera:
             u, v = np.meshgrid(np.arange(self.width) + dx - self.width / 2, self.height / 2 - np.arange(self.height) - dy)
             share2 = (u * u + v * v) / self.rim ** 2
             stretch = 1 + self.bend * (share2 - 1)
-            u, v = u * stretch, v * stretch
+            (p, q), x, y = self.tilt, u / self.rim, v / self.rim
+            u = u * stretch + self.rim * (p * (share2 + 2 * x * x) + 2 * q * x * y)
+            v = v * stretch + self.rim * (q * (share2 + 2 * y * y) + 2 * p * x * y)
             r = np.hypot(u, v)
             if self.kind == "rect":
                 ray = np.stack([u, np.full_like(u, self.focal), v], -1)
@@ -223,9 +225,10 @@ def judge(answer, truth, panorama, camera):
         if want > 0.2 * largest:
             # the dome's fall-off and scale have one factor in common that no view can tell
             lux[name] = answer["illuminance_lx"][name]["total"] / want / gain - 1
-    within = [float(a <= v["u95_deg"]) for a, v in zip(aims, answer["views"])]
+    shares = [float(a / v["u95_deg"]) for a, v in zip(aims, answer["views"])]
     return {"median_deg": float(np.median(aims)), "p95_deg": float(np.percentile(aims, 95)),
-            "worst_deg": float(aims.max()), "within_u95": float(np.mean(within)),
+            "worst_deg": float(aims.max()), "within_u95": float(np.mean(np.array(shares) <= 1)),
+            "shares_of_u95": shares,
             "u95_deg": float(np.median([v["u95_deg"] for v in answer["views"]])),
             "scale_worst": float(abs(scale).max()), "scale_rms": float(np.sqrt((scale ** 2).mean())),
             "lux": lux, "fov_deg": answer.get("field_of_view_deg"), "rms_px": answer.get("aims_rms_px"),

@@ -26,8 +26,10 @@ constexpr std::size_t kMostMatches = 9000, kLeastOfPair = 30, kMostOfPair = 250;
 constexpr double kAimCauchy = 2.385, kAimMad = 1.4826;
 constexpr int kBundleRounds = 7, kLensParameters = 3, kLensPasses = 3;
 constexpr double kField = 6.0 * kDegree;  // on a side, of common errors
-constexpr double kSharedPx = 0.05;        // what features are off by in common
+constexpr double kUnseenBend = 1e-4;      // rims, of a term of ExtraBend that nothing shows
+constexpr int kExtraBends = 6, kBendRounds = 30;
 constexpr double kGaugeSd = 1e-5;         // radians, of the mean turn
+constexpr double kAimSd = 10.0 * kDegree;  // of a view that one field alone holds
 
 using AimVector = Eigen::VectorXd;
 using AimMatrix = Eigen::MatrixXd;
@@ -178,15 +180,78 @@ void ReweighBundle(Bundle& bundle, const AimVector& at) {
   }
 }
 
-// The covariance of all parameters.
-AimMatrix CovarianceOfBundle(const Bundle& bundle, const AimVector& at) {
-  const BundleRows rows{bundle};
-  AimVector residual(rows.NumResiduals());
-  AimMatrix jacobian(rows.NumResiduals(), rows.NumParameters());
-  rows(at.data(), residual.data(), jacobian.data());
-  const AimMatrix normal = jacobian.transpose() * jacobian;
-  const AimMatrix inverse = normal.ldlt().solve(AimMatrix::Identity(normal.rows(), normal.cols()));
-  std::map<std::pair<int, int>, AimVector> fields;
+// What a lens and a sensor may do beside f, a and b, at the place (u, v) as a share of the rim:
+// sides that differ or lean, Brown's decentring, and an axis that is not in the middle, less the
+// turn that this looks like.
+std::array<double, 2> ExtraBend(int term, double u, double v) {
+  switch (term) {
+    case 0:
+      return {u, -v};
+    case 1:
+      return {v, u};
+    case 2:
+      return {3.0 * u * u + v * v, 2.0 * u * v};
+    case 3:
+      return {2.0 * u * v, u * u + 3.0 * v * v};
+    case 4:
+      return {u * u, u * v};
+    default:
+      return {u * v, v * v};
+  }
+}
+
+// How the rows change with each term, in rims.
+AimMatrix ExtraColumns(const Bundle& bundle, const AimVector& at) {
+  constexpr double kStep = 1e-3;
+  const double rim = RimPixels(bundle.view);
+  const auto bent = [&](const std::array<double, 2>& point, int term) {
+    const auto [x, y] = ExtraBend(term, (point[0] - bundle.view.width / 2.0) / rim,
+                                  (bundle.view.height / 2.0 - point[1]) / rim);
+    return std::array{point[0] + kStep * rim * x, point[1] - kStep * rim * y};
+  };
+  AimMatrix columns = AimMatrix::Zero(bundle.Rows(), kExtraBends);
+  Eigen::Index row = 0;
+  for (const BundleMatch& match : bundle.matches) {
+    const auto before = MisfitAt(bundle, match, at);
+    const double scale = std::sqrt(match.weight) / bundle.sd_px / kStep;
+    for (int term = 0; term < kExtraBends; ++term) {
+      BundleMatch moved = match;
+      moved.at_a = bent(match.at_a, term);
+      moved.at_b = bent(match.at_b, term);
+      const auto after = MisfitAt(bundle, moved, at);
+      columns(row, term) = scale * (after[0] - before[0]);
+      columns(row + 1, term) = scale * (after[1] - before[1]);
+    }
+    row += 2;
+  }
+  return columns;
+}
+
+struct ExtraBends {
+  AimVector mean;
+  AimMatrix covariance;
+};
+
+// Their terms c given rows r = B c + errors of sd 1: normal about 0, all of one sd, which is the
+// likeliest (expectation and maximisation), with one more term of kUnseenBend.
+ExtraBends LikelyBends(const AimMatrix& columns, const AimVector& rows) {
+  const AimMatrix normal = columns.transpose() * columns;
+  const AimVector right = columns.transpose() * rows;
+  const AimMatrix unit = AimMatrix::Identity(kExtraBends, kExtraBends);
+  ExtraBends bends;
+  double variance = 1e-6;
+  for (int round = 0; round < kBendRounds; ++round) {
+    bends.covariance = (normal + unit / variance).ldlt().solve(unit);
+    bends.mean = bends.covariance * right;
+    variance = (bends.mean.squaredNorm() + bends.covariance.trace() + kUnseenBend * kUnseenBend) /
+               (kExtraBends + 1);
+  }
+  return bends;
+}
+
+// The matches of each field of 6 degrees, whose errors are taken to be one.
+std::vector<std::vector<Eigen::Index>> FieldsOf(const Bundle& bundle, const AimVector& at) {
+  std::map<std::pair<int, int>, std::vector<Eigen::Index>> fields;
   for (std::size_t i = 0; i < bundle.matches.size(); ++i) {
     const BundleMatch& match = bundle.matches[i];
     const auto d =
@@ -195,21 +260,75 @@ AimMatrix CovarianceOfBundle(const Bundle& bundle, const AimVector& at) {
     const std::pair field{
         static_cast<int>(std::floor(height / kField)),
         static_cast<int>(std::floor(std::atan2(d[0], d[1]) * std::cos(height) / kField))};
-    auto& score = fields.try_emplace(field, AimVector::Zero(normal.rows())).first->second;
-    for (Eigen::Index row = 2 * static_cast<Eigen::Index>(i), k = 0; k < 2; ++k) {
-      score += jacobian.row(row + k).transpose() * residual[row + k];
-    }
+    fields[field].push_back(static_cast<Eigen::Index>(i));
   }
-  AimMatrix middle = AimMatrix::Zero(normal.rows(), normal.cols());
-  for (const auto& [field, score] : fields) middle += score * score.transpose();
+  std::vector<std::vector<Eigen::Index>> matches;
+  for (auto& [field, of_it] : fields) matches.push_back(std::move(of_it));
+  return matches;
+}
+
+// The second derivative of the matches' loss, Cauchy's:
+//   J^T J - 2/c^2 sum (J^T r)(J^T r)^T.
+AimMatrix CurvatureOf(const std::vector<Eigen::Index>& matches, const AimMatrix& jacobian,
+                      const AimVector& residual) {
+  const auto count = static_cast<Eigen::Index>(matches.size());
+  AimMatrix rows(2 * count, jacobian.cols()), scores(jacobian.cols(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index row = 2 * matches[static_cast<std::size_t>(i)];
+    rows.middleRows<2>(2 * i) = jacobian.middleRows<2>(row);
+    scores.col(i) = jacobian.middleRows<2>(row).transpose() * residual.segment<2>(row);
+  }
+  return rows.transpose() * rows - 2.0 / (kAimCauchy * kAimCauchy) * (scores * scores.transpose());
+}
+
+// By how much leaving out one field after the other moves the parameters: the sum of squares. The
+// scatter of few fields, of which some carry a view alone, is too small without (CR3).
+// Source: Bell & McCaffrey, Survey Methodology 28 (2002) 169.
+AimMatrix ScatterOfFields(const std::vector<std::vector<Eigen::Index>>& fields,
+                          const AimMatrix& jacobian, const AimVector& residual,
+                          const AimVector& rest, const AimMatrix& curvature) {
+  AimMatrix scatter = AimMatrix::Zero(jacobian.cols(), jacobian.cols());
+  for (const auto& field : fields) {
+    const AimMatrix without = curvature - CurvatureOf(field, jacobian, residual);
+    AimVector score = AimVector::Zero(jacobian.cols());
+    for (const Eigen::Index match : field) {
+      score += jacobian.middleRows<2>(2 * match).transpose() * rest.segment<2>(2 * match);
+    }
+    const AimVector moved = without.ldlt().solve(score);
+    scatter += moved * moved.transpose();
+  }
+  return scatter;
+}
+
+// The covariance of all parameters about the truth.
+AimMatrix CovarianceOfBundle(const Bundle& bundle, const AimVector& at) {
+  const BundleRows rows{bundle};
+  AimVector residual(rows.NumResiduals());
+  AimMatrix jacobian(rows.NumResiduals(), rows.NumParameters());
+  rows(at.data(), residual.data(), jacobian.data());
+  const AimMatrix unit = AimMatrix::Identity(jacobian.cols(), jacobian.cols());
+
+  const AimMatrix extra = ExtraColumns(bundle, at);
+  // What a term of the lens moves the parameters by, and what it leaves in the rows beside that.
+  const AimMatrix moved =
+      (jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * extra);
+  const AimMatrix left = extra - jacobian * moved;
+  const ExtraBends bends = LikelyBends(left, residual);
+  const AimMatrix bent = bends.mean * bends.mean.transpose() + bends.covariance;
+
+  const auto fields = FieldsOf(bundle, at);
+  const auto beside = jacobian.bottomRows(bundle.Rows() - 2 * bundle.matches.size());
+  AimMatrix curvature = beside.transpose() * beside;
+  curvature.diagonal().head(bundle.Lens()).array() += 1.0 / (kAimSd * kAimSd);
+  for (const auto& field : fields) curvature += CurvatureOf(field, jacobian, residual);
+  AimMatrix priors = AimMatrix::Zero(jacobian.cols(), jacobian.cols());
   for (int k = 0; k < kLensParameters; ++k) {
     const double sd = k == 0 ? bundle.ln_focal_sd : kBendSd;
-    middle(bundle.Lens() + k, bundle.Lens() + k) += 1.0 / (sd * sd);
+    priors(bundle.Lens() + k, bundle.Lens() + k) = 1.0 / (sd * sd);
   }
-  // So many fields were found from n of them.
-  const auto count = static_cast<double>(fields.size());
-  const double few = count / std::max(1.0, count - 3.0);
-  return few * inverse * middle * inverse.transpose();
+  const AimMatrix inverse = curvature.ldlt().solve(unit);
+  return ScatterOfFields(fields, jacobian, residual, residual - left * bends.mean, curvature) +
+         inverse * priors * inverse.transpose() + moved * bent * moved.transpose();
 }
 
 // Below which 95 % of a length lie whose three coordinates have this covariance; the sum of squares
@@ -334,7 +453,6 @@ SolvedAims AimsOf(const Bundle& bundle, const AimVector& at) {
   aims.lens = {at[bundle.Lens() + 1], at[bundle.Lens() + 2]};
   aims.rms_px = bundle.sd_px;
   aims.matches = bundle.matches.size();
-  const double shared = kSharedPx / aims.focal_px;
   const Eigen::Matrix3d& first = bundle.turns.front();
   for (std::size_t v = 0; v < bundle.turns.size(); ++v) {
     // Rows of camera axes in the first camera's.
@@ -345,8 +463,7 @@ SolvedAims AimsOf(const Bundle& bundle, const AimVector& at) {
     }
     aims.axes.push_back(axes);
     const auto place = static_cast<Eigen::Index>(3 * v);
-    const Eigen::Matrix3d own =
-        covariance.block<3, 3>(place, place) + shared * shared * Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d own = covariance.block<3, 3>(place, place);
     aims.u95_deg.push_back(Length95(own) / kDegree);
   }
   return aims;

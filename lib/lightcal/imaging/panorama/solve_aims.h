@@ -35,9 +35,11 @@ struct SolvedAims {
 //   minimise  sum rho(|f (R_i^T d(p) - R_j^T d(q))|^2) + priors,   rho Cauchy's,
 // over rotations and lens, from the tree of pairs that agree best (each pair's rotation by RANSAC).
 // Priors, 1 sigma: ln f 3 % where the field of view is known (else found among 25 to 120 degrees,
-// free), a and b .03. Intervals by the scatter of fields of 6 degrees, inside which errors are
-// taken to be one (sandwich estimator), and a twentieth of a pixel for what they all share.
-// Refused: views_do_not_overlap, naming the view and what it was held against.
+// free), a and b .03. Intervals by leaving out fields of 6 degrees, inside which errors are taken
+// to be one, and by what a lens may do beside f, a and b: six terms linear and quadratic in the
+// place, as large as the residuals make likely. What the likeliest ones would move stays in the
+// interval; the aims are those of the lens that is told. Refused: views_do_not_overlap, naming the
+// view and what it was held against.
 [[nodiscard]] Result<SolvedAims> SolveAims(const AimQuestion& question);
 
 }  // namespace lightcal
