@@ -215,13 +215,14 @@ std::vector<std::size_t> CountNumbers(const libraw_data_t& data) {
 Result<void> CheckUntoldWhite(const OpenRaw& open, const std::string& path) {
   constexpr double kFull = 0.99;
   constexpr std::size_t kLeastPile = 64, kNearShare = 64;
+  constexpr std::size_t kFewLevels = 256;  // of a dark frame, whose noise is a level or two
   const libraw_data_t& data = open.raw.imgdata;
   if (data.idata.dng_version == 0 || open.walk.has_white_level) return {};
   const std::vector<std::size_t> counts = CountNumbers(data);
   const auto brightest = std::find_if(counts.rbegin(), counts.rend(), [](auto n) { return n > 0; });
   if (brightest == counts.rend() || *brightest < kLeastPile) return {};
   const auto top = static_cast<std::size_t>(counts.rend() - brightest) - 1;
-  if (static_cast<double>(top) >= kFull * data.color.maximum) return {};
+  if (top < kFewLevels || static_cast<double>(top) >= kFull * data.color.maximum) return {};
   const auto at = counts.begin() + static_cast<std::ptrdiff_t>(top);
   const auto near = std::accumulate(at - static_cast<std::ptrdiff_t>(top / kNearShare), at, 0UL);
   if (*brightest <= near) return {};
