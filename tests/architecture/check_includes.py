@@ -27,9 +27,10 @@ DEVICE_ROOMS_SEE = {"core", *LAWS, "records"}
 # Third-party headers and the only places that may open them.
 DOORS = [
     (r"ceres/(tiny_solver|jet)\.h",  # header-only
-     r"lib/lightcal/fit/|imaging/(scene/board_camera|panorama/solve_aims)\.cc$"),
+     r"lib/lightcal/fit/|imaging/(scene/board_camera|panorama/(solve_aims|aim_bundle))\.cc$"),
     (r"ceres/(?!(tiny_solver|jet)\.h)", r"lib/lightcal/fit/"),
-    (r"Eigen/", r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/|^app/wasm/overlay/ceres/"),
+    (r"Eigen/",  # of imaging's headers one, which is not installed
+     r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/|imaging/panorama/aim_bundle\.h$|^app/wasm/overlay/ceres/"),
     (r"OpenImageIO/|libraw/|OpenEXR/", r"devices/lightcal_devices/captures/"),
     (r"opencv2/", r"lib/lightcal/imaging/"),
     (r"nlohmann/", r"(_codec\.cc$)|(lib/lightcal/presets/.*\.cc$)|(^app/)"),
