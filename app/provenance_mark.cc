@@ -190,6 +190,7 @@ std::string OwnFormatOfFile(const std::string& path) {
   std::string contents(kHeadBytes, '\0');
   stream.read(contents.data(), static_cast<std::streamsize>(contents.size()));
   contents.resize(static_cast<std::size_t>(stream.gcount()));
+  if (std::string schema = FirstSchema(contents); !schema.empty()) return schema;
   const auto size = std::filesystem::file_size(path, error);
   const bool document = contents.starts_with('{') || contents.starts_with("%PDF");
   if (document && !error && size > contents.size() && size <= kMostOfADocument) {

@@ -19,6 +19,7 @@ namespace {
 constexpr double kAsGood = 0.01;
 // A step of a ladder shortens the interval at least so much.
 constexpr double kLeastGain = 0.02;
+
 Reading LikeTheLast(const Session& session) {
   Reading like;
   like.light = session.lights.front().name;
@@ -66,8 +67,7 @@ double GainOf(const Left& before, const PlannedReading& after) {
 
 class Planner {
  public:
-  Planner(Session session, const FitSettings& settings, double reach_m,
-          bool only_angles = false)
+  Planner(Session session, const FitSettings& settings, double reach_m, bool only_angles = false)
       : session_(std::move(session)),
         settings_(settings),
         reach_m_(reach_m),

@@ -52,8 +52,8 @@ struct ReadingTrial {
 inline constexpr double kMostBySettling = 0.15;
 
 // At the illuminance at which the reading would change nothing: what a fit with it predicts for it,
-// and again. Where it tells much, the second answer is still drawn to the first guess, and the limit
-// of the series is taken (Aitken, in logarithms). None where a fit fails.
+// and again. Where it tells much, the second answer is still drawn to the first guess, and the
+// limit of the series is taken (Aitken, in logarithms). None where a fit fails.
 [[nodiscard]] std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial trial);
 
 }  // namespace lightcal::fit

@@ -14,6 +14,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kAimMad = 1.4826;
+constexpr double kBendSd = 0.03;   // prior of the lens's a and b
 constexpr double kGaugeSd = 1e-5;  // radians, of the mean turn
 
 template <class T>
@@ -86,7 +87,7 @@ bool AimRows::operator()(const double* at, double* residuals, double* jacobian) 
   }
   for (int k = 0; k < kAimLensParameters; ++k, ++row) {
     const double mean = k == 0 ? bundle.ln_focal : 0.0;
-    const double sd = k == 0 ? bundle.ln_focal_sd : kAimBendSd;
+    const double sd = k == 0 ? bundle.ln_focal_sd : kBendSd;
     residuals[row] = (at[lens + k] - mean) / sd;
     if (jacobian != nullptr) derivative(row, lens + k) = 1.0 / sd;
   }
@@ -116,7 +117,7 @@ void SetAimTangents(AimBundle& bundle, const AimVector& at) {
 }
 
 std::array<double, 2> AimMisfit(const AimBundle& bundle, const AimMatch& match,
-                               const AimVector& at) {
+                                const AimVector& at) {
   return Misfit(bundle, match, at.data() + 3 * match.a, at.data() + 3 * match.b,
                 at.data() + bundle.Lens());
 }

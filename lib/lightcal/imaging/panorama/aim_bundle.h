@@ -16,7 +16,6 @@ using AimVector = Eigen::VectorXd;
 using AimMatrix = Eigen::MatrixXd;
 
 inline constexpr double kAimCauchy = 2.385;  // scale of Cauchy's loss, standard deviations
-inline constexpr double kAimBendSd = 0.03;      // of the lens's a and b
 inline constexpr int kAimLensParameters = 3;
 
 // A feature that views a and b share, and the plane in which its misfit is measured.
@@ -57,11 +56,11 @@ struct AimRows {
 
 // In the place's axes, where view a sees it.
 [[nodiscard]] Eigen::Vector3d AimDirection(const AimBundle& bundle, const AimMatch& match,
-                                          const AimVector& at);
+                                           const AimVector& at);
 
 // Two coordinates of a match's misfit, in pixels of the picture's middle.
 [[nodiscard]] std::array<double, 2> AimMisfit(const AimBundle& bundle, const AimMatch& match,
-                                             const AimVector& at);
+                                              const AimVector& at);
 
 // The planes of the misfits, at the directions that are seen now.
 void SetAimTangents(AimBundle& bundle, const AimVector& at);

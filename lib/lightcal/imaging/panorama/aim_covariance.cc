@@ -153,15 +153,13 @@ AimMatrix CovarianceOfAims(const AimBundle& bundle, const AimVector& at) {
   const AimMatrix bent = bends.mean * bends.mean.transpose() + bends.covariance;
 
   const auto fields = FieldsOf(bundle, at);
-  const auto beside = jacobian.bottomRows(bundle.Rows() - 2 * bundle.matches.size());
+  const auto of_matches = 2 * static_cast<Eigen::Index>(bundle.matches.size());
+  const auto beside = jacobian.bottomRows(jacobian.rows() - of_matches);
   AimMatrix curvature = beside.transpose() * beside;
   curvature.diagonal().head(bundle.Lens()).array() += 1.0 / (kAimSd * kAimSd);
   for (const auto& field : fields) curvature += CurvatureOf(field, jacobian, residual);
-  AimMatrix priors = AimMatrix::Zero(jacobian.cols(), jacobian.cols());
-  for (int k = 0; k < kAimLensParameters; ++k) {
-    const double sd = k == 0 ? bundle.ln_focal_sd : kAimBendSd;
-    priors(bundle.Lens() + k, bundle.Lens() + k) = 1.0 / (sd * sd);
-  }
+  const auto of_priors = jacobian.middleRows<kAimLensParameters>(of_matches);
+  const AimMatrix priors = of_priors.transpose() * of_priors;
   const AimMatrix inverse = curvature.ldlt().solve(unit);
   return ScatterOfFields(fields, jacobian, residual, residual - left * bends.mean, curvature) +
          inverse * priors * inverse.transpose() + moved * bent * moved.transpose();
