@@ -137,16 +137,18 @@ TEST(QuickAnswer, FollowingWhatIsBetterMakesTheLampSurer) {
   EXPECT_NEAR(StopsSaid(then) / promised, 1.0, 0.2) << out << then;
 }
 
-// Of a lamp nobody described a card at 1 m leaves .83 of .86 stop, a second distance .58.
+// Of a lamp nobody described a card at 1 m leaves .80 of .89 stop, a second distance .52, both .17:
+// what takes most a minute comes first.
 TEST(QuickAnswer, WhatALampIsCostsNoMinuteToSay) {
   const std::string out = Said({"quick", "58lx@1m"});
   EXPECT_THAT(out, HasSubstr("0 minutes better  say what it is: add --fixture bulb"));
-  EXPECT_THAT(out, HasSubstr("5 minutes better  read at 0.5 m too"));
+  EXPECT_THAT(out, HasSubstr("1 minute better   block the direct beam at 1 m with a card"));
   EXPECT_LE(LinesOf(out).size(), 12U) << out;
   const std::string said = Said({"quick", "58lx@1m", "--fixture", "bulb"});
   EXPECT_THAT(said, Not(HasSubstr("0 minutes better")));
-  // A bulb may stand near a wall: with .62 of the width unseen rooms held it in 79 % (room_coverage).
-  EXPECT_LT(StopsSaid(said), 0.75 * StopsSaid(out));
+  // A bulb may stand near a wall or in a corner: with .62 of the width unseen rooms held it in 79 %
+  // (room_coverage).
+  EXPECT_LT(StopsSaid(said), 0.8 * StopsSaid(out));
 }
 
 // A panel of 50 x 50 cm gives a quarter less at half a metre than a point would, 40 % at .35 m.

@@ -29,6 +29,8 @@ constexpr double kRoomPower = 0.7;
 // ln b of a place with hardly a wall, below an ordinary one's.
 constexpr double kFarLess = 2.5;
 constexpr double kSdOfFar = 1.2;
+// A bulb's over a floor alone, which lies .8 to 2.5 m below it: - 1.22 to - .33 by integration.
+constexpr double kSlopeOfFar = -0.65;
 constexpr double kOrdinaryRoom = 0.0088;  // f, 1/m^2
 // Below these fluxes over intensity a lamp lights its room as a panel, as a beam does.
 constexpr double kLeastOfBulb = 7.0;
@@ -98,23 +100,34 @@ const Family* FamilyOf(const LampSpread& lamp) {
 }
 
 // Lamps stand anywhere on a floor, of which a third lies within half a metre of a wall (rooms of
-// 3-8 x 3-7 m), or hang in the middle: one in five is near a wall. That wall is a Lambertian image
-// of the lamp, whose light adds most where the meter is nearest: more b3 and the slope below are
-// its integral (tests/bench/rooms/near_wall.py), not a figure of the rooms that judge. One room in
+// 3-8 x 3-7 m) and one part in thirty of two, where people rather put them; or hang in the middle:
+// one in five is near a wall, one in twenty in a corner. Such walls are Lambertian images of the
+// lamp, whose light adds most where the meter is nearest: more b3 and the slopes below are their
+// integrals (tests/bench/rooms/near_wall.py), not figures of the rooms that judge. One room in
 // twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
 std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrior& prior) {
-  constexpr double kNear = 0.20, kFar = 0.05;
+  constexpr double kNear = 0.20, kCorner = 0.05, kFar = 0.05;
   if (family.flux == 0.0) return {{1.0, prior}};
   const bool bulb = &family == &kBulb;
-  WallPrior near = prior;
-  near.ln_b += bulb ? 0.34 : 0.15;
-  near.sd_ln_b = std::hypot(near.sd_ln_b, 0.15);
-  near.slope = bulb ? -1.51 : -0.96;
-  near.sd_slope = bulb ? 0.45 : 0.60;
+  const auto beside_walls = [&](double more_ln_b, double slope) {
+    WallPrior beside = prior;
+    beside.ln_b += more_ln_b;
+    beside.sd_ln_b = std::hypot(beside.sd_ln_b, 0.15);
+    beside.slope = slope;
+    beside.sd_slope = bulb ? 0.45 : 0.60;
+    return beside;
+  };
+  const WallPrior near = bulb ? beside_walls(0.34, -1.51) : beside_walls(0.15, -0.96);
+  const WallPrior corner = bulb ? beside_walls(0.55, -1.65) : beside_walls(0.28, -1.28);
   WallPrior far = prior;
   far.ln_b -= kFarLess;
   far.sd_ln_b = kSdOfFar;
-  return {{(1.0 - kNear) * (1.0 - kFar), prior}, {kNear * (1.0 - kFar), near}, {kFar, far}};
+  if (bulb) far.slope = kSlopeOfFar;
+  constexpr double kOrdinary = 1.0 - kFar;
+  return {{(1.0 - kNear - kCorner) * kOrdinary, prior},
+          {kFar, far},
+          {kNear * kOrdinary, near},
+          {kCorner * kOrdinary, corner}};
 }
 
 // A panel whose size nobody said is 10 to 50 cm wide and high. The likeliest place is weighed with
@@ -128,6 +141,30 @@ std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places
     if (first) out.push_back({0.32 * place.weight, place.prior, 0.46, 0.40});
   }
   return out;
+}
+
+// A lamp of which nobody said what it is. Where its light starts goes with where it sends it: a
+// bare bulb's starts in its glass, a lantern's far within; a chip's behind its board, a softbox's
+// behind its cloth; a reflector's before its rim, a lens's behind it. Weights by judgement;
+// together the offsets lie where `OffsetParts` of no fixture do. No two weigh alike, so that an
+// answer's list has one order.
+std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
+  const auto offset_of = [](Fixture fixture) { return OffsetParts(fixture).front(); };
+  std::vector<WallHypothesis> any = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
+  for (WallHypothesis& bulb : any) {
+    bulb.weight *= 0.45;
+    bulb.offset = offset_of(Fixture::kBulb);
+  }
+  const WallPrior panel = PriorOf(kPanel, {}, room);
+  const WallPrior beam = PriorOf(kBeam, {}, room);
+  any.push_back({0.05, PriorOf(kBulb, {}, room), 0.0, 0.0, offset_of(Fixture::kSoftbox)});
+  any.push_back({0.10, panel, 0.12, 0.09, offset_of(Fixture::kCobBare)});
+  any.push_back({0.06, panel, 0.25, 0.19, offset_of(Fixture::kPanel)});
+  any.push_back({0.045, panel, 0.42, 0.32, offset_of(Fixture::kPanel)});
+  any.push_back({0.035, panel, 0.0, 0.0, offset_of(Fixture::kSoftbox)});
+  any.push_back({0.15, beam, 0.0, 0.0, offset_of(Fixture::kReflector)});
+  any.push_back({0.11, beam, 0.0, 0.0, offset_of(Fixture::kFresnel)});
+  return any;
 }
 
 }  // namespace
@@ -147,14 +184,7 @@ std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
   if (const Family* family = FamilyOf(lamp)) {
     return WithOtherPlaces(*family, PriorOf(*family, {}, room));
   }
-  std::vector<WallHypothesis> any = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
-  for (WallHypothesis& bulb : any) bulb.weight *= 0.5;
-  const WallPrior panel = PriorOf(kPanel, {}, room);
-  any.push_back({0.10, panel, 0.12, 0.09});
-  any.push_back({0.08, panel, 0.25, 0.19});
-  any.push_back({0.07, panel, 0.42, 0.32});
-  any.push_back({0.25, PriorOf(kBeam, {}, room)});
-  return any;
+  return OfAnyMake(room);
 }
 
 double WallsPerCandela(const WallPrior& prior, double distance_m, double deviates) {

@@ -31,6 +31,9 @@ struct WallHypothesis {
   // Of a lamp of unknown kind, or a panel of unknown size: the luminous rectangle it would be, 0 =
   // a point.
   double width_m = 0.0, height_m = 0.0;
+  // Of a lamp of unknown make: where the light of one that shines so starts (its weight is not
+  // used).
+  std::optional<OffsetPart> offset = std::nullopt;
 };
 
 // What is known of where a lamp sends its light.

@@ -26,16 +26,16 @@ def prior_of(kind, lamp):
 
 
 def walls_of(lamp):
-    kinds = [(1.0, lamp.exact_kind, lamp.keys.get("size_m"))]
+    kinds = [(1.0, lamp.exact_kind, lamp.keys.get("size_m"), lamp.fixture)]
     if lamp.exact_kind == "point":
         kinds = UNKNOWN_KIND
     walls = []
-    for weight, kind, size in kinds:
-        prior = prior_of(kind, lamp)
+    for weight, kind, size, fixture in kinds:
+        prior, own = prior_of(kind, lamp), offsets_of(fixture)
         if kind in GAMMA_NEAR_WALL:
-            walls.append((weight * NEAR_WALL, (*prior[:2], *GAMMA_NEAR_WALL[kind], *prior[4:]), size))
+            walls.append((weight * NEAR_WALL, (*prior[:2], *GAMMA_NEAR_WALL[kind], *prior[4:]), size, own))
             weight *= 1 - NEAR_WALL
-        walls.append((weight, prior, size))
+        walls.append((weight, prior, size, own))
     return walls
 
 

@@ -22,9 +22,11 @@ PRIORS = {
 # One bulb or panel in five stands near a wall: gamma's mean and sd there.
 NEAR_WALL = 0.2
 GAMMA_NEAR_WALL = {"bulb": (-1.60, 0.45), "panel": (-1.10, 0.50)}
-# A lamp of unknown kind: weight, kind, size of a panel.
-UNKNOWN_KIND = ((0.5, "bulb", None), (0.1, "panel", (0.12, 0.09)), (0.08, "panel", (0.25, 0.19)),
-                (0.07, "panel", (0.42, 0.32)), (0.25, "beam", None))
+# A lamp of unknown make: weight, kind of its spread, size of a panel, fixture whose offset it has.
+UNKNOWN_KIND = ((0.45, "bulb", None, "bulb"), (0.05, "bulb", None, "softbox"),
+                (0.1, "panel", (0.12, 0.09), "cob_bare"), (0.06, "panel", (0.25, 0.19), "panel"),
+                (0.045, "panel", (0.42, 0.32), "panel"), (0.035, "panel", None, "softbox"),
+                (0.15, "beam", None, "reflector"), (0.11, "beam", None, "fresnel"))
 BEAM_OVER_FLUX = 0.0092  # b at 3 m over flux over I, 1/(m^2 sr), of a beam whose angle is known
 # In a stated room b = k flux / I (f / .0088)^.7, f = rho / (A (1 - rho)): k, sd of ln, flux / I (None: a
 # beam's). The power is less than 1 as f says only in part what a meter sees.
@@ -101,11 +103,12 @@ def grid(distances, lux, card, size, offsets, each, walls):
 def posterior(distances, lux, card=None, *, offsets=UNKNOWN_FIXTURE, common=0.03,
               each=0.01, walls=None, at=(0.025, 0.5, 0.975)):
     """Quantiles of I. `card`: lux behind a card at each distance (nan: not read);
-    `walls`: a list of (weight, row of PRIORS, size), one of which holds; None: a dark room."""
+    `walls`: a list of (weight, row of PRIORS, size, its own offsets or None), one of which holds;
+    None: a dark room."""
     distances, lux = np.asarray(distances, float), np.asarray(lux, float)
     parts = [(math.log(w) + p, m, v) for w, (p, m, v) in (
-        (weight, grid(distances, lux, card, size, offsets, each, row))
-        for weight, row, size in (walls or [(1.0, None, None)]))]
+        (weight, grid(distances, lux, card, size, own or offsets, each, row))
+        for weight, row, size, own in (walls or [(1.0, None, None, None)]))]
     weight, mean, variance = (np.concatenate(column) for column in zip(*parts))
     weight = np.exp(weight - weight.max())
     weight /= weight.sum()

@@ -6,8 +6,8 @@ chosen from (no traced room is looked at).
   tests/bench/rooms/near_wall.py [LAMPS]
 
 A lamp stands .1 to .5 m before a Lambertian wall of reflectance .25 to .8, in one place in ten before
-two; the meter faces it from any direction before the wall. The wall's light is integrated over the
-wall, E = rho / pi * sum E_wall cos cos dA / r^2, and added to an ordinary room's b(d); what ln b3 and
+two (and in a corner: always before two); the meter faces it from any direction before the wall. The
+wall's light is integrated over the wall, E = rho / pi * sum E_wall cos cos dA / r^2, and added to an ordinary room's b(d); what ln b3 and
 the slope gain is printed (traced_rooms/README.md: b = b3 exp(gamma x + q x^2), x = ln(d / 3 m)).
 """
 import sys
@@ -45,21 +45,22 @@ def light_of_wall(kind, from_wall, reflectance, cosine):
 def main():
     lamps = int(sys.argv[1]) if len(sys.argv) > 1 else 400
     x = np.log(DISTANCES / 3)
-    for kind, (b3, gamma, q) in ORDINARY.items():
-        rng = np.random.default_rng(1)
-        found = []
-        for _ in range(lamps):
-            reflectance = rng.uniform(0.25, 0.8)
-            cosine = rng.uniform(0.1, 1)
-            wall = light_of_wall(kind, rng.uniform(0.1, 0.5), reflectance, cosine)
-            if rng.uniform() < 0.1:
-                other = np.sqrt(1 - cosine ** 2) * abs(np.cos(rng.uniform(0, np.pi)))
-                wall = wall + light_of_wall(kind, rng.uniform(0.1, 0.5), reflectance, other)
-            both = np.log(b3 * np.exp(gamma * x + q * x * x) + wall) - q * x * x
-            slope, ln_b3 = np.polyfit(x, both, 1)
-            found.append((ln_b3 - np.log(b3), slope))
-        (more, slope), (sd_more, sd_slope) = np.mean(found, 0), np.std(found, 0)
-        print(f"{kind:6s} ln b3 {more:+.2f} (sd {sd_more:.2f}), slope {slope:+.2f} (sd {sd_slope:.2f})")
+    for place, before_two in (("near a wall", 0.1), ("in a corner", 1.0)):
+        for kind, (b3, gamma, q) in ORDINARY.items():
+            rng = np.random.default_rng(1)
+            found = []
+            for _ in range(lamps):
+                reflectance = rng.uniform(0.25, 0.8)
+                cosine = rng.uniform(0.1, 1)
+                wall = light_of_wall(kind, rng.uniform(0.1, 0.5), reflectance, cosine)
+                if rng.uniform() < before_two:
+                    other = np.sqrt(1 - cosine ** 2) * abs(np.cos(rng.uniform(0, np.pi)))
+                    wall = wall + light_of_wall(kind, rng.uniform(0.1, 0.5), reflectance, other)
+                both = np.log(b3 * np.exp(gamma * x + q * x * x) + wall) - q * x * x
+                slope, ln_b3 = np.polyfit(x, both, 1)
+                found.append((ln_b3 - np.log(b3), slope))
+            (more, slope), (sd_more, sd_slope) = np.mean(found, 0), np.std(found, 0)
+            print(f"{kind:6s} {place}: ln b3 {more:+.2f} (sd {sd_more:.2f}), slope {slope:+.2f} (sd {sd_slope:.2f})")
 
 
 if __name__ == "__main__":

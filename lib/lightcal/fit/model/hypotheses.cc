@@ -55,9 +55,15 @@ std::vector<LampHypothesis> HypothesesOf(const ForwardModel& model) {
   for (const OffsetPart& part : model.offsets) offsets.push_back({part.weight, part, {}});
   if (offsets.empty() || !model.fit_offset) offsets = {{}};
   if (model.walls.empty()) return offsets;
+  // Of several offsets, the one that goes with the walls' light.
+  const bool any_make = offsets.size() > 1;
   std::vector<LampHypothesis> out;
-  for (const LampHypothesis& one : offsets) {
-    for (const WallHypothesis& walls : model.walls) {
+  for (const WallHypothesis& walls : model.walls) {
+    if (any_make && walls.offset) {
+      out.push_back({walls.weight, walls.offset, walls});
+      continue;
+    }
+    for (const LampHypothesis& one : offsets) {
       out.push_back({one.weight * walls.weight, one.offset, walls});
     }
   }
