@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace lightcal {
@@ -150,19 +151,24 @@ std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places
 // answer's list has one order.
 std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
   const auto offset_of = [](Fixture fixture) { return OffsetParts(fixture).front(); };
-  std::vector<WallHypothesis> any = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
-  for (WallHypothesis& bulb : any) {
-    bulb.weight *= 0.45;
-    bulb.offset = offset_of(Fixture::kBulb);
-  }
+  const auto shines_all_round = [&](double weight, Fixture fixture) {
+    std::vector<WallHypothesis> places = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
+    for (WallHypothesis& one : places) {
+      one.weight *= weight;
+      one.offset = offset_of(fixture);
+    }
+    return places;
+  };
+  std::vector<WallHypothesis> any = shines_all_round(0.42, Fixture::kBulb);
+  std::ranges::copy(shines_all_round(0.065, Fixture::kSoftbox), std::back_inserter(any));
   const WallPrior panel = PriorOf(kPanel, {}, room);
   const WallPrior beam = PriorOf(kBeam, {}, room);
-  any.push_back({0.05, PriorOf(kBulb, {}, room), 0.0, 0.0, offset_of(Fixture::kSoftbox)});
   any.push_back({0.10, panel, 0.12, 0.09, offset_of(Fixture::kCobBare)});
-  any.push_back({0.06, panel, 0.25, 0.19, offset_of(Fixture::kPanel)});
-  any.push_back({0.045, panel, 0.42, 0.32, offset_of(Fixture::kPanel)});
+  any.push_back({0.055, panel, 0.25, 0.19, offset_of(Fixture::kPanel)});
+  any.push_back({0.04, panel, 0.42, 0.32, offset_of(Fixture::kPanel)});
   any.push_back({0.035, panel, 0.0, 0.0, offset_of(Fixture::kSoftbox)});
-  any.push_back({0.15, beam, 0.0, 0.0, offset_of(Fixture::kReflector)});
+  any.push_back({0.03, panel, 0.30, 0.24, offset_of(Fixture::kSoftbox)});
+  any.push_back({0.145, beam, 0.0, 0.0, offset_of(Fixture::kReflector)});
   any.push_back({0.11, beam, 0.0, 0.0, offset_of(Fixture::kFresnel)});
   return any;
 }

@@ -23,10 +23,11 @@ PRIORS = {
 NEAR_WALL = 0.2
 GAMMA_NEAR_WALL = {"bulb": (-1.60, 0.45), "panel": (-1.10, 0.50)}
 # A lamp of unknown make: weight, kind of its spread, size of a panel, fixture whose offset it has.
-UNKNOWN_KIND = ((0.45, "bulb", None, "bulb"), (0.05, "bulb", None, "softbox"),
-                (0.1, "panel", (0.12, 0.09), "cob_bare"), (0.06, "panel", (0.25, 0.19), "panel"),
-                (0.045, "panel", (0.42, 0.32), "panel"), (0.035, "panel", None, "softbox"),
-                (0.15, "beam", None, "reflector"), (0.11, "beam", None, "fresnel"))
+UNKNOWN_KIND = ((0.42, "bulb", None, "bulb"), (0.065, "bulb", None, "softbox"),
+                (0.1, "panel", (0.12, 0.09), "cob_bare"), (0.055, "panel", (0.25, 0.19), "panel"),
+                (0.04, "panel", (0.42, 0.32), "panel"), (0.035, "panel", None, "softbox"),
+                (0.03, "panel", (0.3, 0.24), "softbox"), (0.145, "beam", None, "reflector"),
+                (0.11, "beam", None, "fresnel"))
 BEAM_OVER_FLUX = 0.0092  # b at 3 m over flux over I, 1/(m^2 sr), of a beam whose angle is known
 # In a stated room b = k flux / I (f / .0088)^.7, f = rho / (A (1 - rho)): k, sd of ln, flux / I (None: a
 # beam's). The power is less than 1 as f says only in part what a meter sees.
