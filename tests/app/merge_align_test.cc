@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lightcal_devices/captures/picture.h"
@@ -138,8 +139,17 @@ test::SyntheticXyz Other(int x, int y) {
                                   std::cos(0.23 * y - 0.001 * x * x));
 }
 
+// A lamp in it is full in every frame.
+SyntheticScene WithLamp(SyntheticScene scene) {
+  return [scene = std::move(scene)](int x, int y) {
+    return std::hypot(x - 200.5, y - 60.5) < 8.0 ? test::XyzOf(1e6) : scene(x, y);
+  };
+}
+
 TEST_F(Aligned, AnotherSceneIsRefused) {
-  ExpectRefused(Shot({Moved(0, 0), Other, Other}), output_, "misaligned", {"--align", "auto"});
+  ExpectRefused(Shot({Moved(0, 0), WithLamp(Other), WithLamp(Other)}), output_, "misaligned",
+                {"--align", "auto"});
+  ExpectRefused(Shot({Moved(0, 0), Other}), output_, "misaligned", {"--align", "auto"});
 }
 
 // Only the dark is noisier without a longer frame; a shorter one alone shows what is bright.
@@ -148,8 +158,16 @@ TEST_F(Aligned, ALongerFrameThatCannotBeFollowedIsLeftOut) {
       MergeJson(Shot({Moved(4.3, -2.6, 1.2), Moved(0, 0), Other}), output_, {"--align", "auto"});
   EXPECT_TRUE(Warns(answer, "frame_left_out")) << answer.dump();
   ExpectTurned(answer["frames"][0], 1.2, 4.3, -2.6);
-  ExpectRefused(Shot({Other, Moved(0, 0), Moved(4.3, -2.6, 1.2)}), folder_.path() + "/other.exr",
-                "misaligned", {"--align", "auto"});
+  ExpectRefused(Shot({Other, WithLamp(Moved(0, 0)), WithLamp(Moved(4.3, -2.6, 1.2))}),
+                folder_.path() + "/other.exr", "misaligned", {"--align", "auto"});
+}
+
+// Where the next frame is full nowhere the shorter one shows nothing that it does not.
+TEST_F(Aligned, AShorterFrameThatShowsNothingMoreIsLeftOut) {
+  const json answer =
+      MergeJson(Shot({Other, Moved(0, 0), Moved(4.3, -2.6, 1.2)}), output_, {"--align", "auto"});
+  EXPECT_TRUE(Warns(answer, "frame_left_out")) << answer.dump();
+  ExpectTurned(answer["frames"][2], 1.2, 4.3, -2.6);
 }
 
 // Every channel at every pixel: moved by odd pixels too.

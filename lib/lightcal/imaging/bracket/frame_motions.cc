@@ -14,7 +14,8 @@ namespace lightcal {
 namespace {
 
 constexpr int kLongest = 1200;        // cells of the finest level
-constexpr double kMostSd = 0.1;       // pixels: .3 at three standard deviations
+constexpr double kMostSd = 0.15;      // pixels: .3 at two standard deviations
+constexpr double kSureSd = 0.1;       // no other way is looked for
 constexpr double kDarkestFrom = 1.1;  // times as much as all channels show
 constexpr double kLeastSeen = 0.2;
 constexpr double kMostApart = 0.6;   // pixels by which two ways to a frame may be
@@ -29,6 +30,7 @@ class Finder {
       MotionPyramids pyramids = MotionPyramidsOf(frames[i], noise[i], floor, kLongest);
       all_.push_back(std::move(pyramids.all));
       darkest_.push_back(std::move(pyramids.darkest));
+      full_.push_back(pyramids.full);
     }
   }
 
@@ -63,6 +65,9 @@ class Finder {
     return std::max(all_[k].seen, darkest_[k].seen);
   }
 
+  // Whether a shorter frame may show what this one does not.
+  [[nodiscard]] bool IsFullSomewhere(std::size_t k) const { return full_[k]; }
+
  private:
   // Those of which both frames show more.
   [[nodiscard]] const std::vector<MotionPyramid>& For(std::size_t a, std::size_t b) const {
@@ -77,7 +82,7 @@ class Finder {
   }
   [[nodiscard]] std::optional<PairMotion> FromAnywhere(std::size_t a, std::size_t b) const {
     const auto good = [](const PairMotion& motion) {
-      return motion.sd_pixels < kMostSd && motion.unlike < kMostUnlike;
+      return motion.sd_pixels < kSureSd && motion.unlike < kMostUnlike;
     };
     std::optional<PairMotion> best;
     const auto from = [&](const Homography& start) {
@@ -98,7 +103,7 @@ class Finder {
   // Empty where a motion can be relied on.
   [[nodiscard]] static std::string WhyUnsure(const FrameMotion& motion) {
     if (motion.sd_pixels > kMostSd) {
-      return "its place is known to " + RoundedText(3.0 * motion.sd_pixels, 2) +
+      return "its place is known to " + RoundedText(2.0 * motion.sd_pixels, 2) +
              " pixels only, and 0.3 are needed";
     }
     if (motion.unlike > kMostUnlike) {
@@ -136,6 +141,7 @@ class Finder {
   std::span<const SignalFrame> frames_;
   double width_, height_;
   std::vector<MotionPyramid> all_, darkest_;
+  std::vector<bool> full_;
 };
 
 }  // namespace
@@ -153,9 +159,9 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
       return k;
     }
     // Without a longer frame the dark is noisier and all else is as it was; a shorter one alone
-    // shows what is bright.
+    // shows what the next one clips, if it clips anything.
     const std::string& why = found.error().message;
-    if (k < motion.reference && finder.Seen(k) >= kLeastSeen) {
+    if (k < motion.reference && finder.Seen(k) >= kLeastSeen && finder.IsFullSomewhere(nearer)) {
       return Refused("misaligned", frames[k].name,
                      "it cannot be aligned for certain: " + why +
                          ". Leave this frame out, or shoot again with frames nearer in exposure, "
@@ -176,6 +182,13 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
     const auto next = along(nearer, k);
     if (!next) return tl::unexpected(next.error());
     nearer = *next;
+  }
+  const auto kept = std::ranges::count(motion.frames, false, &FrameMotion::left_out);
+  if (kept == 1 && frames.size() > 1) {
+    const FrameMotion& other = motion.frames[motion.reference == 0 ? 1 : motion.reference - 1];
+    return Refused("misaligned", frames[motion.reference].name,
+                   "no other frame can be aligned to it for certain: " + other.why +
+                       ". Leave it out, or shoot again on a tripod");
   }
   return motion;
 }

@@ -32,9 +32,10 @@ struct BracketMotion {
 // (SearchMotion, RefineMotion), chained to the reference and refined against that directly where
 // this is surer; and back: the middle of both is taken, and half of what they miss each other by is
 // in its standard deviation. A frame that cannot be followed is left out where it is longer than
-// the reference, or less than a fifth of it says anything. Refused: misaligned (a frame whose place
-// is not known to .3 pixels root mean square at three standard deviations: which, how far off, what
-// to do).
+// the reference, less than a fifth of it says anything, or the next longer one that was followed is
+// full nowhere, so that it shows nothing more. Refused: misaligned (another frame whose place is
+// not known to .3 pixels root mean square at two standard deviations: which, how far off, what to
+// do; no frame but the reference was followed).
 [[nodiscard]] Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
                                                   std::span<const NoiseProfile> noise,
                                                   double floor);

@@ -265,7 +265,10 @@ MotionPyramid PyramidOf(MotionCells cells, double floor) {
 MotionPyramids MotionPyramidsOf(const SignalFrame& frame, const NoiseProfile& noise, double floor,
                                 int longest) {
   CellsOfBoth cells = MotionCellsOf(frame, noise, longest);
-  return {PyramidOf(std::move(cells.all), floor), PyramidOf(std::move(cells.darkest), floor)};
+  const bool full =
+      std::ranges::any_of(frame.clip, [](float clip) { return clip >= kClipUnknownFrom; }) ||
+      std::ranges::any_of(cells.all.variance, [](float variance) { return variance < 0.0F; });
+  return {PyramidOf(std::move(cells.all), floor), PyramidOf(std::move(cells.darkest), floor), full};
 }
 
 }  // namespace lightcal

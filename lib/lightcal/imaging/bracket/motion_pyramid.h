@@ -41,6 +41,7 @@ struct MotionPyramid {
 // Of a cell's channels: their mean, which is the last to drown, and the darkest, the last to clip.
 struct MotionPyramids {
   MotionPyramid all, darkest;
+  bool full = false;  // a sample of it is, or nobody knows from where on samples are
 };
 
 // The finest level is about `longest` cells long at most; whole periods of a colour pattern become
