@@ -14,7 +14,7 @@ namespace lightcal {
 namespace {
 
 constexpr int kLongest = 1200;        // cells of the finest level
-constexpr double kMostSd = 0.15;      // pixels: .3 at two standard deviations
+constexpr double kMostSd = 0.12;      // pixels: .3 at two and a half of what is told
 constexpr double kSureSd = 0.1;       // no other way is looked for
 constexpr double kDarkestFrom = 1.1;  // times as much as all channels show
 constexpr double kLeastSeen = 0.2;
@@ -103,7 +103,7 @@ class Finder {
   // Empty where a motion can be relied on.
   [[nodiscard]] static std::string WhyUnsure(const FrameMotion& motion) {
     if (motion.sd_pixels > kMostSd) {
-      return "its place is known to " + RoundedText(2.0 * motion.sd_pixels, 2) +
+      return "its place is known to " + RoundedText(0.3 / kMostSd * motion.sd_pixels, 2) +
              " pixels only, and 0.3 are needed";
     }
     if (motion.unlike > kMostUnlike) {

@@ -34,8 +34,8 @@ struct BracketMotion {
 // in its standard deviation. A frame that cannot be followed is left out where it is longer than
 // the reference, less than a fifth of it says anything, or the next longer one that was followed is
 // full nowhere, so that it shows nothing more. Refused: misaligned (another frame whose place is
-// not known to .3 pixels root mean square at two standard deviations: which, how far off, what to
-// do; no frame but the reference was followed).
+// not known to .3 pixels root mean square at two and a half standard deviations: which, how far
+// off, what to do; no frame but the reference was followed).
 [[nodiscard]] Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
                                                   std::span<const NoiseProfile> noise,
                                                   double floor);
