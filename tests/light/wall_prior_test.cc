@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "lightcal/light/fixture.h"
 
@@ -30,17 +32,15 @@ TEST(WallPrior, WeightsOfEveryLampMakeOne) {
 // The 205 tables say where any lamp's light starts; what is known of a make says where that one's
 // does. Nobody may learn from a room what a dark room denies.
 TEST(WallPrior, OffsetsOfUnknownMakesLieWhereThoseOfTheTablesDo) {
-  double mean = 0.0;
-  double square = 0.0;
+  std::vector<OffsetPart> parts;
   for (const WallHypothesis& one : WallPriors({}, {})) {
     ASSERT_TRUE(one.offset.has_value());
-    mean += one.weight * one.offset->mean_m;
-    square += one.weight *
-              (one.offset->mean_m * one.offset->mean_m + one.offset->sd_m * one.offset->sd_m);
+    parts.push_back({one.weight, one.offset->mean_m, one.offset->sd_m});
   }
+  const OffsetPart makes = MatchedOffset(parts);
   const OffsetPart tables = MatchedOffset(OffsetParts(std::nullopt));
-  EXPECT_NEAR(mean, tables.mean_m, 0.01);
-  EXPECT_NEAR(std::sqrt(square - mean * mean), tables.sd_m, 0.03);
+  EXPECT_NEAR(makes.mean_m, tables.mean_m, 0.01);
+  EXPECT_NEAR(makes.sd_m, tables.sd_m, 0.03);
 }
 
 // A make that was stated has one offset, which no hypothesis of the walls changes.
@@ -72,7 +72,7 @@ TEST(WallPrior, AWallBehindABulbIsBetweenAnOrdinaryPlaceAndACorner) {
   const WallPrior& ordinary = places.front().prior;
   constexpr double kFromWall = 0.3;
   constexpr double kReflectance = 0.6;
-  constexpr double kPi = 3.141592653589793;
+  constexpr double kPi = std::numbers::pi;
   // E(d) = rho/pi int (h/s^3) cos_wall cos_meter / r^2 dA over rings about the axis.
   const auto wall_lux = [&](double d) {
     double sum = 0.0;
