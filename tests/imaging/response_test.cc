@@ -20,6 +20,7 @@ using Curve = std::function<double(double)>;  // signal 0..1 -> code 0..1
 double SrgbCurve(double x) {
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
 }
+double LinearCurve(double x) { return x; }
 double FilmCurve(double x) { return std::pow(x, 0.9) / (std::pow(x, 0.9) + 0.18) * 1.18; }
 
 Frame FrameOf(const std::vector<std::uint16_t>& codes, int width, int height, int top) {
@@ -89,6 +90,7 @@ TEST_P(Response, IsRecoveredToThreePercentOverTheMiddleCodesAndIncreases) {
 INSTANTIATE_TEST_SUITE_P(Styles, Response,
                          testing::Values(Style{"srgb", SrgbCurve, 255},
                                          Style{"film", FilmCurve, 255},
+                                         Style{"linear_16_bit", LinearCurve, 65535},
                                          Style{"film_16_bit", FilmCurve, 65535}),
                          [](const auto& style) { return style.param.name; });
 

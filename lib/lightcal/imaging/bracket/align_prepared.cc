@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lightcal/imaging/bracket/code_motion.h"
 #include "lightcal/imaging/bracket/frame_motions.h"
 #include "lightcal/imaging/bracket/resample_frame.h"
 
@@ -17,15 +16,6 @@ namespace lightcal {
 namespace {
 
 constexpr double kStillPixels = 0.15;  // root mean square: of a frame that stays where it is
-constexpr double kBorderPeriods = 2.0;
-// Codes before their response is known: most cameras' curves are near this.
-constexpr double kNominalGamma = 2.2;
-constexpr double kLowestCode = 12.0 / 255.0, kHighestCode = 247.0 / 255.0;
-constexpr NoiseProfile kNominalNoise{6e-5, 2e-8};  // of about a code
-// Of 16 bit, which no code's width hides.
-constexpr double kLowestShare = 0.001;
-constexpr NoiseProfile kNominalFineNoise{2e-6, 1e-14};
-
 // The plan of frames that are in a plan's order already and were aligned since.
 Result<void> PlanAgain(MergeRequest merge, PreparedFrames& prepared) {
   const std::vector<std::size_t> before = prepared.planned.order;
@@ -56,31 +46,13 @@ bool IsEncoded(const PreparedFrames& prepared) {
   return prepared.signals.front().response != nullptr;
 }
 
-ResponseCurves NominalCurves(const ResponseCurves& like) {
-  ResponseCurves curves = like;
-  for (auto& curve : curves.signal_of_code) {
-    for (std::size_t code = 0; code < curve.size(); ++code) {
-      curve[code] = static_cast<float>(std::pow(
-          static_cast<double>(code) / static_cast<double>(curve.size() - 1), kNominalGamma));
-    }
+MovedCodes CodesOf(const PreparedFrames& prepared, std::span<const double> labels) {
+  MovedCodes codes{prepared.signals, {}, {}};
+  for (const std::size_t at : prepared.planned.order) {
+    codes.frames.push_back(&prepared.frames[at]);
+    codes.exposure.push_back(labels[at]);
   }
-  return curves;
-}
-
-Result<BracketMotion> MotionOf(const PreparedFrames& prepared,
-                               std::span<const NoiseProfile> noise) {
-  if (!IsEncoded(prepared)) return MeasureMotion(prepared.signals, noise, 0.0);
-  // The recovered curve is of frames that may have moved.
-  const ResponseCurves nominal = NominalCurves(prepared.response);
-  std::vector<SignalFrame> signals = prepared.signals;
-  for (SignalFrame& signal : signals) {
-    signal.response = &nominal;
-    signal.clip.fill(static_cast<float>(std::pow(kHighestCode, kNominalGamma)));
-  }
-  const bool fine = nominal.signal_of_code[0].size() > 256;
-  return MeasureMotion(
-      signals, std::vector<NoiseProfile>(signals.size(), fine ? kNominalFineNoise : kNominalNoise),
-      std::pow(fine ? kLowestShare : kLowestCode, kNominalGamma));
+  return codes;
 }
 
 // How the middle of the picture moved and turned.
@@ -93,50 +65,6 @@ FrameAlignment::Moved MovedBy(const FrameMotion& motion, double width, double he
   FrameAlignment::Moved moved{u - x, v - y, motion.sd_pixels, 0, 0, h, 0.0};
   moved.turned_deg = std::atan2(right_v - left_v, right_u - left_u) * 180.0 / std::numbers::pi;
   return moved;
-}
-
-// Codes as they would be had the camera stood still, for their curve alone.
-Result<Frame> CodesInPlace(const Homography& h, const Region& region, const Frame& frame) {
-  FrameInfo plain = frame.info;
-  const float top = plain.levels ? plain.levels->white[0] : 255.0F;
-  plain.meaning = SampleMeaning::kSensor;
-  Frame codes{plain, frame.samples, frame.owner, false};
-  auto signals = SignalOf(codes);
-  if (!signals) return Propagate(std::move(signals));
-  if (auto done = ResampleFrame(h, region, codes, *signals); !done) {
-    return Propagate(std::move(done));
-  }
-  const auto values = std::get<View2d<const float>>(codes.samples);
-  auto rounded = std::make_shared<std::vector<std::uint16_t>>();
-  for (int y = 0; y < region.height; ++y) {
-    for (const float value : values.row(y)) {
-      rounded->push_back(
-          static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * top)));
-    }
-  }
-  codes.info.meaning = SampleMeaning::kEncoded;
-  codes.samples = View2d<const std::uint16_t>(rounded->data(), region.width, region.height,
-                                              codes.info.channels);
-  codes.owner = std::move(rounded);
-  return codes;
-}
-
-// The curve of codes that lie in one place.
-Result<void> RecoverAgain(const FrameAlignment& alignment, const Region& region,
-                          std::span<const double> labels, PreparedFrames& prepared) {
-  std::vector<Frame> in_place;
-  std::vector<double> exposure;
-  for (std::size_t k = 0; k < prepared.signals.size(); ++k) {
-    const std::size_t at = prepared.planned.order[k];
-    auto codes = CodesInPlace(*alignment.moved[k].from_reference, region, prepared.frames[at]);
-    if (!codes) return Propagate(std::move(codes));
-    in_place.push_back(std::move(*codes));
-    exposure.push_back(labels[at]);
-  }
-  auto response = RecoverResponse(in_place, exposure);
-  if (!response) return Propagate(std::move(response));
-  prepared.response = std::move(*response);
-  return {};
 }
 
 // Takes the frames out that nothing can be told of.
@@ -167,8 +95,7 @@ Result<void> Interpolate(const BracketMotion& motion, std::span<const double> la
     alignment.moved.push_back(MovedBy(frame, width, height));
     from_reference.push_back(frame.from_reference);
   }
-  const Region region = SharedRegion(from_reference, width, height,
-                                     kBorderPeriods * ColorPeriod(prepared.signals.front()));
+  const Region region = RegionOf(motion, prepared.signals.front());
   auto shared = CheckShared(region.width, region.height, prepared.signals.front(),
                             prepared.signals.back().name);
   if (!shared) return shared;
@@ -177,7 +104,9 @@ Result<void> Interpolate(const BracketMotion& motion, std::span<const double> la
   alignment.width = region.width;
   alignment.height = region.height;
   if (IsEncoded(prepared)) {
-    if (auto done = RecoverAgain(alignment, region, labels, prepared); !done) return done;
+    auto response = CurveInPlace(CodesOf(prepared, labels), motion, region);
+    if (!response) return Propagate(std::move(response));
+    prepared.response = std::move(*response);
   }
   FindClipping(prepared.signals);
   for (std::size_t k = 0; k < prepared.signals.size(); ++k) {
@@ -230,7 +159,8 @@ Result<void> AlignPrepared(MergeRequest merge, std::span<const double> labels,
     return {};
   }
   const double width = prepared.signals.front().width, height = prepared.signals.front().height;
-  auto motion = MotionOf(prepared, plan.noise);
+  auto motion = IsEncoded(prepared) ? MotionOfCodes(CodesOf(prepared, labels))
+                                    : MeasureMotion(prepared.signals, plan.noise, 0.0);
   // A whole shift that explains most of what differs may hide a turn: it does not stand alone.
   if (!motion) return tl::unexpected(motion.error());
   if (IsStill(*motion, width, height)) {

@@ -13,8 +13,8 @@
 namespace lightcal {
 namespace {
 
-constexpr int kLongest = 1200;        // cells of the finest level
-constexpr double kMostSd = 0.12;      // pixels: .3 at two and a half of what is told
+constexpr int kLongest = 1200;  // cells of the finest level
+constexpr double kNeededPixels = 0.3;
 constexpr double kSureSd = 0.1;       // no other way is looked for
 constexpr double kDarkestFrom = 1.1;  // times as much as all channels show
 constexpr double kLeastSeen = 0.2;
@@ -24,8 +24,9 @@ constexpr double kMostUnlike = 0.6;  // of the evidence
 
 class Finder {
  public:
-  Finder(std::span<const SignalFrame> frames, std::span<const NoiseProfile> noise, double floor)
-      : frames_(frames), width_(frames[0].width), height_(frames[0].height) {
+  Finder(std::span<const SignalFrame> frames, std::span<const NoiseProfile> noise, double floor,
+         const MotionLook& look)
+      : frames_(frames), look_(look), width_(frames[0].width), height_(frames[0].height) {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       MotionPyramids pyramids = MotionPyramidsOf(frames[i], noise[i], floor, kLongest);
       all_.push_back(std::move(pyramids.all));
@@ -37,7 +38,7 @@ class Finder {
   // `nearer`, whose motion is known, lies between the reference and `k`.
   Result<FrameMotion> Find(std::size_t reference, std::size_t nearer, std::size_t k,
                            const FrameMotion& known) const {
-    const auto step = BothWays(nearer, k, FromAnywhere(nearer, k));
+    const auto step = BothWays(nearer, k, Way(nearer, k));
     if (!step) {
       return Unsure("nothing in it can be followed to " + frames_[nearer].name);
     }
@@ -80,6 +81,17 @@ class Finder {
     const auto& pyramids = For(a, b);
     return RefineMotion(pyramids[a], pyramids[b], width_, height_, start, start_is);
   }
+  [[nodiscard]] std::optional<PairMotion> Way(std::size_t a, std::size_t b) const {
+    if (look_.known == nullptr || look_.known->frames[a].left_out ||
+        look_.known->frames[b].left_out) {
+      return FromAnywhere(a, b);
+    }
+    const auto to_reference = look_.known->frames[a].from_reference.Inverse();
+    if (!to_reference) return FromAnywhere(a, b);
+    const auto near =
+        Refine(a, b, look_.known->frames[b].from_reference.After(*to_reference), StartIs::kClose);
+    return near ? near : FromAnywhere(a, b);
+  }
   [[nodiscard]] std::optional<PairMotion> FromAnywhere(std::size_t a, std::size_t b) const {
     const auto good = [](const PairMotion& motion) {
       return motion.sd_pixels < kSureSd && motion.unlike < kMostUnlike;
@@ -101,9 +113,10 @@ class Finder {
   }
 
   // Empty where a motion can be relied on.
-  [[nodiscard]] static std::string WhyUnsure(const FrameMotion& motion) {
-    if (motion.sd_pixels > kMostSd) {
-      return "its place is known to " + RoundedText(0.3 / kMostSd * motion.sd_pixels, 2) +
+  [[nodiscard]] std::string WhyUnsure(const FrameMotion& motion) const {
+    if (motion.sd_pixels > look_.most_sd_pixels) {
+      return "its place is known to " +
+             RoundedText(kNeededPixels / look_.most_sd_pixels * motion.sd_pixels, 2) +
              " pixels only, and 0.3 are needed";
     }
     if (motion.unlike > kMostUnlike) {
@@ -139,6 +152,7 @@ class Finder {
   }
 
   std::span<const SignalFrame> frames_;
+  const MotionLook& look_;
   double width_, height_;
   std::vector<MotionPyramid> all_, darkest_;
   std::vector<bool> full_;
@@ -147,11 +161,12 @@ class Finder {
 }  // namespace
 
 Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
-                                    std::span<const NoiseProfile> noise, double floor) {
+                                    std::span<const NoiseProfile> noise, double floor,
+                                    const MotionLook& look) {
   BracketMotion motion;
   motion.frames.resize(frames.size());
   motion.reference = frames.size() / 2;
-  const Finder finder(frames, noise, floor);
+  const Finder finder(frames, noise, floor, look);
   const auto along = [&](std::size_t nearer, std::size_t k) -> Result<std::size_t> {
     auto found = finder.Find(motion.reference, nearer, k, motion.frames[nearer]);
     if (found) {
@@ -161,7 +176,8 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
     // Without a longer frame the dark is noisier and all else is as it was; a shorter one alone
     // shows what the next one clips, if it clips anything.
     const std::string& why = found.error().message;
-    if (k < motion.reference && finder.Seen(k) >= kLeastSeen && finder.IsFullSomewhere(nearer)) {
+    if (!look.leave_out_any && k < motion.reference && finder.Seen(k) >= kLeastSeen &&
+        finder.IsFullSomewhere(nearer)) {
       return Refused("misaligned", frames[k].name,
                      "it cannot be aligned for certain: " + why +
                          ". Leave this frame out, or shoot again with frames nearer in exposure, "
@@ -184,7 +200,7 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
     nearer = *next;
   }
   const auto kept = std::ranges::count(motion.frames, false, &FrameMotion::left_out);
-  if (kept == 1 && frames.size() > 1) {
+  if (!look.leave_out_any && kept == 1 && frames.size() > 1) {
     const FrameMotion& other = motion.frames[motion.reference == 0 ? 1 : motion.reference - 1];
     return Refused("misaligned", frames[motion.reference].name,
                    "no other frame can be aligned to it for certain: " + other.why +

@@ -27,6 +27,13 @@ struct BracketMotion {
   std::vector<FrameMotion> frames;
 };
 
+// What is known before, and what must be known after.
+struct MotionLook {
+  const BracketMotion* known = nullptr;  // within a pixel, of the same frames
+  double most_sd_pixels = 0.1;           // .3 at three times what is told
+  bool leave_out_any = false;            // instead of refusing
+};
+
 // Of frames in order of exposure, each of its own noise; `floor`: signal below which codes say
 // nothing. Every frame is found against its neighbour in exposure, which shares most of its range
 // (SearchMotion, RefineMotion), chained to the reference and refined against that directly where
@@ -34,10 +41,10 @@ struct BracketMotion {
 // in its standard deviation. A frame that cannot be followed is left out where it is longer than
 // the reference, less than a fifth of it says anything, or the next longer one that was followed is
 // full nowhere, so that it shows nothing more. Refused: misaligned (another frame whose place is
-// not known to .3 pixels root mean square at two and a half standard deviations: which, how far
+// not known to .3 pixels root mean square at three standard deviations: which, how far
 // off, what to do; no frame but the reference was followed).
 [[nodiscard]] Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
-                                                  std::span<const NoiseProfile> noise,
-                                                  double floor);
+                                                  std::span<const NoiseProfile> noise, double floor,
+                                                  const MotionLook& look = {});
 
 }  // namespace lightcal

@@ -70,11 +70,11 @@ MotionVector NumbersOf(const Homography& h) {
   return numbers;
 }
 
-// Root mean square over the picture of what this covariance of the numbers means at its places, in
-// half diagonals.
-double RmsOf(const MotionMatrix& covariance, const HalfDiagonals& frame) {
+// Of a covariance C of the numbers, trace(F C) is the mean square over the picture of what it means
+// at its places, in half diagonals.
+MotionMatrix PlaceForm(const HalfDiagonals& frame) {
   constexpr int kAcross = 8;
-  double sum = 0.0;
+  MotionMatrix form = MotionMatrix::Zero();
   for (int j = 0; j < kAcross; ++j) {
     for (int i = 0; i < kAcross; ++i) {
       const double u = (2.0 * (i + 0.5) / kAcross - 1.0) * frame.x / frame.half;
@@ -82,24 +82,33 @@ double RmsOf(const MotionMatrix& covariance, const HalfDiagonals& frame) {
       MotionVector x, y;
       x << u, v, 1.0, 0.0, 0.0, 0.0, -u * u, -u * v, 0.0, 0.0;
       y << 0.0, 0.0, 0.0, u, v, 1.0, -u * v, -v * v, 0.0, 0.0;
-      sum += x.dot(covariance * x) + y.dot(covariance * y);
+      form += x * x.transpose() + y * y.transpose();
     }
   }
-  return std::sqrt(sum / (kAcross * kAcross));
+  return form / (kAcross * kAcross);
 }
 
+// Student's 97.5 % quantile over the normal one (Cornish and Fisher's series).
+double StudentOverNormal(double freedom) { return 1.0 + (1.21 + 1.44 / freedom) / freedom; }
+
 // What the answers would scatter by were each tile left out once (the jackknife): a few tiles that
-// carry the whole answer do not vouch for each other.
-MotionMatrix WithoutEach(const std::vector<MotionTile>& tiles, const MotionMatrix& inverse,
-                         const MotionMatrix& prior) {
-  MotionMatrix scatter = prior;
+// carry the whole answer do not vouch for each other, and that few tell a spread badly themselves
+// is in it (Satterthwaite's degrees of freedom).
+double SdWithoutEach(const std::vector<MotionTile>& tiles, const MotionMatrix& inverse,
+                     const MotionMatrix& prior, const HalfDiagonals& frame) {
+  const MotionMatrix form = PlaceForm(frame);
+  double square = (form * inverse * prior * inverse).trace();
+  double fourth = 0.0;
   for (const MotionTile& tile : tiles) {
     if (!tile.counts) continue;
     const MotionMatrix rest = MotionMatrix::Identity() - NormalOf(tile) * inverse;
-    const MotionVector score = rest.partialPivLu().solve(ScoreOf(tile));
-    scatter += score * score.transpose();
+    const MotionVector moved = inverse * rest.partialPivLu().solve(ScoreOf(tile));
+    const double own = moved.dot(form * moved);
+    square += own;
+    fourth += own * own;
   }
-  return inverse * scatter * inverse;
+  const double freedom = std::max(1.0, square * square / std::max(fourth, 1e-300));
+  return std::sqrt(square) * StudentOverNormal(freedom);
 }
 
 struct Solved {
@@ -159,9 +168,8 @@ std::optional<Solved> SolveLevel(const MotionPicture& a, const MotionPicture& b,
     if (close && cells > kNearlySettledCells) return std::nullopt;
     if (!last && cells > kSettledCells) continue;
     if (last && cells > 0.1) return near;
-    const MotionMatrix covariance =
-        WithoutEach(tiles, solver.solve(MotionMatrix::Identity()), prior);
-    return Solved{numbers, RmsOf(covariance, frame), 1.0 - kept / weight, scale};
+    const double sd = SdWithoutEach(tiles, solver.solve(MotionMatrix::Identity()), prior, frame);
+    return Solved{numbers, sd, 1.0 - kept / weight, scale};
   }
   return near;
 }

@@ -13,10 +13,11 @@ namespace lightcal {
 namespace {
 
 constexpr int kSteps = 256;
-constexpr int kLowestStep = 3;     // below, noise is cut off at black
-constexpr int kHighestStep = 249;  // above, the codes fill up
-constexpr double kGamma = 2.2;     // what most cameras' curves are near
-constexpr double kStepSd = 1.0;    // of a code
+constexpr double kLeastStep = 0.5;
+constexpr int kLowestStep = 3;                   // below, noise is cut off at black
+constexpr double kHighestShare = 249.0 / 255.0;  // of the top code; above, the codes fill up
+constexpr double kGamma = 2.2;                   // what most cameras' curves are near
+constexpr double kStepSd = 1.0;
 constexpr double kSmoothness = 2e3;
 constexpr double kMovedLn = 0.25;  // a residual from which a pixel probably shows something else
 constexpr int kTurns = 5;
@@ -31,20 +32,47 @@ struct PairCounts {
   std::vector<double> count = std::vector<double>(kSteps * kSteps, 0.0);
 };
 
-int CodeStep(std::uint16_t code, double top) {
-  return std::min(kSteps - 1, static_cast<int>(code * (kSteps - 1) / top + 0.5));
-}
+// Where a code lies among the steps: codes of 8 bits are steps; of more, steps are finer in the
+// dark, where linear codes have most of a scene.
+class CodeSteps {
+ public:
+  explicit CodeSteps(double top) : top_(top), fine_(top > 255.0) {}
+  [[nodiscard]] double At(double code) const {
+    const double share = code / top_;
+    return (kSteps - 1) * (fine_ ? std::sqrt(share) : share);
+  }
+  // Of each code, 0 where it does not count.
+  [[nodiscard]] std::vector<int> Nearest() const {
+    std::vector<int> steps;
+    for (int code = 0; code <= static_cast<int>(top_); ++code) {
+      const int step = static_cast<int>(At(code) + 0.5);
+      steps.push_back(step < kLowestStep || code > kHighestShare * top_ ? 0 : step);
+    }
+    return steps;
+  }
+  // Of a step, in steps of 8 bit codes.
+  [[nodiscard]] double Width(int step) const { return fine_ ? 2.0 * step / (kSteps - 1) : 1.0; }
+  [[nodiscard]] double top() const { return top_; }
 
-PairCounts CountPair(const CodeView& a, const CodeView& b, int channel, double top,
-                     double ln_ratio) {
+ private:
+  double top_;
+  bool fine_;
+};
+
+// ln of a step; a power law's curve is straight over it.
+double LnStep(double step) { return std::log(std::max(step, kLeastStep)); }
+
+PairCounts CountPair(const CodeView& a, const CodeView& b, int channel,
+                     const std::vector<int>& steps, double ln_ratio) {
+  const auto step_of = [&](std::uint16_t code) {
+    return steps[std::min<std::size_t>(code, steps.size() - 1)];
+  };
   PairCounts pair;
   pair.ln_ratio = ln_ratio;
   for (int y = 0; y < a.height(); ++y) {
     for (int x = 0; x < a.width(); ++x) {
-      const int first = CodeStep(a(x, y, channel), top);
-      const int second = CodeStep(b(x, y, channel), top);
-      if (first < kLowestStep || second < kLowestStep) continue;
-      if (first > kHighestStep || second > kHighestStep) continue;
+      const int first = step_of(a(x, y, channel)), second = step_of(b(x, y, channel));
+      if (first == 0 || second == 0) continue;
       pair.count[static_cast<std::size_t>(first * kSteps + second)] += 1.0;
     }
   }
@@ -61,20 +89,20 @@ double StepVariance(const Eigen::VectorXd& g, int step) {
 Eigen::VectorXd StartCurve() {
   Eigen::VectorXd g(kSteps);
   for (int step = 0; step < kSteps; ++step) {
-    g(step) = kGamma * std::log((step + 0.5) / (kSteps - 0.5));
+    g(step) = kGamma * (LnStep(step) - LnStep(kSteps - 1));
   }
   return g;
 }
 
 // One weighted least squares solution, with weights of the curve so far.
-Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const Eigen::VectorXd& so_far,
-                      bool trust_residuals) {
+Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const CodeSteps& steps,
+                      const Eigen::VectorXd& so_far, bool trust_residuals) {
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kSteps, kSteps);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(kSteps);
   for (const PairCounts& pair : pairs) {
-    for (int a = kLowestStep; a <= kHighestStep; ++a) {
+    for (int a = kLowestStep; a < kSteps; ++a) {
       const double variance_a = StepVariance(so_far, a);
-      for (int b = kLowestStep; b <= kHighestStep; ++b) {
+      for (int b = kLowestStep; b < kSteps; ++b) {
         const double count = pair.count[static_cast<std::size_t>(a * kSteps + b)];
         if (count == 0.0) continue;
         double weight = count / (variance_a + StepVariance(so_far, b));
@@ -91,18 +119,19 @@ Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const Eigen::VectorXd& 
       }
     }
   }
-  // Smooth deviation from the power law: (h(z-1) - 2 h(z) + h(z+1))^2 with h = g - start.
-  const Eigen::VectorXd start = StartCurve();
+  // Little change of slope over ln(step), so that any power law is free; by step, as in
+  // (g'' + g'/z)^2.
   const double smooth = kSmoothness * normal.diagonal().mean();
   for (int step = 1; step + 1 < kSteps; ++step) {
-    const std::array<double, 3> k = {1.0, -2.0, 1.0};
-    const double curvature = start(step - 1) - 2.0 * start(step) + start(step + 1);
+    const double before = 1.0 / (step * (LnStep(step) - LnStep(step - 1)));
+    const double after = 1.0 / (step * (LnStep(step + 1) - LnStep(step)));
+    const std::array<double, 3> k = {before, -before - after, after};
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         normal(step - 1 + i, step - 1 + j) +=
-            smooth * k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
+            smooth / std::pow(std::max(1.0, steps.Width(step)), 3) *
+            k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
       }
-      right(step - 1 + i) += smooth * k[static_cast<std::size_t>(i)] * curvature;
     }
   }
   // Gauge: the top step is signal 1.
@@ -148,13 +177,14 @@ bool SharesEnough(std::span<const PairCounts> pairs) {
   return shared >= kLeastCodeShare * kSteps;
 }
 
-// Signals of all codes, between the steps linear in ln.
-std::vector<float> SignalsOf(const Eigen::VectorXd& g, double top) {
+// Signals of all codes, between the steps a power law.
+std::vector<float> SignalsOf(const Eigen::VectorXd& g, const CodeSteps& steps) {
   std::vector<float> signals;
-  for (int code = 0; code <= static_cast<int>(top); ++code) {
-    const double at = code * (kSteps - 1) / top;
-    const int low = std::min(static_cast<int>(at), kSteps - 2);
-    const double ln = g(low) + (at - low) * (g(low + 1) - g(low)) - g(kSteps - 1);
+  for (int code = 0; code <= static_cast<int>(steps.top()); ++code) {
+    const double at = steps.At(std::max(kLeastStep, static_cast<double>(code)));
+    const int low = std::clamp(static_cast<int>(at), 1, kSteps - 2);
+    const double share = (std::log(at) - LnStep(low)) / (LnStep(low + 1) - LnStep(low));
+    const double ln = g(low) + share * (g(low + 1) - g(low)) - g(kSteps - 1);
     signals.push_back(static_cast<float>(std::exp(ln)));
   }
   return signals;
@@ -180,7 +210,8 @@ Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return exposure[i] < exposure[j]; });
   const FrameInfo& info = frames[0].info;
-  const double top = info.levels ? double{info.levels->white[0]} : 255.0;
+  const CodeSteps steps(info.levels ? double{info.levels->white[0]} : 255.0);
+  const std::vector<int> nearest = steps.Nearest();
   ResponseCurves curves;
   for (int channel = 0; channel < std::min(info.channels, 3); ++channel) {
     std::vector<PairCounts> pairs;
@@ -190,17 +221,17 @@ Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
       if (a == nullptr || b == nullptr) return NoResponse(info.file, "its samples are no codes");
       const double ln_ratio = std::log(exposure[order[i]] / exposure[order[i - 1]]);
       if (ln_ratio < 0.1) continue;
-      pairs.push_back(CountPair(*a, *b, channel, top, ln_ratio));
+      pairs.push_back(CountPair(*a, *b, channel, nearest, ln_ratio));
     }
     if (!SharesEnough(pairs)) {
       return NoResponse(info.file, "the frames share too few codes to tell the camera's curve");
     }
     Eigen::VectorXd g = StartCurve();
     for (int turn = 0; turn < kTurns; ++turn) {
-      g = Solve(pairs, g, turn >= kTurns / 2);
+      g = Solve(pairs, steps, g, turn >= kTurns / 2);
       MakeIncreasing(g);
     }
-    curves.signal_of_code[static_cast<std::size_t>(channel)] = SignalsOf(g, top);
+    curves.signal_of_code[static_cast<std::size_t>(channel)] = SignalsOf(g, steps);
   }
   return curves;
 }

@@ -62,12 +62,12 @@ Result<AimedView> ViewOf(const DomeInput& picture, const DomeInputRequest& reque
   if (!request.balls.empty()) {
     auto ball = BallMirror::Create(picture.files.front(), width, height, request.balls[i]);
     if (!ball) return Propagate(std::move(ball));
-    return AimedView(std::move(*ball), aim);
+    return Result<AimedView>(tl::in_place, std::move(*ball), aim);
   }
   auto angles =
       PixelSolidAngles::Create({request.projection, width, height, request.field_of_view});
   if (!angles) return Propagate(std::move(angles));
-  return AimedView(std::move(*angles), aim, request.lens);
+  return Result<AimedView>(tl::in_place, std::move(*angles), aim, request.lens);
 }
 
 struct Views {
