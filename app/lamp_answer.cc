@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -261,9 +262,8 @@ std::string ReadCommand(const std::string& session, const FittedLight& light,
 
 }  // namespace
 
-std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
-                                         const std::string& path,
-                                         const std::vector<std::string>& targets) {
+LampAnswers SessionAnswersOf(const CalibratedSession& calibrated, const std::string& path,
+                             const std::vector<std::string>& targets) {
   LampQuestion question;
   question.lights = &calibrated.lights;
   question.session = &calibrated.session;
@@ -276,30 +276,33 @@ std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
   return LampAnswersOf(question);
 }
 
-std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
-  EngineAnswers engines;
+LampAnswers LampAnswersOf(const LampQuestion& question) {
+  LampAnswers all;
   const std::vector<std::string_view> titles = TitlesOf(question.targets);
   const std::vector<FittedLight>& lights = question.lights->lights;
-  std::vector<LampAnswer> answers(lights.size());
+  std::vector<LampAnswer>& answers = all.lamps;
+  answers.resize(lights.size());
   // What to do next is worked out by fits of their own: most of the time of many lamps.
   ParallelFor(static_cast<int>(lights.size()) + 1, [&](int i) {
     if (i == 0) {
-      engines = EngineAnswersOf(*question.lights);
+      all.engines = EngineAnswersOf(*question.lights);
       return;
     }
     const auto at = static_cast<std::size_t>(i - 1);
     answers[at].next = AdviseNext(*question.session, lights[at]);
   });
+  auto figure = all.engines.figures.cbegin();  // light by light
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const FittedLight& light = lights[i];
     LampAnswer& answer = answers[i];
     answer.light = &light;
     answer.label = LabelOf(question, light);
     answer.color = ColorText(question, light);
+    const auto first = figure;
+    while (figure != all.engines.figures.cend() && figure->light == light.name) ++figure;
     for (const std::string_view title : titles) {
-      for (const EngineFigure& figure : engines.figures) {
-        if (figure.light == light.name && figure.engine == title) answer.figures.push_back(figure);
-      }
+      std::copy_if(first, figure, std::back_inserter(answer.figures),
+                   [&](const EngineFigure& one) { return one.engine == title; });
     }
     answer.say_what = SayWhat(question, light);
     if (answer.next.reading) {
@@ -307,7 +310,7 @@ std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question) {
       if (answer.better.empty()) answer.better = SayPlannedReading(*answer.next.reading);
     }
   }
-  return answers;
+  return all;
 }
 
 std::vector<LightAdvice> AdviceOf(const std::vector<LampAnswer>& answers,

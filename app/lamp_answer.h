@@ -39,12 +39,17 @@ struct LampQuestion {
   std::function<std::string(const FittedLight&, const PlannedReading&)> syntax;
 };
 
-[[nodiscard]] std::vector<LampAnswer> LampAnswersOf(const LampQuestion& question);
+struct LampAnswers {
+  std::vector<LampAnswer> lamps;
+  EngineAnswers engines;  // of all engines, as a report shows them
+};
+
+[[nodiscard]] LampAnswers LampAnswersOf(const LampQuestion& question);
 
 // Of a calibrated session: the next reading is a line that takes it.
-[[nodiscard]] std::vector<LampAnswer> SessionAnswersOf(const CalibratedSession& calibrated,
-                                                       const std::string& path,
-                                                       const std::vector<std::string>& targets);
+[[nodiscard]] LampAnswers SessionAnswersOf(const CalibratedSession& calibrated,
+                                           const std::string& path,
+                                           const std::vector<std::string>& targets);
 
 // What a report says of each. `session` is its name, not where it was typed to lie: the same
 // session gives the same page from any folder.

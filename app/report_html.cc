@@ -53,16 +53,21 @@ ReportExtras ExtrasOf(const LightFile& lights,
   return extras;
 }
 
-ReportExtras ExtrasOf(const CalibratedSession& calibrated) {
-  ReportExtras extras = ExtrasOf(calibrated.lights);
+std::vector<LightSpectrum> SpectraOf(const CalibratedSession& calibrated) {
+  std::vector<LightSpectrum> spectra;
   for (const NamedSpectrum& one : calibrated.spectra) {
-    // A lamp with controls has one a state; its first is drawn.
-    const bool drawn = std::ranges::any_of(extras.spectra, [&](const LightSpectrum& drawn_one) {
-      return drawn_one.light == one.light;
-    });
-    if (drawn) continue;
-    extras.spectra.push_back({one.light, one.file, one.spectrum, RenderingOf(one.spectrum)});
+    const bool known = std::ranges::any_of(
+        spectra, [&](const LightSpectrum& known_one) { return known_one.light == one.light; });
+    if (!known) spectra.push_back({one.light, one.file, one.spectrum, RenderingOf(one.spectrum)});
   }
+  return spectra;
+}
+
+ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers) {
+  ReportExtras extras;
+  extras.engines = std::move(answers);
+  extras.sweeps = ControlSweepsOf(calibrated.lights);
+  extras.spectra = SpectraOf(calibrated);
   for (const RecordedPicture& picture : calibrated.pictures) {
     extras.pictures.push_back(InFalseColors(picture));
   }
@@ -77,9 +82,9 @@ std::string ReportHtml(const LightFile& lights, std::string_view title) {
   return ReportPage(lights, title, ExtrasOf(lights));
 }
 
-std::string ReportHtml(const CalibratedSession& calibrated, const std::vector<std::string>& engines,
-                       std::vector<LightAdvice> advice) {
-  ReportExtras extras = ExtrasOf(calibrated);
+std::string ReportHtml(const CalibratedSession& calibrated, EngineAnswers answers,
+                       const std::vector<std::string>& engines, std::vector<LightAdvice> advice) {
+  ReportExtras extras = ExtrasOf(calibrated, std::move(answers));
   if (!engines.empty()) {
     std::erase_if(extras.engines.figures, [&](const EngineFigure& figure) {
       return std::ranges::find(engines, figure.engine) == engines.end();

@@ -19,16 +19,18 @@ namespace lightcal::app {
 [[nodiscard]] ReportExtras ExtrasOf(
     const LightFile& lights,
     const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments = {});
-// With the session's spectra and pictures.
-[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated);
+// One a light: of a lamp with controls its first state's.
+[[nodiscard]] std::vector<LightSpectrum> SpectraOf(const CalibratedSession& calibrated);
+// With the session's spectra and pictures. `answers`: EngineAnswersOf its lights.
+[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers);
 
 // The session's name, else its directory's.
 [[nodiscard]] const std::string& TitleOf(const Session& session);
 
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
-// advice: what to do next of each light (AdviceOf).
+// `answers`: EngineAnswersOf its lights. advice: what to do next of each light (AdviceOf).
 // `engines`: titles of those asked for, whose numbers are shown; none: all.
-[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated,
+[[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated, EngineAnswers answers,
                                      const std::vector<std::string>& engines,
                                      std::vector<LightAdvice> advice);
 

@@ -35,7 +35,9 @@ Result<AnsweredSession> AnswerSession(const CalibrationOptions& options,
   if (!calibrated) return Propagate(std::move(calibrated));
   AnsweredSession run;
   run.calibrated = *std::move(calibrated);
-  run.answers = SessionAnswersOf(run.calibrated, options.session, targets);
+  LampAnswers answers = SessionAnswersOf(run.calibrated, options.session, targets);
+  run.answers = std::move(answers.lamps);
+  run.engines = std::move(answers.engines);
   return run;
 }
 
@@ -50,7 +52,7 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
   std::string report;
   const std::array<std::function<void()>, 3> jobs = {
       [&] {
-        report = ReportHtml(run.calibrated, EnginesAsked(run.answers, targets),
+        report = ReportHtml(run.calibrated, run.engines, EnginesAsked(run.answers, targets),
                             AdviceOf(run.answers, stem));
       },
       [&] { presets = ExportPresets(lights, targets, stem, {.rig = rig}); },

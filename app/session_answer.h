@@ -17,6 +17,7 @@ namespace lightcal::app {
 struct AnsweredSession {
   CalibratedSession calibrated;
   std::vector<LampAnswer> answers;  // of the lights in `calibrated`
+  EngineAnswers engines{};          // of the same
 };
 
 // Warnings and notes go to the console; writes nothing.   Refused: as CalibrateSession.

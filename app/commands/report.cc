@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "calibration_options.h"
 #include "commands.h"
@@ -143,8 +144,9 @@ Result<Source> FromLightFile(const std::string& path, Console& console) {
 Result<Source> FromSession(const std::string& path, Console& console) {
   auto calibrated = CalibrateAloud(path, {}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
-  ReportExtras extras = ExtrasOf(*calibrated);
-  extras.advice = AdviceOf(SessionAnswersOf(*calibrated, path, {}), calibrated->session.stem);
+  LampAnswers answers = SessionAnswersOf(*calibrated, path, {});
+  ReportExtras extras = ExtrasOf(*calibrated, std::move(answers.engines));
+  extras.advice = AdviceOf(answers.lamps, calibrated->session.stem);
   const Session& session = calibrated->session;
   extras.ladders = LaddersOf(session, {}, {});
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),

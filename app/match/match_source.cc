@@ -152,7 +152,7 @@ Result<MatchLight> ReadMatchLight(const MatchLightWords& words, Console& console
   if (IsFolder(source) || fs::path(source).extension() == ".toml") {
     auto calibrated = CalibrateAloud(source, {}, console);
     if (!calibrated) return Propagate(std::move(calibrated));
-    return FromLights(calibrated->lights, words, ExtrasOf(*calibrated).spectra, console);
+    return FromLights(calibrated->lights, words, SpectraOf(*calibrated), console);
   }
   if (fs::path(source).extension() == ".json") {
     auto lights = LightsIn(source);

@@ -100,7 +100,7 @@ std::vector<LampAnswer> AnswersOf(const QuickOptions& options, const Session& se
   question.syntax = [&](const FittedLight&, const PlannedReading& step) {
     return TypedStep(session, step);
   };
-  return LampAnswersOf(question);
+  return LampAnswersOf(question).lamps;
 }
 
 }  // namespace

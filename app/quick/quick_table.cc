@@ -215,7 +215,7 @@ Result<void> AnswerRow(const QuickOptions& options, TableLamp& lamp) {
   question.session = &lamp.session;
   question.targets = options.targets;
   question.typed_color = true;
-  std::vector<LampAnswer> answers = LampAnswersOf(question);
+  std::vector<LampAnswer> answers = LampAnswersOf(question).lamps;
   lamp.answer = std::move(answers.front());
   return {};
 }
