@@ -98,9 +98,20 @@ def brackets(panorama, folder):
     assert error["code"] == "bracket_pattern", error
 
 
+def bare_sky(panorama, folder):
+    """A sky at dusk, nothing else in any view: little is known of it, and no less than is told."""
+    camera = views.Camera("rect", 600, 600, 60, samples=1)
+    truth = views.write_views(panorama, camera, [(7, 42), (47, 42), (87, 42), (127, 42)], folder / "sky", 3)
+    answer = dome([*paths(folder / "sky", truth), "--aim", "auto", "--fov", 60, "-o", folder / "sky_out"])
+    got = views.judge(answer, truth, panorama, camera)
+    check("4 of a bare sky", got, median_deg=.3, p95_deg=.6, scale_worst=.003)
+    assert got["within_u95"] == 1, got
+
+
 with tempfile.TemporaryDirectory() as place:
     whole = views.read_hdr(ROOT / "sample_data/pictures/latlong/lobby.hdr")
     ordinary_lens(whole, pathlib.Path(place))
     fisheyes(whole, pathlib.Path(place), 4, 185)
     fisheyes(whole, pathlib.Path(place), 2, 200)
     brackets(whole, pathlib.Path(place))
+    bare_sky(views.read_hdr(ROOT / "sample_data/pictures/latlong/sunset.hdr"), pathlib.Path(place))

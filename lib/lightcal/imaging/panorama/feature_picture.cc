@@ -14,9 +14,10 @@ namespace lightcal {
 namespace {
 
 constexpr double kWidestTheta = 115.0 * std::numbers::pi / 180.0;
-constexpr double kBlackShare = 1e-3;     // of the median: added before the logarithm
-constexpr int kMeanShare = 24;           // radius of the local mean, as a share of the longer side
-constexpr double kLeastLnSpread = 0.04;  // of ln L: what is flatter than this stays flat
+constexpr double kBlackShare = 1e-3;  // of the median: added before the logarithm
+constexpr int kMeanShare = 24;        // radius of the local mean, as a share of the longer side
+// Of ln L: what is flatter stays flat. Where little is noise, bare sky is no flat thing.
+constexpr double kFlatLn = 0.04, kFlatQuietLn = 0.01, kFlatOverNoise = 2.5;
 constexpr double kGreyMiddle = 127.0, kGreySpread = 45.0;
 constexpr double kRimMargin = 0.985;  // of RimShare: a fisheye's rim is no thing of the scene
 
@@ -26,6 +27,21 @@ double FarthestTheta(const PixelSolidAngles& angles) {
     return std::min(kWidestTheta, view.field_of_view.value() / 2.0);
   }
   return std::acos((*angles.Direction(0.0, 0.0))[1]);
+}
+
+// Standard deviation of ln L that neighbours do not share, by second differences along rows.
+double NoiseOfLn(const std::vector<float>& ln, const std::vector<std::uint8_t>& seen, int width) {
+  constexpr std::size_t kStep = 7;
+  const double of_difference = std::sqrt(6.0);  // 1 + 4 + 1 variances
+  std::vector<float> differences;
+  for (std::size_t i = 1; i + 1 < ln.size(); i += kStep) {
+    const std::size_t x = i % static_cast<std::size_t>(width);
+    if (x == 0 || x + 1 == static_cast<std::size_t>(width)) continue;
+    if (seen[i - 1] == 0 || seen[i] == 0 || seen[i + 1] == 0) continue;
+    differences.push_back(std::abs(ln[i - 1] - 2.0F * ln[i] + ln[i + 1]));
+  }
+  if (differences.empty()) return 0.0;
+  return double{UpperMedian(differences)} / kNormalQuartile / of_difference;
 }
 
 // Sums over [0, x) x [0, y) of values that are seen, and of 1.
@@ -144,6 +160,8 @@ FeaturePicture MakeFeaturePicture(View2d<const float> nits, const PixelSolidAngl
     }
   });
   SeenSums sums(ln, picture.seen, picture.width, picture.height);
+  const double flat = std::clamp(kFlatOverNoise * NoiseOfLn(ln, picture.seen, picture.width),
+                                 kFlatQuietLn, kFlatLn);
   const int radius = std::max(4, std::max(picture.width, picture.height) / kMeanShare);
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {
@@ -152,8 +170,7 @@ FeaturePicture MakeFeaturePicture(View2d<const float> nits, const PixelSolidAngl
       const auto local = sums.Around(x, y, radius);
       // Beyond the view its own edge goes on, as flat as its surroundings.
       const double off = picture.seen[at] != 0 ? double{ln[at]} - local.mean : 0.0;
-      const double grey =
-          kGreyMiddle + kGreySpread * off / std::hypot(local.spread, kLeastLnSpread);
+      const double grey = kGreyMiddle + kGreySpread * off / std::hypot(local.spread, flat);
       picture.grey[at] = static_cast<std::uint8_t>(std::clamp(grey, 0.0, 255.0));
     }
   }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kFields = 8;                // on each side
 constexpr int kShareOfField = 30;         // of `most`
-constexpr double kLeastContrast = 0.012;  // the pictures' local contrast is normalised before
+constexpr double kLeastContrast = 0.004;  // the pictures' local contrast is normalised before
 constexpr double kMostEdge = 10.0;
 constexpr int kOctaveLayers = 3;
 // OpenCV's places count from the first pixel's centre, and lie a quarter of a pixel too far right
