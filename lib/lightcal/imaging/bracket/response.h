@@ -11,14 +11,15 @@
 namespace lightcal {
 
 // For each channel the curve g = ln(signal) over codes that makes neighbours in exposure agree:
-//   min sum n(a, b) w (g(b) - g(a) - ln(e_b/e_a))^2 + smoothness of g - 2.2 ln code
+//   min sum n(a, b) w (g(b) - g(a) - ln(e_b/e_a))^2 + s sum_z ((dg/dln z)' / z)^2
 // over all pairs of codes (a, b) that one pixel shows in two frames, n times; w from what one step
 // of code means in ln(signal) and, in a second turn, small for pixels where something moved. This
 // is Debevec and Malik's objective (SIGGRAPH 1997) with every pixel in it, the scene's luminances
 // eliminated pairwise, and weights of a known noise instead of a hat. Then made increasing (pool
-// adjacent violators). The top code is signal 1.
+// adjacent violators). Its slope over ln(code) changes little: no power law is preferred, be the
+// codes a display's or linear. The top code is signal 1.
 // `exposure` of each frame, > 0, in any unit; an error of 6 % in one ratio bends the curve as much.
-// Codes above 256 are seen through 256 steps.
+// Codes of more than 8 bits are seen through 256 steps of their square root, finer in the dark.
 // Refused: no_response (not encoded, fewer than two exposures, or too few codes that two frames
 // share: less than a third of them in some channel).
 [[nodiscard]] Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
