@@ -16,6 +16,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kStillPixels = 0.15;  // root mean square: of a frame that stays where it is
+
 // The plan of frames that are in a plan's order already and were aligned since.
 Result<void> PlanAgain(MergeRequest merge, PreparedFrames& prepared) {
   const std::vector<std::size_t> before = prepared.planned.order;
