@@ -35,9 +35,7 @@ Result<AnsweredSession> AnswerSession(const CalibrationOptions& options,
   if (!calibrated) return Propagate(std::move(calibrated));
   AnsweredSession run;
   run.calibrated = *std::move(calibrated);
-  LampAnswers answers = SessionAnswersOf(run.calibrated, options.session, targets);
-  run.answers = std::move(answers.lamps);
-  run.engines = std::move(answers.engines);
+  run.answers = SessionAnswersOf(run.calibrated, options.session, targets);
   return run;
 }
 
@@ -52,8 +50,9 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
   std::string report;
   const std::array<std::function<void()>, 3> jobs = {
       [&] {
-        report = ReportHtml(run.calibrated, run.engines, EnginesAsked(run.answers, targets),
-                            AdviceOf(run.answers, stem));
+        report =
+            ReportHtml(run.calibrated, run.answers.engines,
+                       EnginesAsked(run.answers.lamps, targets), AdviceOf(run.answers.lamps, stem));
       },
       [&] { presets = ExportPresets(lights, targets, stem, {.rig = rig}); },
       [&] { json = LightFileToJson(lights); }};
@@ -72,7 +71,7 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
 
 Node DocumentOf(const AnsweredSession& run) {
   Node next = Node::Table();
-  for (const LampAnswer& answer : run.answers) {
+  for (const LampAnswer& answer : run.answers.lamps) {
     if (answer.light->fit.readings == 0) continue;  // a wall or a data sheet measured it
     next.Put(answer.light->name, answer.next.say);
   }

@@ -16,8 +16,7 @@ namespace lightcal::app {
 
 struct AnsweredSession {
   CalibratedSession calibrated;
-  std::vector<LampAnswer> answers;  // of the lights in `calibrated`
-  EngineAnswers engines{};          // of the same
+  LampAnswers answers;  // of the lights in `calibrated`
 };
 
 // Warnings and notes go to the console; writes nothing.   Refused: as CalibrateSession.

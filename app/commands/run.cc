@@ -68,7 +68,7 @@ Result<void> RunSession(const RunOptions& options, const StampSeed& stamp, Conso
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, options.force); !written) return written;
 
-  console.Print(LampAnswersText(run->answers, run->calibrated.session));
+  console.Print(LampAnswersText(run->answers.lamps, run->calibrated.session));
   if (console.verbose()) {
     console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n");
   }

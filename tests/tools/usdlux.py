@@ -14,6 +14,8 @@ import struct
 
 import numpy as np
 
+import plain_png
+
 WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
 LIGHTS = ("SphereLight", "DiskLight", "RectLight", "CylinderLight", "DistantLight", "DomeLight")
 
@@ -536,17 +538,6 @@ def write_exr(path, picture, half=False, white_luminance=None, floats=None):
 
 def write_png(path, picture):
     """8 bit, sRGB, clipped."""
-    import zlib
     v = np.clip(picture, 0, 1)
     code = np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)
-    rows = np.rint(code * 255).astype(np.uint8)
-    height, width, _ = rows.shape
-    raw = b"".join(b"\0" + row.tobytes() for row in rows)
-
-    def chunk(kind, body):
-        return (struct.pack(">I", len(body)) + kind + body +
-                struct.pack(">I", zlib.crc32(kind + body)))
-    with open(path, "wb") as out:
-        head = struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)
-        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) +
-                  chunk(b"sRGB", b"\0") + chunk(b"IDAT", zlib.compress(raw, 6)) + chunk(b"IEND", b""))
+    plain_png.write_png(path, np.rint(code * 255).astype(np.uint8))

@@ -8,20 +8,25 @@
 #include <memory>
 #include <utility>
 
+#include "lightcal/imaging/bracket/align_frames.h"
+
 namespace lightcal {
 namespace {
 
 constexpr double kBorderPeriods = 2.0;
 constexpr double kNominalGamma = 2.2;
-constexpr double kLowestCode = 12.0 / 255.0, kHighestCode = 247.0 / 255.0;
-constexpr NoiseProfile kNominalNoise{6e-5, 2e-8};  // of about a code
-// Of 16 bit, which no code's width hides.
-constexpr double kLowestShare = 0.001;
-constexpr NoiseProfile kNominalFineNoise{2e-6, 1e-14};
-constexpr double kRoughSd = 1.0;  // pixels: of a first look
+constexpr double kFullFrom = 247.0 / 255.0;  // of the highest code
 
-// Of the highest code, below which codes say nothing.
-double LowestShare(std::size_t codes) { return codes > 256 ? kLowestShare : kLowestCode; }
+// What is looked at of codes, on the nominal scale.
+struct CodeRange {
+  double lowest_share;  // of the highest code; below, codes say nothing
+  NoiseProfile noise;
+};
+constexpr CodeRange kOf8Bits{12.0 / 255.0, {6e-5, 2e-8}};  // about a code
+constexpr CodeRange kOfMore{0.001, {2e-6, 1e-14}};         // no code's width hides it
+const CodeRange& RangeOf(const std::vector<float>& curve) {
+  return curve.size() > 256 ? kOfMore : kOf8Bits;
+}
 
 // `top`: the highest code.
 double NominalSignal(double code, double top) { return std::pow(code / top, kNominalGamma); }
@@ -44,8 +49,8 @@ ResponseCurves NearNominal(ResponseCurves curves) {
   for (auto& curve : curves.signal_of_code) {
     if (curve.empty()) continue;
     const double top = static_cast<double>(curve.size() - 1);
-    const auto low = static_cast<std::size_t>(std::lround(LowestShare(curve.size()) * top));
-    const auto high = static_cast<std::size_t>(std::lround(kHighestCode * top));
+    const auto low = static_cast<std::size_t>(std::lround(RangeOf(curve).lowest_share * top));
+    const auto high = static_cast<std::size_t>(std::lround(kFullFrom * top));
     const double ln_high = std::log(double{curve[high]});
     const double nominal_high = std::log(NominalSignal(static_cast<double>(high), top));
     const double nominal_low = std::log(NominalSignal(static_cast<double>(low), top));
@@ -64,12 +69,11 @@ Result<BracketMotion> LookThrough(const ResponseCurves& curves, const MovedCodes
   std::vector<SignalFrame> signals(codes.signals.begin(), codes.signals.end());
   for (SignalFrame& signal : signals) {
     signal.response = &curves;
-    signal.clip.fill(static_cast<float>(NominalSignal(kHighestCode, 1.0)));
+    signal.clip.fill(static_cast<float>(NominalSignal(kFullFrom, 1.0)));
   }
-  const bool fine = curves.signal_of_code[0].size() > 256;
-  return MeasureMotion(
-      signals, std::vector<NoiseProfile>(signals.size(), fine ? kNominalFineNoise : kNominalNoise),
-      NominalSignal(LowestShare(curves.signal_of_code[0].size()), 1.0), look);
+  const CodeRange& range = RangeOf(curves.signal_of_code[0]);
+  return MeasureMotion(signals, std::vector<NoiseProfile>(signals.size(), range.noise),
+                       NominalSignal(range.lowest_share, 1.0), look);
 }
 
 // Codes as they would be had the camera stood still, for their curve alone.
@@ -124,11 +128,13 @@ Result<ResponseCurves> CurveInPlace(const MovedCodes& codes, const BracketMotion
 
 Result<BracketMotion> MotionOfCodes(const MovedCodes& codes) {
   const ResponseCurves nominal = NominalCurves(*codes.signals.front().response);
-  auto rough = LookThrough(nominal, codes, {.most_sd_pixels = kRoughSd, .leave_out_any = true});
+  const auto rough = LookThrough(nominal, codes, {.rough = true});
   if (!rough) return rough;
-  const Region region = RegionOf(*rough, codes.signals.front());
-  if (region.width < 16 || region.height < 16) return LookThrough(nominal, codes, {});
-  auto curves = CurveInPlace(codes, *rough, region);
+  const SignalFrame& reference = codes.signals[rough->reference];
+  const Region region = RegionOf(*rough, reference);
+  auto curves = CheckShared(region.width, region.height, reference, reference.name).and_then([&] {
+    return CurveInPlace(codes, *rough, region);
+  });
   if (!curves) return LookThrough(nominal, codes, {});
   return LookThrough(NearNominal(std::move(*curves)), codes, {.known = &*rough});
 }

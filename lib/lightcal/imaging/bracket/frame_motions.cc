@@ -13,8 +13,9 @@
 namespace lightcal {
 namespace {
 
-constexpr int kLongest = 1200;  // cells of the finest level
-constexpr double kNeededPixels = 0.3;
+constexpr int kLongest = 1200;        // cells of the finest level
+constexpr double kMostSd = 0.1;       // pixels: .3 at three times what is told
+constexpr double kMostRoughSd = 1.0;  // of a rough look
 constexpr double kSureSd = 0.1;       // no other way is looked for
 constexpr double kDarkestFrom = 1.1;  // times as much as all channels show
 constexpr double kLeastSeen = 0.2;
@@ -114,9 +115,8 @@ class Finder {
 
   // Empty where a motion can be relied on.
   [[nodiscard]] std::string WhyUnsure(const FrameMotion& motion) const {
-    if (motion.sd_pixels > look_.most_sd_pixels) {
-      return "its place is known to " +
-             RoundedText(kNeededPixels / look_.most_sd_pixels * motion.sd_pixels, 2) +
+    if (motion.sd_pixels > (look_.rough ? kMostRoughSd : kMostSd)) {
+      return "its place is known to " + RoundedText(0.3 / kMostSd * motion.sd_pixels, 2) +
              " pixels only, and 0.3 are needed";
     }
     if (motion.unlike > kMostUnlike) {
@@ -176,7 +176,7 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
     // Without a longer frame the dark is noisier and all else is as it was; a shorter one alone
     // shows what the next one clips, if it clips anything.
     const std::string& why = found.error().message;
-    if (!look.leave_out_any && k < motion.reference && finder.Seen(k) >= kLeastSeen &&
+    if (!look.rough && k < motion.reference && finder.Seen(k) >= kLeastSeen &&
         finder.IsFullSomewhere(nearer)) {
       return Refused("misaligned", frames[k].name,
                      "it cannot be aligned for certain: " + why +
@@ -200,7 +200,7 @@ Result<BracketMotion> MeasureMotion(std::span<const SignalFrame> frames,
     nearer = *next;
   }
   const auto kept = std::ranges::count(motion.frames, false, &FrameMotion::left_out);
-  if (!look.leave_out_any && kept == 1 && frames.size() > 1) {
+  if (!look.rough && kept == 1 && frames.size() > 1) {
     const FrameMotion& other = motion.frames[motion.reference == 0 ? 1 : motion.reference - 1];
     return Refused("misaligned", frames[motion.reference].name,
                    "no other frame can be aligned to it for certain: " + other.why +

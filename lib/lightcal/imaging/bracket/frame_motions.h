@@ -30,8 +30,7 @@ struct BracketMotion {
 // What is known before, and what must be known after.
 struct MotionLook {
   const BracketMotion* known = nullptr;  // within a pixel, of the same frames
-  double most_sd_pixels = 0.1;           // .3 at three times what is told
-  bool leave_out_any = false;            // instead of refusing
+  bool rough = false;  // places to a pixel will do, and what has none is left out, never refused
 };
 
 // Of frames in order of exposure, each of its own noise; `floor`: signal below which codes say

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/student.h"
 #include "lightcal/imaging/bracket/motion_tiles.h"
 
 namespace lightcal {
@@ -87,9 +88,6 @@ MotionMatrix PlaceForm(const HalfDiagonals& frame) {
   }
   return form / (kAcross * kAcross);
 }
-
-// Student's 97.5 % quantile over the normal one (Cornish and Fisher's series).
-double StudentOverNormal(double freedom) { return 1.0 + (1.21 + 1.44 / freedom) / freedom; }
 
 // What the answers would scatter by were each tile left out once (the jackknife): a few tiles that
 // carry the whole answer do not vouch for each other, and that few tell a spread badly themselves

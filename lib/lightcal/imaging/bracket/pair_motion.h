@@ -38,8 +38,9 @@ enum class StartIs { kRough, kClose };
 // does not count. Noise pulls nowhere (Steering in motion_tiles.h). Weak priors keep what few edges
 // leave open near what hands do: shear and aspect .01, perspective .1 a half diagonal. The
 // covariance is the tiles' own (Huber's sandwich, each tile left out once): errors that neighbours
-// share are in it. Absent: nothing to align by (a smooth or dark picture), or no convergence.
-// Source: Baker & Matthews, IJCV 56 (2004); White, Econometrica 48 (1980).
+// share are in it, and Student's factor of how many carry it. Absent: nothing to align by (a smooth
+// or dark picture), or no convergence. Source: Baker & Matthews, IJCV 56 (2004); White,
+// Econometrica 48 (1980).
 [[nodiscard]] std::optional<PairMotion> RefineMotion(const MotionPyramid& frame,
                                                      const MotionPyramid& other, double width,
                                                      double height, const Homography& start,

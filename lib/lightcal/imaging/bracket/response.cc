@@ -13,7 +13,7 @@ namespace lightcal {
 namespace {
 
 constexpr int kSteps = 256;
-constexpr double kLeastStep = 0.5;
+constexpr double kLeastStep = 0.5;               // ln of a step has no end at 0
 constexpr int kLowestStep = 3;                   // below, noise is cut off at black
 constexpr double kHighestShare = 249.0 / 255.0;  // of the top code; above, the codes fill up
 constexpr double kGamma = 2.2;                   // what most cameras' curves are near
@@ -126,11 +126,11 @@ Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const CodeSteps& steps,
     const double before = 1.0 / (step * (LnStep(step) - LnStep(step - 1)));
     const double after = 1.0 / (step * (LnStep(step + 1) - LnStep(step)));
     const std::array<double, 3> k = {before, -before - after, after};
+    const double weight = smooth / std::pow(std::max(1.0, steps.Width(step)), 3);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         normal(step - 1 + i, step - 1 + j) +=
-            smooth / std::pow(std::max(1.0, steps.Width(step)), 3) *
-            k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
+            weight * k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
       }
     }
   }

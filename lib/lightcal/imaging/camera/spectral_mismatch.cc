@@ -14,7 +14,7 @@
 #include "lightcal/colorimetry/light_models.h"
 #include "lightcal/colorimetry/planckian.h"
 #include "lightcal/colorimetry/resample.h"
-#include "lightcal/core/uncertain.h"
+#include "lightcal/core/student.h"
 
 namespace lightcal {
 namespace {
@@ -26,19 +26,6 @@ constexpr double kWorthCorrecting = 0.8;
 // Two of the six measured, the violet ones, err by 2 and 3 %, the others by less than 1 %: few
 // lamps do not show what the class holds.
 constexpr double kLeastHighCriSigma = 0.02;
-
-// Two-sided 95 % points of Student's t over the normal one's.
-// Source: any table of the distribution; within 0.5 % from three degrees on.
-double StudentOverNormal(double dof) {
-  if (dof < 1.5) return 12.706 / kZ95;
-  if (dof < 2.5) return 4.303 / kZ95;
-  const double z2 = kZ95 * kZ95;
-  const double first = (z2 + 1.0) / (4.0 * dof);
-  const double second = (5.0 * z2 * z2 + 16.0 * z2 + 3.0) / (96.0 * dof * dof);
-  const double third =
-      (3.0 * z2 * z2 * z2 + 19.0 * z2 * z2 + 17.0 * z2 - 15.0) / (384.0 * dof * dof * dof);
-  return 1.0 + first + second + third;
-}
 
 double InterpolatedAt(const std::vector<double>& values, double first, double step, double at) {
   const double place = (at - first) / step;
