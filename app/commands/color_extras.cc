@@ -86,15 +86,15 @@ Node EnginesNode(Xy xy) {
   return node;
 }
 
-std::string Rounded(double value) { return RoundedText(value, 3); }
-
 std::string Numbers(const Rgb& c) {
   return RoundedText(c.r, 5) + "  " + RoundedText(c.g, 5) + "  " + RoundedText(c.b, 5);
 }
 
 void AddNoiseRows(std::vector<ExtraRow>& rows, const CctNoise& noise) {
-  if (!noise.too_noisy()) rows.push_back({"u(CCT)", Rounded(noise.temperature.value()), "K"});
-  rows.push_back({"u(Duv)", Rounded(noise.duv), ""});
+  if (!noise.too_noisy()) {
+    rows.push_back({"u(CCT)", RoundedText(noise.temperature.value(), 3), "K"});
+  }
+  rows.push_back({"u(Duv)", RoundedText(noise.duv, 3), ""});
 }
 
 void AddErrorRows(std::vector<ExtraRow>& rows, const SpectralError& error) {
@@ -103,12 +103,12 @@ void AddErrorRows(std::vector<ExtraRow>& rows, const SpectralError& error) {
     return;
   }
   if (error.bound->temperature) {
-    rows.push_back(
-        {"CCT error of step and range, at most", Rounded(error.bound->temperature->value()), "K"});
-    rows.push_back({"Duv error of the same, at most", Rounded(*error.bound->duv), ""});
+    rows.push_back({"CCT error of step and range, at most",
+                    RoundedText(error.bound->temperature->value(), 3), "K"});
+    rows.push_back({"Duv error of the same, at most", RoundedText(*error.bound->duv, 3), ""});
   }
   rows.push_back({"illuminance error of the same, at most",
-                  Rounded(100.0 * error.bound->illuminance_relative), "%"});
+                  RoundedText(100.0 * error.bound->illuminance_relative, 3), "%"});
 }
 
 void AddEngineRows(std::vector<ExtraRow>& rows, Xy xy) {
@@ -262,7 +262,7 @@ std::vector<ExtraRow> ColorExtraRows(Xy xy, const ColorExtras& extras,
   if (extras.engines) AddEngineRows(rows, xy);
   if (const auto adobe = extras.adobe ? AdobeReadoutFrom(Uv1960FromXy(xy)) : std::nullopt) {
     rows.push_back({"Adobe's temperature", RoundedText(adobe->temperature.value(), 5), "K"});
-    rows.push_back({"Adobe's tint", Rounded(adobe->tint), ""});
+    rows.push_back({"Adobe's tint", RoundedText(adobe->tint, 3), ""});
   }
   return rows;
 }

@@ -84,7 +84,8 @@ Node ColorNode(Xy xy) {
           {"duv", cct.valid() ? Node(cct.duv) : Node()}};
 }
 
-Node LightNode(const MeasuredDome& measured, std::size_t i, const std::string& name, bool taken) {
+Node DomeLightNode(const MeasuredDome& measured, std::size_t i, const std::string& name,
+                   bool taken) {
   const DomeLight& light = measured.lights[i];
   const Vec3 direction = TurnedNorth(light.direction, measured.north);
   const AzimuthElevation at = AnglesOf(direction);
@@ -179,7 +180,7 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
   const MeasuredDome& measured = made.measured;
   Node lights = Node::Array();
   for (std::size_t i = 0; i < made.names.size(); ++i) {
-    lights.items.push_back(LightNode(measured, i, made.names[i], i < made.extracted));
+    lights.items.push_back(DomeLightNode(measured, i, made.names[i], i < made.extracted));
   }
   Node illuminance = Node::Table();
   for (const DomePlane& plane : made.planes) {

@@ -121,7 +121,7 @@ Node ToJson(const PhotometricFile& file) {
   return node;
 }
 
-std::string TitleOf(const PhotometricOptions& options, const PhotometricHeader& header) {
+std::string DistributionTitle(const PhotometricOptions& options, const PhotometricHeader& header) {
   const std::string file = std::filesystem::path(options.file).filename().string();
   return header.luminaire.empty() ? file : header.luminaire + " (" + file + ")";
 }
@@ -150,7 +150,7 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
   rows.push_back({"beam angle (50 %)", widths(0.5), "deg"});
   rows.push_back({"field angle (10 %)", widths(0.1), "deg"});
   const std::string planes = std::to_string(table.grid().horizontal_deg.size());
-  return TitleOf(options, header) + "\n" + header.version + ", type " +
+  return DistributionTitle(options, header) + "\n" + header.version + ", type " +
          std::string(kGoniometerTypeWords[static_cast<std::size_t>(table.grid().type)]) +
          ", symmetry " +
          std::string(kTableSymmetryWords[static_cast<std::size_t>(table.symmetry())]) + ", " +
@@ -172,7 +172,8 @@ Result<void> RunPhotometric(const PhotometricOptions& options, Console& console)
   }
   if (!options.plot.empty()) {
     auto picture = PictureFile(
-        options.plot, report::PolarPlot(read->file.table, TitleOf(options, read->file.header)));
+        options.plot,
+        report::PolarPlot(read->file.table, DistributionTitle(options, read->file.header)));
     if (!picture) return Propagate(std::move(picture));
     files.push_back(std::move(*picture));
   }

@@ -54,7 +54,7 @@ std::string ShortText(double value) {
   return shortest.size() < rounded.size() ? shortest : rounded;
 }
 
-std::string RangeText(const ReferenceValue& row) {
+std::string ReferenceRange(const ReferenceValue& row) {
   const std::string low = ShortText(row.low);
   return row.low == row.high ? low : low + " - " + ShortText(row.high);
 }
@@ -77,7 +77,7 @@ void PrintRows(const std::vector<const ReferenceValue*>& found, Console& console
   std::string notes;
   for (const ReferenceValue* row : found) {
     const std::string what(row->what);
-    table.push_back({std::string(ReferenceQuantityName(row->quantity)), RangeText(*row),
+    table.push_back({std::string(ReferenceQuantityName(row->quantity)), ReferenceRange(*row),
                      std::string(ReferenceUnit(row->quantity)), what, std::string(row->source)});
     if (!row->seed_note.empty()) notes += what + ": " + std::string(row->seed_note) + "\n";
   }

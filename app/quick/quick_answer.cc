@@ -7,7 +7,6 @@
 #include "lamp_words.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
-#include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/match/gelled_light.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
@@ -65,7 +64,7 @@ std::string TypedStep(const Session& session, const PlannedReading& step) {
   for (const SessionReading& row : session.readings) {
     const bool there = row.reading.distance == step.distance &&
                        row.reading.off_axis == step.off_axis.value_or(Radians(0.0));
-    if (fit::IsLit(row.reading) && there) before = row.where;
+    if (IsLit(row.reading) && there) before = row.where;
   }
   const std::string metres =
       step.distance ? ShortestText(std::round(step.distance->value() * 1000.0) / 1000.0) : "";

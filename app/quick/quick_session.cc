@@ -9,7 +9,6 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/core/units_text.h"
-#include "lightcal/fit/plan/reading_candidates.h"
 #include "typed_reading.h"
 
 namespace lightcal::app {
@@ -113,7 +112,7 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
     auto typed = ParseTypedReading(text, options.name);
     if (!typed) return Propagate(std::move(typed));
     for (Reading& reading : *typed) {
-      if (fit::IsLit(reading) && !reading.cct) reading.cct = cct;
+      if (IsLit(reading) && !reading.cct) reading.cct = cct;
       if (options.meter.empty()) {
         reading.sigma_relative = *sigma;
       } else {

@@ -13,7 +13,6 @@
 namespace lightcal::devices::files {
 namespace {
 
-constexpr double kMilliwatt = 1e-3;
 constexpr double kMaxBands = 100000.0;
 
 // The words of a CGATS text: blanks and line ends separate, double quotes join, '#' ends a line.

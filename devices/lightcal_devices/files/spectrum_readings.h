@@ -13,6 +13,8 @@
 
 namespace lightcal::devices::files {
 
+inline constexpr double kMilliwatt = 1e-3;  // many files' own unit, in W
+
 // A spectrum as a format's reader found it.
 struct FoundSpectrum {
   ImportedSpectrum imported;       // values already in W m^-2 nm^-1 where they are an irradiance

@@ -12,7 +12,6 @@ namespace {
 
 constexpr HeaderLabels kUprtekLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
                                      "Y",   "Z",   "CRI", "R", "Rf", "Rg"};
-constexpr double kMilliwatt = 1e-3;
 
 SpectralRows FindSpectralRows(const std::vector<Row>& rows) {
   SpectralRows spectral;

@@ -12,7 +12,6 @@
 namespace lightcal::devices {
 namespace {
 
-constexpr double kSigmaPerMad = 1.4826;  // 1/Phi^-1(3/4)
 constexpr double kDriftStandardErrors = 3.0;
 constexpr double kDriftRelative = 0.005;
 constexpr std::size_t kFewestForDrift = 4;  // two degrees of freedom of the residual
@@ -117,7 +116,7 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
     std::vector<double> deviations;
     deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
-    summary.spread_relative = kSigmaPerMad * Median(deviations) / median;
+    summary.spread_relative = kSdPerMad * Median(deviations) / median;
     const double sigma = std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
     if (sigma > 0.0) reading.sigma_relative = sigma;
   }

@@ -12,10 +12,6 @@
 namespace lightcal {
 namespace {
 
-bool IsLit(const Reading& reading) {
-  return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
-}
-
 bool SamePlace(const Reading& a, const Reading& b) {
   return a.distance == b.distance && a.position_m == b.position_m && a.off_axis == b.off_axis;
 }

@@ -8,13 +8,10 @@
 namespace lightcal {
 namespace {
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-using Triple = std::array<double, 3>;
-
-constexpr Matrix kCat02 = {
+constexpr Matrix3 kCat02 = {
     {{0.7328, 0.4296, -0.1624}, {-0.7036, 1.6975, 0.0061}, {0.0030, 0.0136, 0.9834}}};
 // Hunt-Pointer-Estevez cone responses from CAT02's: M_HPE M_CAT02^-1.
-constexpr Matrix kConeFromCat02 = {
+constexpr Matrix3 kConeFromCat02 = {
     {{0.7409790970135309, 0.2180251556757357, 0.04100574731073359},
      {0.28535329168588003, 0.6242015741188158, 0.0904451341953042},
      {-0.009627608738429355, -0.00569803121611342, 1.0153256399545427}}};
@@ -59,26 +56,20 @@ double Compressed(double x) {
   return std::copysign(400.0 * power / (power + 27.13), x) + kOffset;
 }
 
-Triple Times(const Matrix& m, const Xyz& c) {
-  Triple out{};
-  for (std::size_t i = 0; i < 3; ++i) out[i] = m[i][0] * c.X + m[i][1] * c.Y + m[i][2] * c.Z;
-  return out;
-}
-
-Triple Responses(const Matrix& cone_from_xyz, const Xyz& color) {
-  Triple r = Times(cone_from_xyz, color);
+Column3 Responses(const Matrix3& cone_from_xyz, const Xyz& color) {
+  Column3 r = Times(cone_from_xyz, ColumnOf(color));
   for (double& each : r) each = Compressed(each);
   return r;
 }
 
-double Achromatic(const Triple& r) {
+double Achromatic(const Column3& r) {
   return (2.0 * r[0] + r[1] + r[2] / 20.0 - 0.305) * Viewing().background;
 }
 
 }  // namespace
 
 Cam02UcsUnder::Cam02UcsUnder(const Xyz& white) {
-  const Triple w = Times(kCat02, white);
+  const Column3 w = Times(kCat02, ColumnOf(white));
   const double level = Viewing().luminance_level / 100.0;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -92,7 +83,7 @@ Cam02UcsUnder::Cam02UcsUnder(const Xyz& white) {
 
 Cam02Ucs Cam02UcsUnder::Of(const Xyz& color) const {
   const Conditions& v = Viewing();
-  const Triple r = Responses(cone_from_xyz_, color);
+  const Column3 r = Responses(cone_from_xyz_, color);
   const double a = r[0] - 12.0 * r[1] / 11.0 + r[2] / 11.0;
   const double b = (r[0] + r[1] - 2.0 * r[2]) / 9.0;
   const double length = std::hypot(a, b);

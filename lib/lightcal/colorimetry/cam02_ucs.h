@@ -23,7 +23,7 @@ class Cam02UcsUnder {
   [[nodiscard]] Cam02Ucs Of(const Xyz& color) const;
 
  private:
-  std::array<std::array<double, 3>, 3> cone_from_xyz_{};  // adapted, times F_L / 100
+  Matrix3 cone_from_xyz_{};  // adapted, times F_L / 100
   double white_response_ = 0.0;
 };
 

@@ -2,11 +2,14 @@
 // Colour coordinates as distinct types, so that xy can never be passed for uv.
 #pragma once
 
+#include "lightcal/core/matrix3.h"
+
 namespace lightcal {
 
 struct Xyz {  // CIE 1931 2-degree tristimulus values
   double X = 0.0, Y = 0.0, Z = 0.0;
 };
+[[nodiscard]] constexpr Column3 ColumnOf(const Xyz& c) { return {c.X, c.Y, c.Z}; }
 struct Xy {  // CIE 1931: x = X/(X+Y+Z), y = Y/(X+Y+Z)
   double x = 0.0, y = 0.0;
 };

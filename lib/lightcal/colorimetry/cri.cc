@@ -10,7 +10,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kFirstDaylightKelvin = 5000.0;
+constexpr double kFirstDaylightOfCriKelvin = 5000.0;
 constexpr std::size_t kSamplesOfRa = 8;
 
 const SampleSet& CriSampleSet() {
@@ -21,7 +21,7 @@ const SampleSet& CriSampleSet() {
 
 NanometrePowers Reference(const RenderingInput& light) {
   const Kelvin t = light.color.temperature;
-  return ReferencePowers(light, t.value() < kFirstDaylightKelvin
+  return ReferencePowers(light, t.value() < kFirstDaylightOfCriKelvin
                                     ? BlackBodyAt(t, light.reference_nm)
                                     : DaylightAt(t, light.reference_nm));
 }

@@ -18,7 +18,6 @@ constexpr std::array<RgbPrimaries, 4> kPrimaries = {{
 constexpr Matrix3 kBradford = {
     {{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}};
 
-constexpr Column3 ColumnOf(const Xyz& c) { return {c.X, c.Y, c.Z}; }
 constexpr Column3 UnitY(Xy c) { return ColumnOf(XyzFromXyAtUnitY(c)); }
 
 // The same direction as UnitY, where y may be 0: those of X and Z are.

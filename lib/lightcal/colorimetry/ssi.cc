@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kBands = 30;
 constexpr double kFirstEdgeNm = 375.0;
 constexpr double kBandNm = 10.0;
-constexpr double kFirstDaylightKelvin = 4000.0;
+constexpr double kFirstDaylightOfSsiKelvin = 4000.0;
 using Bands = std::array<double, kBands>;
 
 constexpr Bands MakeWeights() {
@@ -89,8 +89,8 @@ Result<double> SpectralSimilarity(const Spectrum& test, const Spectrum& referenc
 }
 
 Result<Spectrum> SimilarityReference(Kelvin temperature) {
-  return temperature.value() < kFirstDaylightKelvin ? BlackBodySpectrum(temperature)
-                                                    : DaylightSpectrum(temperature);
+  return temperature.value() < kFirstDaylightOfSsiKelvin ? BlackBodySpectrum(temperature)
+                                                         : DaylightSpectrum(temperature);
 }
 
 }  // namespace lightcal

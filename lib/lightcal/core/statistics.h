@@ -11,6 +11,11 @@ namespace lightcal {
 
 // Standard deviations of a normal variable from its median to a quartile.
 inline constexpr double kNormalQuartile = 0.6745;
+// Its standard deviation over the median of its absolute deviations, 1/Phi^-1(3/4).
+inline constexpr double kSdPerMad = 1.4826;
+// Scale of Cauchy's loss, in standard deviations, at which it has 95 % of least squares' efficiency
+// for normal errors (Holland and Welsch, Commun. Stat. A6, 813 (1977)).
+inline constexpr double kCauchyScale = 2.385;
 
 // What would stand at `rank`, below the number of values, if they were sorted.
 template <class T>

@@ -127,7 +127,7 @@ void VisitCameraProfile(Archive& archive, SomeProfile& profile) {
   archive.Require({"width", "height", "scale"});
 }
 
-void ReadSchema(FieldReader& reader) {
+void ReadCameraSchema(FieldReader& reader) {
   std::string schema;
   reader.Text("schema", schema);
   if (!reader.Has("schema")) {
@@ -189,7 +189,7 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
                                  std::nullopt};
   records::FieldReader reader(*node, "", reading);
   CameraProfile profile;
-  records::ReadSchema(reader);
+  records::ReadCameraSchema(reader);
   records::VisitCameraProfile(reader, profile);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();

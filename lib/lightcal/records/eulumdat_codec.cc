@@ -13,11 +13,10 @@ namespace {
 
 using records::BadPhotometric;
 using records::HeaderText;
+using records::kLeastLumens;
+using records::kMostLumens;
 
-constexpr double kMostAngles = 1e5;
-// What a lamp may have, generously.
-constexpr double kLeastLumens = 1e-9;
-constexpr double kMostLumens = 1e15;
+constexpr double kMostEulumdatAngles = 1e5;
 
 // Stored planes are Mc1 ... Mc2 of the Mc C angles.
 struct StoredPlanes {
@@ -112,9 +111,10 @@ class EulumdatReader {
     header_.manufacturer = Text("the company");
     (void)NumberOrZero("the type of luminaire");
     symmetry_ = Whole("the symmetry (Isym)", 0, 4);
-    mc_ = static_cast<std::size_t>(Whole("the number of C planes (Mc)", 1, kMostAngles));
+    mc_ = static_cast<std::size_t>(Whole("the number of C planes (Mc)", 1, kMostEulumdatAngles));
     (void)NumberOrZero("the step of C planes");
-    ng_ = static_cast<std::size_t>(Whole("the number of gamma angles (Ng)", 2, kMostAngles));
+    ng_ =
+        static_cast<std::size_t>(Whole("the number of gamma angles (Ng)", 2, kMostEulumdatAngles));
     (void)NumberOrZero("the step of gamma angles");
     header_.report = Text("the measurement report");
     header_.luminaire = Text("the luminaire's name");

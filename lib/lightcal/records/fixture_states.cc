@@ -12,7 +12,7 @@
 namespace lightcal {
 namespace {
 
-bool IsLit(const Reading& reading) { return reading.lamp == LampState::kOn; }
+bool LampIsOn(const Reading& reading) { return reading.lamp == LampState::kOn; }
 
 // What was read of one lamp at one state.
 struct StateRows {
@@ -31,7 +31,7 @@ std::vector<StateRows> StatesOf(const Session& session, std::string_view light) 
   std::vector<StateRows> states;
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
-    if (reading.light != light || reading.state.empty() || !IsLit(reading)) continue;
+    if (reading.light != light || reading.state.empty() || !LampIsOn(reading)) continue;
     auto known = std::ranges::find_if(
         states, [&](const StateRows& one) { return SameState(*one.state, reading.state); });
     if (known == states.end()) known = states.insert(states.end(), StateRows{&reading.state, {}});
@@ -56,7 +56,7 @@ Result<void> CheckControls(const Session& session, const std::string& light,
                            const FixtureState& reference) {
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
-    if (reading.light != light || !IsLit(reading) || OfTheBox(reading)) continue;
+    if (reading.light != light || !LampIsOn(reading) || OfTheBox(reading)) continue;
     if (reading.state.empty()) {
       return Refused("state_missing", row.where,
                      "other readings of \"" + light +
@@ -128,7 +128,7 @@ Result<void> SplitStates(Session& session) {
     std::vector<SessionReading> kept;
     for (SessionReading& row : session.readings) {
       const Reading& reading = row.reading;
-      const bool other = reading.light == light.name && IsLit(reading) && !OfTheBox(reading) &&
+      const bool other = reading.light == light.name && LampIsOn(reading) && !OfTheBox(reading) &&
                          !SameState(reading.state, reference);
       (other ? session.state_readings : kept).push_back(std::move(row));
     }

@@ -14,13 +14,12 @@ namespace {
 
 using records::BadPhotometric;
 using records::HeaderText;
+using records::kLeastLumens;
+using records::kMostLumens;
 
 constexpr std::string_view kTilt = "TILT=";
 constexpr double kMetresPerFoot = 0.3048;
 constexpr double kMostAngles = 1e6;
-// What a lamp may have, generously; -1 means "not relative to a lamp".
-constexpr double kLeastLumens = 1e-9;
-constexpr double kMostLumens = 1e15;
 
 enum class Edition : std::uint8_t { k1986, k1991, k1995, k2002, k2019 };
 struct EditionName {

@@ -315,7 +315,7 @@ Result<LightFile> LightsOfPreset(const Node& root, std::string_view where) {
   return tl::unexpected(*std::move(reading.error));
 }
 
-void ReadSchema(FieldReader& reader) {
+void ReadLightSchema(FieldReader& reader) {
   std::string schema;
   reader.Text("schema", schema);
   if (!reader.Has("schema")) {
@@ -368,7 +368,7 @@ static Result<LightFile> LightsOfDocument(std::string_view text, std::string_vie
                                  std::nullopt};
   records::FieldReader reader(*node, "", reading);
   LightFile file;
-  records::ReadSchema(reader);
+  records::ReadLightSchema(reader);
   records::VisitFile(reader, file);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();

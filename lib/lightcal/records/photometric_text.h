@@ -37,6 +37,10 @@ class Lines {
 [[nodiscard]] std::string AsciiFromUtf8(std::string_view utf8);
 [[nodiscard]] std::string Latin1FromUtf8(std::string_view utf8);
 
+// What a lamp may have, generously.
+inline constexpr double kLeastLumens = 1e-9;
+inline constexpr double kMostLumens = 1e15;
+
 // Of EULUMDAT: what stands between date and user on line 12, and how many direct ratios follow.
 inline constexpr std::string_view kEulumdatLab = " / ";
 inline constexpr int kEulumdatDirectRatios = 10;

@@ -57,6 +57,11 @@ struct Reading {
   FixtureState state{};                      // what the lamp's controls said, empty = it has none
 };
 
+// Whether it is of the lamp's own light.
+[[nodiscard]] inline bool IsLit(const Reading& reading) {
+  return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
+}
+
 // What is wrong with a reading: the key it is wrong at, and what to do.
 struct ReadingFault {
   std::string key, message;

@@ -15,7 +15,8 @@
 namespace lightcal::report {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr PagePoint kTile = {340.0, 178.0};
 constexpr double kTileGap = 16.0;
 constexpr double kMargin = 24.0;
@@ -65,7 +66,7 @@ void DrawSwatch(Svg& svg, const std::string& color) {
 struct Polar {
   PagePoint centre{264.0, 54.0};
   double radius = 68.0;
-  double most = 0.5 * kPi;  // the largest angle from straight down that is drawn
+  double most = 0.5 * pi;  // the largest angle from straight down that is drawn
 
   [[nodiscard]] PagePoint At(double part, double out) const {
     return {centre.first + part * radius * std::sin(out),
@@ -85,8 +86,8 @@ std::vector<PagePoint> Arc(const Polar& polar, double part) {
 bool ShinesUp(const IntensityTable& table) {
   constexpr double kVisible = 0.005;  // of the peak
   for (int i = 1; i <= kLobeSteps; ++i) {
-    const Radians gamma(0.5 * kPi * (1.0 + static_cast<double>(i) / kLobeSteps));
-    for (const double c : {0.0, kPi}) {
+    const Radians gamma(0.5 * pi * (1.0 + static_cast<double>(i) / kLobeSteps));
+    for (const double c : {0.0, pi}) {
       const double candela = table.At(Radians(c), gamma).value();
       if (candela > kVisible * table.peak().intensity.value()) return true;
     }
@@ -96,15 +97,15 @@ bool ShinesUp(const IntensityTable& table) {
 
 void DrawLobe(Svg& svg, const IntensityTable& table, const std::string& color) {
   Polar polar;
-  if (ShinesUp(table)) polar = {{270.0, 89.0}, 58.0, kPi};
+  if (ShinesUp(table)) polar = {{270.0, 89.0}, 58.0, pi};
   for (const double part : {0.5, 1.0}) svg.Path("ring", Arc(polar, part));
-  svg.Line("ring", polar.At(1.0, -0.5 * kPi), polar.At(1.0, 0.5 * kPi));
+  svg.Line("ring", polar.At(1.0, -0.5 * pi), polar.At(1.0, 0.5 * pi));
   svg.Line("ring", polar.centre, polar.At(1.0, 0.0));
   const double peak = table.peak().intensity.value();
   std::string data;
   for (int i = -kLobeSteps; i <= kLobeSteps; ++i) {
     const double out = polar.most * i / kLobeSteps;
-    const double candela = table.At(Radians(out < 0.0 ? kPi : 0.0), Radians(std::abs(out))).value();
+    const double candela = table.At(Radians(out < 0.0 ? pi : 0.0), Radians(std::abs(out))).value();
     const PagePoint at = polar.At(candela / peak, out);
     data += (data.empty() ? "M" : "L") + Px(at.first) + " " + Px(at.second);
   }
@@ -130,7 +131,7 @@ void DrawShape(Svg& svg, const SheetLight& entry, const std::string& color) {
   } else if (entry.light.kind == LightKind::kDome) {
     std::vector<PagePoint> dome;
     for (int i = 0; i <= kLobeSteps; ++i) {
-      const double a = kPi * i / kLobeSteps;
+      const double a = pi * i / kLobeSteps;
       dome.emplace_back(270.0 - 58.0 * std::cos(a), 118.0 - 58.0 * std::sin(a));
     }
     svg.Path("ray", dome, true);

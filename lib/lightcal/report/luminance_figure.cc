@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTop = 34.0, kBelow = 10.0;
 constexpr double kWidest = 356.0, kTallest = 340.0, kShortest = 120.0;
-constexpr double kBarGap = 16.0, kBarWidth = 16.0;
+constexpr double kScaleBarGap = 16.0, kScaleBarWidth = 16.0;
 
 void DrawRegion(Svg& svg, const std::array<double, 4>& region, double scale_x, double scale_y) {
   const double left = region[0] * scale_x;
@@ -39,8 +39,8 @@ std::string LuminanceFigure(const LuminancePicture& picture, std::string_view id
   if (picture.region) {
     DrawRegion(svg, *picture.region, width / picture.width, height / picture.height);
   }
-  DrawScaleBar(svg, picture.scale, {width + kBarGap, kTop, kBarWidth, height}, picture.scale_uri,
-               "cd/m²");
+  DrawScaleBar(svg, picture.scale, {width + kScaleBarGap, kTop, kScaleBarWidth, height},
+               picture.scale_uri, "cd/m²");
   return WithXlink(svg.Finish());
 }
 

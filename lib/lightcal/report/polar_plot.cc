@@ -15,11 +15,12 @@
 namespace lightcal::report {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
+
 constexpr int kSteps = 720;  // of a whole plane
 constexpr double kSpokeDeg = 15.0;
 
-struct Layout {
+struct PolarLayout {
   PagePoint centre;
   double radius = 0.0;  // of the outermost ring
   bool whole = false;   // both hemispheres
@@ -41,23 +42,23 @@ double CandelaAt(const IntensityTable& table, double plane, double out) {
     const Vec3 d = {std::cos(out), -s * std::cos(plane), s * std::sin(plane)};
     return table.Towards(d).value();
   }
-  const double c = out < 0.0 ? plane + kPi : plane;
+  const double c = out < 0.0 ? plane + pi : plane;
   return table.At(Radians(c), Radians(std::abs(out))).value();
 }
 
 double LargestAbove(const IntensityTable& table) {
   double largest = 0.0;
-  for (const double plane : {0.0, 0.5 * kPi}) {
+  for (const double plane : {0.0, 0.5 * pi}) {
     for (int i = kSteps / 4 + 2; i <= kSteps / 2; ++i) {
-      const double out = 2.0 * kPi * i / kSteps;
+      const double out = 2.0 * pi * i / kSteps;
       largest = std::max({largest, CandelaAt(table, plane, out), CandelaAt(table, plane, -out)});
     }
   }
   return largest;
 }
 
-Layout LayoutOf(const IntensityTable& table) {
-  Layout layout;
+PolarLayout LayoutOf(const IntensityTable& table) {
+  PolarLayout layout;
   constexpr double kVisible = 0.005;  // of the peak
   layout.whole = LargestAbove(table) > kVisible * table.peak().intensity.value();
   layout.radius = layout.whole ? 128.0 : 192.0;
@@ -71,8 +72,8 @@ Layout LayoutOf(const IntensityTable& table) {
   return layout;
 }
 
-void DrawGrid(Svg& svg, const Layout& layout) {
-  const double most = layout.whole ? kPi : 0.5 * kPi;
+void DrawGrid(Svg& svg, const PolarLayout& layout) {
+  const double most = layout.whole ? pi : 0.5 * pi;
   const auto arc = [&](double candela) {
     std::vector<PagePoint> points;
     for (int i = -90; i <= 90; ++i) points.push_back(layout.At(candela, most * i / 90.0));
@@ -97,18 +98,18 @@ void DrawGrid(Svg& svg, const Layout& layout) {
 }
 
 // Along the horizon, where few lamps shine.
-void DrawRingLabels(Svg& svg, const Layout& layout) {
+void DrawRingLabels(Svg& svg, const PolarLayout& layout) {
   for (const double candela : TicksOf(layout.rings, layout.ring_gap)) {
     if (!(candela > 0.0)) continue;
-    const PagePoint at = layout.At(candela, 0.5 * kPi);
+    const PagePoint at = layout.At(candela, 0.5 * pi);
     svg.Text("tick halo", {at.first, at.second - 6.0}, "middle", Figure(candela));
   }
 }
 
-void DrawPlane(Svg& svg, const Layout& layout, const IntensityTable& table, double plane,
+void DrawPlane(Svg& svg, const PolarLayout& layout, const IntensityTable& table, double plane,
                std::string_view css, bool filled = false) {
   std::vector<PagePoint> points;
-  const double most = layout.whole ? kPi : 0.5 * kPi;
+  const double most = layout.whole ? pi : 0.5 * pi;
   for (int i = -kSteps / 2; i <= kSteps / 2; ++i) {
     const double out = most * 2.0 * i / kSteps;
     points.push_back(layout.At(CandelaAt(table, plane, out), out));
@@ -140,10 +141,10 @@ void DrawKey(Svg& svg, const IntensityTable& table, bool two_planes) {
 std::string Draw(const IntensityTable& table, std::string_view heading, std::string_view id) {
   Svg svg(std::string(id), heading.empty() ? "Intensity by direction" : heading,
           "Polar diagram of luminous intensity in candela, written by lightcal");
-  const Layout layout = LayoutOf(table);
+  const PolarLayout layout = LayoutOf(table);
   const bool two_planes = table.symmetry() != TableSymmetry::kAxial;
   DrawGrid(svg, layout);
-  if (two_planes) DrawPlane(svg, layout, table, 0.5 * kPi, "second");
+  if (two_planes) DrawPlane(svg, layout, table, 0.5 * pi, "second");
   DrawPlane(svg, layout, table, 0.0, "model", true);
   DrawRingLabels(svg, layout);
   if (!heading.empty()) svg.Text("", {14.0, 18.0}, "start", heading);

@@ -13,22 +13,6 @@ namespace {
 
 constexpr double kUnstatedSd = 0.05;  // of a picture in cd/m^2 that does not say how sure
 
-// Colour of the light that falls on an upward plane.
-std::optional<Xy> ColorFromAbove(const Dome& dome) {
-  const LatLongGrid grid = dome.grid();
-  Column3 sum{};
-  for (int y = 0; y < dome.height / 2; ++y) {
-    for (int x = 0; x < dome.width; ++x) {
-      const auto at = 3 * (static_cast<std::size_t>(y) * dome.width + x);
-      const double weight = grid.Flow(x, y)[2];
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * double{dome.samples[at + c]};
-    }
-  }
-  const Column3 xyz = Times(dome.xyz_from_rgb, sum);
-  if (!(xyz[0] + xyz[1] + xyz[2] > 0.0)) return std::nullopt;
-  return XyFromXyz({xyz[0], xyz[1], xyz[2]});
-}
-
 Result<DomeRequest> RequestOf(const Session& session, const CaptureDescription& capture,
                               const Sources& sources) {
   const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
@@ -83,7 +67,7 @@ Result<CaptureReading> ReadDomeCapture(const Session& session, const CaptureDesc
   reading.light = capture.light;
   reading.illuminance = capture.anchor_illuminance.value_or(
       IlluminanceOn(input.dome.luminance(), input.dome.grid(), {0.0, 0.0, 1.0}));
-  if (input.has_colour) reading.xy = ColorFromAbove(input.dome);
+  reading.xy = XyFromAbove(input.dome);
   if (reading.xy) {
     reading.color_source = ColorSource::kCamera;
     reading.sigma_mired = GenericColorSigma(capture.lamp_class);

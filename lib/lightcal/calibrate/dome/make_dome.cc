@@ -104,23 +104,6 @@ Result<Provenance> ProvenanceOf(const std::vector<std::string>& files, const Sou
   return provenance;
 }
 
-// The chromaticity of what comes from above; absent in grey pictures.
-std::optional<Xy> ColorFromAbove(const Dome& dome) {
-  if (dome.channels != 3) return std::nullopt;
-  const LatLongGrid grid = dome.grid();
-  Column3 sum{};
-  for (int y = 0; y < dome.height / 2; ++y) {
-    for (int x = 0; x < dome.width; ++x) {
-      const double weight = grid.Flow(x, y)[2];
-      const std::size_t at = 3 * static_cast<std::size_t>(grid.Index(x, y));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * double{dome.samples[at + c]};
-    }
-  }
-  const Column3 xyz = Times(dome.xyz_from_rgb, sum);
-  if (!(xyz[1] > 0.0)) return std::nullopt;
-  return XyFromXyz({xyz[0], xyz[1], xyz[2]});
-}
-
 FittedLight EnvironmentOf(const MadeDome& made) {
   constexpr double kFileDigits = 1e-4;  // the picture's own rounding
   FittedLight light;
@@ -130,7 +113,7 @@ FittedLight EnvironmentOf(const MadeDome& made) {
   light.illuminance_lx =
       Uncertain{lux, lux * made.measured.scale_u95_relative.value_or(kFileDigits), std::nullopt,
                 std::nullopt};
-  light.color.xy = ColorFromAbove(made.measured.input.dome);
+  light.color.xy = XyFromAbove(made.measured.input.dome);
   light.environment = EnvironmentFile{kDomePicture, "latlong", made.white_luminance.value()};
   return light;
 }

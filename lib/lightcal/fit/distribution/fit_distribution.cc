@@ -81,7 +81,7 @@ int Reject(const Surface& surface, std::vector<ChartSample>& chart) {
                     std::sqrt(s.weight));
     }
   }
-  const double sigma = 1.4826 * UpperMedian(off);
+  const double sigma = kSdPerMad * UpperMedian(off);
   int rejected = 0;
   for (ChartSample& s : chart) {
     if (!(s.weight > 0.0)) continue;

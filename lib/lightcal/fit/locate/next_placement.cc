@@ -12,7 +12,7 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr int kPlaneSteps = 4;  // to each side
+constexpr int kPlacementSteps = 4;  // to each side
 constexpr int kSpaceSteps = 2;
 constexpr double kTellsApart = 5.0;  // sigma
 constexpr double kVague = 3.0;       // prior of the position, in distances from the meters
@@ -36,9 +36,9 @@ std::vector<Vec3> CandidatesOf(const PlacedEstimation& estimation, const Layout&
   const double reach = ReachOf(estimation, layout);
   std::vector<Vec3> out;
   if (const auto plane = CommonPlaneOf(estimation.rows)) {
-    const double step = reach / kPlaneSteps;
-    for (int i = -kPlaneSteps; i <= kPlaneSteps; ++i) {
-      for (int j = -kPlaneSteps; j <= kPlaneSteps; ++j) {
+    const double step = reach / kPlacementSteps;
+    for (int i = -kPlacementSteps; i <= kPlacementSteps; ++i) {
+      for (int j = -kPlacementSteps; j <= kPlacementSteps; ++j) {
         out.push_back(layout.middle + plane->across * (i * step) + plane->along * (j * step));
       }
     }

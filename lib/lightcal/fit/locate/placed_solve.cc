@@ -8,19 +8,20 @@
 namespace lightcal::fit {
 namespace {
 
-using Matrix = SquareOf<PlacedEstimation>;
-using Vector = VectorOf<PlacedEstimation>;
+using PlacedMatrix = SquareOf<PlacedEstimation>;
+using PlacedVector = VectorOf<PlacedEstimation>;
 using At = Linearised<PlacedEstimation>;
 
 // A free E0 cannot be negative: its marginal becomes the normal truncated at zero, the others
 // follow by their regression on it, and how far that moves the mean from the estimate counts as
 // error.
-void CutAmbient(const At& at, double estimate, const Matrix& covariance, Matrix& total) {
+void CutAmbient(const At& at, double estimate, const PlacedMatrix& covariance,
+                PlacedMatrix& total) {
   const double variance = covariance(kPlacedAmbient, kPlacedAmbient);
   if (!(variance > 0.0)) return;
   const TruncatedNormal truncated =
       CutAtZero<PlacedEstimation>(at, covariance, kPlacedAmbient, estimate);
-  const Vector regression = covariance.col(kPlacedAmbient) / variance;
+  const PlacedVector regression = covariance.col(kPlacedAmbient) / variance;
   const double shift = truncated.mean - estimate;
   total += regression * regression.transpose() * (truncated.variance - variance + shift * shift);
 }
@@ -31,8 +32,8 @@ double DistanceOf(const PlacedRow& row, const PlacedTheta& theta) {
 }
 
 void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
-                   const PlacedUncertainty& input, const At& at, const Matrix& covariance,
-                   Matrix& total) {
+                   const PlacedUncertainty& input, const At& at, const PlacedMatrix& covariance,
+                   PlacedMatrix& total) {
   for (const Consider& influence : input.considered) {
     Eigen::VectorXd whitened = Eigen::VectorXd::Zero(at.residual.size());
     for (std::size_t i = 0; i < estimation.rows.size(); ++i) {
@@ -42,7 +43,7 @@ void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
           influence.relative * std::pow(DistanceOf(row, theta), influence.distance_power) /
           (row.sigma * input.row_scale);
     }
-    const Vector shift = Carried<PlacedEstimation>(at, covariance, whitened);
+    const PlacedVector shift = Carried<PlacedEstimation>(at, covariance, whitened);
     total += shift * shift.transpose();
   }
 }
@@ -73,11 +74,11 @@ Result<PlacedCovariance> EstimatePlacedCovariance(const PlacedEstimation& estima
     placed.rules[k] = {true, theta[k], input.position_sd};
   }
   const At at = Linearise(placed, theta, input.row_scale);
-  const std::optional<Matrix> covariance = CovarianceAt(placed, at);
+  const std::optional<PlacedMatrix> covariance = CovarianceAt(placed, at);
   if (!covariance) {
     return Refused("underdetermined", "fit", "the readings do not determine the lamp's position");
   }
-  Matrix total = *covariance;
+  PlacedMatrix total = *covariance;
   if (placed.rules[kPlacedAmbient].free) {
     CutAmbient(at, theta[kPlacedAmbient], *covariance, total);
   }

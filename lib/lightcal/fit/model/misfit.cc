@@ -15,7 +15,7 @@ namespace lightcal::fit {
 namespace {
 
 constexpr double kLeastProbability = 1e-3;
-constexpr double kExplained = 0.05;
+constexpr double kLeastProbabilityOfRest = 0.05;
 constexpr double kMostRatio = 3.0;     // of scatter over sigma that an answer is worth having with
 constexpr double kLeastMisfit = 0.04;  // rms in ln E, below which widening is answer enough
 constexpr int kFewestDistances = 3;
@@ -124,7 +124,7 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
     Estimation rest = all;
     rest.rows = Without(all.rows, {i});
     const Result<Theta> theta = SolveSettled(rest);
-    if (!theta || ContradictionOf(rest, *theta).Probability() < kExplained) continue;
+    if (!theta || ContradictionOf(rest, *theta).Probability() < kLeastProbabilityOfRest) continue;
     const Observation& o = observations.rows[static_cast<std::size_t>(prepared.observation[at])];
     const double ratio = all.rows[at].measured / RowIlluminance(all.rows[at], theta->data());
     const double foot = std::abs(std::log(ratio / kSquareFoot));

@@ -24,7 +24,7 @@ constexpr std::size_t kFewestLeft = 3;
 constexpr std::array<double, 8> kStudent = {12.924, 8.610, 6.869, 5.959,
                                             5.408,  5.041, 4.781, 4.587};  // from kFewestLeft on
 // What is left of a column is rounding where the others explain it to this.
-constexpr double kExplained = 1e-10;
+constexpr double kLeastLeftOver = 1e-10;
 // Below this share of time left, it ran as distance did and tells nothing of its own.
 constexpr double kTimeLeft = 1e-3;
 constexpr std::size_t kFewestForDrift = 4;
@@ -155,7 +155,7 @@ class Explained {
     const double before = Length2(column);
     Remove(column);
     const double after = Length2(column);
-    if (!(after > kExplained * before)) return;
+    if (!(after > kLeastLeftOver * before)) return;
     for (double& v : column) v /= std::sqrt(after);
     columns_.push_back(std::move(column));
   }

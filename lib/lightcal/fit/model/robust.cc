@@ -11,7 +11,6 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr double kSdPerMad = 1.4826;  // of a normal variable
 constexpr int kFewestForRejection = 5;
 constexpr int kFewestForPairs = 6;
 constexpr std::size_t kMostForLeaveOut = 9;

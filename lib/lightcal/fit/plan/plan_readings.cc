@@ -120,9 +120,8 @@ class Planner {
 
   // What is known before any step.
   Result<void> Begin(std::optional<double>& u95_relative) {
-    const bool read =
-        std::any_of(session_.readings.begin(), session_.readings.end(),
-                    [](const SessionReading& row) { return fit::IsLit(row.reading); });
+    const bool read = std::any_of(session_.readings.begin(), session_.readings.end(),
+                                  [](const SessionReading& row) { return IsLit(row.reading); });
     auto fitted = FitSession(session_, settings_);
     if (fitted && !fitted->lights.lights.empty()) {
       now_ = std::move(fitted->lights.lights.front());
@@ -136,7 +135,7 @@ class Planner {
 
   // The meter stands where it read last.
   void StandAt(const Reading& reading) {
-    if (!fit::IsLit(reading) || reading.meter == kDataSheetMeter) return;
+    if (!IsLit(reading) || reading.meter == kDataSheetMeter) return;
     stands_ =
         PlannedReading{PlannedAction::kRead, reading.distance, reading.position_m, reading.normal};
   }
@@ -147,7 +146,7 @@ class Planner {
     std::map<std::string, double> of_instrument;
     of_instrument[InstrumentOf(like_)] = CalibrationRelative(session_, like_);
     for (const SessionReading& row : session_.readings) {
-      if (!fit::IsLit(row.reading)) continue;
+      if (!IsLit(row.reading)) continue;
       of_instrument[InstrumentOf(row.reading)] = CalibrationRelative(session_, row.reading);
     }
     double information = 0.0;

@@ -262,10 +262,6 @@ class Candidates {
 
 }  // namespace
 
-bool IsLit(const Reading& reading) {
-  return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card;
-}
-
 std::vector<PlannedReading> ReadingCandidates(const Session& session, const FittedLight* fitted,
                                               double reach_m) {
   return Candidates(session, session.lights.front(), fitted, reach_m).List();

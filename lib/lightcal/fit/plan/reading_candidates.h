@@ -18,7 +18,5 @@ inline constexpr double kFarthestReach = 10.0;  // metres
                                                             double reach_m);
 // Farthest over nearest distance of its readings with the lamp on.
 [[nodiscard]] std::optional<double> DistanceSpan(const Session& session);
-// Whether it is of the lamp's light.
-[[nodiscard]] bool IsLit(const Reading& reading);
 
 }  // namespace lightcal::fit

@@ -13,7 +13,7 @@ namespace {
 constexpr double kFirst_nm = 378.0, kLast_nm = 782.0;  // of the spectra, what is looked at
 constexpr Eigen::Index kMostEmitters = 8;
 constexpr double kRepeats = 0.005, kMostNoise = 0.03, kNoises = 1.5;
-constexpr int kRounds = 200, kRoundsBetweenLooks = 10;
+constexpr int kDescentRounds = 200, kRoundsBetweenLooks = 10;
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -115,7 +115,7 @@ bool Grow(const Rows& readings, Factors& factors) {
   };
   bool within = gives();
   // A reading that stands for an emitter has noise of its own, which one look takes off.
-  for (int round = 0; round < kRounds; round += kRoundsBetweenLooks) {
+  for (int round = 0; round < kDescentRounds; round += kRoundsBetweenLooks) {
     if (within && round > 0) return true;
     for (int i = 0; i < kRoundsBetweenLooks; ++i) Alternate(readings, factors);
     within = gives();

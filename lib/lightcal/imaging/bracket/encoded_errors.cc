@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 
 namespace lightcal {
@@ -82,8 +83,7 @@ double CurveMisfit(const SampledSignals& signals, int channels, const MergePlan&
     }
   }
   // The difference of two frames holds the misfit of both.
-  constexpr double kSdOfMedian = 1.4826;  // of a normal variable's size
-  return std::min(kMostMisfit, kSdOfMedian * MedianSize(std::move(misfits)) / std::sqrt(2.0));
+  return std::min(kMostMisfit, kSdPerMad * MedianSize(std::move(misfits)) / std::sqrt(2.0));
 }
 
 double SharedNoise(const SampledSignals& signals, int channels, const MergePlan& plan) {

@@ -11,12 +11,12 @@
 namespace lightcal {
 namespace {
 
-constexpr std::size_t kLevels = 12, kLeastOfLevel = 100;
+constexpr std::size_t kLevels = 12, kLeastCellsOfLevel = 100;
 constexpr float kMostBias = 0.08F;    // of a level, that a curve may be wrong by
 constexpr float kLeastShape = 0.02F;  // relative
 constexpr float kShapeSigmas = 5.0F;
 constexpr float kLeastSpread = 0.002F;
-constexpr float kRobustSd = 1.4826F;  // of a normal variable's median absolute deviation
+constexpr auto kRobustSd = static_cast<float>(kSdPerMad);
 constexpr int kLeastOfNine = 5, kLeastPiece = 9;
 constexpr double kLeastPieceShare = 1.5e-3;
 
@@ -29,7 +29,7 @@ std::vector<std::vector<std::size_t>> BlocksByLevel(const Differences& found, co
   std::ranges::sort(all, [&](std::size_t i, std::size_t j) {
     return a.mean[i] < a.mean[j] || (a.mean[i] == a.mean[j] && i < j);
   });
-  const std::size_t levels = std::clamp<std::size_t>(all.size() / kLeastOfLevel, 1, kLevels);
+  const std::size_t levels = std::clamp<std::size_t>(all.size() / kLeastCellsOfLevel, 1, kLevels);
   std::vector<std::vector<std::size_t>> parts(levels);
   for (std::size_t k = 0; k < all.size(); ++k) parts[k * levels / all.size()].push_back(all[k]);
   return parts;

@@ -12,7 +12,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kLeastSamples = 20.0;  // of a bin
-constexpr double kHighestLevel = 0.8;   // of the clip; above, sensors bend
+constexpr double kHighestOfClip = 0.8;  // of the clip; above, sensors bend
 constexpr int kGatePasses = 3;
 constexpr int kFitPasses = 8;
 constexpr double kLeastOffset = 1e-12;  // of a variance: no sensor is without read noise
@@ -25,7 +25,7 @@ struct Point {
 // `shorter`, `longer`: what is left of the variance of each frame's samples.
 std::vector<Point> PointsOf(const PairSums& sums, double ratio, double shorter, double longer) {
   std::vector<Point> points;
-  for (int bin = 0; bin < kLevelBins && BinLowerLevel(bin + 1) < kHighestLevel; ++bin) {
+  for (int bin = 0; bin < kLevelBins && BinLowerLevel(bin + 1) < kHighestOfClip; ++bin) {
     const LevelSums& sum = sums[static_cast<std::size_t>(bin)];
     if (sum.count < kLeastSamples) continue;
     const double mean = sum.d / sum.count;

@@ -150,9 +150,8 @@ std::array<double, kLevelBins> FirstGates(std::span<const float> a, std::span<co
     std::size_t seen = 0;
     for (int size = 0; size < kSizes && 2 * seen < counts[bin]; ++size) {
       seen += sizes[bin][static_cast<std::size_t>(size)];
-      // Standard deviation of a normal variable = 1.4826 medians of its magnitude.
       if (2 * seen >= counts[bin] && size > 0) {
-        gates[bin] = kGateSigmas * 1.4826 * std::exp2(kSmallest + (size + 1) / 4.0);
+        gates[bin] = kGateSigmas * kSdPerMad * std::exp2(kSmallest + (size + 1) / 4.0);
       }
     }
   }

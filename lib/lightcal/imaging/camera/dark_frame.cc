@@ -11,7 +11,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kMadToSd = 1.4826;
 constexpr double kWithin = 5.0, kHot = 10.0;  // standard deviations
 constexpr double kMostBlack = 0.02;
 constexpr double kMostHot = 0.01;
@@ -65,7 +64,7 @@ std::array<Level, 3> LevelsOf(const SignalFrame& frame, const std::vector<float>
     for (float& v : values[c]) v = static_cast<float>(std::abs(v - levels[c].median));
     // Codes of a quiet sensor may all be one value: then rounding is the spread.
     levels[c].sd =
-        std::max(kMadToSd * double{UpperMedian(values[c])}, 0.3 * double{frame.scale[0][0]});
+        std::max(kSdPerMad * double{UpperMedian(values[c])}, 0.3 * double{frame.scale[0][0]});
   }
   return levels;
 }

@@ -13,7 +13,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kAimMad = 1.4826;
 constexpr double kBendSd = 0.03;   // prior of the lens's a and b
 constexpr double kGaugeSd = 1e-5;  // radians, of the mean turn
 
@@ -127,10 +126,10 @@ void ReweighAims(AimBundle& bundle, const AimVector& at) {
   for (const AimMatch& match : bundle.matches) {
     for (const double v : AimMisfit(bundle, match, at)) off.push_back(std::abs(v));
   }
-  bundle.sd_px = std::max(1e-3, kAimMad * UpperMedian(off));
+  bundle.sd_px = std::max(1e-3, kSdPerMad * UpperMedian(off));
   for (AimMatch& match : bundle.matches) {
     const auto [x, y] = AimMisfit(bundle, match, at);
-    const double z = std::hypot(x, y) / (kAimCauchy * bundle.sd_px);
+    const double z = std::hypot(x, y) / (kCauchyScale * bundle.sd_px);
     match.weight = 1.0 / (1.0 + z * z);
   }
 }

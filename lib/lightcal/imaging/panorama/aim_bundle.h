@@ -15,7 +15,6 @@ namespace lightcal {
 using AimVector = Eigen::VectorXd;
 using AimMatrix = Eigen::MatrixXd;
 
-inline constexpr double kAimCauchy = 2.385;  // scale of Cauchy's loss, standard deviations
 inline constexpr int kAimLensParameters = 3;
 
 // A feature that views a and b share, and the plane in which its misfit is measured.

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "lightcal/core/statistics.h"
+
 namespace lightcal {
 namespace {
 
@@ -113,7 +115,8 @@ AimMatrix CurvatureOf(const std::vector<Eigen::Index>& matches, const AimMatrix&
     rows.middleRows<2>(2 * i) = jacobian.middleRows<2>(row);
     scores.col(i) = jacobian.middleRows<2>(row).transpose() * residual.segment<2>(row);
   }
-  return rows.transpose() * rows - 2.0 / (kAimCauchy * kAimCauchy) * (scores * scores.transpose());
+  return rows.transpose() * rows -
+         2.0 / (kCauchyScale * kCauchyScale) * (scores * scores.transpose());
 }
 
 // By how much leaving out one field after the other moves the parameters: the sum of squares. The

@@ -279,4 +279,20 @@ void InferIlluminance(Lux illuminance, DomeLight& light) {
   light.luminance = Nits(illuminance.value() / light.solid_angle.value());
 }
 
+std::optional<Xy> XyFromAbove(const Dome& dome) {
+  if (dome.channels != 3) return std::nullopt;
+  const LatLongGrid grid = dome.grid();
+  Column3 sum{};
+  for (int y = 0; y < dome.height / 2; ++y) {
+    for (int x = 0; x < dome.width; ++x) {
+      const double weight = grid.Flow(x, y)[2];
+      const std::size_t at = 3 * static_cast<std::size_t>(grid.Index(x, y));
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * double{dome.samples[at + c]};
+    }
+  }
+  const Column3 xyz = Times(dome.xyz_from_rgb, sum);
+  if (!(xyz[1] > 0.0)) return std::nullopt;
+  return XyFromXyz({xyz[0], xyz[1], xyz[2]});
+}
+
 }  // namespace lightcal

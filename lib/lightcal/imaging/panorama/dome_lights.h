@@ -31,6 +31,10 @@ struct Dome {
   void Multiply(double factor);
 };
 
+// Colour of what falls on a level plane that looks up: the mean over the upper half, weighted by
+// the cosine. Absent where the picture is without colour or black.
+[[nodiscard]] std::optional<Xy> XyFromAbove(const Dome& dome);
+
 // One light, as it shines into the middle of the panorama.
 //   flow = integral of (L - fill) w dOmega  [lx],  illuminance = |flow| (at normal incidence),
 //   direction = flow / |flow|;

@@ -23,7 +23,7 @@ constexpr double kMostHiddenOfGrey = 0.03;  // of what lights a cell from a unif
 constexpr std::size_t kLeastGreyCells = 12;
 constexpr double kMostGreyMisfit = 0.25;
 constexpr double kIndependentParts = 6.0;
-constexpr double kGreyMad = 1.4826, kCauchyScale = 2.385, kLeastScatter = 1e-3;
+constexpr double kLeastScatter = 1e-3;
 constexpr int kMeanRounds = 20;
 
 // What blocks of a dome send through its middle, and what its holes would.
@@ -149,7 +149,7 @@ Result<GreyScale> ScaleByGrey(const GreyTarget& target, View2d<const float> plat
   std::vector<double> off;
   for (const double q : ratio) off.push_back(std::abs(q - middle));
   GreyScale scale;
-  scale.misfit_sd = std::max(kLeastScatter, kGreyMad * UpperMedian(off));
+  scale.misfit_sd = std::max(kLeastScatter, kSdPerMad * UpperMedian(off));
   if (scale.misfit_sd > kMostGreyMisfit) {
     return Refused("grey_disagrees", target.file,
                    "the dome does not explain how the grey ball is shaded (" +

@@ -27,7 +27,6 @@ constexpr double kMirrorSd = 0.05;    // the same of a mirror ball, whose reflec
 // What sampling between the pixels of gradients leaves in a view's factor, measured on synthetic
 // skies: 1e-4 round a ring of views, however many pixels they share.
 constexpr double kSamplingSd = 1.5e-4;
-constexpr double kCauchy = 2.385, kNormalMad = 1.4826;
 constexpr int kSolveRounds = 25;
 constexpr double kGaugeWeight = 1e9;
 
@@ -209,7 +208,7 @@ double SdOfRest(const Normal& normal, const std::vector<Cell>& cells, bool in_ow
       off.push_back(std::abs(normal.Left(sight) - mean) / unit);
     }
   }
-  return kNormalMad * UpperMedian(off);
+  return kSdPerMad * UpperMedian(off);
 }
 
 void Reweigh(const Normal& normal, std::vector<Cell>& cells) {
@@ -217,7 +216,8 @@ void Reweigh(const Normal& normal, std::vector<Cell>& cells) {
   for (Cell& cell : cells) {
     const double mean = normal.MeanLeft(cell);
     for (Sight& sight : cell.sights) {
-      const double off = (normal.Left(sight) - mean) / std::sqrt(sight.variance) / (kCauchy * sd);
+      const double off =
+          (normal.Left(sight) - mean) / std::sqrt(sight.variance) / (kCauchyScale * sd);
       sight.weight = cell.area / sight.variance / (1.0 + off * off);
     }
   }
