@@ -76,8 +76,8 @@ std::optional<ReadingTrial> TryExpected(const KnownSoFar& known, const PlannedRe
 }
 
 bool IsNearlySettled(const ReadingTrial& trial) {
-  constexpr double kSame = 0.01;
-  return std::abs(trial.ln_off) < kSame;
+  constexpr double kPredictsItself = 0.01;
+  return std::abs(trial.ln_off) < kPredictsItself;
 }
 
 std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial first) {
