@@ -127,18 +127,6 @@ void VisitCameraProfile(Archive& archive, SomeProfile& profile) {
   archive.Require({"width", "height", "scale"});
 }
 
-void ReadCameraSchema(FieldReader& reader) {
-  std::string schema;
-  reader.Text("schema", schema);
-  if (!reader.Has("schema")) {
-    reader.Fail("schema", "schema is missing: this is no camera.json of lightcal");
-  } else if (schema != kCameraSchema) {
-    reader.Fail("schema", "schema = " + Quoted(schema) + ": this program reads " +
-                              std::string(kCameraSchema) +
-                              "; make the profile again with {CalibrateCamera}");
-  }
-}
-
 // What single values do not show.
 void CheckProfile(FieldReader& reader, const CameraProfile& profile) {
   if (reader.Failed()) return;
@@ -189,7 +177,8 @@ Result<CameraProfile> CameraProfileFromJson(std::string_view text, std::string_v
                                  std::nullopt};
   records::FieldReader reader(*node, "", reading);
   CameraProfile profile;
-  records::ReadCameraSchema(reader);
+  reader.RequireSchema(kCameraSchema, "camera.json",
+                       "make the profile again with {CalibrateCamera}");
   records::VisitCameraProfile(reader, profile);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();

@@ -195,6 +195,18 @@ void FieldReader::Numbers(std::string_view key, std::vector<double>& out, const 
   }
 }
 
+void FieldReader::RequireSchema(std::string_view schema, std::string_view document,
+                                std::string_view otherwise) {
+  std::string found;
+  Text("schema", found);
+  if (!Has("schema")) {
+    Fail("schema", "schema is missing: this is no " + std::string(document) + " of lightcal");
+  } else if (found != schema) {
+    Fail("schema", "schema = " + Quoted(found) + ": this program reads " + std::string(schema) +
+                       "; " + std::string(otherwise));
+  }
+}
+
 void FieldReader::Texts(std::string_view key, std::vector<std::string>& out) {
   const Node* value = Take(key, Node::Kind::kArray);
   if (value == nullptr) return;

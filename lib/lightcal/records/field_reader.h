@@ -137,6 +137,9 @@ class FieldReader {
 
   // Says that these keys must be there.
   void Require(std::initializer_list<std::string_view> keys);
+  // Refuses a document ("light.json") of another schema than this; `otherwise`: what to do then.
+  void RequireSchema(std::string_view schema, std::string_view document,
+                     std::string_view otherwise);
   // Takes a key without reading it.
   void Ignore(std::string_view key) { (void)Take(key, std::nullopt); }
   // This table may hold more than is asked for.

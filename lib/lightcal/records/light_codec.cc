@@ -315,18 +315,6 @@ Result<LightFile> LightsOfPreset(const Node& root, std::string_view where) {
   return tl::unexpected(*std::move(reading.error));
 }
 
-void ReadLightSchema(FieldReader& reader) {
-  std::string schema;
-  reader.Text("schema", schema);
-  if (!reader.Has("schema")) {
-    reader.Fail("schema", "schema is missing: this is no light.json of lightcal");
-  } else if (schema != kLightSchema) {
-    reader.Fail("schema", "schema = " + Quoted(schema) + ": this program reads " +
-                              std::string(kLightSchema) +
-                              "; fit the session again with this program, or update it");
-  }
-}
-
 }  // namespace
 }  // namespace records
 
@@ -368,7 +356,8 @@ static Result<LightFile> LightsOfDocument(std::string_view text, std::string_vie
                                  std::nullopt};
   records::FieldReader reader(*node, "", reading);
   LightFile file;
-  records::ReadLightSchema(reader);
+  reader.RequireSchema(kLightSchema, "light.json",
+                       "fit the session again with this program, or update it");
   records::VisitFile(reader, file);
   reader.Ignore("warnings");  // an answer may add them to the same document
   reader.Finish();

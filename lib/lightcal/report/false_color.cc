@@ -14,17 +14,16 @@ namespace {
 constexpr double kLinearUpTo = 20.0;  // brightest over dimmest
 constexpr double kMostDecades = 3.0;
 
-using AnchorRgb = std::array<double, 3>;
 // Evenly spaced along the scale, sRGB 0..255.
-constexpr std::array<AnchorRgb, 9> kAnchors = {{{9, 11, 28},
-                                                {33, 30, 84},
-                                                {75, 37, 127},
-                                                {126, 45, 137},
-                                                {180, 57, 120},
-                                                {222, 85, 85},
-                                                {245, 134, 58},
-                                                {251, 188, 76},
-                                                {255, 244, 190}}};
+constexpr std::array<std::array<double, 3>, 9> kAnchors = {{{9, 11, 28},
+                                                            {33, 30, 84},
+                                                            {75, 37, 127},
+                                                            {126, 45, 137},
+                                                            {180, 57, 120},
+                                                            {222, 85, 85},
+                                                            {245, 134, 58},
+                                                            {251, 188, 76},
+                                                            {255, 244, 190}}};
 
 std::array<std::uint8_t, 3> ColorAt(double part) {
   const double at = std::clamp(part, 0.0, 1.0) * (kAnchors.size() - 1);
