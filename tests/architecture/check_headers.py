@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every public header compiles alone: what it uses it includes.
+
+    check_headers.py SOURCE BUILD     compiles each by CMake's own command (the sources that
+                                      VERIFY_INTERFACE_HEADER_SETS lays out); exit 1 and their
+                                      messages when one does not
+    check_headers.py --self-test      a header that leaves an include out is found
+
+Nine tenths of such a compilation read the standard library. A few precompiled beginnings spare it:
+one is used only by headers that include, themselves or through other headers of ours, everything
+that it holds, so that it hides no missing include.
+"""
+import concurrent.futures
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+BEGINNINGS = 8
+INCLUDE = re.compile(r'\s*#\s*include\s+[<"]([^>"]+)[>"]')
+
+
+class Includes:
+    """What a header includes of others, through all of ours, wherever no #if stands before it."""
+
+    def __init__(self, roots):
+        self.roots = roots
+        self.found = {}
+
+    def of_others(self, header):
+        if header in self.found:
+            return self.found[header]
+        self.found[header] = frozenset()
+        others, conditions = set(), 0
+        for line in header.read_text().splitlines():
+            word = re.match(r"\s*#\s*(if|endif)", line)
+            if word:
+                conditions += 1 if word.group(1) == "if" else -1
+            include = INCLUDE.match(line)
+            if not include or conditions:
+                continue
+            own = next((path for path in (folder / include.group(1)
+                                          for folder in [header.parent, *self.roots])
+                        if path.exists()), None)
+            others |= self.of_others(own) if own else {include.group(1)}
+        self.found[header] = frozenset(others)
+        return self.found[header]
+
+
+def choose_beginnings(others):
+    """The sets of includes that spare most, each the whole of some header's: greedily."""
+    spared = dict.fromkeys(others, 0)
+    chosen = []
+    for _ in range(BEGINNINGS):
+        gain, best = max((sum(max(0, len(names) - spared[header]) for header in others
+                              if names <= others[header]), sorted(names))
+                         for names in set(others.values()))
+        if gain == 0:
+            break
+        chosen.append(frozenset(best))
+        for header, names in others.items():
+            if chosen[-1] <= names:
+                spared[header] = max(spared[header], len(best))
+    return chosen
+
+
+def compile_all(commands, includes):
+    """{header: (its command's words without output and source, the source)} -> messages."""
+    others = {header: includes.of_others(header) for header in commands}
+    folder = tempfile.TemporaryDirectory()
+
+    def precompile(number, names):
+        path = pathlib.Path(folder.name) / f"beginning{number}.h"
+        path.write_text("".join(f"#include <{name}>\n" for name in sorted(names)))
+        words = next(commands[header][0] for header in commands if others[header] == names)
+        subprocess.run([*words, "-x", "c++-header", "-c", path, "-o", f"{path}.gch"], check=True)
+        return names, path
+
+    def compile_one(header):
+        words, source = commands[header]
+        fitting = [(len(names), path) for names, path in beginnings if names <= others[header]]
+        before = ["-include", max(fitting)[1]] if fitting else []
+        run = subprocess.run([*words, *before, "-fsyntax-only", source], capture_output=True, text=True)
+        return f"{header} does not compile alone:\n{run.stderr}" if run.returncode else ""
+
+    with folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        beginnings = list(pool.map(precompile, *zip(*enumerate(choose_beginnings(others)))))
+        return [message for message in pool.map(compile_one, commands) if message]
+
+
+def commands_of(build, roots):
+    found = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        named = re.search(r"_verify_interface_header_sets/(\S+)\.cxx$", entry["file"])
+        if not named:
+            continue
+        header = next(root / named.group(1) for root in roots if (root / named.group(1)).exists())
+        words = shlex.split(entry["command"])
+        words = words[:words.index("-o")]
+        language = words.index("-x")  # each compilation says its own
+        del words[language:language + 2]
+        # A launcher would keep nothing of this.
+        compiler = next(i for i, word in enumerate(words) if re.search(r"(\+\+|cc)(-\d+)?$", word))
+        found[header] = (words[compiler:], entry["file"])
+    return found
+
+
+def self_test():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for header, text in {
+                "whole": "#include <string>\n#include <vector>\nstd::vector<std::string> a();\n",
+                "again": "#include \"whole.h\"\nstd::vector<std::string> b();\n",
+                "lacks": "#include <string>\nstd::vector<std::string> c();\n",
+                "later": "#ifdef NEVER\n#include <vector>\n#endif\nstd::vector<int> d();\n"}.items():
+            (folder / f"{header}.h").write_text("#pragma once\n" + text)
+            (folder / f"{header}.cxx").write_text(f"#include \"{header}.h\"\n")
+        words = ["c++", "-std=c++20", f"-I{folder}"]
+        commands = {folder / f"{header}.h": (words, folder / f"{header}.cxx")
+                    for header in ("whole", "again", "lacks", "later")}
+        told = sorted(pathlib.Path(message.split()[0]).stem
+                      for message in compile_all(commands, Includes([folder])))
+        assert told == ["lacks", "later"], told
+
+
+def main():
+    if sys.argv[1] == "--self-test":
+        return self_test()
+    source, build = map(pathlib.Path, sys.argv[1:3])
+    roots = [source / "lib", source / "devices", source / "app"]
+    commands = commands_of(build, roots)
+    if len(commands) < 400:
+        sys.exit(f"{len(commands)} headers to compile: CMake laid out fewer than there are")
+    messages = compile_all(commands, Includes(roots))
+    print("\n".join(messages) or f"{len(commands)} headers compile alone")
+    return 1 if messages else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
