@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "color_answer.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/core/numbers_text.h"
@@ -21,11 +22,8 @@ namespace lightcal {
 namespace {
 
 using nlohmann::json;
+using test::Color;
 using test::RunLightcal;
-
-json Color(const std::vector<std::string>& arguments) {
-  return test::LightcalJson("color", arguments);
-}
 
 bool Warns(const json& answer, const std::string& code) {
   if (!answer.contains("warnings")) return false;

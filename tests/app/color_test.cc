@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "color_answer.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/ssi.h"
@@ -24,11 +25,8 @@ namespace lightcal {
 namespace {
 
 using nlohmann::json;
+using test::Color;
 using test::RunLightcal;
-
-json Color(const std::vector<std::string>& arguments) {
-  return test::LightcalJson("color", arguments);
-}
 
 void ExpectRefused(std::vector<std::string> arguments, const std::string& code) {
   arguments.insert(arguments.begin(), "color");

@@ -13,6 +13,9 @@
 namespace lightcal::test::dome {
 
 using Words = std::vector<std::string>;
+inline const Ray kUp = {0.0, 0.0, 1.0};
+
+inline std::string Text(double v) { return std::to_string(v); }
 
 // A file of a picture's RGB divided by nits_per_unit; with absolute it says so (whiteLuminance).
 std::string WritePicture(const TempDir& folder, const std::string& name, const SkyPicture& picture,

@@ -18,10 +18,7 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr int kWidth = 1024;
-const Ray kUp = {0.0, 0.0, 1.0};
 constexpr double kUnknownUnit = 1234.5;  // cd/m^2 of 1.0 in files that do not say
-
-std::string Text(double v) { return std::to_string(v); }
 
 SkyPicture Photograph(const SkyScene& scene) {
   return Photograph(scene, LatLongView(kWidth, kWidth / 2), kWidth, kWidth / 2);

@@ -15,10 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-const Ray kUp = {0.0, 0.0, 1.0};
-
-std::string Text(double v) { return std::to_string(v); }
-
 struct Shot {
   double yaw, pitch, roll;
   double exposure;  // what its samples are wrong by

@@ -24,7 +24,7 @@ test::CliResult Exposure(Words words) {
 
 json ExposureJson(const Words& words) { return test::LightcalJson("exposure", words); }
 
-void ExpectRefusal(const Words& words, int exit_code, const std::string& says) {
+void ExpectExposureRefused(const Words& words, int exit_code, const std::string& says) {
   const test::CliResult run = Exposure(words);
   EXPECT_EQ(run.exit_code, exit_code) << run.out << run.err;
   EXPECT_EQ(run.out, "");
@@ -95,7 +95,7 @@ TEST(ExposureCommand, SaysWhichLightsFitAHalfFloat) {
 }
 
 TEST(ExposureCommand, StrictRefusesALightThatDoesNotFit) {
-  ExpectRefusal(
+  ExpectExposureRefused(
       {"--aperture", "f/16", "--shutter", "1/64", "--iso", "100", "--light", "2e9nits", "--strict"},
       3, "65504");
 }
@@ -115,50 +115,53 @@ TEST(ExposureCommand, NotesThatABareShutterOfSixtyIsSeconds) {
 }
 
 TEST(ExposureCommand, TeachesWhenTheCommandLineIsWrong) {
-  ExpectRefusal({"--shutter", "1/60", "--iso", "100"}, 2, "--aperture f/2.8");
-  ExpectRefusal({"--aperture", "2", "--t-stop", "2", "--shutter", "1/60", "--iso", "100"}, 2,
-                "once");
-  ExpectRefusal({"--aperture", "2", "--iso", "100"}, 2, "--shutter 1/60");
-  ExpectRefusal({"--aperture", "2", "--shutter", "1/60", "--angle", "180", "--iso", "100"}, 2,
-                "once");
-  ExpectRefusal({"--aperture", "2", "--angle", "180", "--iso", "100"}, 2, "together");
-  ExpectRefusal({"--aperture", "2", "--fps", "24", "--iso", "100"}, 2, "together");
-  ExpectRefusal({"--aperture", "2", "--shutter", "1/60"}, 2, "--iso 100");
-  ExpectRefusal({"--aperture", "wide", "--shutter", "1/60", "--iso", "100"}, 2, "not a number");
-  ExpectRefusal({"--aperture", "2", "--shutter", "1/0", "--iso", "100"}, 2, "number");
-  ExpectRefusal({"--aperture", "2", "--shutter", "1/60lx", "--iso", "100"}, 2, "time");
-  ExpectRefusal({"--t-stop", "2", "--transmittance", "0.9", "--shutter", "1/60", "--iso", "100"}, 2,
-                "includes");
-  ExpectRefusal({"--aperture", "2", "--shutter", "1/60", "--iso", "100", "--light", "60W"}, 2,
-                "watts are not light");
+  ExpectExposureRefused({"--shutter", "1/60", "--iso", "100"}, 2, "--aperture f/2.8");
+  ExpectExposureRefused({"--aperture", "2", "--t-stop", "2", "--shutter", "1/60", "--iso", "100"},
+                        2, "once");
+  ExpectExposureRefused({"--aperture", "2", "--iso", "100"}, 2, "--shutter 1/60");
+  ExpectExposureRefused({"--aperture", "2", "--shutter", "1/60", "--angle", "180", "--iso", "100"},
+                        2, "once");
+  ExpectExposureRefused({"--aperture", "2", "--angle", "180", "--iso", "100"}, 2, "together");
+  ExpectExposureRefused({"--aperture", "2", "--fps", "24", "--iso", "100"}, 2, "together");
+  ExpectExposureRefused({"--aperture", "2", "--shutter", "1/60"}, 2, "--iso 100");
+  ExpectExposureRefused({"--aperture", "wide", "--shutter", "1/60", "--iso", "100"}, 2,
+                        "not a number");
+  ExpectExposureRefused({"--aperture", "2", "--shutter", "1/0", "--iso", "100"}, 2, "number");
+  ExpectExposureRefused({"--aperture", "2", "--shutter", "1/60lx", "--iso", "100"}, 2, "time");
+  ExpectExposureRefused(
+      {"--t-stop", "2", "--transmittance", "0.9", "--shutter", "1/60", "--iso", "100"}, 2,
+      "includes");
+  ExpectExposureRefused({"--aperture", "2", "--shutter", "1/60", "--iso", "100", "--light", "60W"},
+                        2, "watts are not light");
 }
 
 TEST(ExposureCommand, RefusesWhatCannotBe) {
   const auto with = [](const char* aperture, const char* shutter, const char* iso) {
     return Words{"--aperture", aperture, "--shutter", shutter, "--iso", iso};
   };
-  ExpectRefusal(with("0", "1/60", "100"), 3, "above zero");
-  ExpectRefusal(with("-2", "1/60", "100"), 3, "above zero");
-  ExpectRefusal(with("2", "0", "100"), 3, "above zero");
-  ExpectRefusal(with("2", "-1/60", "100"), 3, "above zero");
-  ExpectRefusal(with("2", "1/60", "0"), 3, "above zero");
-  ExpectRefusal(with("1e200", "1/60", "100"), 3, "range");
-  ExpectRefusal({"--aperture", "2", "--angle", "361", "--fps", "24", "--iso", "100"}, 3, "360");
-  ExpectRefusal({"--aperture", "2", "--angle", "180", "--fps", "0", "--iso", "100"}, 3,
-                "above zero");
+  ExpectExposureRefused(with("0", "1/60", "100"), 3, "above zero");
+  ExpectExposureRefused(with("-2", "1/60", "100"), 3, "above zero");
+  ExpectExposureRefused(with("2", "0", "100"), 3, "above zero");
+  ExpectExposureRefused(with("2", "-1/60", "100"), 3, "above zero");
+  ExpectExposureRefused(with("2", "1/60", "0"), 3, "above zero");
+  ExpectExposureRefused(with("1e200", "1/60", "100"), 3, "range");
+  ExpectExposureRefused({"--aperture", "2", "--angle", "361", "--fps", "24", "--iso", "100"}, 3,
+                        "360");
+  ExpectExposureRefused({"--aperture", "2", "--angle", "180", "--fps", "0", "--iso", "100"}, 3,
+                        "above zero");
   for (const char* factor : {"--transmittance", "--vignetting"}) {
     for (const char* value : {"0", "1.1", "-0.5"}) {
       Words words = with("2", "1/60", "100");
       words.insert(words.end(), {factor, value});
-      ExpectRefusal(words, 3, "up to 1");
+      ExpectExposureRefused(words, 3, "up to 1");
     }
   }
   Words sideways = with("2", "1/60", "100");
   sideways.insert(sideways.end(), {"--field-angle", "90"});
-  ExpectRefusal(sideways, 3, "90 degrees");
+  ExpectExposureRefused(sideways, 3, "90 degrees");
   Words dark = with("2", "1/60", "100");
   dark.insert(dark.end(), {"--light", "-5lx"});
-  ExpectRefusal(dark, 3, "less than nothing");
+  ExpectExposureRefused(dark, 3, "less than nothing");
 }
 
 TEST(ExposureCommand, HelpShowsAnExample) {

@@ -18,7 +18,7 @@ namespace {
 using nlohmann::json;
 using Point = std::array<double, 3>;
 
-constexpr const char* kHead =
+constexpr const char* kLocatedHead =
     "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
     "[[meter]]\nname = \"m\"\nsigma_relative = 0.01\n";
 
@@ -43,7 +43,7 @@ TEST(LocateByProgram, ASquareAndItsCentreTellPositionAndIntensity) {
   constexpr int kTwins = 20;
   for (int i = 0; i < kTwins; ++i) {
     const Point lamp{uniform(random) - 0.5, uniform(random) - 0.5, 1.2 + uniform(random)};
-    std::string text = kHead;
+    std::string text = kLocatedHead;
     for (const Point& p : kCorners) text += OnFloor(p, lamp, 0.01 * normal(random));
     text += OnFloor({0, 0, 0}, lamp, 0.01 * normal(random));
     const TempDir folder;
@@ -62,7 +62,7 @@ TEST(LocateByProgram, ASquareAndItsCentreTellPositionAndIntensity) {
 
 TEST(LocateByProgram, ASquareAloneIsRefusedAndTheReadingItAsksForCuresIt) {
   const Point lamp{0.3, -0.2, 1.6};
-  std::string text = kHead;
+  std::string text = kLocatedHead;
   for (const Point& p : kCorners) text += OnFloor(p, lamp, 0.0);
   const TempDir folder;
   const std::string session = folder.Write("session.toml", text);

@@ -33,11 +33,11 @@ struct FlatLamp {
   std::function<bool(double right_m, double up_m)> shines;
 };
 
-constexpr int kWidth = 320, kHeight = 240, kRays = 6;
-constexpr double kFovDeg = 40.0;
+constexpr int kFrameWidth = 320, kFrameHeight = 240, kRaysAcross = 6;
+constexpr double kLensFovDeg = 40.0;
 
 std::vector<double> LookAt(const FlatLamp& lamp) {
-  const double focal = kWidth / 2.0 / std::tan(kFovDeg / 2.0 * pi / 180.0);
+  const double focal = kFrameWidth / 2.0 / std::tan(kLensFovDeg / 2.0 * pi / 180.0);
   // The direction to the lamp's middle and the plane's axes: right, forward, up.
   const double length = std::hypot(0.06, 1.0, 0.04);
   const Ray middle = {0.06 / length, 1.0 / length, 0.04 / length};
@@ -48,16 +48,16 @@ std::vector<double> LookAt(const FlatLamp& lamp) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
   std::vector<double> nits;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 0; x < kFrameWidth; ++x) {
       int hits = 0;
-      for (int i = 0; i < kRays * kRays; ++i) {
-        const Ray ray = {x + (i % kRays + 0.5) / kRays - kWidth / 2.0, focal,
-                         kHeight / 2.0 - y - (i / kRays + 0.5) / kRays};
+      for (int i = 0; i < kRaysAcross * kRaysAcross; ++i) {
+        const Ray ray = {x + (i % kRaysAcross + 0.5) / kRaysAcross - kFrameWidth / 2.0, focal,
+                         kFrameHeight / 2.0 - y - (i / kRaysAcross + 0.5) / kRaysAcross};
         const double far = lamp.distance_m / dot(ray, middle);
         if (lamp.shines(far * dot(ray, right), far * dot(ray, up))) ++hits;
       }
-      const double share = double(hits) / (kRays * kRays);
+      const double share = double(hits) / (kRaysAcross * kRaysAcross);
       nits.push_back(share * lamp.nits + (1.0 - share) * lamp.room_nits);
     }
   }
@@ -81,7 +81,7 @@ class SourceSession : public testing::Test {
         samples.push_back(static_cast<float>(std::min(1.0, noisy)));
       }
       std::string name = "captures/lamp_" + std::to_string(frame++) + ".exr";
-      folder_.Write(name, EncodeExr(kWidth, kHeight, samples));
+      folder_.Write(name, EncodeExr(kFrameWidth, kFrameHeight, samples));
       times_ += (times_.empty() ? "" : ", ") + Text(time);
     }
   }

@@ -14,8 +14,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double MiredsOf(const CctResult& result) { return 1e6 / result.temperature.value(); }
 
 TEST(Cct, ReferenceGridIsMetToAHundredthOfAKelvin) {
@@ -109,7 +107,7 @@ TEST(Cct, TheColdLimitIsAThousandKelvinInclusive) {
 }
 
 TEST(Cct, InfinityHasAColourButNoTemperature) {
-  const Uv1960 uv = UvFromCct(Kelvin(kInfinity));
+  const Uv1960 uv = UvFromCct(Kelvin(HUGE_VAL));
   EXPECT_NEAR(uv.u, 0.18006436, 1e-8);
   EXPECT_NEAR(uv.v, 0.26352122, 1e-8);
   EXPECT_EQ(CctFromUv(uv).status, CctStatus::kBeyondInfinity);
@@ -117,8 +115,8 @@ TEST(Cct, InfinityHasAColourButNoTemperature) {
 
 TEST(Cct, WhatIsNoChromaticityIsCalledSo) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Xy xy : {Xy{nan, 0.3}, Xy{0.3, nan}, Xy{0.3, 0.0}, Xy{0.3, -0.1}, Xy{kInfinity, 0.3},
-                      Xy{9.0, 0.1}}) {
+  for (const Xy xy :
+       {Xy{nan, 0.3}, Xy{0.3, nan}, Xy{0.3, 0.0}, Xy{0.3, -0.1}, Xy{HUGE_VAL, 0.3}, Xy{9.0, 0.1}}) {
     EXPECT_EQ(CctFromXy(xy).status, CctStatus::kNotAChromaticity) << xy.x << " " << xy.y;
     EXPECT_FALSE(CctJacobianAt(xy).has_value());
   }

@@ -22,7 +22,6 @@ namespace {
 using test::ReadVectors;
 using test::VectorRow;
 
-Spectrum Light(const std::string& name) { return IlluminantSpectrum(name).value(); }
 RenderingInput Prepared(const Spectrum& s) { return PrepareRendering(s).value(); }
 
 Spectrum EveryNanometre(const Spectrum& coarse) {
@@ -91,8 +90,8 @@ TEST(ColorRendering, TheFiveNanometreSumIsNearerToTheOneNanometreTableThanInterp
       r9 += std::abs(cri.R[8] - truth.R[8]);
       rf += std::abs(ColorFidelityOf(Prepared(read)).Rf - ColorFidelityOf(Prepared(lines)).Rf);
     };
-    off(Light(name), sum_ra, sum_r9, sum_rf);
-    off(EveryNanometre(Light(name)), linear_ra, linear_r9, linear_rf);
+    off(IlluminantSpectrum(name).value(), sum_ra, sum_r9, sum_rf);
+    off(EveryNanometre(IlluminantSpectrum(name).value()), linear_ra, linear_r9, linear_rf);
   }
   EXPECT_LT(sum_ra / 36, 0.03);
   EXPECT_LT(sum_r9 / 36, 0.07);
@@ -142,7 +141,8 @@ TEST(ColorRendering, HasTheIndicesCie15Prints) {
 // IES TM-30 calculator for F12, whose 5 nm table it takes linear to 1 nm.
 class Tm30OfF12 : public testing::Test {
  protected:
-  const ColorFidelity fidelity_ = ColorFidelityOf(Prepared(EveryNanometre(Light("FL12"))));
+  const ColorFidelity fidelity_ =
+      ColorFidelityOf(Prepared(EveryNanometre(IlluminantSpectrum("FL12").value())));
 };
 
 TEST_F(Tm30OfF12, SampleColoursAreThePrintedOnes) {
@@ -190,13 +190,13 @@ TEST(ColorRendering, AReferenceLightScoresOneHundred) {
 
 // Daylight of 6504 K has a CCT of 6502.7 K: nearly its own reference.
 TEST(ColorRendering, DaylightIsRenderedAsDaylight) {
-  const RenderingInput input = Prepared(Light("D65"));
+  const RenderingInput input = Prepared(IlluminantSpectrum("D65").value());
   EXPECT_GT(ColorRenderingOf(input).Ra, 99.9);
   EXPECT_GT(ColorFidelityOf(input).Rf, 99.9);
 }
 
 TEST(ColorRendering, TheScaleOfASpectrumDoesNotMatter) {
-  Spectrum light = Light("FL4");
+  Spectrum light = IlluminantSpectrum("FL4").value();
   const ColorRendering before = ColorRenderingOf(Prepared(light));
   for (double& value : light.values) value *= 1e-6;
   const ColorRendering after = ColorRenderingOf(Prepared(light));
@@ -219,7 +219,7 @@ TEST(ColorFidelity, TheReferenceMovesWithoutAStepFromBlackBodyToDaylight) {
 }
 
 TEST(ColorFidelity, NoIndexIsBelowZeroAndEverySampleHasABin) {
-  const ColorFidelity fidelity = ColorFidelityOf(Prepared(Light("HP1")));
+  const ColorFidelity fidelity = ColorFidelityOf(Prepared(IlluminantSpectrum("HP1").value()));
   const GamutAndBins gamut = GamutAndBinsOf(fidelity);
   int samples = 0;
   for (const HueBin& bin : gamut.bins) samples += bin.samples;
@@ -257,7 +257,7 @@ TEST(RenderingInput, AGridBetweenTheTablesRowsGivesTheSameIndices) {
 }
 
 TEST(RenderingInput, UnequalStepsAreLinearBetweenTheirSamples) {
-  Spectrum sparse = Light("FL2");
+  Spectrum sparse = IlluminantSpectrum("FL2").value();
   const RenderingInput fine = Prepared(EveryNanometre(sparse));
   // A point in the middle of a straight line changes nothing but makes the steps unequal.
   sparse.wavelengths_nm.insert(sparse.wavelengths_nm.begin() + 1, 382.0);
@@ -283,7 +283,7 @@ TEST(RenderingInput, WhatCannotBeJudgedIsRefused) {
   EXPECT_EQ(flat(400, 660, 5).error().code, "truncated_spectrum");
   EXPECT_EQ(flat(380, 780, 25).error().code, "coarse_spectrum");
   EXPECT_EQ(flat(380, 380, 5).error().code, "bad_spectrum");
-  Spectrum red = Light("E");
+  Spectrum red = IlluminantSpectrum("E").value();
   for (std::size_t i = 0; i < red.values.size(); ++i) {
     red.values[i] = red.wavelengths_nm[i] < 650.0 ? 0.0 : 1.0;
   }
@@ -314,9 +314,9 @@ TEST(RenderingInput, NoiseNeverMakesAnIndexThatIsNoNumber) {
 }
 
 TEST(RenderingInput, TheLargestAndSmallestNumbersAreJudgedToo) {
-  const double ra = ColorRenderingOf(Prepared(Light("FL2"))).Ra;
+  const double ra = ColorRenderingOf(Prepared(IlluminantSpectrum("FL2").value())).Ra;
   for (const double scale : {1e-300, 1e300}) {
-    Spectrum light = Light("FL2");
+    Spectrum light = IlluminantSpectrum("FL2").value();
     for (double& value : light.values) value *= scale;
     EXPECT_NEAR(ColorRenderingOf(Prepared(light)).Ra, ra, 1e-9);
     EXPECT_TRUE(std::isfinite(ColorFidelityOf(Prepared(light)).Rf));
@@ -326,27 +326,27 @@ TEST(RenderingInput, TheLargestAndSmallestNumbersAreJudgedToo) {
 // ---- SSI ----
 
 TEST(SpectralSimilarity, ASpectrumIsLikeItselfAndLessLikeOthers) {
-  const Spectrum p3200 = Light("P3200");
+  const Spectrum p3200 = IlluminantSpectrum("P3200").value();
   EXPECT_NEAR(SpectralSimilarity(p3200, p3200).value(), 100.0, 1e-9);
-  const double to_a = SpectralSimilarity(Light("A"), p3200).value();
-  const double to_daylight = SpectralSimilarity(Light("D55"), p3200).value();
-  const double to_lamp = SpectralSimilarity(Light("FL11"), p3200).value();
+  const double to_a = SpectralSimilarity(IlluminantSpectrum("A").value(), p3200).value();
+  const double to_daylight = SpectralSimilarity(IlluminantSpectrum("D55").value(), p3200).value();
+  const double to_lamp = SpectralSimilarity(IlluminantSpectrum("FL11").value(), p3200).value();
   EXPECT_GT(to_a, to_daylight);
   EXPECT_GT(to_daylight, to_lamp);
 }
 
 TEST(SpectralSimilarity, TheStepOfASmoothSpectrumDoesNotMatter) {
-  const Spectrum c = Light("C");
-  const Spectrum d55 = Light("D55");
+  const Spectrum c = IlluminantSpectrum("C").value();
+  const Spectrum d55 = IlluminantSpectrum("D55").value();
   EXPECT_NEAR(SpectralSimilarity(c, d55).value(),
               SpectralSimilarity(EveryNanometre(c), d55).value(), 1e-9);
 }
 
 TEST(SpectralSimilarity, ASpectrumWithoutPowerIsRefused) {
-  Spectrum dark = Light("E");
+  Spectrum dark = IlluminantSpectrum("E").value();
   std::ranges::fill(dark.values, 0.0);
-  EXPECT_EQ(SpectralSimilarity(dark, Light("A")).error().code, "bad_spectrum");
-  EXPECT_EQ(SpectralSimilarity(Light("A"), dark).error().code, "bad_spectrum");
+  EXPECT_EQ(SpectralSimilarity(dark, IlluminantSpectrum("A").value()).error().code, "bad_spectrum");
+  EXPECT_EQ(SpectralSimilarity(IlluminantSpectrum("A").value(), dark).error().code, "bad_spectrum");
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace lightcal {
 namespace {
 
-struct Light {
+struct NamedSpectrum {
   std::string name;
   Spectrum fine;  // 1 nm, 355-835 nm, so that bins at both ends are whole
 };
@@ -54,8 +54,8 @@ Spectrum WhiteLed(double pump_share) {
   return s;
 }
 
-std::vector<Light> SmoothLights() {
-  std::vector<Light> lights;
+std::vector<NamedSpectrum> SmoothLights() {
+  std::vector<NamedSpectrum> lights;
   for (const double k : {1500.0, 2000.0, 2856.0, 4000.0, 6504.0, 10'000.0, 20'000.0}) {
     lights.push_back({"black body " + std::to_string(k), At1Nm(*BlackBodySpectrum(Kelvin(k)))});
   }
@@ -69,8 +69,8 @@ std::vector<Light> SmoothLights() {
 
 // CIE's fluorescent and LED lamps of its 1 nm tables, where a line is one row wide, and its
 // discharge lamps, which it gives every 5 nm, linear between.
-std::vector<Light> LampLights() {
-  std::vector<Light> lights;
+std::vector<NamedSpectrum> LampLights() {
+  std::vector<NamedSpectrum> lights;
   const auto rows = test::ReadSampleTable("cie_lamps/cie_lamps_1nm.csv");
   for (const auto& [name, ignored] : rows.front().cells()) {
     if (name == "wavelength_nm") continue;
@@ -118,7 +118,7 @@ void ForEachGrid(const Check& check) {
   }
 }
 
-Answer TruthOf(const Light& light) {
+Answer TruthOf(const NamedSpectrum& light) {
   return AnswerOf(ResampleByArea(light.fine, Nanometres(360), Nanometres(1), 471).value());
 }
 
@@ -141,7 +141,7 @@ void ExpectKept(const std::string& name, const Answer& truth, const Spectrum& me
       << what;
 }
 
-void ExpectBounded(const Light& light, const Spectrum& measured, Sampling sampling) {
+void ExpectBounded(const NamedSpectrum& light, const Spectrum& measured, Sampling sampling) {
   const auto error = SpectralErrorOf(measured, sampling);
   ASSERT_TRUE(error);
   ASSERT_TRUE(error->bound) << light.name << " roughness " << error->roughness;
@@ -149,7 +149,7 @@ void ExpectBounded(const Light& light, const Spectrum& measured, Sampling sampli
 }
 
 TEST(SpectralError, BoundsSmoothLightOfEveryStepAndRange) {
-  for (const Light& light : SmoothLights()) {
+  for (const NamedSpectrum& light : SmoothLights()) {
     ForEachGrid([&](int first, int last, int step) {
       ExpectBounded(light, EveryNth(light.fine, first, last, step), Sampling::kBandAverage);
     });
@@ -158,8 +158,8 @@ TEST(SpectralError, BoundsSmoothLightOfEveryStepAndRange) {
 
 TEST(SpectralError, BoundsBandAveragedLampsOfEveryStepAndRange) {
   auto lights = LampLights();
-  for (const Light& smooth : SmoothLights()) lights.push_back(smooth);
-  for (const Light& light : lights) {
+  for (const NamedSpectrum& smooth : SmoothLights()) lights.push_back(smooth);
+  for (const NamedSpectrum& light : lights) {
     ForEachGrid([&](int first, int last, int step) {
       const auto measured = ResampleByArea(light.fine, Nanometres(first), Nanometres(step),
                                            (last - first) / step + 1);
@@ -192,7 +192,7 @@ TEST(SpectralError, GrowsWithTheStepAndWithWhatTheRangeLacks) {
 }
 
 TEST(SpectralError, PointSamplesOfLinesAreUndersampledAndHaveNoBound) {
-  for (const Light& light : LampLights()) {
+  for (const NamedSpectrum& light : LampLights()) {
     if (light.name.starts_with("LED")) continue;
     for (const int step : {2, 5, 10}) {
       for (const Sampling sampling : {Sampling::kPoint, Sampling::kUnknown}) {
@@ -208,7 +208,7 @@ TEST(SpectralError, PointSamplesOfLinesAreUndersampledAndHaveNoBound) {
 // Every lamp, step, range and place of the first sample: 9225 spectra.
 TEST(SpectralError, OfPointSamplesIsNeverBoundedWrongly) {
   int bounded = 0, undersampled = 0;
-  for (const Light& light : LampLights()) {
+  for (const NamedSpectrum& light : LampLights()) {
     const Answer truth = TruthOf(light);
     for (const int step : {1, 2, 3, 4, 5, 10}) {
       for (const int first : {360, 380, 400}) {
@@ -230,7 +230,7 @@ TEST(SpectralError, OfPointSamplesIsNeverBoundedWrongly) {
 }
 
 TEST(SpectralError, PointSamplesOfSmoothLightHaveABound) {
-  for (const Light& light : SmoothLights()) {
+  for (const NamedSpectrum& light : SmoothLights()) {
     for (const int step : {1, 2, 5}) {
       ExpectBounded(light, EveryNth(light.fine, 380, 780, step), Sampling::kPoint);
     }

@@ -8,7 +8,7 @@
 namespace lightcal::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kPieces = 40;
 
 // cos at the source times cos at the meter over r^2; 0 behind either.
@@ -42,7 +42,7 @@ double Disk(const AreaTwin& t, const Vec3& center, const Vec3& meter, const Vec3
   for (int i = 0; i < kPieces; ++i) {
     const double r = std::sqrt((i + 0.5) / kPieces) * 0.5 * t.light.diameter->value();
     for (int j = 0; j < kPieces; ++j) {
-      const double f = 2.0 * kPi * (j + 0.5 * (i % 2)) / kPieces;
+      const double f = 2.0 * pi * (j + 0.5 * (i % 2)) / kPieces;
       sum += Piece(center + t.width_axis * (r * std::cos(f)) + up * (r * std::sin(f)), *t.light.aim,
                    meter, normal);
     }
@@ -62,7 +62,7 @@ double Sphere(const AreaTwin& t, const Vec3& center, const Vec3& meter, const Ve
     const double z = -1.0 + 2.0 * (i + 0.5) / kRings;
     const double s = std::sqrt(1.0 - z * z);
     for (int j = 0; j < kPieces; ++j) {
-      const double f = 2.0 * kPi * j / kPieces;
+      const double f = 2.0 * pi * j / kPieces;
       const Vec3 n = toward * z + side * (s * std::cos(f)) + other * (s * std::sin(f));
       sum += Piece(center + n * radius, n, meter, normal);
     }
@@ -80,12 +80,12 @@ double Tube(const AreaTwin& t, const Vec3& center, const Vec3& meter, const Vec3
   for (int i = 0; i < kSlices; ++i) {
     const double x = ((i + 0.5) / kSlices - 0.5) * t.light.length->value();
     for (int j = 0; j < kPieces; ++j) {
-      const double f = 2.0 * kPi * j / kPieces;
+      const double f = 2.0 * pi * j / kPieces;
       const Vec3 n = side * std::cos(f) + other * std::sin(f);
       sum += Piece(center + axis * x + n * t.light.radius->value(), n, meter, normal);
     }
   }
-  return kPi * sum / (kSlices * kPieces);
+  return pi * sum / (kSlices * kPieces);
 }
 
 double Spot(const AreaTwin& t, const Vec3& center, const Vec3& meter, const Vec3& normal) {
@@ -159,7 +159,7 @@ std::vector<Pose> PosesAround(const Vec3& aim, int count, double near, double fa
   std::uniform_real_distribution<double> uniform;
   const auto turned = [&](const Vec3& from, double most) {
     const Vec3 side = Unit(Cross(from, std::abs(from[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0}));
-    const double f = 2.0 * kPi * uniform(random);
+    const double f = 2.0 * pi * uniform(random);
     const double angle = most * std::sqrt(uniform(random));
     return from * std::cos(angle) +
            (side * std::cos(f) + Cross(from, side) * std::sin(f)) * std::sin(angle);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fitted.h"
 #include "lamp_twin.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/model/starts.h"
@@ -15,6 +16,8 @@
 namespace lightcal {
 namespace {
 
+using test::Effect;
+using test::FitOk;
 using test::LampTruth;
 using test::TwinSession;
 using test::TypedSession;
@@ -23,17 +26,7 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double kPi = std::numbers::pi;
-
-FittedLight FitOk(const Session& session, const FitSettings& settings = {}) {
-  auto fitted = FitSession(session, settings);
-  EXPECT_TRUE(fitted.has_value()) << fitted.error().code << " " << fitted.error().message;
-  return fitted ? fitted->lights.lights.front() : FittedLight{};
-}
-const EffectReport& Effect(const FittedLight& light, const std::string& name) {
-  return *std::find_if(light.effects.begin(), light.effects.end(),
-                       [&](const EffectReport& e) { return e.name == name; });
-}
+using std::numbers::pi;
 
 TEST(FitLight, RecoversATruthWithoutNoise) {
   const LampTruth truth{320.0, 0.04, 1.5, 0.0, 0.0};
@@ -183,7 +176,7 @@ TEST(FitLight, ANearDiskIsFittedInItsExactForm) {
   Session session;
   std::vector<test::TypedReading> readings;
   for (const double d : {0.4, 0.8, 1.6}) {
-    readings.push_back({d, kPi * 5000.0 * 0.04 / (0.04 + d * d)});
+    readings.push_back({d, pi * 5000.0 * 0.04 / (0.04 + d * d)});
   }
   session = TypedSession(readings, 0.005);
   session.lights.front().kind = LightKind::kDisk;
@@ -191,11 +184,11 @@ TEST(FitLight, ANearDiskIsFittedInItsExactForm) {
   const FittedLight light = FitOk(session);
   EXPECT_EQ(Effect(light, "finite_source").state, EffectState::kOn);
   EXPECT_NEAR(light.luminance_nits->value, 5000.0, 1e-3);
-  EXPECT_NEAR(light.flux_lm->value, kPi * kPi * 5000.0 * 0.04, 1e-3);
+  EXPECT_NEAR(light.flux_lm->value, pi * pi * 5000.0 * 0.04, 1e-3);
   EXPECT_NEAR(light.distance_offset_m->value, 0.0, 1e-6);
   auto near = PredictIlluminance(light, Metres(0.2), 0.0);
   ASSERT_TRUE(near.has_value());
-  EXPECT_NEAR(near->model_lx.value, kPi * 5000.0 * 0.5, 1.0);
+  EXPECT_NEAR(near->model_lx.value, pi * 5000.0 * 0.5, 1.0);
 }
 
 TEST(FitLight, AKnownRoomLowersTheIntensityByItsBounce) {
@@ -228,14 +221,14 @@ TEST(FitLight, DirectionalAndDomeLightsHaveIlluminanceAlone) {
 
 TEST(FitLight, EachKindIntegratesItsOwnFlux) {
   Session session = TypedSession({{1.0, 100.0}});
-  EXPECT_NEAR(FitOk(session).flux_lm->value, 400.0 * kPi, 1e-9);
+  EXPECT_NEAR(FitOk(session).flux_lm->value, 400.0 * pi, 1e-9);
   session.lights.front().kind = LightKind::kSpot;
   EXPECT_FALSE(FitOk(session).flux_lm.has_value());
   session.lights.front().inner = RadiansFromDegrees(20.0);
   session.lights.front().outer = RadiansFromDegrees(35.0);
-  const double ci = std::cos(20.0 * kPi / 180.0);
-  const double co = std::cos(35.0 * kPi / 180.0);
-  EXPECT_NEAR(FitOk(session).flux_lm->value, 100.0 * 2.0 * kPi * ((1.0 - ci) + (ci - co) / 3.0),
+  const double ci = std::cos(20.0 * pi / 180.0);
+  const double co = std::cos(35.0 * pi / 180.0);
+  EXPECT_NEAR(FitOk(session).flux_lm->value, 100.0 * 2.0 * pi * ((1.0 - ci) + (ci - co) / 3.0),
               1e-9);
 }
 

@@ -7,27 +7,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "fitted.h"
 #include "lamp_twin.h"
 #include "lightcal/fit/fit_light.h"
 
 namespace lightcal {
 namespace {
 
+using test::Effect;
+using test::FitOk;
 using test::LampTruth;
 using test::TwinSession;
 using test::TypedSession;
 using testing::HasSubstr;
-
-FittedLight FitOk(const Session& session, const FitSettings& settings = {}) {
-  auto fitted = FitSession(session, settings);
-  EXPECT_TRUE(fitted.has_value()) << fitted.error().code << " " << fitted.error().message;
-  return fitted ? fitted->lights.lights.front() : FittedLight{};
-}
-const EffectReport& Effect(const FittedLight& light, const std::string& name) {
-  const auto at = std::ranges::find(light.effects, name, &EffectReport::name);
-  EXPECT_NE(at, light.effects.end()) << name;
-  return *at;
-}
 
 // A disk of 8 cm whose light starts 10 cm before the point that distances are measured from: at
 // 0.52 m its size alone seems to change 0.59 %, at the true 0.42 m it changes 0.91 %.

@@ -9,12 +9,14 @@
 #include <numbers>
 #include <random>
 
+#include "fitted.h"
 #include "lamp_twin.h"
 #include "lightcal/fit/fit_light.h"
 
 namespace lightcal {
 namespace {
 
+using test::FitOk;
 using test::TypedSession;
 using testing::Contains;
 using testing::ElementsAre;
@@ -23,11 +25,6 @@ using testing::Not;
 
 Result<FittedSession> Fit(const Session& session) { return FitSession(session, FitSettings{}); }
 
-FittedLight FitOk(const Session& session) {
-  auto fitted = Fit(session);
-  EXPECT_TRUE(fitted.has_value()) << fitted.error().code << " " << fitted.error().message;
-  return fitted ? fitted->lights.lights.front() : FittedLight{};
-}
 Error FitRefused(const Session& session) {
   auto fitted = Fit(session);
   EXPECT_FALSE(fitted.has_value());

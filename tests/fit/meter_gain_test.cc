@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 
+#include "fitted.h"
 #include "lamp_twin.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/records/session_codec.h"
@@ -14,6 +15,7 @@
 namespace lightcal {
 namespace {
 
+using test::FitOk;
 using test::LampTruth;
 using test::TwinSession;
 using testing::HasSubstr;
@@ -33,12 +35,6 @@ Session ByMeter(Session session, double gain, double repeatability, double calib
     row.reading.illuminance = *row.reading.illuminance * gain;
   }
   return session;
-}
-
-FittedLight FitOk(const Session& session) {
-  auto fitted = FitSession(session, FitSettings{});
-  EXPECT_TRUE(fitted.has_value()) << fitted.error().message;
-  return fitted ? fitted->lights.lights.front() : FittedLight{};
 }
 
 double RelativeSd(const Uncertain& u) { return std::log(*u.high / *u.low) / (2.0 * kZ95); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lamp_twin.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/plan/plan_readings.h"
@@ -34,12 +35,6 @@ MinutesLadder LadderOf(const Session& session, const LadderWishes& wishes = {}) 
   auto ladder = PlanMinutes(session, "lamp", {}, wishes);
   EXPECT_TRUE(ladder.has_value()) << ladder.error().message;
   return ladder ? *std::move(ladder) : MinutesLadder{};
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 TEST(PlanMinutes, EveryRungBringsWhatItPromises) {

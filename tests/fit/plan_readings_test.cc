@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lamp_twin.h"
+#include "lightcal/core/statistics.h"
 #include "located_twin.h"
 
 namespace lightcal {
@@ -19,12 +20,6 @@ namespace {
 using test::LampTruth;
 using test::LocatedTwin;
 using test::TwinSession;
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 void TakeStep(const PlannedReading& step, TwinSession& twin) {
   if (step.action == PlannedAction::kLampOff) {

@@ -20,7 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 using Place = std::array<double, 3>;
 const std::vector<Place> kSquare = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
 
@@ -79,20 +79,19 @@ TEST(HardCaseG, G04AMeterAtTheLampsOwnPlaceIsRejected) {
 }
 
 TEST(HardCaseG, G16SolidAnglesHoldFromNothingToTheSphere) {
-  for (const double t : {0.0, 1e-8, 0.5 * kPi, kPi}) {
+  for (const double t : {0.0, 1e-8, 0.5 * pi, pi}) {
     const double s = std::sin(0.5 * t);
-    EXPECT_NEAR(SolidAngleOfCone(Radians(t)).value(), 4.0 * kPi * s * s,
-                1e-15 * (4.0 * kPi * s * s))
+    EXPECT_NEAR(SolidAngleOfCone(Radians(t)).value(), 4.0 * pi * s * s, 1e-15 * (4.0 * pi * s * s))
         << t;
   }
   EXPECT_NEAR(SolidAngleOfCone(Radians(1e-8)).value() / 3.14159265e-16, 1.0, 1e-8);
   const auto flux = [](const char* outer) {
     return Ask({"convert", "100cd", "--kind", "spot", "--spot-falloff", "hard", "--outer", outer});
   };
-  EXPECT_NEAR(flux("180").document["flux_lm"].get<double>(), 400.0 * kPi, 1e-9);
-  EXPECT_NEAR(flux("90").document["flux_lm"].get<double>(), 200.0 * kPi, 1e-9);
-  const double narrow = 1e-8 * kPi / 180.0;
-  EXPECT_NEAR(flux("1e-8").document["flux_lm"].get<double>() / (100.0 * kPi * narrow * narrow), 1.0,
+  EXPECT_NEAR(flux("180").document["flux_lm"].get<double>(), 400.0 * pi, 1e-9);
+  EXPECT_NEAR(flux("90").document["flux_lm"].get<double>(), 200.0 * pi, 1e-9);
+  const double narrow = 1e-8 * pi / 180.0;
+  EXPECT_NEAR(flux("1e-8").document["flux_lm"].get<double>() / (100.0 * pi * narrow * narrow), 1.0,
               1e-9);
   ExpectRefused(flux("0"), "bad_cone");
   ExpectRefused(flux("181"), "bad_cone");

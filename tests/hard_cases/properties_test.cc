@@ -31,7 +31,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // The same inputs on every machine, unless RC_PARAMS asks for others.
 class FixedSeed : public testing::Environment {
@@ -51,7 +51,7 @@ double Relative(double a, double b) { return std::abs(a / b - 1.0); }
 
 Vec3 Direction() {
   const double z = Between(-1.0, 1.0);
-  const double phi = Between(0.0, 2.0 * kPi);
+  const double phi = Between(0.0, 2.0 * pi);
   const double s = std::sqrt(1.0 - z * z);
   return {s * std::cos(phi), s * std::sin(phi), z};
 }
@@ -254,7 +254,7 @@ RC_GTEST_PROP(RoundTrip, OfNumbersAndUnitsThroughText, ()) {
   RC_ASSERT(Relative(ParseIlluminance(text + "fc")->value(), size / (0.3048 * 0.3048)) < 1e-15);
   RC_ASSERT(ParseTemperature(text + "K")->value() == size);
   RC_ASSERT(Relative(ParseDuration("1/" + text)->value(), 1.0 / size) < 1e-15);
-  RC_ASSERT(Relative(ParseAngle(text)->value(), size * kPi / 180.0) < 1e-15);
+  RC_ASSERT(Relative(ParseAngle(text)->value(), size * pi / 180.0) < 1e-15);
 }
 
 RC_GTEST_PROP(RoundTrip, OfColours, ()) {
@@ -287,7 +287,7 @@ RC_GTEST_PROP(RoundTrip, OfTemperatureAndDuv, ()) {
 }
 
 RC_GTEST_PROP(RoundTrip, OfSolidAngles, ()) {
-  const double half = Decades(1e-9, kPi);
+  const double half = Decades(1e-9, pi);
   const Radians back = ConeHalfAngleFromSolidAngle(SolidAngleOfCone(Radians(half)));
   // Near the whole sphere the angle is the square root of what is missing.
   RC_ASSERT(std::abs(back.value() - half) <= 1e-13 * half / std::max(std::cos(0.5 * half), 1e-7));

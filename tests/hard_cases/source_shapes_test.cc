@@ -16,7 +16,7 @@
 namespace lightcal::test::hard {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 const std::vector<SourceModel> kSized = {SphereSource{0.5}, DiskSource{0.5}, RectSource{0.5, 0.3},
                                          TubeSource{0.8, 0.1}};
 
@@ -57,9 +57,9 @@ TEST(HardCaseG, G06TheHorizonCutsWithoutAStep) {
       const double whole = LuxPerCandela(source, Before(d));
       double before = whole;
       for (int i = 1; i <= 500; ++i) {
-        const double e = LuxPerCandela(source, Before(d, kPi * i / 500.0));
+        const double e = LuxPerCandela(source, Before(d, pi * i / 500.0));
         ASSERT_GE(e, 0.0);
-        ASSERT_LE(before - e, 2.0 * whole * kPi / 500.0);
+        ASSERT_LE(before - e, 2.0 * whole * pi / 500.0);
         before = e;
       }
       EXPECT_EQ(before, 0.0);
@@ -68,7 +68,7 @@ TEST(HardCaseG, G06TheHorizonCutsWithoutAStep) {
   // Across |cr| = sin sigma of a globe: sigma = asin(R/d).
   for (const double d : {0.6, 2.0, 30.0}) {
     const double whole = LuxPerCandela(SphereSource{0.5}, Before(d));
-    for (const double touch : {std::acos(0.5 / d), kPi - std::acos(0.5 / d)}) {
+    for (const double touch : {std::acos(0.5 / d), pi - std::acos(0.5 / d)}) {
       const double step = LuxPerCandela(SphereSource{0.5}, Before(d, touch + 1e-14)) -
                           LuxPerCandela(SphereSource{0.5}, Before(d, touch - 1e-14));
       EXPECT_LE(std::abs(step), 1e-12 * whole) << d;
@@ -77,12 +77,12 @@ TEST(HardCaseG, G06TheHorizonCutsWithoutAStep) {
 }
 
 TEST(HardCaseG, G07InAndOnAGlobeItIsPiTimesItsLuminance) {
-  const double area = kPi * 0.25;
+  const double area = pi * 0.25;
   for (const double d : {0.5, 0.3, 0.0}) {
-    EXPECT_NEAR(LuxPerCandela(SphereSource{0.5}, Before(d, 0.4)) * area, kPi, 1e-12) << d;
+    EXPECT_NEAR(LuxPerCandela(SphereSource{0.5}, Before(d, 0.4)) * area, pi, 1e-12) << d;
   }
-  EXPECT_NEAR(Converted({"sphere", "--radius", "0.5m", "--distance", "0.5000000001m"}),
-              1000.0 * kPi, 1e-3);
+  EXPECT_NEAR(Converted({"sphere", "--radius", "0.5m", "--distance", "0.5000000001m"}), 1000.0 * pi,
+              1e-3);
   for (const char* distance : {"0.5m", "0.3m"}) {
     ExpectRefused(Ask({"convert", "1000nits", "--kind", "sphere", "--radius", "0.5m", "--distance",
                        distance}),
@@ -140,7 +140,7 @@ TEST(HardCaseG, G08ASessionMayHoldALine) {
     const Answer answer = session.Run();
     ExpectWarned(answer, "substituted");  // no engine has a lamp without area
     EXPECT_NEAR(Value(answer, "intensity_cd"), 100.0, 0.05);
-    EXPECT_NEAR(Value(answer, "flux_lm"), 100.0 * kPi, 0.16);
+    EXPECT_NEAR(Value(answer, "flux_lm"), 100.0 * pi, 0.16);
     EXPECT_FALSE(Lamp(answer).contains("luminance_nits"));
     const Answer lit = Ask({"simulate", session.path() + "/out/light.json", "--position",
                             "key=0,0,0", "--at", "0,0,-0.3", "--effects", "all"});
@@ -152,9 +152,9 @@ TEST(HardCaseG, G08ASessionMayHoldALine) {
 }
 
 TEST(HardCaseG, G09TouchedEveryFlatSourceIsAWallOfLight) {
-  EXPECT_NEAR(Converted({"rect", "--size", "1x1m", "--distance", "1e-6m"}), 1000.0 * kPi, 2e-2);
-  EXPECT_NEAR(Converted({"disk", "--radius", "0.5m", "--distance", "1e-6m"}), 1000.0 * kPi, 1e-2);
-  EXPECT_NEAR(LuxPerCandela(RectSource{0.5, 0.5}, Before(1e-6)), kPi, 1e-5);
+  EXPECT_NEAR(Converted({"rect", "--size", "1x1m", "--distance", "1e-6m"}), 1000.0 * pi, 2e-2);
+  EXPECT_NEAR(Converted({"disk", "--radius", "0.5m", "--distance", "1e-6m"}), 1000.0 * pi, 1e-2);
+  EXPECT_NEAR(LuxPerCandela(RectSource{0.5, 0.5}, Before(1e-6)), pi, 1e-5);
 }
 
 TEST(HardCaseG, G10FarAwayEverySourceIsAPoint) {

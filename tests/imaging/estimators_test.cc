@@ -21,7 +21,7 @@ constexpr double kFullWell = 20000.0;  // electrons
 constexpr double kRead = 6.0;
 constexpr double kWhite = 15000.0;  // codes
 const std::vector<double> kTimes = {1.0, 4.0, 16.0, 64.0};
-constexpr int kWidth = 192, kHeight = 192;  // samples of one signal
+constexpr int kSamplesAcross = 192, kSamplesDown = 192;  // samples of one signal
 
 // One exposure of an even surface that gives `electrons` in it, a draw a sample.
 Frame Exposed(double electrons, std::mt19937_64& random) {
@@ -29,19 +29,19 @@ Frame Exposed(double electrons, std::mt19937_64& random) {
   std::normal_distribution<double> read(0.0, kRead);
   auto codes = std::make_shared<std::vector<std::uint16_t>>();
   constexpr double kBlack = 500.0;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
+  for (int i = 0; i < kSamplesAcross * kSamplesDown; ++i) {
     const double caught = std::min(static_cast<double>(light(random)) + read(random), kFullWell);
     codes->push_back(static_cast<std::uint16_t>(std::lround(kBlack + caught / kFullWell * kWhite)));
   }
   Frame frame;
-  frame.info.width = kWidth;
-  frame.info.height = kHeight;
+  frame.info.width = kSamplesAcross;
+  frame.info.height = kSamplesDown;
   frame.info.meaning = SampleMeaning::kSensor;
   SensorLevels levels;
   levels.black = {1, 1, {static_cast<float>(kBlack)}};
   levels.white.fill(static_cast<float>(kBlack + kWhite));
   frame.info.levels = levels;
-  frame.samples = View2d<const std::uint16_t>(codes->data(), kWidth, kHeight);
+  frame.samples = View2d<const std::uint16_t>(codes->data(), kSamplesAcross, kSamplesDown);
   frame.owner = codes;
   return frame;
 }
@@ -68,16 +68,18 @@ Scatter ScatterOf(MergeEstimator estimator, double electrons) {
   plan.fixed_pattern = 0.0;
   plan.estimator = estimator;
   const auto merger = BracketMerger::Make(signals, plan);
-  std::vector<float> value(static_cast<std::size_t>(kWidth) * kHeight), variance(value.size());
-  static_cast<void>(merger->MergeRows(0, kHeight, View2d<float>(value.data(), kWidth, kHeight),
-                                      View2d<float>(variance.data(), kWidth, kHeight)));
+  std::vector<float> value(static_cast<std::size_t>(kSamplesAcross) * kSamplesDown),
+      variance(value.size());
+  static_cast<void>(
+      merger->MergeRows(0, kSamplesDown, View2d<float>(value.data(), kSamplesAcross, kSamplesDown),
+                        View2d<float>(variance.data(), kSamplesAcross, kSamplesDown)));
   const auto n = static_cast<double>(value.size());
   Scatter out;
   for (std::size_t i = 0; i < value.size(); ++i) {
     out.mean += kFullWell * double{value[i]} / n;
     out.claimed_mean += kFullWell * kFullWell * double{variance[i]} / n;
   }
-  const auto middle = variance.begin() + kWidth * kHeight / 2;
+  const auto middle = variance.begin() + kSamplesAcross * kSamplesDown / 2;
   std::nth_element(variance.begin(), middle, variance.end());
   out.claimed = kFullWell * kFullWell * double{*middle};
   for (const float x : value) {
@@ -108,7 +110,7 @@ TEST_P(Estimator, SigmaIsWhatBracketsScatter) {
   // From far below the read noise to where the shortest frame stands alone.
   for (const double electrons : {0.02, 0.4, 3.0, 40.0, 210.0, 700.0, 2900.0, 11000.0}) {
     const Scatter found = ScatterOf(GetParam(), electrons);
-    const double draws = static_cast<double>(kWidth) * kHeight;
+    const double draws = static_cast<double>(kSamplesAcross) * kSamplesDown;
     const double chance = 4.5 * std::sqrt(2.0 / draws);
     EXPECT_NEAR(found.claimed / found.variance, 1.0, chance + 0.01) << electrons;
     // Signals below black count as none, and frames that contradict each other by chance are given
@@ -145,9 +147,9 @@ TEST(Estimators, OfUnequalSensitivitiesSumsWeighByElectrons) {
   plan.fixed_pattern = 0.0;
   plan.estimator = MergeEstimator::kSums;
   const auto merger = BracketMerger::Make(signals, plan);
-  std::vector<float> value(kWidth), variance(kWidth);
-  static_cast<void>(merger->MergeRows(0, 1, View2d<float>(value.data(), kWidth, 1),
-                                      View2d<float>(variance.data(), kWidth, 1)));
+  std::vector<float> value(kSamplesAcross), variance(kSamplesAcross);
+  static_cast<void>(merger->MergeRows(0, 1, View2d<float>(value.data(), kSamplesAcross, 1),
+                                      View2d<float>(variance.data(), kSamplesAcross, 1)));
   // Two frames of 2000 electrons each: twice the information of one.
   for (const float v : variance) {
     EXPECT_NEAR(kFullWell * kFullWell * double{v}, 0.5 * (2000.0 + kRead * kRead), 90.0);

@@ -41,19 +41,19 @@ Frame FrameOf(const std::vector<std::uint16_t>& codes, int width, int height, in
 
 // A scene over five decades, seen with 1 % noise.
 std::vector<Frame> Shoot(const Curve& curve, const std::vector<double>& exposures, int top) {
-  constexpr int kWidth = 200, kHeight = 150;
+  constexpr int width = 200, height = 150;
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0.0, 0.01);
   std::vector<Frame> frames;
   for (const double exposure : exposures) {
     std::vector<std::uint16_t> codes;
-    for (int i = 0; i < kWidth * kHeight; ++i) {
-      const double scene = std::pow(10.0, -3.0 + 3.5 * i / (kWidth * kHeight));
+    for (int i = 0; i < width * height; ++i) {
+      const double scene = std::pow(10.0, -3.0 + 3.5 * i / (width * height));
       const double signal = scene * exposure * (1.0 + noise(random));
       codes.push_back(
           static_cast<std::uint16_t>(std::lround(top * curve(std::clamp(signal, 0.0, 1.0)))));
     }
-    frames.push_back(FrameOf(codes, kWidth, kHeight, top));
+    frames.push_back(FrameOf(codes, width, height, top));
   }
   return frames;
 }

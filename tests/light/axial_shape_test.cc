@@ -11,7 +11,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 SourceSize DiskOf(double diameter_m) {
   SourceSize size;
@@ -37,7 +37,7 @@ TEST(AxialShape, AgreesWithTheClosedFormsOfPhotometryAtEveryDistance) {
   for (const double d : {0.01, 0.1, 0.5, 1.0, 3.0, 30.0, 3000.0}) {
     const double d2 = d * d;
     EXPECT_NEAR(AxialShapeFactor(disk, d),
-                d2 * LuxPerNitOfDisk(Metres(0.3), Metres(d)) / (kPi * 0.09), 1e-12);
+                d2 * LuxPerNitOfDisk(Metres(0.3), Metres(d)) / (pi * 0.09), 1e-12);
     EXPECT_NEAR(AxialShapeFactor(rect, d),
                 d2 * LuxPerNitOfRect(Metres(0.6), Metres(1.2), Metres(d)) / 0.72, 1e-12);
   }

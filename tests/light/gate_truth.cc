@@ -8,8 +8,8 @@
 namespace lightcal::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
+using std::numbers::pi;
+constexpr double kDegree = pi / 180.0;
 
 double ExponentOf(double beam_rad) { return std::log(0.5) / std::log(std::cos(0.5 * beam_rad)); }
 
@@ -26,7 +26,7 @@ class Draw {
 
 Place Direction(Draw& draw) {
   const double z = draw.Between(-1.0, 1.0);
-  const double turn = draw.Between(0.0, 2.0 * kPi);
+  const double turn = draw.Between(0.0, 2.0 * pi);
   const double s = std::sqrt(1.0 - z * z);
   return {s * std::cos(turn), s * std::sin(turn), z};
 }
@@ -74,7 +74,7 @@ double DiskMean(double radius, const TruthScene& scene, double exponent) {
   for (int i = 0; i < kRings; ++i) {
     const double a = radius * std::sqrt((i + 0.5) / kRings);  // rings of one area
     for (int j = 0; j < kSpokes; ++j) {
-      const double turn = 2.0 * kPi * (j + 0.5) / kSpokes;
+      const double turn = 2.0 * pi * (j + 0.5) / kSpokes;
       const double vx = d * s - a * std::cos(turn);
       const double vy = -a * std::sin(turn);
       const double vz = d * c;
@@ -145,7 +145,7 @@ TruthScene RandomTruthScene(std::mt19937_64& random) {
   scene.ambient_over_direct = draw.Ratio(1e-4, 0.2);
   scene.slip_m = draw.Between(-0.005, 0.005);
   scene.pointing_rad = draw.Between(-3.0, 3.0) * kDegree;
-  scene.tilt_turn_rad = draw.Between(0.0, 2.0 * kPi);
+  scene.tilt_turn_rad = draw.Between(0.0, 2.0 * pi);
   scene.phase = draw.Between(0.0, 1.0);
   scene.warm_up_part = draw.Between(0.1, 0.2);
   scene.mains = draw.Between(-0.01, 0.01);

@@ -14,11 +14,11 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 using enum GoniometerType;
 using enum TableInterpolation;
 
-double Rad(double degrees) { return degrees * kPi / 180.0; }
+double Rad(double degrees) { return degrees * pi / 180.0; }
 
 std::vector<double> Range(double from, double to, double step) {
   std::vector<double> out;
@@ -114,21 +114,21 @@ std::vector<double> WholeTurn(const IntensityTable& table) {
 TEST(IntensityTable, ConstantIntensityCarriesFourPi) {
   for (const auto way : {kLinear, kCubic}) {
     const auto table = TableOf(kC, {0.0}, Range(0, 180, 7.5), [](double, double) { return 100.0; });
-    EXPECT_NEAR(table.Flux(way).value(), 400.0 * kPi, 1e-10);
+    EXPECT_NEAR(table.Flux(way).value(), 400.0 * pi, 1e-10);
     const auto b =
         TableOf(kB, Range(-90, 90, 10), Range(-90, 90, 15), [](double, double) { return 100.0; });
-    EXPECT_NEAR(b.Flux(way).value(), 200.0 * kPi, 1e-10);
+    EXPECT_NEAR(b.Flux(way).value(), 200.0 * pi, 1e-10);
     const auto a =
         TableOf(kA, {0.0, 90.0}, {0.0, 30.0, 90.0}, [](double, double) { return 100.0; });
-    EXPECT_NEAR(a.Flux(way).value(), 200.0 * kPi, 1e-10);
+    EXPECT_NEAR(a.Flux(way).value(), 200.0 * pi, 1e-10);
   }
 }
 
 TEST(IntensityTable, LambertianLobeCarriesPi) {
   const auto lobe = [](double, double v) { return v < 90.0 ? 100.0 * std::cos(Rad(v)) : 0.0; };
   const auto table = TableOf(kC, {0.0}, Range(0, 90, 5), lobe);
-  EXPECT_NEAR(table.Flux(kCubic).value() / (100.0 * kPi), 1.0, 2e-5);
-  EXPECT_NEAR(table.Flux(kLinear).value() / (100.0 * kPi), 1.0, 2e-3);
+  EXPECT_NEAR(table.Flux(kCubic).value() / (100.0 * pi), 1.0, 2e-5);
+  EXPECT_NEAR(table.Flux(kLinear).value() / (100.0 * pi), 1.0, 2e-3);
 }
 
 struct Layout {
@@ -194,12 +194,12 @@ TEST(IntensityTable, CubicNeverFallsBelowZeroAndItsFluxKnowsIt) {
   double sum = 0.0;
   constexpr int kCells = 400000;
   for (int i = 0; i < kCells; ++i) {
-    const double gamma = kPi * (i + 0.5) / kCells;
+    const double gamma = pi * (i + 0.5) / kCells;
     const double value = table.At(Radians(0.3), Radians(gamma), kCubic).value();
     ASSERT_GE(value, 0.0);
     sum += value * std::sin(gamma);
   }
-  sum *= 2.0 * kPi * kPi / kCells;
+  sum *= 2.0 * pi * pi / kCells;
   EXPECT_NEAR(table.Flux(kCubic).value() / sum, 1.0, 1e-8);
 }
 
@@ -322,7 +322,7 @@ TEST(IntensityTable, PeakOfEveryTypeIsFoundWhereItStands) {
                          [](double h, double v) { return h == 20 && v == -30 ? 9.0 : 1.0; });
   const Vec3 d = DirectionOf(kB, 20, -30);
   EXPECT_NEAR(b.peak().gamma.value(), std::acos(-d[2]), 1e-12);
-  EXPECT_NEAR(b.peak().c.value(), std::atan2(d[1], d[0]) + 2.0 * kPi, 1e-12);
+  EXPECT_NEAR(b.peak().c.value(), std::atan2(d[1], d[0]) + 2.0 * pi, 1e-12);
 }
 
 TEST(IntensityTable, HeadlampsAreMeasuredAboutTheirOwnZero) {

@@ -12,7 +12,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 // On the axis of any flat source (tube: broadside) at z = d, tilted by `tilt` toward x.
 Receiver<double> OnAxis(double d, double tilt) {
@@ -28,18 +28,18 @@ TEST(Models, G06AreContinuousWhereTheHorizonFirstTouchesAndLastLeaves) {
       double before = whole;
       // Every tilt from facing to turned away: no step, and never below zero.
       for (int i = 1; i <= 4000; ++i) {
-        const double e = LuxPerCandela(source, OnAxis(d, kPi * i / 4000.0));
+        const double e = LuxPerCandela(source, OnAxis(d, pi * i / 4000.0));
         ASSERT_GE(e, 0.0);
         ASSERT_LE(e, before + 1e-12 * whole);
-        ASSERT_LE(before - e, 2.0 * whole * kPi / 4000.0);
+        ASSERT_LE(before - e, 2.0 * whole * pi / 4000.0);
         before = e;
       }
       EXPECT_EQ(before, 0.0);
       const bool sphere = std::holds_alternative<SphereSource>(source);
       const bool tube = std::holds_alternative<TubeSource>(source);
       const double reach = tube ? std::atan2(0.8, d) : std::atan2(0.5, d);
-      const double touch = sphere ? std::acos(0.5 / d) : 0.5 * kPi - reach;
-      for (const double tilt : {touch, kPi - touch}) {
+      const double touch = sphere ? std::acos(0.5 / d) : 0.5 * pi - reach;
+      for (const double tilt : {touch, pi - touch}) {
         const double step = std::abs(LuxPerCandela(source, OnAxis(d, tilt + 1e-14)) -
                                      LuxPerCandela(source, OnAxis(d, tilt - 1e-14)));
         EXPECT_LE(step, 1e-12 * whole) << "d " << d << " tilt " << tilt;
@@ -68,13 +68,13 @@ TEST(Models, OnTheAxisTheyAreTheAxialShapes) {
 
 TEST(Models, G07AReceiverInAGlobeSeesItsLuminanceAllOver) {
   const double lux_per_candela = LuxPerCandela(SphereSource{0.2}, OnAxis(0.2, 0.3));
-  EXPECT_NEAR(lux_per_candela * kPi * 0.04, kPi, 1e-12);  // E = pi L
+  EXPECT_NEAR(lux_per_candela * pi * 0.04, pi, 1e-12);  // E = pi L
   EXPECT_EQ(LuxPerCandela(SphereSource{0.2}, OnAxis(0.1, 0.3)), lux_per_candela);
 }
 
 TEST(Models, G09TouchingAFlatSourceIsUnderAWholeDome) {
-  EXPECT_NEAR(LuxPerCandela(RectSource{1.0, 1.0}, OnAxis(1e-6, 0.0)) * 4.0, kPi, 1e-5);
-  EXPECT_NEAR(LuxPerCandela(DiskSource{1.0}, OnAxis(1e-6, 0.0)) * kPi, kPi, 1e-10);
+  EXPECT_NEAR(LuxPerCandela(RectSource{1.0, 1.0}, OnAxis(1e-6, 0.0)) * 4.0, pi, 1e-5);
+  EXPECT_NEAR(LuxPerCandela(DiskSource{1.0}, OnAxis(1e-6, 0.0)) * pi, pi, 1e-10);
 }
 
 TEST(Models, G10FarAwayEverySourceIsAPoint) {
@@ -145,7 +145,7 @@ TEST(Models, ASunsDiskMattersOnlyAtTheHorizon) {
     EXPECT_NEAR(SunFactor(up, toward, radius), DirectionalFactor(up, toward), 1e-12);
   }
   const double at_horizon = SunFactor(Vec3{0.0, 0.0, 1.0}, Vec3{1.0, 0.0, 0.0}, radius);
-  EXPECT_NEAR(at_horizon, 2.0 / (3.0 * kPi) * radius, 1e-4 * radius);  // half a disk of small s
+  EXPECT_NEAR(at_horizon, 2.0 / (3.0 * pi) * radius, 1e-4 * radius);  // half a disk of small s
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 using test::BruteReceiver;
 using test::Real;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 class Scenes {
  public:
@@ -32,7 +32,7 @@ class Scenes {
   double LogUniform(double a, double b) { return a * std::pow(b / a, uniform_(random_)); }
   Vec3 Direction() {
     const double z = Uniform(-1, 1);
-    const double f = Uniform(0, 2 * kPi);
+    const double f = Uniform(0, 2 * pi);
     const double s = std::sqrt(1 - z * z);
     return {s * std::cos(f), s * std::sin(f), z};
   }
@@ -46,7 +46,7 @@ class Scenes {
     }();
     const double reach = std::min(1.5, size / d);
     const double angle =
-        Uniform(0, 1) < 0.5 ? Uniform(0, 0.5 * kPi) : 0.5 * kPi + reach * Uniform(-1.2, 1.2);
+        Uniform(0, 1) < 0.5 ? Uniform(0, 0.5 * pi) : 0.5 * pi + reach * Uniform(-1.2, 1.2);
     const Vec3 n = toward * std::cos(angle) + side * std::sin(angle);
     return n * (1.0 / Length(n));
   }
@@ -114,7 +114,7 @@ TEST(Models, ADiskIsItsIntegralEverywhere) {
     direction[2] = std::abs(direction[2]);
     Receiver<double> at{direction * scenes.LogUniform(1e-3, 1e6), {}};
     at.normal = scenes.Normal(at.position, 1.0);
-    const Real truth = test::BruteDisk(1.0, Wide(at)) / kPi;
+    const Real truth = test::BruteDisk(1.0, Wide(at)) / pi;
     const double d2 = Dot(at.position, at.position);
     ExpectClose(LuxPerCandela(DiskSource{1.0}, at), truth, 1.0 / std::max(d2, 1.0), at, "disk");
   }
@@ -128,7 +128,7 @@ TEST(Models, APolygonIsItsIntegralEverywhere) {
     std::vector<std::array<Real, 2>> wide;
     double area = 0.0;
     for (int k = 0; k < corners; ++k) {  // on an ellipse: convex
-      const double f = 2.0 * kPi * (k + scenes.Uniform(0, 0.8)) / corners;
+      const double f = 2.0 * pi * (k + scenes.Uniform(0, 0.8)) / corners;
       polygon.push_back({0.3 + std::cos(f), 0.6 * std::sin(f) - 0.1});
       wide.push_back({polygon.back()[0], polygon.back()[1]});
     }
@@ -153,7 +153,7 @@ TEST(Models, ASphereIsItsIntegralEverywhere) {
   for (int i = 0; i < kScenes; ++i) {
     Receiver<double> at{scenes.Direction() * (1.0 + scenes.LogUniform(1e-3, 1e6)), {}};
     at.normal = scenes.Normal(at.position, 1.0);
-    const Real truth = test::BruteSphere(1.0, Wide(at)) / kPi;
+    const Real truth = test::BruteSphere(1.0, Wide(at)) / pi;
     const double d2 = Dot(at.position, at.position);
     ExpectClose(LuxPerCandela(SphereSource{1.0}, at), truth, 1.0 / d2, at, "sphere");
   }
@@ -167,7 +167,7 @@ TEST(Models, ATubeIsItsIntegralEverywhere) {
     Receiver<double> at;
     if (i % 2 == 0) {  // near the mantle, anywhere along it and beyond its ends
       const double away = 1.0 + scenes.LogUniform(1e-3, 10.0);
-      const double f = scenes.Uniform(0, 2 * kPi);
+      const double f = scenes.Uniform(0, 2 * pi);
       at.position = {tube.half_length * scenes.Uniform(-1.5, 1.5), away * std::cos(f),
                      away * std::sin(f)};
     } else {

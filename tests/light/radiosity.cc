@@ -9,7 +9,7 @@
 namespace lightcal::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Place Minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double Product(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -67,7 +67,7 @@ double Kernel(const Patch& from, const Place& point, const Place& normal) {
   const double here = Product(normal, to);
   const double there = -Product(from.inward, to);
   if (here <= 0.0 || there <= 0.0) return 0.0;
-  return from.area * here * there / (kPi * r2 * r2);
+  return from.area * here * there / (pi * r2 * r2);
 }
 
 // Shares of each patch's light that reach the others, every row made whole: the box is closed.

@@ -10,7 +10,7 @@
 namespace lightcal {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 Scene RoomScene(const Vec3& size, double reflectance, const Vec3& lamp) {
   Scene scene;
@@ -42,7 +42,7 @@ double FineFirstBounce(const Scene& scene, const Vec3& meter) {
           const double ra = Length(a);
           const double rb = Length(b);
           const double at_meter = std::max(0.0, Dot(normal, b) / rb);
-          sum += std::abs(a[axis]) / (ra * ra * ra) * scene.room->reflectance / kPi * at_meter *
+          sum += std::abs(a[axis]) / (ra * ra * ra) * scene.room->reflectance / pi * at_meter *
                  std::abs(b[axis]) / (rb * rb * rb) * size[u] * size[v] / (kFine * kFine);
         }
       }
@@ -83,7 +83,7 @@ TEST(RoomBounce, TheTailIsTheIntegratingRoomsBeyondTheFirstBounce) {
   const double rho = 0.6;
   const double area = 2.0 * (5 * 4 + 4 * 2.6 + 5 * 2.6);
   const Bounce bounce = BounceAt(RoomScene({5, 4, 2.6}, rho, {0, 0, 1.2}), ScenePose{});
-  EXPECT_NEAR(bounce.tail, 4.0 * kPi * (rho / (area * (1.0 - rho)) - rho / area), 1e-12);
+  EXPECT_NEAR(bounce.tail, 4.0 * pi * (rho / (area * (1.0 - rho)) - rho / area), 1e-12);
 }
 
 TEST(RoomBounce, ANarrowSpotBouncesLessThanABareBulb) {

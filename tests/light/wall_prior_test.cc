@@ -72,7 +72,7 @@ TEST(WallPrior, AWallBehindABulbIsBetweenAnOrdinaryPlaceAndACorner) {
   const WallPrior& ordinary = places.front().prior;
   constexpr double kFromWall = 0.3;
   constexpr double kReflectance = 0.6;
-  constexpr double kPi = std::numbers::pi;
+  using std::numbers::pi;
   // E(d) = rho/pi int (h/s^3) cos_wall cos_meter / r^2 dA over rings about the axis.
   const auto wall_lux = [&](double d) {
     double sum = 0.0;
@@ -82,9 +82,9 @@ TEST(WallPrior, AWallBehindABulbIsBetweenAnOrdinaryPlaceAndACorner) {
       const double s2 = ring * ring + kFromWall * kFromWall;
       const double z = d + kFromWall;
       const double r2 = ring * ring + z * z;
-      sum += kFromWall / (s2 * std::sqrt(s2)) * (z * z / r2) / r2 * 2.0 * kPi * ring * 4.0 / kRings;
+      sum += kFromWall / (s2 * std::sqrt(s2)) * (z * z / r2) / r2 * 2.0 * pi * ring * 4.0 / kRings;
     }
-    return kReflectance / kPi * sum;
+    return kReflectance / pi * sum;
   };
   const auto slope_with_wall = [&] {
     const auto ln_b = [&](double d) {

@@ -42,9 +42,9 @@ TEST(SolidAngle, AZoneIsTheDifferenceOfItsCones) {
               (SolidAngleOfCone(Degrees(35.0)) - SolidAngleOfCone(Degrees(20.0))).value(), 1e-15);
 }
 
-class SpotFlux : public testing::TestWithParam<SpotFalloff> {};
+class ConeFlux : public testing::TestWithParam<SpotFalloff> {};
 
-TEST_P(SpotFlux, EqualsTheIntegralOfTheAttenuation) {
+TEST_P(ConeFlux, EqualsTheIntegralOfTheAttenuation) {
   for (const auto& [inner, outer] :
        {std::pair{0.0, 10.0}, {15.0, 25.0}, {30.0, 90.0}, {60.0, 180.0}}) {
     const SpotCone cone{Degrees(inner), Degrees(outer)};
@@ -56,7 +56,7 @@ TEST_P(SpotFlux, EqualsTheIntegralOfTheAttenuation) {
   }
 }
 
-TEST_P(SpotFlux, EqualAnglesMakeAHardEdgeWithoutDividingByZero) {
+TEST_P(ConeFlux, EqualAnglesMakeAHardEdgeWithoutDividingByZero) {
   const SpotCone cone{Degrees(30.0), Degrees(30.0)};
   EXPECT_EQ(SpotAttenuation(Degrees(29.999), cone, GetParam()), 1.0);
   EXPECT_EQ(SpotAttenuation(Degrees(30.001), cone, GetParam()), 0.0);
@@ -69,7 +69,7 @@ TEST_P(SpotFlux, EqualAnglesMakeAHardEdgeWithoutDividingByZero) {
             SolidAngleOfSpot(cone, GetParam()).value());
 }
 
-TEST_P(SpotFlux, AttenuationNeverRisesAndStaysWithinZeroAndOne) {
+TEST_P(ConeFlux, AttenuationNeverRisesAndStaysWithinZeroAndOne) {
   const SpotCone cone{Degrees(10.0), Degrees(40.0)};
   double before = 1.0;
   for (double degrees = 0.0; degrees <= 180.0; degrees += 0.25) {
@@ -81,7 +81,7 @@ TEST_P(SpotFlux, AttenuationNeverRisesAndStaysWithinZeroAndOne) {
   EXPECT_EQ(before, 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SpotFlux,
+INSTANTIATE_TEST_SUITE_P(All, ConeFlux,
                          testing::Values(SpotFalloff::kHard, SpotFalloff::kLinear,
                                          SpotFalloff::kSquaredLinear, SpotFalloff::kSmoothstep));
 

@@ -14,6 +14,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/report/figures.h"
 #include "lightcal/report/svg.h"
+#include "parsed_svg.h"
 #include "run_cli.h"
 #include "sample_lights.h"
 
@@ -146,12 +147,6 @@ TEST(ReportPage, EveryIdIsUniqueAndEveryReferenceHasOne) {
 
 // ---- figures ----
 
-pugi::xml_document Parsed(const std::string& svg) {
-  pugi::xml_document document;
-  EXPECT_TRUE(document.load_string(svg.c_str())) << svg;
-  return document;
-}
-
 // Readings from 0.5 to 3 m with a quarter of room on each side: x is logarithmic from 0.4 to 3.75 m
 // over the 384 px between 84 and 468.
 double ExpectedX(double distance) {
@@ -250,8 +245,7 @@ TEST(ChromaticityFigure, TheEllipseSpansTheIntervals) {
   std::istringstream data(
       svg.select_node("//path[@class='ellipse']").node().attribute("d").value());
   std::string path = data.str();
-  std::ranges::replace_if(
-      path, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::ranges::replace_if(path, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
   std::istringstream numbers(path);
   double low_u = 1e9;
   double high_u = -1e9;

@@ -14,6 +14,7 @@
 #include "lightcal/report/luminance_figure.h"
 #include "lightcal/report/minutes_figure.h"
 #include "lightcal/report/spectrum_figure.h"
+#include "parsed_svg.h"
 #include "sample_lights.h"
 
 namespace lightcal::test {
@@ -21,12 +22,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-pugi::xml_document Parsed(const std::string& svg) {
-  pugi::xml_document document;
-  EXPECT_TRUE(document.load_string(svg.c_str())) << svg;
-  return document;
-}
 
 // A line of 2 W m^-2 nm^-1 at 550 nm over 1 everywhere, from 300 to 900 nm.
 LightSpectrum Line(SpectralQuantity quantity) {
@@ -46,8 +41,7 @@ std::vector<std::pair<double, double>> PointsOf(const pugi::xml_document& svg, c
                          .node()
                          .attribute("d")
                          .value();
-  std::ranges::replace_if(
-      data, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::ranges::replace_if(data, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
   std::istringstream numbers(data);
   std::vector<std::pair<double, double>> points;
   for (double x = 0.0, y = 0.0; numbers >> x >> y;) points.emplace_back(x, y);

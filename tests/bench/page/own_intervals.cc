@@ -13,12 +13,12 @@ namespace page {
 namespace {
 
 namespace fit = lightcal::fit;
-constexpr int kReadings = 6;
+constexpr int kReadingsEach = 6;
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 fit::Estimation EstimationOf(const Numbers& numbers) {
   fit::Estimation estimation;
-  for (int i = 0; i < kReadings; ++i) {
+  for (int i = 0; i < kReadingsEach; ++i) {
     fit::ReadingRow row;
     row.distance = numbers[2 * i];
     row.measured = numbers[2 * i + 1];

@@ -11,10 +11,12 @@
 
 #include "run_cli.h"
 #include "synthetic_dng.h"
+#include "warning_codes.h"
 
 namespace lightcal::devices {
 namespace {
 
+using test::Codes;
 using test::SampleData;
 using test::SyntheticDngOptions;
 using ::testing::ElementsAre;
@@ -31,11 +33,6 @@ class BracketFiles : public testing::Test {
     return WriteDngBracket(
         dir_.path(), "b", camera_, series_, [](int x, int) { return test::XyzOf(20.0 * x); },
         options);
-  }
-  static std::vector<std::string> Codes(const Warnings& warnings) {
-    std::vector<std::string> codes;
-    for (const Warning& w : warnings) codes.push_back(w.code);
-    return codes;
   }
   static Bracket Open(std::vector<std::string> patterns, const BracketOverrides& overrides = {}) {
     auto bracket = OpenBracket(patterns, overrides);

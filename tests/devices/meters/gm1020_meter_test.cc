@@ -16,7 +16,7 @@ constexpr test::Make kMake = MakeDisplayMeter<kProtocol>;
 
 const std::string kStart = Hex("3C 01 00 00 00 00 00 3D");
 const std::string kStop = Hex("3C 02 00 00 00 00 00 3E");
-const std::string k123lx = Hex("33 22 04 D2 01 00 FD 11");
+const std::string kSays123lx = Hex("33 22 04 D2 01 00 FD 11");
 
 // Says the frames one a moment between start and stop, then the last one again and again.
 test::Speak Live(std::vector<std::string> frames) {
@@ -33,7 +33,7 @@ test::Speak Live(std::vector<std::string> frames) {
 }
 
 TEST(Gm1020Meter, StartsReadsAndStops) {
-  StreamFake line(Live({k123lx}));
+  StreamFake line(Live({kSays123lx}));
   const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
@@ -42,22 +42,22 @@ TEST(Gm1020Meter, StartsReadsAndStops) {
 }
 
 TEST(Gm1020Meter, CommandsGoOutByteByByte) {
-  StreamFake line(Live({k123lx}));
+  StreamFake line(Live({kSays123lx}));
   EXPECT_TRUE(test::MeasuredOn(line, kMake));
   for (const std::string& write : line.writes()) EXPECT_EQ(write.size(), 1U);
 }
 
 TEST(Gm1020Meter, NoiseAnEchoAndHalfAFrameBeforeTheFrameDoNoHarm) {
   for (const std::string& before :
-       {std::string("\xFF\x33"), kStart, k123lx.substr(3), std::string("\x33\x22\x33")}) {
-    const auto reading = test::Measured(Live({before + k123lx}), kMake);
+       {std::string("\xFF\x33"), kStart, kSays123lx.substr(3), std::string("\x33\x22\x33")}) {
+    const auto reading = test::Measured(Live({before + kSays123lx}), kMake);
     ASSERT_TRUE(reading) << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   }
 }
 
 TEST(Gm1020Meter, FramesOfAnEarlierRunAreForgotten) {
-  StreamFake line(Live({k123lx}), Hex("33 22 00 00 01 00 FD 11") + Hex("33 22 00"));
+  StreamFake line(Live({kSays123lx}), Hex("33 22 00 00 01 00 FD 11") + Hex("33 22 00"));
   EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
@@ -88,11 +88,11 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(FaultCase{"Silent", {}, "timeout"},
                     FaultCase{"Noise", {std::string(24, 'x')}, "bad_reply"},
                     FaultCase{"UnknownBits", {Hex("33 22 14 D2 01 00 FD 11")}, "bad_reply"},
-                    FaultCase{"Torn", {k123lx.substr(0, 5), ""}, "bad_reply"}),
+                    FaultCase{"Torn", {kSays123lx.substr(0, 5), ""}, "bad_reply"}),
     [](const auto& fault_case) { return std::string(fault_case.param.name); });
 
 TEST(Gm1020Meter, OneFrameWithUnknownBitsIsPassedOver) {
-  EXPECT_TRUE(test::Measured(Live({Hex("33 22 14 D2 01 00 FD 11"), k123lx}), kMake));
+  EXPECT_TRUE(test::Measured(Live({Hex("33 22 14 D2 01 00 FD 11"), kSays123lx}), kMake));
 }
 
 TEST(Gm1020Meter, SilenceSaysWhatToDo) {
@@ -110,22 +110,22 @@ TEST(Gm1020Meter, CtrlCStopsTheMeter) {
 }
 
 TEST(Gm1020Meter, AnUnpluggedMeterIsNotSpokenToAgain) {
-  const auto speak = [](std::string&) { return Spoken{k123lx.substr(0, 5), true}; };
+  const auto speak = [](std::string&) { return Spoken{kSays123lx.substr(0, 5), true}; };
   StreamFake line(speak);
   EXPECT_EQ(test::MeasuredOn(line, kMake).error().code, "unplugged");
   EXPECT_EQ(line.received(), kStart);
 }
 
 TEST(Gm1020Meter, AReadingSurvivesAMeterThatCannotBeStopped) {
-  const auto speak = [](std::string&) { return Spoken{k123lx, true}; };
+  const auto speak = [](std::string&) { return Spoken{kSays123lx, true}; };
   const auto reading = test::Measured(speak, kMake);
   ASSERT_TRUE(reading);
   EXPECT_THAT(test::CodesOf(*reading), testing::ElementsAre("not_restored"));
 }
 
 TEST(Gm1020Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Live({"\xFF" + k123lx}), kMake);
-  test::ExpectReplaysToTheSame(Live({k123lx.substr(0, 5), ""}), kMake);
+  test::ExpectReplaysToTheSame(Live({"\xFF" + kSays123lx}), kMake);
+  test::ExpectReplaysToTheSame(Live({kSays123lx.substr(0, 5), ""}), kMake);
   test::ExpectReplaysToTheSame(Live({}), kMake);
 }
 

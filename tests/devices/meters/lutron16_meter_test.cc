@@ -15,7 +15,7 @@ using testing::IsEmpty;
 
 constexpr test::Make kMake = MakeDisplayMeter<kProtocol>;
 
-const std::string k123lx = Hex("02 34 31 31 35 30 31 30 30 30 30 31 32 33 34 0D");
+const std::string kSays123lx = Hex("02 34 31 31 35 30 31 30 30 30 30 31 32 33 34 0D");
 const std::string kLower =
     "\x02"
     "42010100000253\r";
@@ -32,7 +32,7 @@ std::string CodeOf(std::vector<std::string> frames) {
 }
 
 TEST(Lutron16Meter, ReadsWhatTheDisplayShows) {
-  StreamFake line(Saying({k123lx}));
+  StreamFake line(Saying({kSays123lx}));
   const auto reading = test::MeasuredOn(line, kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
@@ -42,29 +42,29 @@ TEST(Lutron16Meter, ReadsWhatTheDisplayShows) {
 }
 
 TEST(Lutron16Meter, JoinsTheStreamAnywhere) {
-  for (std::size_t cut = 0; cut <= k123lx.size(); ++cut) {
-    const auto reading = Measured(Saying({k123lx.substr(cut), k123lx}), kMake);
+  for (std::size_t cut = 0; cut <= kSays123lx.size(); ++cut) {
+    const auto reading = Measured(Saying({kSays123lx.substr(cut), kSays123lx}), kMake);
     ASSERT_TRUE(reading) << cut << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4) << cut;
   }
 }
 
 TEST(Lutron16Meter, NoiseAndATornFrameBeforeItDoNoHarm) {
-  for (const std::string& before : {std::string("\xFF\x02"), k123lx.substr(0, 9),
+  for (const std::string& before : {std::string("\xFF\x02"), kSays123lx.substr(0, 9),
                                     std::string("\x02\x34\x02\x34"), std::string("\r\r")}) {
-    const auto reading = Measured(Saying({before + k123lx}), kMake);
+    const auto reading = Measured(Saying({before + kSays123lx}), kMake);
     ASSERT_TRUE(reading) << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   }
 }
 
 TEST(Lutron16Meter, WhatWasSentBeforeIsForgotten) {
-  StreamFake line(Saying({k123lx}), kNegative + kNegative);
+  StreamFake line(Saying({kSays123lx}), kNegative + kNegative);
   EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
 TEST(Lutron16Meter, TheLowerDisplayIsPassedOver) {
-  EXPECT_EQ(Measured(Saying({kLower, k123lx}), kMake)->reading.illuminance->value(), 123.4);
+  EXPECT_EQ(Measured(Saying({kLower, kSays123lx}), kMake)->reading.illuminance->value(), 123.4);
   EXPECT_EQ(CodeOf({kLower}), "no_light_display");
 }
 
@@ -110,7 +110,7 @@ TEST(Lutron16Meter, SilenceNamesTheCable) {
 }
 
 TEST(Lutron16Meter, UnpluggedInMidFrameIsUnplugged) {
-  const auto speak = [](std::string&) { return test::Spoken{k123lx.substr(0, 11), true}; };
+  const auto speak = [](std::string&) { return test::Spoken{kSays123lx.substr(0, 11), true}; };
   EXPECT_EQ(Measured(speak, kMake).error().code, "unplugged");
 }
 
@@ -123,9 +123,9 @@ TEST(Lutron16Meter, CtrlCEndsTheListening) {
 }
 
 TEST(Lutron16Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Saying({k123lx.substr(5), kLower, k123lx}), kMake);
+  test::ExpectReplaysToTheSame(Saying({kSays123lx.substr(5), kLower, kSays123lx}), kMake);
   test::ExpectReplaysToTheSame(Saying({kDecibels}), kMake);
-  test::ExpectReplaysToTheSame(Saying({k123lx.substr(0, 5), ""}), kMake);
+  test::ExpectReplaysToTheSame(Saying({kSays123lx.substr(0, 5), ""}), kMake);
   test::ExpectReplaysToTheSame(Saying({}), kMake);
 }
 

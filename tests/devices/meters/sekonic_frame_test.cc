@@ -9,10 +9,12 @@
 #include "fake_sekonic.h"
 #include "lightcal_devices/meters/sekonic/frame.h"
 #include "lightcal_devices/meters/sekonic/reading.h"
+#include "warning_codes.h"
 
 namespace lightcal::devices::sekonic {
 namespace {
 
+using test::Codes;
 using test::RecordedReply;
 using test::WithByte;
 using test::WithFloat;
@@ -31,12 +33,6 @@ Measurement Decoded(const std::vector<std::byte>& reply) {
   const auto m = DecodeMeasurement(reply);
   EXPECT_TRUE(m) << m.error().message;
   return m.value_or(Measurement{});
-}
-
-std::vector<std::string> Codes(const Warnings& warnings) {
-  std::vector<std::string> codes;
-  for (const Warning& warning : warnings) codes.push_back(warning.code);
-  return codes;
 }
 
 TEST(SekonicFrame, TheFirstCapturedReplyIs407LuxAt4995Kelvin) {

@@ -6,9 +6,12 @@
 #include "lightcal_devices/meters/spotread/frame.h"
 #include "lightcal_devices/meters/spotread/meter.h"
 #include "spotread_texts.h"
+#include "warning_codes.h"
 
 namespace lightcal::devices::spotread {
 namespace {
+
+using test::Codes;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -24,12 +27,6 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
-}
-
-std::vector<std::string> Codes(const Warnings& warnings) {
-  std::vector<std::string> codes;
-  for (const Warning& warning : warnings) codes.push_back(warning.code);
-  return codes;
 }
 
 TEST(SpotreadFrame, AColorimeterGivesLuxWithSixDecimalsAndItsColour) {

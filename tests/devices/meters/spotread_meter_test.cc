@@ -13,11 +13,13 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
 #include "spotread_texts.h"
+#include "warning_codes.h"
 
 namespace lightcal::devices::spotread {
 namespace {
 
 using std::chrono::milliseconds;
+using test::Codes;
 using test::FakeSpotread;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -40,12 +42,6 @@ Result<MeterReading> Measured(const FakeSpotread& program,
                               const std::map<std::string, std::string>& options = {}) {
   const auto line = Line(program);
   return SpotreadMeter(*line, Quick(options)).Measure(Cancellation());
-}
-
-std::vector<std::string> Codes(const Warnings& warnings) {
-  std::vector<std::string> codes;
-  for (const Warning& warning : warnings) codes.push_back(warning.code);
-  return codes;
 }
 
 TEST(SpotreadMeter, ASpectrometerIsReadInOneRun) {

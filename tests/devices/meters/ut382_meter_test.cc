@@ -21,7 +21,7 @@ std::string Frame(const std::string& pairs, const std::string& after = "00") {
   return Hex(pairs + " 0D 0A " + after);
 }
 const std::string kDigits1234 = "30 30 35 36 3C 3F 3E 35 30 36 30 30 30 30 30 30 30 30 ";
-const std::string k123lx = Frame(kDigits1234 + "38 32 32 3E 30 30 30 30 30 30 30 30");
+const std::string kSays123lx = Frame(kDigits1234 + "38 32 32 3E 30 30 30 30 30 30 30 30");
 const std::string kBatteryLow = Frame(kDigits1234 + "38 33 32 3E 30 30 30 30 30 30 30 30");
 const std::string kHold = Frame(kDigits1234 + "38 32 32 3E 30 31 30 30 30 30 30 30");
 const std::string kMenu = Frame(
@@ -31,7 +31,7 @@ const std::string kOverloadAuto = Frame(kOverload + "32 3E 30 30 30 30 30 30 30 
 const std::string kOverloadManual = Frame(kOverload + "30 38 30 30 30 30 30 30 30 30");
 
 TEST(Ut382Meter, ReadsWhatTheDisplayShows) {
-  const auto reading = Measured(Saying({k123lx}), kMake);
+  const auto reading = Measured(Saying({kSays123lx}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
   EXPECT_EQ(reading->reading.device, "ut382:UT382");
@@ -42,14 +42,15 @@ TEST(Ut382Meter, ReadsWhatTheDisplayShows) {
 }
 
 TEST(Ut382Meter, NothingIsEverSentToIt) {
-  StreamFake line(Saying({k123lx}));
+  StreamFake line(Saying({kSays123lx}));
   EXPECT_TRUE(test::MeasuredOn(line, kMake));
   EXPECT_THAT(line.writes(), IsEmpty());
 }
 
 TEST(Ut382Meter, JoinsTheStreamAnywhere) {
-  for (std::size_t cut = 0; cut <= k123lx.size(); ++cut) {
-    const auto reading = Measured(Saying({k123lx.substr(cut) + k123lx + k123lx}), kMake);
+  for (std::size_t cut = 0; cut <= kSays123lx.size(); ++cut) {
+    const auto reading =
+        Measured(Saying({kSays123lx.substr(cut) + kSays123lx + kSays123lx}), kMake);
     ASSERT_TRUE(reading) << cut << reading.error().message;
     EXPECT_EQ(reading->reading.illuminance->value(), 123.4) << cut;
   }
@@ -72,15 +73,15 @@ TEST(Ut382Meter, TheByteAfterAFrameMayBeAnything) {
 TEST(Ut382Meter, WhatWasSentBeforeIsForgotten) {
   const std::string zero = Frame(
       "30 30 3B 37 3B 3F 30 30 30 30 30 30 30 30 30 30 30 30 38 32 32 3E 30 30 30 30 30 30 30 30");
-  StreamFake line(Saying({k123lx}), zero + zero + zero);
+  StreamFake line(Saying({kSays123lx}), zero + zero + zero);
   EXPECT_EQ(test::MeasuredOn(line, kMake)->reading.illuminance->value(), 123.4);
 }
 
 TEST(Ut382Meter, ADamagedFrameIsPassedOver) {
-  std::string bad_digit = k123lx;
+  std::string bad_digit = kSays123lx;
   bad_digit[2] = '\x31';
-  std::string torn = k123lx.substr(0, 17);
-  const auto reading = Measured(Saying({bad_digit, torn, k123lx}), kMake);
+  std::string torn = kSays123lx.substr(0, 17);
+  const auto reading = Measured(Saying({bad_digit, torn, kSays123lx}), kMake);
   ASSERT_TRUE(reading) << reading.error().message;
   EXPECT_EQ(reading->reading.illuminance->value(), 123.4);
 }
@@ -94,7 +95,7 @@ TEST(Ut382Meter, NoiseEndsAfterABoundedNumberOfBytes) {
 }
 
 TEST(Ut382Meter, EndlessDamagedFramesEndToo) {
-  std::string bad_digit = k123lx;
+  std::string bad_digit = kSays123lx;
   bad_digit[2] = '\x31';
   StreamFake line(Saying({bad_digit}));
   EXPECT_EQ(test::MeasuredOn(line, kMake).error().code, "bad_reply");
@@ -116,7 +117,7 @@ TEST(Ut382Meter, AFrozenDisplayIsRefusedByItsName) {
 }
 
 TEST(Ut382Meter, AMenuIsWaitedForAndThenNamed) {
-  EXPECT_TRUE(Measured(Saying({kMenu, kMenu, k123lx}), kMake));
+  EXPECT_TRUE(Measured(Saying({kMenu, kMenu, kSays123lx}), kMake));
   EXPECT_EQ(Measured(Saying({kMenu}), kMake).error().code, "in_menu");
 }
 
@@ -136,7 +137,7 @@ TEST(Ut382Meter, ALowBatteryWarns) {
 }
 
 TEST(Ut382Meter, UnpluggedInMidFrameIsUnplugged) {
-  const auto speak = [](std::string&) { return test::Spoken{k123lx.substr(0, 11), true}; };
+  const auto speak = [](std::string&) { return test::Spoken{kSays123lx.substr(0, 11), true}; };
   EXPECT_EQ(Measured(speak, kMake).error().code, "unplugged");
 }
 
@@ -149,8 +150,8 @@ TEST(Ut382Meter, CtrlCEndsTheListening) {
 }
 
 TEST(Ut382Meter, WhatIsRecordedReplays) {
-  test::ExpectReplaysToTheSame(Saying({k123lx.substr(9), k123lx}), kMake);
-  test::ExpectReplaysToTheSame(Saying({kMenu, k123lx.substr(0, 5), kOverloadAuto}), kMake);
+  test::ExpectReplaysToTheSame(Saying({kSays123lx.substr(9), kSays123lx}), kMake);
+  test::ExpectReplaysToTheSame(Saying({kMenu, kSays123lx.substr(0, 5), kOverloadAuto}), kMake);
   test::ExpectReplaysToTheSame(Saying({}), kMake);
   test::ExpectReplaysToTheSame(Saying({std::string(40, 'x')}), kMake);
 }

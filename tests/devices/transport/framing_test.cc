@@ -5,8 +5,12 @@
 
 #include <deque>
 
+#include "text_of_bytes.h"
+
 namespace lightcal::devices {
 namespace {
+
+using test::Text;
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
@@ -32,12 +36,6 @@ class Pieces final : public Transport {
  private:
   std::deque<std::string> pieces_;
 };
-
-std::string Text(const Bytes& bytes) {
-  std::string text;
-  for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
-  return text;
-}
 
 constexpr milliseconds kWait{1000};
 

@@ -16,9 +16,12 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/replay.h"
 #include "run_cli.h"
+#include "text_of_bytes.h"
 
 namespace lightcal::devices {
 namespace {
+
+using test::Text;
 
 using std::chrono::milliseconds;
 using testing::HasSubstr;
@@ -32,10 +35,6 @@ std::unique_ptr<Transport> Shell(milliseconds longest_run = milliseconds(0)) {
 
 Result<Bytes> Start(Transport& line, const std::string& script) {
   return line.Control("start", StartArguments({"-c", script}), 0, kLong);
-}
-
-std::string Text(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 // Everything until the program is over, and the words it is over with.

@@ -6,15 +6,14 @@
 #include <filesystem>
 
 #include "run_cli.h"
+#include "text_of_bytes.h"
 
 namespace lightcal::devices {
 namespace {
 
-constexpr std::chrono::milliseconds kWait{100};
+using test::Text;
 
-std::string Text(const Bytes& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+constexpr std::chrono::milliseconds kWait{100};
 
 TEST(Sysfs, AnAttributeIsChosenByItsNameAndReadAnewEachTime) {
   const test::TempDir root;

@@ -19,9 +19,9 @@ using test::PseudoTerminal;
 using test::TempDir;
 using testing::HasSubstr;
 
-constexpr milliseconds kWait{2000};
+constexpr milliseconds kLineWait{2000};
 
-std::string Line(Transport& source, milliseconds wait = kWait) {
+std::string Line(Transport& source, milliseconds wait = kLineWait) {
   const auto line = source.Read(256, wait);
   if (!line) return "(" + line.error().code + ")";
   std::string text;

@@ -11,19 +11,15 @@
 
 #include "lightcal_devices/transport/framing.h"
 #include "pseudo_terminal.h"
+#include "text_of_bytes.h"
 
 namespace lightcal::devices {
 namespace {
 
 using std::chrono::milliseconds;
 using test::PseudoTerminal;
+using test::Text;
 using testing::HasSubstr;
-
-std::string Text(const Bytes& bytes) {
-  std::string text;
-  for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
-  return text;
-}
 
 TEST(Tty, WhatOneEndWritesTheOtherReads) {
   const PseudoTerminal terminal;
