@@ -52,44 +52,42 @@ class Includes:
         return self.found[header]
 
 
-def choose_beginnings(others):
-    """The sets of includes that spare most, each the whole of some header's: greedily."""
-    spared = dict.fromkeys(others, 0)
-    chosen = []
+def beginnings_of(others):
+    """{header: the includes precompiled before it}: greedily those sets that spare most."""
+    before = dict.fromkeys(others, frozenset())
     for _ in range(BEGINNINGS):
-        gain, best = max((sum(max(0, len(names) - spared[header]) for header in others
-                              if names <= others[header]), sorted(names))
-                         for names in set(others.values()))
-        if gain == 0:
-            break
-        chosen.append(frozenset(best))
+        def gain(names):
+            return sum(max(0, len(names) - len(before[header])) for header in others
+                       if names <= others[header])
+        best = max(sorted(set(others.values()), key=sorted), key=gain)
         for header, names in others.items():
-            if chosen[-1] <= names:
-                spared[header] = max(spared[header], len(best))
-    return chosen
+            if best <= names and len(best) > len(before[header]):
+                before[header] = best
+    return before
 
 
 def compile_all(commands, includes):
     """{header: (its command's words without output and source, the source)} -> messages."""
     others = {header: includes.of_others(header) for header in commands}
+    before = beginnings_of(others)
     folder = tempfile.TemporaryDirectory()
+    paths = {names: pathlib.Path(folder.name) / f"beginning{number}.h"
+             for number, names in enumerate(set(before.values()))}
 
-    def precompile(number, names):
-        path = pathlib.Path(folder.name) / f"beginning{number}.h"
-        path.write_text("".join(f"#include <{name}>\n" for name in sorted(names)))
-        words = next(commands[header][0] for header in commands if others[header] == names)
-        subprocess.run([*words, "-x", "c++-header", "-c", path, "-o", f"{path}.gch"], check=True)
-        return names, path
+    def precompile(names):
+        paths[names].write_text("".join(f"#include <{name}>\n" for name in sorted(names)))
+        words = next(commands[header][0] for header in commands if names <= others[header])
+        subprocess.run([*words, "-x", "c++-header", "-c", paths[names], "-o", f"{paths[names]}.gch"],
+                       check=True)
 
     def compile_one(header):
         words, source = commands[header]
-        fitting = [(len(names), path) for names, path in beginnings if names <= others[header]]
-        before = ["-include", max(fitting)[1]] if fitting else []
-        run = subprocess.run([*words, *before, "-fsyntax-only", source], capture_output=True, text=True)
+        run = subprocess.run([*words, "-include", paths[before[header]], "-fsyntax-only", source],
+                             capture_output=True, text=True)
         return f"{header} does not compile alone:\n{run.stderr}" if run.returncode else ""
 
     with folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        beginnings = list(pool.map(precompile, *zip(*enumerate(choose_beginnings(others)))))
+        list(pool.map(precompile, paths))
         return [message for message in pool.map(compile_one, commands) if message]
 
 
