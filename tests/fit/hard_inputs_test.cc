@@ -12,10 +12,12 @@
 #include "fitted.h"
 #include "lamp_twin.h"
 #include "lightcal/fit/fit_light.h"
+#include "warning_codes.h"
 
 namespace lightcal {
 namespace {
 
+using test::Codes;
 using test::FitOk;
 using test::TypedSession;
 using testing::Contains;
@@ -29,11 +31,6 @@ Error FitRefused(const Session& session) {
   auto fitted = Fit(session);
   EXPECT_FALSE(fitted.has_value());
   return fitted ? Error{} : fitted.error();
-}
-std::vector<std::string> Codes(const FittedSession& fitted) {
-  std::vector<std::string> codes;
-  for (const Warning& w : fitted.warnings) codes.push_back(w.code);
-  return codes;
 }
 
 TEST(HardInputs, F01TwoReadingsAtOneDistanceTellTheIntensityOnly) {
@@ -84,7 +81,7 @@ TEST(HardInputs, F10ALampLostInTheAmbientLightGetsAnUpperLimit) {
   session.readings.back().reading.illuminance = Lux(101.0);
   auto fitted = Fit(session);
   ASSERT_TRUE(fitted.has_value());
-  EXPECT_THAT(Codes(*fitted), Contains("upper_limit"));
+  EXPECT_THAT(Codes(fitted->warnings), Contains("upper_limit"));
   const Uncertain& limit = *fitted->lights.lights.front().intensity_cd;
   EXPECT_EQ(*limit.low, 0.0);
   EXPECT_NEAR(*limit.high, kZ95 * 2.0 * std::sqrt(1.0 + 1.01 * 1.01), 0.01);
@@ -96,7 +93,7 @@ TEST(HardInputs, F11AReadingThatIsNotANumberIsRejectedAndCounted) {
     auto fitted = Fit(TypedSession({{0.5, 192}, {1.0, bad}}));
     ASSERT_TRUE(fitted.has_value());
     EXPECT_THAT(fitted->lights.lights.front().fit.rejected, ElementsAre(1));
-    EXPECT_THAT(Codes(*fitted), Contains("row_rejected"));
+    EXPECT_THAT(Codes(fitted->warnings), Contains("row_rejected"));
     EXPECT_EQ(FitRefused(TypedSession({{1.0, bad}})).code, "no_valid_readings");
   }
 }
@@ -154,7 +151,7 @@ TEST(HardInputs, F18LightThatGrowsWithDistanceIsRefused) {
       << "no lamp in the open does that";
   auto slow = Fit(TypedSession({{1, 100}, {2, 90}}, 0.04));
   ASSERT_TRUE(slow.has_value());
-  EXPECT_THAT(Codes(*slow), Contains("slow_falloff"));
+  EXPECT_THAT(Codes(slow->warnings), Contains("slow_falloff"));
 }
 
 TEST(HardInputs, F19PerfectReadingsStillHaveAnUncertainty) {

@@ -12,10 +12,12 @@
 #include "lightcal_devices/transport/replay.h"
 #include "lightcal_devices/transport/sysfs.h"
 #include "run_cli.h"
+#include "warning_codes.h"
 
 namespace lightcal::devices::iio {
 namespace {
 
+using test::Codes;
 using test::QuickSetup;
 using test::TempDir;
 using testing::ElementsAre;
@@ -42,12 +44,6 @@ Result<MeterReading> Measured(const Files& files) {
 Files With(Files files, const Files& more) {
   for (const auto& [name, text] : more) files[name] = text;
   return files;
-}
-
-std::vector<std::string> Codes(const MeterReading& reading) {
-  std::vector<std::string> codes;
-  for (const Warning& warning : reading.warnings) codes.push_back(warning.code);
-  return codes;
 }
 
 // A sensor that answers otherwise the second time, or fails at an attribute.
@@ -117,7 +113,7 @@ TEST(IioMeter, TheLaptopOfTheDumpReads209Lux) {
   EXPECT_NEAR(*reading->reading.sigma_relative, std::hypot(0.3, 1.0 / 209.0 / std::sqrt(12.0)),
               1e-12);
   EXPECT_FALSE(reading->reading.cct || reading->reading.xy);
-  EXPECT_THAT(Codes(*reading), testing::IsEmpty());
+  EXPECT_THAT(Codes(reading->warnings), testing::IsEmpty());
 }
 
 TEST(IioMeter, TheSecondOfTwoReadingsIsKept) {
@@ -157,12 +153,12 @@ TEST(IioMeter, ColourThatIsNoneIsLeftOutWithAWarning) {
   for (const char* x : {"0\n", "12000\n", "-5\n"}) {
     const auto reading = Measured(With(kColour, {{"in_chromaticity_x_raw", x}}));
     EXPECT_FALSE(reading->reading.xy || reading->reading.cct) << x;
-    EXPECT_THAT(Codes(*reading), ElementsAre("bad_chromaticity"));
+    EXPECT_THAT(Codes(reading->warnings), ElementsAre("bad_chromaticity"));
   }
   const auto reading = Measured(With(kColour, {{"in_colortemp_raw", "0\n"}}));
   EXPECT_FALSE(reading->reading.cct);
   EXPECT_TRUE(reading->reading.xy);
-  EXPECT_THAT(Codes(*reading), ElementsAre("cct_out_of_range"));
+  EXPECT_THAT(Codes(reading->warnings), ElementsAre("cct_out_of_range"));
 }
 
 TEST(IioMeter, IntensityHasNoUnitAndIsNeverUsed) {
