@@ -98,6 +98,17 @@ std::optional<Error> UnknownWord(const Chosen& chosen, const std::string& said) 
   return std::nullopt;
 }
 
+// Of an option that takes so many values together, too few.
+std::optional<Error> TooFewValues(const Chosen& chosen, const std::string& said) {
+  for (const CLI::Option* option : chosen.parser->get_options()) {
+    const int count = option->get_items_expected_min();
+    if (count < 2 || !said.starts_with(option->get_name() + ":")) continue;
+    return Usage(option->get_name(), "takes " + std::to_string(count) + " values: " +
+                                         option->get_description() + Hint("", chosen));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Error MistypedLine(const CLI::App& parser, const CLI::ParseError& thrown) {
@@ -109,6 +120,9 @@ Error MistypedLine(const CLI::App& parser, const CLI::ParseError& thrown) {
   if (auto option = UnknownOption(chosen, left)) return *std::move(option);
   if (thrown.get_name() == "ValidationError") {
     if (auto word = UnknownWord(chosen, thrown.what())) return *std::move(word);
+  }
+  if (thrown.get_name() == "ArgumentMismatch") {
+    if (auto few = TooFewValues(chosen, thrown.what())) return *std::move(few);
   }
   return Usage("", std::string(thrown.what()) + " (see " + chosen.name + " --help)");
 }

@@ -86,8 +86,14 @@ Result<void> RunOneOrMany(const ColorOptions& options, const ColorExtras& extras
 
 Run BuildColor(CLI::App& parser) {
   auto o = std::make_shared<ColorOptions>();
-  parser.add_option("--xy", o->xy, "CIE 1931 chromaticity")->expected(2)->type_name("X Y");
-  parser.add_option("--xyz", o->xyz, "Tristimulus values")->expected(3)->type_name("X Y Z");
+  parser.add_option("--xy", o->xy, "CIE 1931 chromaticity")
+      ->delimiter(',')
+      ->expected(2)
+      ->type_name("X,Y");
+  parser.add_option("--xyz", o->xyz, "Tristimulus values")
+      ->delimiter(',')
+      ->expected(3)
+      ->type_name("X,Y,Z");
   parser.add_option("--cct", o->cct, "Colour temperature, e.g. 3200K")->type_name("K");
   parser.add_option("--duv", o->duv, "Distance from the Planckian locus, positive is greenish")
       ->type_name("D");

@@ -264,8 +264,10 @@ Run BuildExposure(CLI::App& parser) {
   parser.add_option(
       "--field-angle", o->field_angle,
       "Degrees off the axis, 10: q = pi/4 T v cos^4. With none of the three, q = 0.65");
-  parser.add_option("--light", o->lights,
-                    "Values to pre-expose, 2e9nits 100klx 806lm: do they fit a half float?");
+  parser
+      .add_option("--light", o->lights,
+                  "Values to pre-expose, 2e9nits 100klx 806lm: do they fit a half float?")
+      ->delimiter(',');
   return [o](Console& console) { return RunExposure(*o, console); };
 }
 

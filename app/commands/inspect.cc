@@ -91,7 +91,6 @@ Result<InspectedPicture> Inspect(const InspectOptions& options, Console& console
 
 Result<Region> RegionOf(const InspectOptions& options, const PictureLuminance& picture) {
   if (options.rect.empty()) return Region{0, 0, picture.width, picture.height};
-  if (options.rect.size() != 4) return WrongUsage("--rect", "takes x,y,width,height in pixels");
   const Region region{options.rect[0], options.rect[1], options.rect[2], options.rect[3]};
   if (auto ok = CheckRegion(region, picture.width, picture.height); !ok) {
     return Propagate(std::move(ok));
@@ -289,6 +288,7 @@ Run BuildInspect(CLI::App& parser) {
       ->required();
   parser.add_option("--rect", options->rect, "only this region: x,y,width,height in pixels")
       ->delimiter(',')
+      ->expected(4)
       ->allow_extra_args(false);
   parser
       .add_option("--projection", options->projection,

@@ -96,6 +96,7 @@ void AddGlareOptions(CLI::App& parser, GlareWords& words) {
   parser.add_flag("--glare-no-dim", words.no_dim, "DGP without its correction below 1000 lx");
   parser.add_option("--task", words.task, "where the eye works: x,y,width,height in pixels")
       ->delimiter(',')
+      ->expected(4)
       ->allow_extra_args(false);
   parser.add_option(
       "--scale-u95", words.scale_u95,
@@ -128,7 +129,6 @@ Result<GlareSettings> GlareSettingsOf(const GlareWords& words) {
   }
   if (words.no_peak) settings.peak.reset();
   if (!words.task.empty()) {
-    if (words.task.size() != 4) return WrongUsage("--task", "takes x,y,width,height in pixels");
     settings.task = Region{words.task[0], words.task[1], words.task[2], words.task[3]};
   }
   if (!words.vertical.empty()) {

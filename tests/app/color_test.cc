@@ -54,6 +54,11 @@ TEST(ColorCommand, ChromaticityOfIlluminantAGivesItsTemperature) {
   EXPECT_EQ(a["rgb"]["rec2020"].size(), 3u);
 }
 
+TEST(ColorCommand, ValuesMayBePartedByCommasOrBlanks) {
+  EXPECT_EQ(Color({"--xy", "0.44757,0.40745"}), Color({"--xy", "0.44757", "0.40745"}));
+  EXPECT_EQ(Color({"--xyz", "95.04,100,108.88"}), Color({"--xyz", "95.04", "100", "108.88"}));
+}
+
 TEST(ColorCommand, TemperatureAndDuvReturnThemselves) {
   const json a = Color({"--cct", "3200K", "--duv", "-0.003"});
   EXPECT_NEAR(a["cct_K"].get<double>(), 3200.0, 1e-4);
@@ -102,6 +107,8 @@ TEST(ColorCommand, AWrongCommandLineIsExitTwo) {
            {"color", "--xy", "0.3", "0.3", "--column", "1"}}) {
     EXPECT_EQ(RunLightcal(arguments).exit_code, 2) << arguments.back();
   }
+  EXPECT_NE(RunLightcal({"color", "--xy", "0.3"}).err.find("--xy: takes 2 values"),
+            std::string::npos);
 }
 
 TEST(ColorCommand, PeopleSeeATableWithUnits) {

@@ -88,6 +88,9 @@ TEST(ExposureCommand, SaysWhichLightsFitAHalfFloat) {
   EXPECT_EQ(lights[3]["fits_fp16"], false);
   EXPECT_EQ(answer["warnings"].size(), 3U);
   EXPECT_EQ(answer["warnings"][0]["code"], "fp16_overflow");
+  EXPECT_EQ(ExposureJson({"--aperture", "f/16", "--shutter", "1/64", "--iso", "100", "--light",
+                          "2e9nits,100klx,1lx", "1e-4cd"}),
+            answer);
   const json darker = ExposureJson(
       {"--aperture", "f/16", "--shutter", "1/128", "--iso", "100", "--light", "2e9nits"});
   EXPECT_NEAR(darker["lights"][0]["pre_exposed"], 50863.0, 1.0);

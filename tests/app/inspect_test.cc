@@ -108,6 +108,8 @@ TEST(InspectCommand, ALampInAFisheyeGivesItsIlluminance) {
   EXPECT_FALSE(got.contains("warnings"));
 
   const json part = LightcalJson("inspect", {path, "--rect", "298,298,4,4"});
+  EXPECT_EQ(LightcalJson("inspect", {"--rect", "298", "298", "4", "4", path}), part);
+  EXPECT_EQ(LightcalJson("inspect", {"--rect", "298,298,4,4", path}), part);
   EXPECT_EQ(part["luminance_nits"]["min"], 1000.0);
   EXPECT_EQ(part["sigma_relative"], 0.0);
   EXPECT_FALSE(part.contains("illuminance_lx"));
