@@ -98,6 +98,7 @@ Reading PlacedIn(const Reading& frame, const Reading& measured) {
   reading.lamp = frame.lamp;
   reading.shadow_card = frame.shadow_card;
   reading.state = frame.state;
+  if (frame.duv) reading.duv = frame.duv;
   return reading;
 }
 

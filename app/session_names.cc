@@ -5,6 +5,15 @@
 
 namespace lightcal::app {
 
+Result<std::string> LightMeant(const Session& session, const std::string& named) {
+  if (named.empty() && session.lights.size() == 1) return session.lights.front().name;
+  if (named.empty()) {
+    return WrongUsage("--light", "say which lamp is meant" + DidYouMean("", session.lights));
+  }
+  if (auto known = CheckNames(session, named, ""); !known) return Propagate(std::move(known));
+  return named;
+}
+
 Result<void> CheckNames(const Session& session, const std::string& light,
                         const std::string& meter) {
   if (FindLight(session, light) == nullptr) {

@@ -10,6 +10,9 @@
 
 namespace lightcal::app {
 
+// The light that is named or, where none is, the only one there is. Refused: unknown_light; --light
+// where several may be meant.
+[[nodiscard]] Result<std::string> LightMeant(const Session& session, const std::string& named);
 // Whether the session has this light, and this meter ("" and data_sheet are always there).
 // Refused: unknown_light, unknown_meter, with what is meant instead.
 [[nodiscard]] Result<void> CheckNames(const Session& session, const std::string& light,

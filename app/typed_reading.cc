@@ -174,6 +174,16 @@ Result<Kelvin> ParseLampTemperature(const std::string& text) {
   return cct;
 }
 
+Result<double> ParseDuv(const std::string& text) {
+  constexpr double kFarthestLamp = 0.1;
+  const auto duv = ParseNumber(text);
+  if (!duv) return WrongUsage(text, "Duv is a number such as 0.004 or -0.002");
+  if (!(std::abs(*duv) <= kFarthestLamp)) {
+    return Refused("bad_reading", text, "no lamp is so green or pink: Duv is a few thousandths");
+  }
+  return *duv;
+}
+
 Result<void> SetRoom(const std::string& text, Session& session) {
   constexpr const char* kRoomForm =
       "a room is written LENGTH,WIDTH,HEIGHT in metres, for example 5,4,2.6 (and ,0.7 for its "

@@ -29,6 +29,10 @@ namespace lightcal::app {
 // The colour temperature of a lamp. Refused: bad_reading (under 1000 K, which no lamp has).
 [[nodiscard]] Result<Kelvin> ParseLampTemperature(const std::string& text);
 
+// How far a light's colour lies from the black body's, in u, v of 1960. Refused: bad_reading
+// (beyond .1, which is no lamp's).
+[[nodiscard]] Result<double> ParseDuv(const std::string& text);
+
 // "5,4,2.6" (metres, a reflectance of half) or "5,4,2.6,0.7", "dark", "outdoors". Fails: usage.
 [[nodiscard]] Result<void> SetRoom(const std::string& text, Session& session);
 

@@ -130,9 +130,14 @@ Run BuildQuick(CLI::App& parser) {
                   "Names of the table's columns, where its first line has none")
       ->needs(table);
   parser.add_option("--name", options->name, "Name of the light")->capture_default_str();
-  parser.add_option("--kind", options->kind, "What shines [point; spot with --beam]")
+  parser
+      .add_option("--kind", options->kind,
+                  "What shines [point; spot with --beam, rect with --size, tube with --length]")
       ->check(OneOf(kQuickKinds));
   parser.add_option("--cct", options->cct, "Colour temperature, e.g. 2900K");
+  parser.add_option("--duv", options->duv,
+                    "Beside a colour temperature what a colour meter calls Duv or delta uv, e.g. "
+                    "0.004: above zero greener");
   parser
       .add_option("--fixture", options->fixture,
                   "How the lamp is built: where its light starts, how wide it shines")

@@ -81,7 +81,10 @@ class ReadRun {
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);
-    const Reading& frame = options_.frame;
+    Reading& frame = options_.frame;
+    auto light = LightMeant(*session_, frame.light);
+    if (!light) return Propagate(std::move(light));
+    frame.light = *std::move(light);
     if (auto named = CheckNames(*session_, frame.light, frame.meter); !named) return named;
     return CheckState(*session_, frame);
   }
@@ -161,7 +164,7 @@ class ReadRun {
     return node;
   }
 
-  const ReadOptions& options_;
+  ReadOptions options_;
   Console& console_;
   std::optional<Session> session_;
   ReadingSource source_;

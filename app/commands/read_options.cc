@@ -6,6 +6,7 @@
 
 #include "calibration_options.h"
 #include "lightcal/core/units_text.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -20,6 +21,11 @@ Result<Reading> FrameOf(const ReadArguments& arguments) {
     const auto distance = ParseLength(arguments.distance);
     if (!distance) return tl::unexpected(distance.error());
     reading.distance = *distance;
+  }
+  if (!arguments.duv.empty()) {
+    const auto duv = ParseDuv(arguments.duv);
+    if (!duv) return tl::unexpected(duv.error());
+    reading.duv = *duv;
   }
   if (!arguments.tilt.empty()) {
     const auto tilt = ParseAngle(arguments.tilt);
@@ -49,9 +55,6 @@ Result<void> CheckComplete(const ReadArguments& arguments) {
   const bool into_journal = !arguments.session.empty();
   if (!arguments.once && !into_journal) {
     return WrongUsage("-s", "name the session the reading goes into, or pass --once");
-  }
-  if (into_journal && arguments.light.empty()) {
-    return WrongUsage("--light", "name the lamp the reading is of");
   }
   if (into_journal && arguments.distance.empty()) {
     return WrongUsage("--distance",
@@ -92,7 +95,7 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   auto arguments = std::make_shared<ReadArguments>();
   ReadArguments& a = *arguments;
   parser.add_option("-s,--session", a.session, "Session the readings are appended to");
-  parser.add_option("--light", a.light, "Name of the lamp, as in session.toml");
+  parser.add_option("--light", a.light, "Name of the lamp, as in session.toml [the only one]");
   parser.add_option("--distance", a.distance, "From the lamp to the meter: 0.5m, 50cm, 2ft");
   parser.add_option("--tilt", a.tilt, "Between the meter's normal and the lamp, degrees");
   parser.add_option("--off-axis", a.off_axis,
@@ -124,6 +127,7 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   parser.add_flag("--lamp-off", a.lamp_off, "The lamp is switched off")->excludes(shadow);
   auto* lux =
       parser.add_option("--lux", a.lux, "A typed reading: 192, 17.8fc, or with its CCT 192,2900K");
+  parser.add_option("--duv", a.duv, "Typed with a CCT: Duv, above zero greener")->needs(lux);
   auto* device = parser.add_option("--device", a.request.device, "A meter's id or driver's name");
   auto* record =
       parser.add_option("--record", a.request.record_file, "Write the dialogue as a tape");

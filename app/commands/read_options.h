@@ -19,7 +19,7 @@ namespace lightcal::app {
 // As typed.
 struct ReadArguments {
   std::string session, light, distance, tilt, off_axis, meter;
-  std::string lux, state;
+  std::string lux, duv, state;
   std::string timeout = "1s";
   std::string settle = "0.5%";
   std::string every = "0s";

@@ -89,7 +89,6 @@ Result<std::optional<CaptureDescription>> CaptureOf(const ShootOptions& options)
 Result<ShootRequest> RequestOf(const ShootOptions& options) {
   ShootRequest request = options.request;
   if (request.resume) return request;
-  if (request.light.empty()) return WrongUsage("--light", "name the lamp that is photographed");
   if (options.bracket.empty()) {
     return WrongUsage("--bracket", "give half the range and the step, for example ±4EV/1EV");
   }
@@ -177,7 +176,8 @@ Run BuildShoot(CLI::App& parser) {
   ShootRequest& request = options->request;
   parser.add_option("-s,--session", request.session, "Session the bracket is shot into")
       ->required();
-  parser.add_option("-l,--light", request.light, "Name of the lamp, as in session.toml");
+  parser.add_option("-l,--light", request.light,
+                    "Name of the lamp, as in session.toml [the only one]");
   parser.add_option("--bracket", options->bracket,
                     "Half the range and the step: ±4EV/1EV, 4EV/1EV");
   parser.add_option("--center", request.exposure.center,

@@ -68,10 +68,9 @@ class Sweep {
     if (!loaded) return Propagate(std::move(loaded));
     console_.Warn(loaded->warnings);
     session_ = std::move(loaded->session);
-    frame_.light = options_.light;
-    if (frame_.light.empty() && session_.lights.size() == 1) {
-      frame_.light = session_.lights.front().name;
-    }
+    auto light = LightMeant(session_, options_.light);
+    if (!light) return Propagate(std::move(light));
+    frame_.light = *std::move(light);
     frame_.meter = options_.meter;
     if (auto named = CheckNames(session_, frame_.light, frame_.meter); !named) return named;
     Reading first = frame_;

@@ -49,7 +49,6 @@ Result<Watched> WatchedLamp(const WatchOptions& options, Console& console) {
     if (options.light.empty() && options.distance.empty()) return watched;
     return WrongUsage("-s", "--light and --distance belong to a session; name it");
   }
-  if (options.light.empty()) return WrongUsage("--light", "name the lamp the meter sees");
   if (options.distance.empty()) {
     return WrongUsage("--distance", "give the distance from the lamp, for example 0.5m");
   }
@@ -57,12 +56,11 @@ Result<Watched> WatchedLamp(const WatchOptions& options, Console& console) {
   if (!distance) return tl::unexpected(distance.error());
   auto measured = MeasureAloud(options.session, {}, console);
   if (!measured) return Propagate(std::move(measured));
-  if (auto known = CheckNames(measured->session, options.light, ""); !known) {
-    return Propagate(std::move(known));
-  }
-  watched.frame.light = options.light;
+  auto light = LightMeant(measured->session, options.light);
+  if (!light) return Propagate(std::move(light));
+  watched.frame.light = *std::move(light);
   watched.frame.distance = *distance;
-  watched.guide.emplace(measured->session, options.light, 1.0, false);
+  watched.guide.emplace(measured->session, watched.frame.light, 1.0, false);
   return watched;
 }
 
@@ -207,7 +205,8 @@ Run BuildWatch(CLI::App& parser) {
   parser.add_option("--set", options->settings, "An option of the driver: name=value")
       ->allow_extra_args(false);
   parser.add_option("-s,--session", options->session, "Session of the lamp; nothing is written");
-  parser.add_option("--light", options->light, "The lamp's name, for its intensity so far");
+  parser.add_option("--light", options->light,
+                    "The lamp's name [the only one], for its intensity so far");
   parser.add_option("--distance", options->distance, "From the lamp to the meter: 0.5m");
   parser.add_option("--count", options->count, "End after so many readings")
       ->check(CLI::Range(1L, 1000000000L));

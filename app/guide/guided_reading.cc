@@ -83,13 +83,10 @@ class Walk {
     return {};
   }
 
-  // The only lamp there is needs no name.
   Result<void> ChooseNames(const Session& session) {
-    if (frame_.light.empty() && session.lights.size() != 1) {
-      return WrongUsage("--light", "name the lamp the readings are of" +
-                                       DidYouMean(frame_.light, session.lights));
-    }
-    if (frame_.light.empty()) frame_.light = session.lights.front().name;
+    auto light = LightMeant(session, frame_.light);
+    if (!light) return Propagate(std::move(light));
+    frame_.light = *std::move(light);
     if (auto named = CheckNames(session, frame_.light, frame_.meter); !named) return named;
     if (frame_.state.empty()) frame_.state = ReferenceState(session, frame_.light);
     return CheckState(session, frame_);

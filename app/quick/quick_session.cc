@@ -64,12 +64,18 @@ Result<void> FillSides(LightDescription& light, const QuickOptions& options) {
   return {};
 }
 
+// As told, or what alone has the sizes or angles that are.
+std::string KindOf(const QuickOptions& options) {
+  if (!options.kind.empty()) return options.kind;
+  if (!options.outer.empty() || !options.beam.empty()) return "spot";
+  if (!options.size.empty()) return "rect";
+  return options.length.empty() ? "point" : "tube";
+}
+
 Result<LightDescription> DescribeLight(const QuickOptions& options) {
   LightDescription light;
   light.name = options.name;
-  const std::string kind = !options.kind.empty()                             ? options.kind
-                           : !options.outer.empty() || !options.beam.empty() ? "spot"
-                                                                             : "point";
+  const std::string kind = KindOf(options);
   const auto known = LightKindFromName(kind);
   if (!known)
     return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk, rect, tube or directional");
@@ -103,8 +109,14 @@ constexpr const char* kQuickMeter = "meter";
 
 Result<void> AddReadings(Session& session, const QuickOptions& options) {
   std::optional<Kelvin> cct;
+  std::optional<double> duv;
   if (auto filled = Fill(cct, options.cct, ParseLampTemperature); !filled) {
     return filled;
+  }
+  if (!options.duv.empty()) {
+    const auto parsed = ParseDuv(options.duv);
+    if (!parsed) return tl::unexpected(parsed.error());
+    duv = *parsed;
   }
   const auto sigma = SigmaAsked(options);
   if (!sigma) return tl::unexpected(sigma.error());
@@ -113,6 +125,7 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
     if (!typed) return Propagate(std::move(typed));
     for (Reading& reading : *typed) {
       if (IsLit(reading) && !reading.cct) reading.cct = cct;
+      if (reading.cct) reading.duv = duv;
       if (options.meter.empty()) {
         reading.sigma_relative = *sigma;
       } else {
@@ -121,10 +134,17 @@ Result<void> AddReadings(Session& session, const QuickOptions& options) {
       session.readings.push_back({std::move(reading), text});
     }
   }
+  const bool colored = cct || std::ranges::any_of(session.readings, [](const auto& row) {
+                         return row.reading.cct.has_value();
+                       });
+  if (duv && !colored) {
+    return WrongUsage("--duv", "stands beside a colour temperature; add --cct 2900K");
+  }
   if (options.readings.empty() && cct) {
     Reading color_only;
     color_only.light = options.name;
     color_only.cct = cct;
+    color_only.duv = duv;
     session.readings.push_back({color_only, "--cct " + options.cct});
   }
   return {};

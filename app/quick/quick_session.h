@@ -18,8 +18,8 @@ struct QuickOptions {
   std::vector<std::string> readings;
   std::string name = "light";
   std::string kind;
-  std::string cct, diameter, size, length, radius, fixture, room, meter, sigma, beam, field, lumens,
-      watts, inner, outer;
+  std::string cct, duv, diameter, size, length, radius, fixture, room, meter, sigma, beam, field,
+      lumens, watts, inner, outer;
   std::vector<std::string> predict_at;
   std::vector<std::string> targets;
   std::string output = "lightcal-quick";

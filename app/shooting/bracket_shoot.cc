@@ -62,7 +62,12 @@ class BracketShoot {
     auto loaded = LoadSession(request_.session);
     if (!loaded) return Propagate(std::move(loaded));
     session_directory_ = loaded->session.directory;
-    if (!request_.resume) return CheckNames(loaded->session, request_.light, "");
+    if (!request_.resume) {
+      auto light = LightMeant(loaded->session, request_.light);
+      if (!light) return Propagate(std::move(light));
+      request_.light = *std::move(light);
+      return {};
+    }
     auto unfinished = ShootFolder::Unfinished(CapturesPath(request_.session), request_.light);
     if (!unfinished) return Propagate(std::move(unfinished));
     folder_ = std::move(unfinished->first);
@@ -303,7 +308,7 @@ class BracketShoot {
     return fs::path(path).lexically_proximate(session_directory_).generic_string();
   }
 
-  const ShootRequest& request_;
+  ShootRequest request_;
   Console& console_;
   std::string session_directory_;
   devices::FoundCamera found_;

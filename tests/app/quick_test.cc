@@ -126,6 +126,27 @@ TEST(Quick, ReadingsMayFollowTheOptionsThatTakeLists) {
   EXPECT_EQ(document["predictions"].size(), 1U);
 }
 
+TEST(Quick, SizesSayWhatShines) {
+  const auto kind = [](std::vector<std::string> more) {
+    more.insert(more.begin(), "900lx@2m");
+    return std::string(QuickJson(more)["lights"][0]["kind"]);
+  };
+  EXPECT_EQ(kind({}), "point");
+  EXPECT_EQ(kind({"--size", "90x60cm"}), "rect");
+  EXPECT_EQ(kind({"--length", "1.2m", "--radius", "13mm"}), "tube");
+  EXPECT_EQ(kind({"--beam", "36"}), "spot");
+}
+
+TEST(Quick, AColourMetersDuvIsTheColour) {
+  // CIE 15: at 5600 K, .006 above the black body; `color` answers it by its own closed form.
+  const json color =
+      QuickJson({"900lx@2m", "--cct", "5600K", "--duv", "0.006"})["lights"][0]["color"];
+  const json point = LightcalJson("color", {"--cct", "5600K", "--duv", "0.006"});
+  EXPECT_NEAR(color["xy"][0], point["xy"][0], 1e-6);
+  EXPECT_NEAR(color["xy"][1], point["xy"][1], 1e-6);
+  EXPECT_EQ(QuickJson({"900lx@2m,5600K", "--duv", "0.006"})["lights"][0]["color"], color);
+}
+
 struct BadLine {
   std::vector<std::string> arguments;
   int exit_code;
@@ -144,6 +165,9 @@ TEST(Quick, WrongLinesTeachAndWriteNothing) {
       {{"quick", "192lx@0.5m", "--kind", "laser"}, 2, "laser"},
       {{"quick", "192lx@0.5m", "--cct", "-3K"}, 2, "above zero"},
       {{"quick", "192lx@0.5m", "--sigma", "500%"}, 2, "tolerance"},
+      {{"quick", "192lx@0.5m", "--duv", "0.004"}, 2, "--cct"},
+      {{"quick", "192lx@0.5m", "--cct", "2900K", "--duv", "green"}, 2, "0.004"},
+      {{"quick", "192lx@0.5m", "--cct", "2900K", "--duv", "0.4"}, 3, "Duv"},
       {{"quick", "192lx@0.5m", "--nonsense"}, 2, "--nonsense"},
       {{"quikc"}, 2, "did you mean quick?"},
   };

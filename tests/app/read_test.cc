@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -37,6 +38,8 @@ SekonicSetting Sekonic(const char* reply = kReply407lx) {
   setting.busy_polls_after = 1;
   return setting;
 }
+
+constexpr const char* kOneLamp = "lightcal = 1\n[[light]]\nname = \"desk\"\nkind = \"point\"\n";
 
 struct SessionDir {
   TempDir dir;
@@ -428,6 +431,24 @@ TEST(ReadTyped, AColourTemperatureMayStandBesideTheNumber) {
   EXPECT_EQ(RunLightcal(session.Read({"--lux", "192,warm"})).exit_code, 2);
 }
 
+TEST(ReadTyped, TheOnlyLampNeedsNoNameAndAColourMetersDuvIsKept) {
+  TempDir dir;
+  dir.Write("session.toml", kOneLamp);
+  const std::vector<std::string> line = {"read",  "-s",        dir.path(), "--distance", "0.5m",
+                                         "--lux", "192,5600K", "--duv",    "0.004"};
+  const CliResult result = RunLightcal(line);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json row = json::parse(ReadFile(dir.path() + "/readings.jsonl"));
+  EXPECT_EQ(row["light"], "desk");
+  EXPECT_EQ(row["cct_K"], 5600.0);
+  EXPECT_EQ(row["duv"], 0.004);
+  const SessionDir two;
+  const CliResult unsaid =
+      RunLightcal({"read", "-s", two.dir.path(), "--distance", "1", "--lux", "9"});
+  EXPECT_EQ(unsaid.exit_code, 2);
+  EXPECT_THAT(unsaid.err, AllOf(HasSubstr("--light"), HasSubstr("key"), HasSubstr("fill")));
+}
+
 TEST(ReadTyped, AReadingTypedWrongIsTakenBackAndTheJournalKeepsBoth) {
   const SessionDir session;
   const auto undo = [&](std::vector<std::string> more = {}) {
@@ -517,6 +538,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{{"read", "-s", "@", "--light", "key", "--lux", "9"}, 2},
         BadInput{{"read", "-s", "@", "--distance", "1", "--lux", "9"}, 2},
         BadInput{{"read", "--light", "key", "--distance", "1", "--lux", "9"}, 2},
+        BadInput{
+            {"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "9", "--duv", "0"},
+            3},
         BadInput{{"read", "-s", "@", "--light", "key", "--distance", "1", "--lux", "9", "--meter",
                   "unknown"},
                  3},
