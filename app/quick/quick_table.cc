@@ -13,6 +13,7 @@
 #include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/records/light_codec.h"
@@ -103,10 +104,16 @@ struct PendingReading {
   [[nodiscard]] bool Empty() const { return distance.empty() && lux.empty() && rest.empty(); }
 };
 
-Result<std::string> InSi(const std::string& cell, double scale, const std::string& where) {
-  const auto number = ParseNumber(cell);
-  if (!number) return Refused("bad_table", where, "\"" + cell + "\" is not a number");
-  return ShortestText(*number * scale);
+// A bare number is in the column's unit; one with a unit of its own in that.
+Result<std::string> InSi(const std::string& cell, const TableColumn& column,
+                         const std::string& where) {
+  if (const auto number = ParseNumber(cell)) return ShortestText(*number * column.scale);
+  if (column.word == TableWord::kDistance) {
+    if (const auto length = ParseLength(cell)) return ShortestText(length->value());
+  } else if (column.word != TableWord::kAngle) {
+    if (const auto lux = ParseIlluminance(cell)) return ShortestText(lux->value());
+  }
+  return Refused("bad_table", where, "\"" + cell + "\" is not a number");
 }
 
 // A row as if it had been typed.
@@ -143,7 +150,7 @@ class RowReader {
       default:
         break;
     }
-    const auto number = InSi(cell, column.scale, where_);
+    const auto number = InSi(cell, column, where_);
     if (!number) return tl::unexpected(number.error());
     if (column.word == TableWord::kDistance) {
       if (!pending_.distance.empty()) {
@@ -273,6 +280,17 @@ std::string CsvOf(const std::deque<TableLamp>& lamps) {
   return text;
 }
 
+// Readings of one lamp in two rows would be two lamps.
+Result<QuickOptions> UnderANameOfItsOwn(QuickOptions typed, const std::deque<TableLamp>& lamps,
+                                        const std::string& where) {
+  const auto other = std::ranges::find(lamps, typed.name, &TableLamp::name);
+  if (other == lamps.end()) return typed;
+  return Refused("bad_table", where,
+                 "\"" + typed.name + "\" stands in " + other->where +
+                     ", too: a row is a lamp, whose further readings stand in the same row "
+                     "(distance_m,illuminance_lx again); another lamp needs another name");
+}
+
 Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
   const auto bytes = ReadInputFile(options.table);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -300,6 +318,7 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
     QuickOptions of_row = options;
     of_row.name = lamp.name;
     auto typed = RowReader(of_row, lamp.where).Read(*columns, row);
+    if (typed) typed = UnderANameOfItsOwn(*std::move(typed), lamps, lamp.where);
     if (typed) lamp.name = typed->name;
     const auto answered =
         typed ? AnswerRow(*typed, lamp) : Result<void>(tl::unexpected(typed.error()));

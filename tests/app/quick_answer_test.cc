@@ -20,6 +20,7 @@ namespace lightcal::test {
 namespace {
 
 using nlohmann::json;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -242,6 +243,25 @@ TEST(QuickTable, ColumnsMayBeNamedOnTheLine) {
   const json document =
       LightcalJson("quick", {"--table", table, "--columns", "name,distance_ft,illuminance_lx"});
   EXPECT_NEAR(document["lights"][0]["residuals"][0]["distance_m"], 1.0, 1e-5);
+}
+
+TEST(QuickTable, ACellMayHaveAUnitOfItsOwn) {
+  const TempDir dir;
+  const auto answer = [&](const std::string& rows) {
+    return LightcalJson("quick", {"--table", dir.Write("lamps.csv", rows)})["lights"];
+  };
+  EXPECT_EQ(answer("name,distance_ft,illuminance_fc,card_lx\nkey,1.5 m,0.2klx,20lx\n"),
+            answer("name,distance_m,illuminance_lx,card_lx\nkey,1.5,200,20\n"));
+}
+
+TEST(QuickTable, TwoRowsOfOneNameAreNotTwoLampsOfIt) {
+  const TempDir dir;
+  const std::string table =
+      dir.Write("lamps.csv", "name,distance_m,illuminance_lx\nkey,0.5,203\nfill,1,300\nkey,1,58\n");
+  const CliResult result = RunLightcal({"quick", "--table", table, "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("lamps.csv:4"), HasSubstr("\"key\" stands in")));
+  EXPECT_EQ(json::parse(result.out)["lights"].size(), 2U);
 }
 
 TEST(QuickTable, ARefusedRowIsNamedAndTheOthersAnswer) {
