@@ -36,6 +36,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"exposure.t_stop", "--t-stop"},
     {"glare.vertical", "--glare-ev"},
     {"import.column", "--column"},
+    {"import.columns", "--columns distance_m,illuminance_lx"},
     {"light.aim", "aim"},
     {"light.beam", "beam_deg"},
     {"match.reach", "--reach"},

@@ -247,6 +247,10 @@ TEST_F(Import, UnitsThatAreNotSaidAreRefused) {
   const CliResult result = Run({csv, "--light", "key", "--json"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_EQ(json::parse(result.out)["error"]["code"], "units_ambiguous");
+  EXPECT_THAT(Run({csv, "--light", "key"}).err, HasSubstr("--columns distance_m,illuminance_lx"));
+  temp_.Write("bare.csv", "0.5,203\n1,58\n");
+  EXPECT_THAT(Run({temp_.path() + "/bare.csv", "--light", "key"}).err,
+              HasSubstr("--columns distance_m,illuminance_lx"));
 }
 
 TEST_F(Import, ColumnsMayBeNamedOnTheLine) {

@@ -59,6 +59,8 @@ TEST(NearestWord, FindsTheTypoAndOnlyTheTypo) {
   EXPECT_EQ(NearestWord("distnace_m", kKnown), "distance_m");
   EXPECT_EQ(NearestWord("ilumninance_lx", kKnown), "illuminance_lx");
   EXPECT_EQ(NearestWord("zebra", kKnown), "");
+  constexpr std::array<std::string_view, 2> kShort = {"x", "ym"};
+  EXPECT_EQ(NearestWord("m", kShort), "ym") << "which has a letter of it; x has none";
 }
 
 TEST(Uncertain, ALogNormalIntervalHoldsItsEnds) {

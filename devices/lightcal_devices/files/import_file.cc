@@ -106,7 +106,8 @@ Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name) 
       kFormats, [&](const Format& candidate) { return candidate.recognise(text); });
   if (format != kFormats.end()) return format->read(text, name);
   return Refused("unknown_format", std::string(name),
-                 "its format is not recognised; understood are " +
+                 "its format is not recognised; of a table say what every column is: "
+                 "{import.columns}. Understood are " +
                      Joined(kFormats, ", ", &Format::name) + " (" + files::PlainCsvColumns() + ")");
 }
 

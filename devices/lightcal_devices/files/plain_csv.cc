@@ -28,16 +28,20 @@ Result<Warnings> CheckColumns(const CsvTable& table) {
     const CsvColumn& column = table.columns[i];
     if (column.quantity == CsvQuantity::kNeedsUnit) {
       return Refused("units_ambiguous", table.name + ", column " + column.written,
-                     "has no unit; put it into the name. Understood are " + KnownColumnNames());
+                     "has no unit; put it into the name, or say what every column is: "
+                     "{import.columns}. Understood are " +
+                         KnownColumnNames());
     }
     if (column.quantity != CsvQuantity::kUnknown) continue;
     const bool numbers = std::ranges::any_of(
         table.rows, [&](const Row& row) { return NumberAt(table, row, i).has_value(); });
     if (numbers) {
       const std::string nearest = NearestColumnName(column.written);
-      return Refused("units_ambiguous", table.name + ", column " + column.written,
-                     "is not known" + (nearest.empty() ? "." : "; did you mean " + nearest + "?") +
-                         " Understood are " + KnownColumnNames());
+      return Refused(
+          "units_ambiguous", table.name + ", column " + column.written,
+          "is not known" + (nearest.empty() ? "." : "; did you mean " + nearest + "?") +
+              " Rename it, or say what every column is: {import.columns}. Understood are " +
+              KnownColumnNames());
     }
     if (!TrimBlanks(column.written).empty()) {
       warnings.push_back({"column_ignored", table.name + ", column " + column.written,

@@ -31,7 +31,8 @@ std::string NearestWord(std::string_view word, std::span<const std::string_view>
   std::string_view nearest;
   for (const std::string_view candidate : known) {
     const std::size_t distance = EditDistance(word, candidate);
-    if (distance < best) {
+    const bool shares_a_letter = distance < std::max(word.size(), candidate.size());
+    if (shares_a_letter && distance < best) {
       best = distance;
       nearest = candidate;
     }
