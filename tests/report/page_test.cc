@@ -215,6 +215,26 @@ TEST(RoomFigure, MultipliesByTheSquareOfTheDistanceOnTwoLinearAxes) {
   EXPECT_EQ(report::RoomFigure(light, "w"), "");
 }
 
+TEST(RoomFigure, TheLampsNameStandsOnNoReading) {
+  constexpr double kLeastCharacter = 6.0, kHeight = 11.0;  // px of its 13 px sans-serif
+  for (const double part : {0.80, 0.86, 0.92, 0.96, 1.0, 1.04, 1.1}) {
+    FittedLight light = WarmPoint();
+    for (ResidualRow& row : light.residuals) {
+      row.measured_lx = part * light.intensity_cd->value / (*row.distance_m * *row.distance_m);
+    }
+    const auto svg = Parsed(report::RoomFigure(light, "w"));
+    const auto name = svg.select_node("//text[starts-with(., 'your lamp')]").node();
+    ASSERT_TRUE(name);
+    const double left = name.attribute("x").as_double(), base = name.attribute("y").as_double();
+    const double right = left + kLeastCharacter * double(std::string(name.text().get()).size());
+    for (const auto& found : svg.select_nodes("//circle[@class='used']")) {
+      const double x = found.node().attribute("cx").as_double();
+      const double y = found.node().attribute("cy").as_double();
+      EXPECT_FALSE(x > left && x < right && y > base - kHeight && y < base) << part << " at " << x;
+    }
+  }
+}
+
 TEST(ResidualFigure, PutsPercentOnALinearAxisAndNamesWhatLiesBeyond) {
   const FittedLight light = WarmPoint();
   const std::string text = report::ResidualFigure(light, "r");

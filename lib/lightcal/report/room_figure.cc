@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lightcal/light/wall_prior.h"
 #include "lightcal/report/figures.h"
+#include "lightcal/report/label_placement.h"
 #include "lightcal/report/readings.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
@@ -98,6 +100,31 @@ void DrawDot(Svg& svg, const Dot& dot, const FittedLight& light, const LampInRoo
   svg.Circle("used", at, 4.5, TooltipOf(*dot.row));
 }
 
+// Beside the lamp's line, below it at the left where no reading stands there.
+void NameLamp(Svg& svg, const Uncertain& u, const std::vector<Dot>& dots, const Axis& x,
+              const Axis& y) {
+  constexpr double kMark = 7.0;  // px about a reading
+  const std::string name = "your lamp, " + Interval(u, "cd");
+  const double line = y.At(u.value);
+  const PagePoint left_below{x.from_px + 8.0, line + 18.0};
+  PagePoint best = left_below;
+  for (const PagePoint& at : {left_below, PagePoint{left_below.first, line - 8.0},
+                              PagePoint{x.to_px - 8.0 - NoteWidth(name), line - 8.0},
+                              PagePoint{x.to_px - 8.0 - NoteWidth(name), line + 18.0}}) {
+    const LabelBox box{at.first, at.second - kNoteLine, at.first + NoteWidth(name),
+                       at.second + 3.0};
+    const bool free = std::ranges::none_of(dots, [&](const Dot& dot) {
+      const double px = x.At(dot.distance_m);
+      const double py = y.At(dot.value);
+      return Overlap(box, {px - kMark, py - kMark, px + kMark, py + kMark});
+    });
+    if (!free) continue;
+    best = at;
+    break;
+  }
+  svg.Text("note halo", best, "start", name);
+}
+
 }  // namespace
 
 std::string RoomFigure(const FittedLight& light, std::string_view id) {
@@ -131,8 +158,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   for (const Dot& dot : dots) DrawDot(svg, dot, light, room, x, y);
   svg.EndPlot();
   const double right = x.to_px - 8.0;
-  svg.Text("note halo", {x.from_px + 8.0, y.At(u.value) + 18.0}, "start",
-           "your lamp, " + Interval(u, "cd"));
+  NameLamp(svg, u, dots, x, y);
   if (room != nullptr) {
     const double d = 0.93 * farthest;
     const double walls = WallsTimesSquare(*room, d);
