@@ -91,7 +91,7 @@ Node DomeLightNode(const MeasuredDome& measured, std::size_t i, const std::strin
   const AzimuthElevation at = AnglesOf(direction);
   const double lux = light.illuminance.value();
   return {{"name", name},
-          {"illuminance_lx", {{"value", lux}, {"u95", kZ95 * measured.sd_relative[i] * lux}}},
+          {"illuminance_lx", DocumentOf(LuxOfDome(measured, lux, measured.sd_relative[i]))},
           {"source", SourceOf(light)},
           {"direction", direction},
           {"azimuth_deg", at.azimuth_deg},
@@ -110,24 +110,28 @@ std::string Table(const MadeDome& made) {
     const DomeLight& light = measured.lights[i];
     const AzimuthElevation at = AnglesOf(TurnedNorth(light.direction, measured.north));
     const CctResult cct = light.xy ? CctFromXy(*light.xy) : CctResult{};
-    rows.push_back(
-        {made.names[i],
-         ValueWithPercent(light.illuminance.value(),
-                          kZ95 * measured.sd_relative[i] * light.illuminance.value(), "lx"),
-         RoundedText(at.azimuth_deg, 4) + "°", RoundedText(at.elevation_deg, 4) + "°",
-         RoundedText(DegreesFromRadians(light.angular_diameter), 2) + "°",
-         cct.valid() ? RoundedText(cct.temperature.value(), 3) + " K" : "-", SourceOf(light),
-         i < made.extracted ? "taken out" : "stays"});
+    const double lux = light.illuminance.value();
+    rows.push_back({made.names[i],
+                    measured.unit_known
+                        ? ValueWithPercent(lux, kZ95 * measured.sd_relative[i] * lux, "lx")
+                        : RoundedText(lux, 4),
+                    RoundedText(at.azimuth_deg, 4) + "°", RoundedText(at.elevation_deg, 4) + "°",
+                    RoundedText(DegreesFromRadians(light.angular_diameter), 2) + "°",
+                    cct.valid() ? RoundedText(cct.temperature.value(), 3) + " K" : "-",
+                    SourceOf(light), i < made.extracted ? "taken out" : "stays"});
   }
-  std::string text = TextTable({"light", "lux at normal incidence", "azimuth", "elevation",
-                                "diameter", "CCT", "from", "dome"},
-                               rows);
-  const auto lux = [](double v) { return RoundedText(v, 4) + " lx"; };
+  std::string text = TextTable(
+      {"light", measured.unit_known ? "lux at normal incidence" : "lux, were 1.0 one cd/m²",
+       "azimuth", "elevation", "diameter", "CCT", "from", "dome"},
+      rows);
+  const auto lux = [&](double v) { return RoundedText(v, 4) + (measured.unit_known ? " lx" : ""); };
   return text + "\nupward plane: " + lux(up.lights) + " from the lights + " + lux(up.remaining) +
          " from the dome = " + lux(up.total) + "; scale: " + measured.scale_source +
          (measured.scale_u95_relative
               ? " ± " + RoundedText(100.0 * *measured.scale_u95_relative, 2) + " %"
               : "") +
+         (measured.unit_known ? ""
+                              : ", a unit that nobody states: true to each other, not in lux") +
          "\n";
 }
 

@@ -28,7 +28,8 @@ OutputWriter DomeExr(const std::string& path, const MadeDome& made, const DomeSe
               exr.channel_names = {"R", "G", "B"};
               exr.chromaticities = PrimariesOfOutput(measured, settings);
             }
-            exr.white_luminance = made.white_luminance;
+            // A unit that nobody stated is not stated by writing it out again.
+            if (measured.unit_known) exr.white_luminance = made.white_luminance;
             exr.environment_latlong = true;
             std::string files;
             for (const std::string& file : measured.input.files) {

@@ -10,14 +10,11 @@
 #include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 #include "picture_words.h"
 
 namespace lightcal::app {
 namespace {
-
-// Of a luminance picture whose maker does not say: HDR captures are mostly within 20 % (95 %).
-// Source: Inanici, Lighting Res. Technol. 38 (2006).
-constexpr double kUnstatedScaleU95 = 0.2;
 
 // "2000", "2000cd/m2", "2000nits".
 Result<double> ParseNits(const std::string& option, const std::string& text) {
@@ -164,8 +161,14 @@ Result<GlareAnswer> MeasureGlareOf(const GlareWords& words, GlareSettings settin
   GlareAnswer answer;
   answer.scale_source = "stated";
   if (words.scale_u95.empty()) {
-    answer.scale_source = inspected.scale_u95_relative ? "picture" : "assumed";
-    settings.scale_u95 = std::min(0.95, inspected.scale_u95_relative.value_or(kUnstatedScaleU95));
+    constexpr double kMost = 0.95;
+    const bool unit_known = inspected.luminance.scale != "assumed_nits";
+    answer.scale_source = inspected.scale_u95_relative ? "picture"
+                          : unit_known                 ? "assumed"
+                                                       : "unknown";
+    settings.scale_u95 =
+        unit_known ? std::min(kMost, inspected.scale_u95_relative.value_or(kUnstatedScaleU95))
+                   : kMost;
   }
   answer.scale_u95 = settings.scale_u95;
   answer.ev_stated = settings.vertical.has_value();

@@ -15,7 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr int kWidth = 1024;
 constexpr double kUnknownUnit = 1234.5;  // cd/m^2 of 1.0 in files that do not say
@@ -248,6 +250,31 @@ TEST_F(DomeCommand, TheConventionIsAPersonsWord) {
   EXPECT_EQ(lights[0]["environment"],
             json({{"file", "dome.exr"}, {"projection", "latlong"}, {"nits_per_unit", 1.0}}));
   EXPECT_EQ(lights[0]["illuminance_lx"]["value"], radiance["illuminance_lx"]["up"]["remaining"]);
+}
+
+// What nobody states is not known to .01 %, however often it is written out and read again.
+TEST_F(DomeCommand, AUnitThatNobodyStatesGivesNoLux) {
+  const std::string file = WritePicture(folder_, "sky.exr", Photograph(SunnyScene()), 179.0, false);
+  const auto widest = [](const json& lux) {
+    return lux["high95"].get<double>() / lux["low95"].get<double>();
+  };
+  const json assumed = DomeJson(file, out_, {"--extract", "1"});
+  EXPECT_GT(widest(assumed["lights"][0]["illuminance_lx"]), 1e7);
+  for (const json& light : json::parse(ReadFile(out_ + "/light.json"))["lights"]) {
+    EXPECT_GT(widest(light["illuminance_lx"]), 1e7) << light["name"];
+  }
+  const json again = DomeJson(out_ + "/dome.exr", out_ + "2", {});
+  EXPECT_TRUE(Warns(again, "relative_scale"));
+  const CliResult people = RunLightcal({"dome", file, "-o", out_ + "3"});
+  EXPECT_THAT(people.out, AllOf(HasSubstr("not in lux"), Not(HasSubstr("±"))));
+
+  // In cd/m^2, but by a file that does not say how sure.
+  const std::string stated = WritePicture(folder_, "nits.exr", Photograph(SunnyScene()), 1.0, true);
+  const json known = DomeJson(stated, out_ + "4", {"--extract", "1"});
+  EXPECT_NEAR(known["scale"]["u95_relative"], 0.2, 1e-12);
+  const json& sun = known["lights"][0]["illuminance_lx"];
+  EXPECT_GE(sun["u95"].get<double>() / sun["value"].get<double>(), 0.2);
+  EXPECT_FALSE(Warns(DomeJson(out_ + "4/dome.exr", out_ + "5", {}), "relative_scale"));
 }
 
 TEST_F(DomeCommand, HostilePicturesAreNamed) {

@@ -119,6 +119,7 @@ TEST_F(CaptureSession, LuxAndABracketAreSurerThanEitherAlone) {
   const json lux = Light(kHead + meter + reading);
   const json both = Light(kHead + meter + reading + Capture());
   EXPECT_EQ(both["fit"]["readings"], 2);
+  EXPECT_FALSE(Warned("scale_prior")) << "asks for the lux reading that is there";
   EXPECT_LT(RelativeU95(both), RelativeU95(bracket));
   EXPECT_LT(RelativeU95(both), RelativeU95(lux));
   ExpectTheLamp(both);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/calibrate/captures/capture_reading.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -136,6 +137,18 @@ std::vector<float> LuminanceOf(const MergedBracket& merged, double factor) {
   return nits;
 }
 
+namespace {
+
+// Whether somebody held a meter to the light.
+bool IsMetered(const Session& session, const std::string& light) {
+  return std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return row.reading.light == light && row.reading.illuminance && IsLit(row.reading) &&
+           row.reading.meter != kDataSheetMeter;
+  });
+}
+
+}  // namespace
+
 void AddCapture(const Session& session, const CaptureDescription& capture,
                 const MergedBracket& merged, Evidence& evidence) {
   for (const MergedFrame& frame : merged.frames) evidence.AddFile(frame.info.file);
@@ -143,6 +156,7 @@ void AddCapture(const Session& session, const CaptureDescription& capture,
     if (!name.empty()) evidence.AddFile(PathInSession(session, name));
   }
   if (capture.anchor_illuminance || merged.scale_source == ScaleSource::kCamera) return;
+  if (IsMetered(session, capture.light)) return;
   evidence.warnings.push_back(
       {"scale_prior", capture.where,
        "its absolute scale is what the ISO speed promises, +-" +

@@ -7,11 +7,10 @@
 #include "lightcal/calibrate/dome/read_dome.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal {
 namespace {
-
-constexpr double kUnstatedSd = 0.05;  // of a picture in cd/m^2 that does not say how sure
 
 Result<DomeRequest> RequestOf(const Session& session, const CaptureDescription& capture,
                               const Sources& sources) {
@@ -61,7 +60,7 @@ Result<CaptureReading> ReadDomeCapture(const Session& session, const CaptureDesc
 
   CaptureReading out;
   out.anchored = capture.anchor_illuminance.has_value();
-  const double stated = input.scale_u95_relative ? *input.scale_u95_relative / kZ95 : kUnstatedSd;
+  const double stated = input.scale_u95_relative.value_or(kUnstatedScaleU95) / kZ95;
   out.shared_sd = out.anchored ? AnchorSigma(session, capture) : stated;
   Reading& reading = out.reading;
   reading.light = capture.light;

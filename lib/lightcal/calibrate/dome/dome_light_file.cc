@@ -109,6 +109,9 @@ Result<LightFile> LightFileOfDome(const MeasuredDome& measured, std::size_t coun
     const DomeLight& seen = measured.lights[i];
     light.aim = session.lights[i].aim;
     light.ambient_lx.reset();  // what surrounds it is the dome
+    if (!measured.unit_known) {
+      light.illuminance_lx = LuxOfDome(measured, seen.illuminance.value(), measured.sd_relative[i]);
+    }
     light.angular_diameter_deg = DegreesFromRadians(seen.angular_diameter);
     if (*light.angular_diameter_deg > kAreaLightDegrees) BecomeRect(seen, light);
   }

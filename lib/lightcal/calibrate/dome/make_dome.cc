@@ -105,14 +105,11 @@ Result<Provenance> ProvenanceOf(const std::vector<std::string>& files, const Sou
 }
 
 FittedLight EnvironmentOf(const MadeDome& made) {
-  constexpr double kFileDigits = 1e-4;  // the picture's own rounding
   FittedLight light;
   light.name = "environment";
   light.kind = LightKind::kDome;
-  const double lux = made.planes.front().remaining;
-  light.illuminance_lx =
-      Uncertain{lux, lux * made.measured.scale_u95_relative.value_or(kFileDigits), std::nullopt,
-                std::nullopt};
+  light.illuminance_lx = LuxOfDome(made.measured, made.planes.front().remaining,
+                                   made.measured.scale_u95_relative.value_or(0.0) / kZ95);
   light.color.xy = XyFromAbove(made.measured.input.dome);
   light.environment = EnvironmentFile{kDomePicture, "latlong", made.white_luminance.value()};
   return light;

@@ -11,6 +11,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/panorama/dome_holes.h"
 #include "lightcal/imaging/panorama/turn_north.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal {
 namespace {
@@ -18,7 +19,6 @@ namespace {
 // So many pixels of one light that share the picture's largest value: clipped, or drawn.
 constexpr int kPlateau = 4;
 constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
-constexpr double kUnknownScaleU95 = 0.05;
 constexpr double kConflict = 0.25;
 constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
 constexpr double kMostHiddenByBall = 0.1;
@@ -129,7 +129,7 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
   if (reading && !reading->shaded && input.absolute) {
     const double seen =
         IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
-    const double u95 = input.scale_u95_relative.value_or(kUnknownScaleU95);
+    const double u95 = input.scale_u95_relative.value_or(kUnstatedScaleU95);
     if (reading->illuminance.value() > seen * (1.0 + u95)) {
       input.clipped = PixelsAt(brightest, input.dome.nits);
       measured.lights = FindLights(input);
@@ -149,13 +149,16 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
 Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
   DomeInput& input = measured.input;
   measured.scale_source = input.scale;
+  measured.unit_known = input.absolute;
   measured.scale_u95_relative = input.scale_u95_relative;
+  if (input.absolute && !input.scale_u95_relative) measured.scale_u95_relative = kUnstatedScaleU95;
   if (!reading) return {};
   auto scale = ScaleDome(*reading, input.absolute, input.dome, measured.lights);
   if (!scale) return Propagate(std::move(scale));
   measured.scale = *scale;
   const bool scaled = scale->sd_relative > 0.0;
   if (scaled) {
+    measured.unit_known = true;
     measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
     measured.scale_u95_relative = kZ95 * scale->sd_relative;
     std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
@@ -203,6 +206,13 @@ void OrderLights(MeasuredDome& measured) {
 }
 
 }  // namespace
+
+Uncertain LuxOfDome(const MeasuredDome& measured, double value_lx, double sd_relative) {
+  if (measured.unit_known || !(value_lx > 0.0)) {
+    return UncertainFromNormal(value_lx, sd_relative * value_lx);
+  }
+  return UncertainFromLog(std::log(value_lx), std::hypot(kUnstatedUnitSdLn, sd_relative));
+}
 
 Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   MeasuredDome measured;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/panorama/dome_input.h"
 #include "lightcal/imaging/panorama/dome_lights.h"
 #include "lightcal/imaging/panorama/dome_scale.h"
@@ -22,13 +23,19 @@ struct DomeRequest {
 struct MeasuredDome {
   DomeInput input;  // samples in cd/m^2, in the picture's own frame, lights still in it
   std::vector<DomeLight> lights;    // brightest first; directions in the picture's own frame
-  std::vector<double> sd_relative;  // of the lights' illuminance
+  std::vector<double> sd_relative;  // of the lights' illuminance, where the unit is known
   DomeScale scale;
   std::string scale_source;  // "lux" "lux_shaded", else the input's
   std::optional<double> scale_u95_relative;
+  bool unit_known = false;  // samples are cd/m^2 by file, person or reading
   Radians north{0.0};
   Warnings warnings;
 };
+
+// An illuminance of the dome, or of a light in it, that is as sure as said where the unit is known;
+// where it is not, as sure as one may be that 1.0 is 1 cd/m^2 (kUnstatedUnitSdLn).
+[[nodiscard]] Uncertain LuxOfDome(const MeasuredDome& measured, double value_lx,
+                                  double sd_relative);
 
 // Refused: all_black, all_saturated, reading_beyond_view, and as ScaleDome.
 // Warned: maybe_clipped, scale_conflict, clipped_lights_share, and what the input warns of.
