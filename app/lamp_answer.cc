@@ -99,13 +99,14 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kPartWords = {
     {{"room_bounce", "walls"},
      {"meter_calibration", "meter"},
      {"readings", "reading by reading"},
      {"readings_and_place", "meter and place"},
      {"distance_offset", "where the light starts"},
      {"unknown_lamp", "what lamp it is"},
+     {"data_sheet", "what the box says"},
      {"finite_source", "its size"},
      {"ambient", "other light"},
      {"shadow_card", "what the card hides"},

@@ -177,7 +177,7 @@ TEST(GuidedSession, FromNothingToPresetsWithATypedMeter) {
   const auto rows = RowsOf(home.path() + "/desk_lamp/readings.jsonl");
   EXPECT_EQ(rows.size(), static_cast<std::size_t>(steps));
   EXPECT_GE(steps, 4) << "two distances and their cards\n" << walk.transcript();
-  EXPECT_LE(steps, 12);
+  EXPECT_LE(steps, 12) << walk.transcript();
   EXPECT_EQ(rows[1]["shadow_card"], true);
   EXPECT_EQ(rows[0]["meter"], "my_meter");
   RunIn(home.path(), NextCommand(begin.transcript(), "run"));

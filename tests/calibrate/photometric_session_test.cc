@@ -129,6 +129,31 @@ TEST(PhotometricSession, WithoutReadingsTheFilesOwnCandelaAreThePrior) {
   EXPECT_EQ(lamp["fit"]["readings"], 0);
 }
 
+// A file alone was known to 10 %, with one agreeing reading to 63 %.
+TEST(PhotometricSession, AReadingThatAgreesNeverWidensWhatTheFileSays) {
+  const TempDir session;
+  session.Write("captures/key.ies", LobeIes());
+  const auto key = [&](const std::string& readings) {
+    session.Write("session.toml", Toml(readings));
+    const json& document = RunSession(session);
+    return std::pair(document["lights"][0]["intensity_cd"], document["warnings"].dump());
+  };
+  const auto width = [](const json& u) {
+    return std::log(u["high95"].get<double>() / u["low95"].get<double>());
+  };
+  const json alone = key("").first;
+  const json read = key(Reading(1.5, 800.0 / 2.25)).first;
+  EXPECT_LT(width(read), 1.02 * width(alone));
+  EXPECT_LT(read["low95"], 800.0);
+  EXPECT_GT(read["high95"], 800.0);
+  EXPECT_LT(width(key(Reading(1.5, 800.0 / 2.25) + Reading(3.0, 800.0 / 9.0)).first), width(read));
+  // The same lamp dimmed to two fifths: the file is not believed, and it is said.
+  const auto [dimmed, warnings] = key(Reading(1.0, 0.4 * 800.0) + Reading(3.0, 0.4 * 800.0 / 9.0));
+  EXPECT_LT(dimmed["low95"], 0.4 * 800.0);
+  EXPECT_GT(dimmed["high95"], 0.4 * 800.0);
+  EXPECT_NE(warnings.find("data_sheet_disagrees"), std::string::npos) << warnings;
+}
+
 TEST(PhotometricSession, AMeterInTheDarkIsRejectedByName) {
   const TempDir session;
   session.Write("captures/key.ies", LobeIes());

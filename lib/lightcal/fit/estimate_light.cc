@@ -42,16 +42,20 @@ double HoldUndetermined(Prepared& prepared) {
   return k;
 }
 
+double LnUnitOfIntensity(const Scales& scales) {
+  return std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
+}
+
 // From the solver's units to cd, m, lx.
 void Unscale(const Scales& scales, LightEstimate& out) {
-  out.theta[kLnIntensity] += std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
+  const double ln_unit = LnUnitOfIntensity(scales);
+  out.theta[kLnIntensity] += ln_unit;
   out.theta[kDistanceOffset] *= scales.length_m;
   out.theta[kAmbient] *= scales.illuminance_lx;
   const Theta unit = {1.0, scales.length_m, scales.illuminance_lx, 1.0, 1.0};
   for (int i = 0; i < kParameters; ++i) {
     for (int j = 0; j < kParameters; ++j) out.covariance[i * kParameters + j] *= unit[i] * unit[j];
   }
-  const double ln_unit = std::log(scales.illuminance_lx) + 2.0 * std::log(scales.length_m);
   for (LampInRoom& one : out.in_room) {
     one.ln_intensity += ln_unit;
     one.distance_offset_m *= scales.length_m;
@@ -62,9 +66,10 @@ void Unscale(const Scales& scales, LightEstimate& out) {
       }
     }
   }
-  if (out.ln_interval) {
-    out.ln_interval->low += ln_unit;
-    out.ln_interval->high += ln_unit;
+  for (auto* interval : {&out.ln_interval, &out.ln_by_readings}) {
+    if (!*interval) continue;
+    (*interval)->low += ln_unit;
+    (*interval)->high += ln_unit;
   }
   if (!out.sampled) return;
   for (int k = 0; k < kParameters; ++k) {
@@ -134,6 +139,40 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
          "the distance offset reached its bound of -0.9 times the shortest distance; "
          "check the distances"});
   }
+}
+
+// Whether a data sheet is heard beside the readings. Not where they ask for another intensity, as
+// of a lamp that is dimmed, aged or another; nor where it would take less than a twentieth off
+// their interval.
+bool IsHeard(const SheetIntensity& sheet, const LightEstimate& read) {
+  constexpr double kConflict = 2.0;  // standard deviations of both
+  constexpr double kLeastPart = 1.0 / 3.0;
+  const double sd = SdOf(read.covariance, kLnIntensity);
+  const double off = std::abs(read.theta[kLnIntensity] - sheet.ln_cd);
+  return sd > kLeastPart * sheet.sd && off <= kConflict * std::hypot(sd, sheet.sd);
+}
+
+// The mixture as the lamp's data sheet leaves it. What the readings left open shrinks alike.
+void TellBySheet(const SheetIntensity& sheet, const std::vector<Candidate>& candidates,
+                 const std::vector<double>& shares, LightEstimate& out) {
+  constexpr int kOfIntensity = kLnIntensity * kParameters + kLnIntensity;
+  const double before = out.covariance[kOfIntensity];
+  const double half = kZ95 * std::sqrt(before);
+  out.ln_by_readings = out.ln_interval.value_or(
+      LnInterval{out.theta[kLnIntensity] - half, out.theta[kLnIntensity] + half});
+  std::vector<VariancePart> parts = std::move(out.variance_parts);
+  out.variance_parts.clear();
+  const WeighedCandidates told = WithSheet(sheet, candidates, shares);
+  out.covariance = told.candidates.front().covariance;
+  Mix(told.candidates, told.shares, out);
+  out.in_room = InRoom(told.candidates, told.shares);
+  const double after = out.covariance[kOfIntensity];
+  const double part_left = sheet.sd * sheet.sd / (before + sheet.sd * sheet.sd);
+  const double left = told.held * part_left * part_left + (1.0 - told.held);
+  double whole = 0.0;
+  for (VariancePart& part : parts) whole += part.variance *= left;
+  if (after > whole) parts.push_back({"data_sheet", after - whole});
+  out.variance_parts = std::move(parts);
 }
 
 std::vector<double> WallsBesideObservations(const Candidate& likeliest, const Prepared& prepared,
@@ -233,7 +272,11 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   out.covariance = likeliest.covariance;
   if (candidates.size() > 1) Mix(candidates, shares, out);
   out.in_room = InRoom(candidates, shares);
-  if (out.sampled && out.ln_interval) {
+  std::optional<SheetIntensity> sheet = model.sheet;
+  if (sheet) sheet->ln_cd -= LnUnitOfIntensity(prepared.scales);
+  if (sheet && IsHeard(*sheet, out)) {
+    TellBySheet(*sheet, candidates, shares, out);
+  } else if (out.sampled && out.ln_interval) {
     // What sampling found of the likeliest, on the mixture's ends.
     const SampledParameter& ln = out.sampled->parameters[kLnIntensity];
     const double half = kZ95 * std::sqrt(likeliest.covariance[kLnIntensity]);

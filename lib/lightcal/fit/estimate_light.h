@@ -18,6 +18,11 @@
 
 namespace lightcal::fit {
 
+// ln I, I in cd, by the lamp's data sheet; 1 sigma.
+struct SheetIntensity {
+  double ln_cd = 0.0, sd = 0.0;
+};
+
 // What the effect gate decided for this light's forward model.
 struct ForwardModel {
   bool distance_law = true;                // false: directional and dome, E = I cos(tilt) + E0
@@ -31,6 +36,7 @@ struct ForwardModel {
   std::vector<WallHypothesis> walls;       // light from the walls, to be fitted; empty = none
   std::vector<OffsetPart> offsets;         // of such a lamp; empty = 15 % of the shortest distance
   std::vector<Consider> considered;        // influences that widen the interval
+  std::optional<SheetIntensity> sheet;     // beside a person's readings
   bool judge_misfit = true;                // false: the rows follow a shape that was found in them
   EstimatorChoice choice{};
 };
@@ -52,6 +58,8 @@ struct LightEstimate {
   bool ambient_free = false;
   // Of several things that the lamp may be: the 95 % interval of ln I, which need not be normal.
   std::optional<LnInterval> ln_interval;
+  std::optional<LnInterval>
+      ln_by_readings;                     // the same of the readings alone, where a sheet tells too
   std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
   std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = no walls fitted
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
@@ -65,7 +73,9 @@ struct LightEstimate {
 //   standard deviations widens the prior to the offset the readings ask for, with the warning
 //   prior_conflict. E0 is 0 unless lamp-off readings tell it, or, where no wall shines, four
 //   distinct distances. A lamp that may be several things is fitted as each of them; the answer is
-//   the mixture by their evidence: its median, its quantiles, its covariance about them.
+//   the mixture by their evidence: its median, its quantiles, its covariance about them. A data
+//   sheet's intensity is a prior that one lamp in twenty is not held by (WithSheet), where
+//   it lies within two standard deviations of the readings' and tells a third as much.
 // Refused: no_valid_readings, over_range (no reading within the meter's range).
 [[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
                                                   const ForwardModel& model,

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/fit_by_distance.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
+#include "lightcal/core/uncertain.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/model/asked_sampling.h"
@@ -31,6 +34,24 @@ void WidenByCone(double variance_of_ln, LightEstimate& estimate) {
   estimate.covariance[kOfIntensity] += variance_of_ln;
   for (LampInRoom& one : estimate.in_room) one.covariance[kOfIntensity] += variance_of_ln;
   estimate.variance_parts.push_back({"cone", variance_of_ln});
+}
+
+// What the manufacturer says beside a person's readings.
+std::optional<SheetIntensity> SheetBeside(const Observations& observations,
+                                          const LightDescription& light) {
+  const auto own = [](const Observation& row) { return row.lit && !row.data_sheet; };
+  if (!HasDataSheet(light) || std::ranges::none_of(observations.rows, own)) return std::nullopt;
+  const auto sheet = IntensityFromDataSheet(light);
+  if (!sheet) return std::nullopt;
+  const double low = std::log(*sheet->low), high = std::log(*sheet->high);
+  return SheetIntensity{0.5 * (low + high), (high - low) / (2.0 * kZ95)};
+}
+
+// The intensity before a data sheet was heard.
+std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedLight& out) {
+  if (!estimate.ln_by_readings) return out.intensity_cd;
+  const auto [low, high] = *estimate.ln_by_readings;
+  return UncertainFromLog(0.5 * (low + high), (high - low) / (2.0 * kZ95));
 }
 
 }  // namespace
@@ -67,7 +88,11 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   if (!plan) return Propagate(std::move(plan));
   const std::optional<SamplingRule> sampling = SamplingOf(settings);
   const auto estimate_by = [&](ForwardModel& model) {
-    if (beam) KeepToBeam(model);
+    if (beam) {
+      KeepToBeam(model);
+    } else if (distance_law) {
+      model.sheet = SheetBeside(observations, light);
+    }
     return EstimateLight(observations, model, light.name, beam ? std::nullopt : sampling);
   };
   Result<LightEstimate> estimate = estimate_by(plan->model);
@@ -96,7 +121,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   out.meter = MeterOf(session, light.name, observations);
   if (!estimate->upper_limit) out.budget = BudgetOf(estimate->variance_parts);
   AddDerivedQuantities(seen, out);
-  if (distance_law) CheckDataSheet(light, out, warnings);
+  if (distance_law) CheckDataSheet(light, ByReadings(*estimate, out), warnings);
   CheckDrift(session, out, warnings);
   return out;
 }

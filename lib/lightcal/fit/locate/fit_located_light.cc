@@ -102,7 +102,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   ReportCalibration(seen, out.effects);
   out.meter = MeterOf(session, light.name, seen);
   AddDerivedQuantities(light, out);
-  CheckDataSheet(light, out, warnings);
+  CheckDataSheet(light, out.intensity_cd, warnings);
   return out;
 }
 

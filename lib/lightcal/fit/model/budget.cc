@@ -13,7 +13,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 29> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
@@ -22,6 +22,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kCures =
     {"cone", "four times as many readings between the beam's middle and its edge"},
     {"finite_source", "stand 1.4 times as far away, or state the lamp's size"},
     {"sphere_surface", "state position_m, so that distances reach the centre"},
+    {"data_sheet", "readings that leave less open than the box does"},
     {"unknown_lamp", "state the lamp's kind, its size and its fixture"},
     {"horizon", "turn the meter towards the lamp"},
     {"meter_tilt", "point the meter within 1.5 degrees of the lamp, or state tilt_deg"},

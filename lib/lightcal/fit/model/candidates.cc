@@ -2,9 +2,11 @@
 #include "lightcal/fit/model/candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -249,6 +251,55 @@ std::vector<double> SharesOf(std::vector<Candidate>& candidates) {
   for (const Candidate& one : candidates) whole += likelihood(one);
   for (const Candidate& one : candidates) shares.push_back(likelihood(one) / whole);
   return shares;
+}
+
+namespace {
+
+// The candidate with ln I also N(sheet), and the density of the sheet's value under it.
+double TellIntensity(const SheetIntensity& sheet, Candidate& one) {
+  const double variance = one.covariance[kLnIntensity] + sheet.sd * sheet.sd;
+  const double off = sheet.ln_cd - one.estimate.theta[kLnIntensity];
+  std::array<double, kParameters> gain{};
+  for (int i = 0; i < kParameters; ++i) gain[i] = one.covariance[i * kParameters] / variance;
+  for (int i = 0; i < kParameters; ++i) {
+    one.estimate.theta[i] += gain[i] * off;
+    for (int j = 0; j < kParameters; ++j) {
+      one.covariance[i * kParameters + j] -= gain[i] * gain[j] * variance;
+    }
+  }
+  one.estimate.theta[kAmbient] = std::max(0.0, one.estimate.theta[kAmbient]);
+  return std::exp(-0.5 * off * off / variance) / std::sqrt(2.0 * std::numbers::pi * variance);
+}
+
+}  // namespace
+
+WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candidate>& candidates,
+                            const std::vector<double>& shares) {
+  constexpr double kHeld = 0.95;
+  constexpr double kLeastShare = 1e-4;
+  static const double kLnReach = std::log(1.2 / 0.05);
+  std::vector<std::pair<double, Candidate>> weighed;
+  double whole = 0.0, held = 0.0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    Candidate told = candidates[i];
+    const double density = TellIntensity(sheet, told);
+    weighed.emplace_back(shares[i] * kHeld * density, std::move(told));
+    weighed.emplace_back(shares[i] * (1.0 - kHeld) / kLnReach, candidates[i]);
+    held += weighed[weighed.size() - 2].first;
+    whole += weighed.back().first + weighed[weighed.size() - 2].first;
+  }
+  std::ranges::stable_sort(weighed, std::ranges::greater(), &std::pair<double, Candidate>::first);
+  WeighedCandidates out;
+  out.held = held / whole;
+  double kept = 0.0;
+  for (auto& [weight, one] : weighed) {
+    if (weight < kLeastShare * whole) break;
+    out.candidates.push_back(std::move(one));
+    out.shares.push_back(weight);
+    kept += weight;
+  }
+  for (double& share : out.shares) share /= kept;
+  return out;
 }
 
 std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,

@@ -41,6 +41,20 @@ void KeepComparable(std::vector<Candidate>& candidates);
 // Probability of each; those that explain nothing go.
 [[nodiscard]] std::vector<double> SharesOf(std::vector<Candidate>& candidates);
 
+// What is in question, and how probable each of it is.
+struct WeighedCandidates {
+  std::vector<Candidate> candidates;
+  std::vector<double> shares;
+  double held = 0.0;  // of them, by the data sheet
+};
+
+// Each candidate twice, by Bayes' rule for normal variables: with ln I also N(sheet), and, for one
+// lamp in twenty, as it was, its ln I anywhere from a twentieth of the sheet's intensity to 1.2 of
+// it: dimmed, aged, or another lamp. The likeliest first. `sheet` in the solver's units.
+[[nodiscard]] WeighedCandidates WithSheet(const SheetIntensity& sheet,
+                                          const std::vector<Candidate>& candidates,
+                                          const std::vector<double>& shares);
+
 // Each in its room, as light.json keeps it, but in the solver's units; those of less than a
 // hundredth are left out. Empty where some see no walls.
 [[nodiscard]] std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,

@@ -41,6 +41,23 @@ double SolidAngleOfKind(const LightDescription& light) {
 
 }  // namespace
 
+FluxSpread FluxSpreadOf(const std::optional<Fixture>& fixture) {
+  constexpr FluxSpread kBulb = {0.71, 1.01};
+  constexpr FluxSpread kFlat = {0.25, 1.0};
+  constexpr FluxSpread kAny = {0.0089, 1.0};
+  if (!fixture) return kAny;
+  switch (*fixture) {
+    case Fixture::kBulb:
+      return kBulb;
+    case Fixture::kPanel:
+    case Fixture::kSoftbox:
+    case Fixture::kCobBare:
+      return kFlat;
+    default:
+      return kAny;
+  }
+}
+
 bool HasDataSheet(const LightDescription& light) {
   return light.flux && light.flux->value() > 0.0 && light.kind != LightKind::kDirectional &&
          light.kind != LightKind::kDome;
@@ -55,6 +72,11 @@ Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
     auto beams = BeamEnsemble(*light.beam, light.field);
     if (!beams) return Propagate(std::move(beams));
     return FromInterval(flux / beams->most.value(), flux / beams->least.value());
+  }
+  if (light.kind == LightKind::kPoint && light.fixture == Fixture::kBulb) {
+    const FluxSpread spread = FluxSpreadOf(light.fixture);
+    const double even = flux / SolidAngleOfKind(light);
+    return FromInterval(even / spread.high, even / spread.low);
   }
   const bool shape_unknown =
       light.kind == LightKind::kPoint || (light.kind == LightKind::kSpot && !light.outer);
@@ -72,16 +94,16 @@ Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out) 
   return {};
 }
 
-void CheckDataSheet(const LightDescription& light, const FittedLight& fitted, Warnings& warnings) {
-  if (!HasDataSheet(light) || !fitted.intensity_cd) return;
+void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain>& measured,
+                    Warnings& warnings) {
+  if (!HasDataSheet(light) || !measured) return;
   const auto sheet = IntensityFromDataSheet(light);
   if (!sheet) return;
-  const Uncertain& measured = *fitted.intensity_cd;
-  const double low = measured.low.value_or(measured.value - measured.u95);
-  const double high = measured.high.value_or(measured.value + measured.u95);
+  const double low = measured->low.value_or(measured->value - measured->u95);
+  const double high = measured->high.value_or(measured->value + measured->u95);
   if (high >= *sheet->low && low <= *sheet->high) return;
   warnings.push_back({"data_sheet_disagrees", light.name,
-                      "measured " + RoundedText(measured.value, 4) + " cd, but its data sheet (" +
+                      "measured " + RoundedText(measured->value, 4) + " cd, but its data sheet (" +
                           RoundedText(light.flux->value(), 4) + " lm) gives " +
                           RoundedText(*sheet->low, 3) + " to " + RoundedText(*sheet->high, 3) +
                           " cd; check distance, beam_deg and whether the lamp is dimmed"});

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightcal/core/uncertain.h"
+#include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/photometry/source_photometry.h"
 
@@ -38,30 +39,6 @@ Uncertain ScaledTo(const Uncertain& intensity, double value) {
   if (intensity.low) u.low = *intensity.low * ratio;
   if (intensity.high) u.high = *intensity.high * ratio;
   return u;
-}
-
-// Flux over 4 pi I of what a lamp taken for a point may be, 95 %. Bulbs: 667 traced ones
-// (tests/tools/traced_rooms), .71 to 1.01 with the median .86, for a base hides some and glass is
-// not alike all round. A flat lamp has pi I. What nobody described may be a narrow beam: .0089 is
-// the 2.5 % quantile of 667 traced ones.
-struct FluxSpread {
-  double low, high;
-};
-FluxSpread FluxSpreadOf(const std::optional<Fixture>& fixture) {
-  constexpr FluxSpread kBulb = {0.71, 1.01};
-  constexpr FluxSpread kFlat = {0.25, 1.0};
-  constexpr FluxSpread kAny = {0.0089, 1.0};
-  if (!fixture) return kAny;
-  switch (*fixture) {
-    case Fixture::kBulb:
-      return kBulb;
-    case Fixture::kPanel:
-    case Fixture::kSoftbox:
-    case Fixture::kCobBare:
-      return kFlat;
-    default:
-      return kAny;
-  }
 }
 
 // Its own interval: that of the intensity and that of the pattern, side by side.
