@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lamp_twin.h"
@@ -117,6 +118,38 @@ TEST(PlanReadings, ALampAtAnUnknownPlaceIsPlannedByPlaces) {
     apart.push_back(std::abs(Obtained(twin.session()) / place->u95_relative - 1.0));
   }
   EXPECT_LT(Median(apart), 0.1);
+}
+
+// A spot 3 m up, read flat on the floor off its axis: cos^8, 3000 cd.
+TEST(PlanReadings, NoPlaceLiesBelowTheFloor) {
+  constexpr double kHeight = 3.0, kCandela = 3000.0;
+  Session session;
+  session.surroundings = Surroundings::kDark;
+  session.lights.emplace_back();
+  session.lights.front().name = "spot";
+  session.lights.front().kind = LightKind::kSpot;
+  session.lights.front().position_m = {0.0, 0.0, kHeight};
+  session.lights.front().aim = {0.0, 0.0, -1.0};
+  for (const auto& [x, y] : {std::pair(0.5, 0.0), std::pair(0.0, 0.7), std::pair(-0.9, 0.0),
+                             std::pair(0.0, -1.1), std::pair(0.8, 0.8)}) {
+    const double square = x * x + y * y + kHeight * kHeight;
+    const double cosine = kHeight / std::sqrt(square);
+    Reading reading;
+    reading.light = "spot";
+    reading.position_m = {x, y, 0.0};
+    reading.normal = {0.0, 0.0, 1.0};
+    reading.illuminance = Lux(kCandela * std::pow(cosine, 9.0) / square);
+    session.readings.push_back({reading, "here"});
+  }
+  const auto plan = PlanReadings(session, "spot", {}, 3);
+  ASSERT_TRUE(plan.has_value()) << plan.error().message;
+  int places = 0;
+  for (const PlannedReading& step : plan->candidates) {
+    if (!step.position_m) continue;
+    EXPECT_GE((*step.position_m)[2], 0.0);
+    ++places;
+  }
+  EXPECT_GE(places, 2) << "half way down, and on the floor below the lamp";
 }
 
 TEST(PlanReadings, OneReadingAsksForAnotherDistance) {

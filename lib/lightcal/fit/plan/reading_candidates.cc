@@ -18,6 +18,7 @@ constexpr double kNearestSoftbox = 1.0;       // of unknown size
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
+constexpr double kFlat = 0.01;  // metres that places are rounded to
 
 // Length of what a meter must stay clear of.
 double SizeOf(const LightDescription& light) {
@@ -41,6 +42,9 @@ class Candidates {
       : light_(light), fitted_(fitted), room_(session.room), reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
     for (const double d : distances_) reach_ = std::max(reach_, d);
+    for (const Place& place : places_) {
+      floor_m_ = std::min(floor_m_.value_or(0.0), place.position[2]);
+    }
     const bool large = light.fixture == Fixture::kPanel || light.fixture == Fixture::kSoftbox;
     const bool sized = light.kind != LightKind::kPoint || SizeOf(light) > 0.0;
     if (sized || (light.fixture && !large)) return;
@@ -174,6 +178,7 @@ class Candidates {
     const auto round = [](double x) { return std::round(x * 100.0) / 100.0; };
     const Vec3 place{round(at[0]), round(at[1]), round(at[2])};
     if (room_ && !IsInRoom(place, room_->size_m)) return;
+    if (floor_m_ && place[2] < *floor_m_ - kFlat) return;
     const std::optional<Vec3> lamp = LampPlace();
     std::optional<Vec3> normal = CommonNormal();
     if (lamp) {
@@ -222,6 +227,15 @@ class Candidates {
     }
   }
 
+  // So far from the lamp, or where that way meets the floor.
+  void AddAlong(const Vec3& lamp, const Vec3& way, double distance,
+                std::vector<PlannedReading>& out) const {
+    if (floor_m_ && lamp[2] + way[2] * distance < *floor_m_ && lamp[2] > *floor_m_) {
+      distance = (*floor_m_ - lamp[2]) / way[2];
+    }
+    AddPlace(lamp + way * distance, out);
+  }
+
   // On the axis and, of a spot, across its cone's edge, at the distance of those taken.
   void AddOnBeam(std::vector<PlannedReading>& out) const {
     const auto lamp = LampPlace();
@@ -232,7 +246,7 @@ class Candidates {
     distance = places_.empty() ? std::max(1.0, 2.0 * SizeOf(light_))
                                : distance / static_cast<double>(places_.size());
     for (const double factor : {0.5, 1.0, 2.0}) {
-      AddPlace(*lamp + *aim * std::min(std::max(reach_, distance), factor * distance), out);
+      AddAlong(*lamp, *aim, std::min(std::max(reach_, distance), factor * distance), out);
     }
     if (light_.kind != LightKind::kSpot || fitted_ == nullptr || !fitted_->outer_deg) return;
     const double inner = fitted_->inner_deg.value_or(0.0);
@@ -244,7 +258,7 @@ class Candidates {
         const double f = 0.5 * std::numbers::pi * q;
         const Vec3 way = *aim * std::cos(angle) +
                          (frame.x * std::cos(f) + frame.y * std::sin(f)) * std::sin(angle);
-        AddPlace(*lamp + way * distance, out);
+        AddAlong(*lamp, way, distance, out);
       }
     }
   }
@@ -254,6 +268,7 @@ class Candidates {
   std::optional<Room> room_;
   double reach_;
   double nearest_ = kNearest;
+  std::optional<double> floor_m_;  // Z is up: as low as a meter has lain, or 0
   std::vector<double> distances_, angles_;
   std::vector<Place> places_;
   std::vector<Reading> lit_, carded_;
