@@ -269,6 +269,16 @@ TEST(FitLight, AReadingFarFromTheDataSheetIsSaid) {
   EXPECT_THAT(codes(), Contains("data_sheet_disagrees"));
 }
 
+// Of which setting the box speaks nobody says.
+TEST(FitLight, ADataSheetSaysNothingOfALampReadAtItsControls) {
+  Session session = TypedSession({{1.0, 100.0}});
+  const double read = FitOk(session).intensity_cd->u95;
+  session.lights.front().flux = Lumens(1250.0);
+  EXPECT_LT(FitOk(session).intensity_cd->u95, 0.9 * read);
+  session.readings.front().reading.state = {{"dimmer", 50.0}};
+  EXPECT_NEAR(FitOk(session).intensity_cd->u95, read, 1e-9 * read);
+}
+
 TEST(FitLight, ALightWithoutReadingsIsNamedBesideOthersThatHaveThem) {
   Session session = TypedSession({{1.0, 100.0}});
   session.lights.emplace_back();

@@ -58,8 +58,8 @@ struct LightEstimate {
   bool ambient_free = false;
   // Of several things that the lamp may be: the 95 % interval of ln I, which need not be normal.
   std::optional<LnInterval> ln_interval;
-  std::optional<LnInterval>
-      ln_by_readings;                     // the same of the readings alone, where a sheet tells too
+  // The same of the readings alone, where a data sheet is heard too.
+  std::optional<LnInterval> ln_by_readings;
   std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
   std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = no walls fitted
   // The readings cannot tell the intensity from 0: an upper limit replaces it.

@@ -36,11 +36,16 @@ void WidenByCone(double variance_of_ln, LightEstimate& estimate) {
   estimate.variance_parts.push_back({"cone", variance_of_ln});
 }
 
-// What the manufacturer says beside a person's readings.
-std::optional<SheetIntensity> SheetBeside(const Observations& observations,
+// What the manufacturer says beside a person's readings, of a lamp without controls: which setting
+// of others it is of nobody says.
+std::optional<SheetIntensity> SheetBeside(const Session& session, const Observations& observations,
                                           const LightDescription& light) {
   const auto own = [](const Observation& row) { return row.lit && !row.data_sheet; };
+  const auto set = [&](const SessionReading& row) {
+    return row.reading.light == light.name && !row.reading.state.empty();
+  };
   if (!HasDataSheet(light) || std::ranges::none_of(observations.rows, own)) return std::nullopt;
+  if (std::ranges::any_of(session.readings, set)) return std::nullopt;
   const auto sheet = IntensityFromDataSheet(light);
   if (!sheet) return std::nullopt;
   const double low = std::log(*sheet->low), high = std::log(*sheet->high);
@@ -91,7 +96,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
     if (beam) {
       KeepToBeam(model);
     } else if (distance_law) {
-      model.sheet = SheetBeside(observations, light);
+      model.sheet = SheetBeside(session, observations, light);
     }
     return EstimateLight(observations, model, light.name, beam ? std::nullopt : sampling);
   };

@@ -276,7 +276,7 @@ double TellIntensity(const SheetIntensity& sheet, Candidate& one) {
 WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candidate>& candidates,
                             const std::vector<double>& shares) {
   constexpr double kHeld = 0.95;
-  constexpr double kLeastShare = 1e-4;
+  constexpr double kLeastWeight = 1e-4;
   static const double kLnReach = std::log(1.2 / 0.05);
   std::vector<std::pair<double, Candidate>> weighed;
   double whole = 0.0, held = 0.0;
@@ -293,7 +293,7 @@ WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candi
   out.held = held / whole;
   double kept = 0.0;
   for (auto& [weight, one] : weighed) {
-    if (weight < kLeastShare * whole) break;
+    if (weight < kLeastWeight * whole) break;
     out.candidates.push_back(std::move(one));
     out.shares.push_back(weight);
     kept += weight;

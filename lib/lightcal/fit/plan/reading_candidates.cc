@@ -18,7 +18,7 @@ constexpr double kNearestSoftbox = 1.0;       // of unknown size
 constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 : 1
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
-constexpr double kFlat = 0.01;  // metres that places are rounded to
+constexpr double kPlaceRounding_m = 0.01;
 
 // Length of what a meter must stay clear of.
 double SizeOf(const LightDescription& light) {
@@ -178,7 +178,7 @@ class Candidates {
     const auto round = [](double x) { return std::round(x * 100.0) / 100.0; };
     const Vec3 place{round(at[0]), round(at[1]), round(at[2])};
     if (room_ && !IsInRoom(place, room_->size_m)) return;
-    if (floor_m_ && place[2] < *floor_m_ - kFlat) return;
+    if (floor_m_ && place[2] < *floor_m_ - kPlaceRounding_m) return;
     const std::optional<Vec3> lamp = LampPlace();
     std::optional<Vec3> normal = CommonNormal();
     if (lamp) {
