@@ -34,7 +34,7 @@ struct GlareAnswer {
   PictureGlare glare;
   bool ev_stated = false;  // Ev was typed
   double scale_u95 = 0.0;
-  std::string scale_source;  // "stated" "picture" "assumed"
+  std::string scale_source;  // "stated" "picture" "assumed"; "unknown": nobody states the unit
 };
 // Refused: no_absolute_scale (nobody says what 1.0 is), no_projection, and as MeasureGlare.
 [[nodiscard]] Result<GlareAnswer> MeasureGlareOf(const GlareWords& words, GlareSettings settings,

@@ -265,15 +265,15 @@ TEST(SimulateCommand, SunSkyAndOffsetFollowTheirLaws) {
   EXPECT_NEAR(at["illuminance_lx"]["u95"].get<double>(), u95, 2e-3 * u95);
 }
 
-TEST(SimulateCommand, AMeasuredTableShinesAsItsFileSays) {
-  const TempDir session;
+// A lobe of cos^3 whose meter 3 m below reads 100 lx; its file prints `printed` times 800 cd.
+double LobeCd(double gamma_deg) {
+  return gamma_deg < 90 ? 800.0 * std::pow(std::cos(gamma_deg * kPi / 180), 3) : 0.0;
+}
+void WriteLobeSession(const TempDir& session, double printed) {
   std::ostringstream ies;
   ies << "IESNA:LM-63-2002\r\nTILT=NONE\r\n1 -1 1 19 1 1 2 0 0 0\r\n1 1 60\r\n";
   for (int i = 0; i < 19; ++i) ies << 5 * i << (i < 18 ? " " : "\r\n0\r\n");
-  const auto cd = [](double gamma) {
-    return gamma < 90 ? 800.0 * std::pow(std::cos(gamma * kPi / 180), 3) : 0.0;
-  };
-  for (int i = 0; i < 19; ++i) ies << cd(5.0 * i) << (i < 18 ? " " : "\r\n");
+  for (int i = 0; i < 19; ++i) ies << printed * LobeCd(5.0 * i) << (i < 18 ? " " : "\r\n");
   session.Write("lamp.ies", ies.str());
   session.Write("session.toml",
                 "lightcal = 1\n[room]\ndark = true\n"
@@ -281,12 +281,27 @@ TEST(SimulateCommand, AMeasuredTableShinesAsItsFileSays) {
                 "distribution = \"lamp.ies\"\nposition_m = [0, 0, 3]\naim = [0, 0, -1]\n"
                 "[[reading]]\nlight = \"key\"\nposition_m = [0, 0, 0]\nnormal = [0, 0, 1]\n"
                 "illuminance_lx = 100.0\n");
-  const auto lux = [&](double gamma) {
-    const V at = {3.0 * std::tan(gamma * kPi / 180), 0.0, 0.0};
-    return Value(LightcalJson("simulate", {session.path(), "--at=" + Text(at)})["points"][0]);
-  };
-  // How strongly: between the file's 800 cd and the reading's 900. Its light starts some mm off.
-  const double axis = lux(0.0);
+}
+double LuxOfLobe(const TempDir& session, double gamma_deg) {
+  const V at = {3.0 * std::tan(gamma_deg * kPi / 180), 0.0, 0.0};
+  return Value(LightcalJson("simulate", {session.path(), "--at=" + Text(at)})["points"][0]);
+}
+
+// The file's 1600 cd are no prior of a lamp that reads 900: what it shines is the reading's.
+TEST(SimulateCommand, AMeasuredTableShinesAsItsFileSays) {
+  const TempDir session;
+  WriteLobeSession(session, 2.0);
+  for (const double gamma : {0.0, 20.0, 45.0, 70.0}) {
+    const double truth = 100.0 * LobeCd(gamma) / 800.0 * std::pow(std::cos(gamma * kPi / 180), 3);
+    EXPECT_NEAR(LuxOfLobe(session, gamma), truth, 2e-3 * truth) << gamma;
+  }
+}
+
+// Between the file's 800 cd and the reading's 900; its light then starts some mm off.
+TEST(SimulateCommand, ATableThatNearlyAgreesIsHeardBesideTheReading) {
+  const TempDir session;
+  WriteLobeSession(session, 1.0);
+  const double axis = LuxOfLobe(session, 0.0);
   const double d0 =
       LightcalJson("fit", {session.path()})["lights"][0]["distance_offset_m"]["value"];
   EXPECT_GT(axis, 800.0 / 9.0);
@@ -294,8 +309,8 @@ TEST(SimulateCommand, AMeasuredTableShinesAsItsFileSays) {
   for (const double gamma : {20.0, 45.0, 70.0}) {
     const double cosine = std::cos(gamma * kPi / 180);
     const double farther = (3.0 / cosine + d0) / (3.0 + d0);
-    const double truth = axis * cd(gamma) / 800.0 * cosine / (farther * farther);
-    EXPECT_NEAR(lux(gamma), truth, 2e-3 * truth) << gamma;
+    const double truth = axis * LobeCd(gamma) / 800.0 * cosine / (farther * farther);
+    EXPECT_NEAR(LuxOfLobe(session, gamma), truth, 2e-3 * truth) << gamma;
   }
 }
 
