@@ -284,7 +284,16 @@ std::optional<double> RelativeUncertainty(const FittedLight& light) {
 
 namespace {
 
-// The session as if it had that light alone.
+// Of illuminance alone: what is planned is no colour.
+SessionReading Colorless(SessionReading row) {
+  row.reading.cct.reset();
+  row.reading.duv.reset();
+  row.reading.xy.reset();
+  row.reading.spectrum_file.clear();
+  return row;
+}
+
+// The session as if it had that light alone, and no colour.
 Result<Session> AloneIn(const Session& session, const std::string& light) {
   const LightDescription* const found = FindLight(session, light);
   if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
@@ -295,7 +304,7 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
   alone.meters = session.meters;
   alone.lights = {*found};
   for (const SessionReading& row : session.readings) {
-    if (row.reading.light == light) alone.readings.push_back(row);
+    if (row.reading.light == light) alone.readings.push_back(Colorless(row));
   }
   return alone;
 }
