@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Lamps with what is printed on their boxes, read once or twice: does the printed flux beside a reading make the
-answer surer, and does its interval hold the lamp as often as it says?
+answer surer, and does its interval hold the lamp's intensity and its flux as often as it says?
 
     data_sheets.py LIGHTCAL [--lamps 400] [--seed 20261126]
 
@@ -31,7 +31,7 @@ def lamps_of(rng, count, dimmed):
         gain = 1 + rng.gauss(0, .05)
         readings = [(d, candela / (d + offset) ** 2 * gain * (1 + rng.gauss(0, .01))) for d in (1, 2)]
         lamps.append({"name": f"l{i:03d}", "panel": panel, "candela": candela, "readings": readings,
-                      "flux": full * spread * (1 + rng.gauss(0, .05))})
+                      "lumens": candela * spread, "printed": full * spread * (1 + rng.gauss(0, .05))})
     return lamps
 
 
@@ -43,7 +43,7 @@ def fitted(lightcal, lamps, readings, sheet):
         text += ('kind = "rect"\nsize_m = [0.3, 0.2]\nfixture = "panel"\n' if lamp["panel"]
                  else 'kind = "point"\nfixture = "bulb"\n')
         if sheet:
-            text += f'flux_lm = {lamp["flux"]:.4f}\n'
+            text += f'flux_lm = {lamp["printed"]:.4f}\n'
         for metres, lux in lamp["readings"][:readings]:
             rows += json.dumps({"light": lamp["name"], "meter": "m", "distance_m": metres,
                                 "illuminance_lx": round(lux, 4)}) + "\n"
@@ -54,16 +54,16 @@ def fitted(lightcal, lamps, readings, sheet):
         done = subprocess.run([lightcal, "fit", name, "--json", "-q"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(done.stderr)
-    return {light["name"]: light["intensity_cd"] for light in json.loads(done.stdout)["lights"]}
+    return {light["name"]: light for light in json.loads(done.stdout)["lights"]}
 
 
-def judged(lamps, answers):
+def judged(lamps, answers, quantity="candela"):
     """Share held and median of ln(high/low)/2."""
     held, halves = 0, []
     for lamp in lamps:
-        u = answers[lamp["name"]]
+        u = answers[lamp["name"]]["intensity_cd" if quantity == "candela" else "flux_lm"]
         low, high = u.get("low95", u["value"] - u["u95"]), u.get("high95", u["value"] + u["u95"])
-        held += low <= lamp["candela"] <= high
+        held += low <= lamp[quantity] <= high
         halves.append(.5 * math.log(high / low))
     return held / len(lamps), statistics.median(halves), halves
 
@@ -89,9 +89,17 @@ def main():
                 held_alone, width_alone, _ = judged(some, alone)
                 print(f"{kind:6} {readings} read, {dimmed:4.0%} dimmed: box alone +- {width_alone:.3f} held {held_alone:.1%}, readings alone "
                       f"+- {width_bare:.3f} held {held_bare:.1%}, both +- {width:.3f} held {held:.1%}, wider {wider:.1%}")
+                held_lumens, lumens, _ = judged(some, told, "lumens")
+                _, lumens_bare, _ = judged(some, bare, "lumens")
+                _, lumens_alone, _ = judged(some, alone, "lumens")
+                print(f"       flux: box alone +- {lumens_alone:.3f}, readings alone +- {lumens_bare:.3f}, both +- {lumens:.3f} held {held_lumens:.1%}")
                 sure = 3 * math.sqrt(missed * (1 - missed) / len(some))
                 if held < 1 - missed - sure:
                     fails.append(f"{kind}, {readings} read, {dimmed:.0%} dimmed: held {held:.1%}")
+                if held_lumens < 1 - missed - sure:
+                    fails.append(f"{kind}, {readings} read, {dimmed:.0%} dimmed: flux held {held_lumens:.1%}")
+                if dimmed == 0 and not lumens < min(lumens_bare, 1.02 * lumens_alone):
+                    fails.append(f"{kind}, {readings} read: flux {lumens} beside {lumens_bare} and {lumens_alone}")
                 if dimmed == 0 and not width < min(width_bare, 1.02 * width_alone):
                     fails.append(f"{kind}, {readings} read: {width} beside {width_bare} and {width_alone}")
                 if dimmed == 0 and wider > .12:

@@ -141,20 +141,22 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
   }
 }
 
-// Whether a data sheet is heard beside the readings. Not where they ask for another intensity, as
-// of a lamp that is dimmed, aged or another; nor where it would take less than a twentieth off
-// their interval.
-bool IsHeard(const SheetIntensity& sheet, const LightEstimate& read) {
+// Not where the readings ask for another intensity, as of a lamp that is dimmed, aged or another.
+bool Agrees(const SheetIntensity& sheet, const LightEstimate& read) {
   constexpr double kConflict = 2.0;  // standard deviations of both
-  constexpr double kLeastPart = 1.0 / 3.0;
   const double sd = SdOf(read.covariance, kLnIntensity);
   const double off = std::abs(read.theta[kLnIntensity] - sheet.ln_cd);
-  return sd > kLeastPart * sheet.sd && off <= kConflict * std::hypot(sd, sheet.sd);
+  return off <= kConflict * std::hypot(sd, sheet.sd);
+}
+
+// Whether a data sheet that agrees takes more than a twentieth off the readings' interval.
+bool TellsMore(const SheetIntensity& sheet, const LightEstimate& read) {
+  constexpr double kLeastPart = 1.0 / 3.0;
+  return SdOf(read.covariance, kLnIntensity) > kLeastPart * sheet.sd;
 }
 
 // The mixture as the lamp's data sheet leaves it. What the readings left open shrinks alike.
-void TellBySheet(const SheetIntensity& sheet, const std::vector<Candidate>& candidates,
-                 const std::vector<double>& shares, LightEstimate& out) {
+void TellBySheet(const SheetIntensity& sheet, const WeighedCandidates& told, LightEstimate& out) {
   constexpr int kOfIntensity = kLnIntensity * kParameters + kLnIntensity;
   const double before = out.covariance[kOfIntensity];
   const double half = kZ95 * std::sqrt(before);
@@ -162,7 +164,6 @@ void TellBySheet(const SheetIntensity& sheet, const std::vector<Candidate>& cand
       LnInterval{out.theta[kLnIntensity] - half, out.theta[kLnIntensity] + half});
   std::vector<VariancePart> parts = std::move(out.variance_parts);
   out.variance_parts.clear();
-  const WeighedCandidates told = WithSheet(sheet, candidates, shares);
   out.covariance = told.candidates.front().covariance;
   Mix(told.candidates, told.shares, out);
   out.in_room = InRoom(told.candidates, told.shares);
@@ -274,8 +275,13 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   out.in_room = InRoom(candidates, shares);
   std::optional<SheetIntensity> sheet = model.sheet;
   if (sheet) sheet->ln_cd -= LnUnitOfIntensity(prepared.scales);
-  if (sheet && IsHeard(*sheet, out)) {
-    TellBySheet(*sheet, candidates, shares, out);
+  std::optional<WeighedCandidates> told;
+  if (sheet && Agrees(*sheet, out)) {
+    told = WithSheet(*sheet, candidates, shares);
+    out.sheet_held = told->held;
+  }
+  if (told && TellsMore(*sheet, out)) {
+    TellBySheet(*sheet, *told, out);
   } else if (out.sampled && out.ln_interval) {
     // What sampling found of the likeliest, on the mixture's ends.
     const SampledParameter& ln = out.sampled->parameters[kLnIntensity];

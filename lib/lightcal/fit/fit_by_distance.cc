@@ -59,6 +59,15 @@ std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedL
   return UncertainFromLog(0.5 * (low + high), (high - low) / (2.0 * kZ95));
 }
 
+// The flux as a data sheet that the readings bear out leaves it.
+void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out) {
+  if (!(estimate.sheet_held > 0.0) || !out.flux_lm) return;
+  FittedLight read = out;
+  read.intensity_cd = ByReadings(estimate, out);
+  AddDerivedQuantities(light, read);
+  out.flux_lm = FluxBeside(*read.flux_lm, *light.flux, estimate.sheet_held);
+}
+
 }  // namespace
 
 Result<FittedLight> FitByDistance(const Session& session, const LightDescription& light,
@@ -126,6 +135,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   out.meter = MeterOf(session, light.name, observations);
   if (!estimate->upper_limit) out.budget = BudgetOf(estimate->variance_parts);
   AddDerivedQuantities(seen, out);
+  TellFlux(*estimate, seen, out);
   if (distance_law) CheckDataSheet(light, ByReadings(*estimate, out), warnings);
   CheckDrift(session, out, warnings);
   return out;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/model/data_sheet.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/light/beam_ensemble.h"
 #include "lightcal/photometry/source_photometry.h"
 
@@ -41,12 +43,14 @@ double SolidAngleOfKind(const LightDescription& light) {
 
 }  // namespace
 
-FluxSpread FluxSpreadOf(const std::optional<Fixture>& fixture) {
+FluxSpread FluxSpreadOf(const LightDescription& light) {
   constexpr FluxSpread kBulb = {0.71, 1.01};
   constexpr FluxSpread kFlat = {0.25, 1.0};
   constexpr FluxSpread kAny = {0.0089, 1.0};
-  if (!fixture) return kAny;
-  switch (*fixture) {
+  if (light.kind == LightKind::kSphere) return {1.0, 1.0};
+  if (light.kind != LightKind::kPoint) return {1.0 / (1.0 + kKindSpread), 1.0 + kKindSpread};
+  if (!light.fixture) return kAny;
+  switch (*light.fixture) {
     case Fixture::kBulb:
       return kBulb;
     case Fixture::kPanel:
@@ -74,7 +78,7 @@ Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
     return FromInterval(flux / beams->most.value(), flux / beams->least.value());
   }
   if (light.kind == LightKind::kPoint && light.fixture == Fixture::kBulb) {
-    const FluxSpread spread = FluxSpreadOf(light.fixture);
+    const FluxSpread spread = FluxSpreadOf(light);
     const double even = flux / SolidAngleOfKind(light);
     return FromInterval(even / spread.high, even / spread.low);
   }
@@ -92,6 +96,16 @@ Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out) 
   out.intensity_cd = *intensity;
   out.fit.prior = {"intensity", "distance_offset", "ambient"};
   return {};
+}
+
+Uncertain FluxBeside(const Uncertain& by_readings, Lumens printed, double held) {
+  const double low = std::log(*by_readings.low), high = std::log(*by_readings.high);
+  const NormalPart read = {1.0 - held, 0.5 * (low + high), (high - low) / (2.0 * kZ95)};
+  const double sd = std::log1p(kFluxToleranceRelative) / kZ95;
+  const double share = read.sd * read.sd / (read.sd * read.sd + sd * sd);  // of the printed one
+  const NormalPart both = {held, share * std::log(printed.value()) + (1.0 - share) * read.mean,
+                           std::sqrt(share) * sd};
+  return UncertainFromLogMixture(std::array{both, read});
 }
 
 void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain>& measured,

@@ -12,14 +12,14 @@ namespace lightcal::fit {
 // (IEC 62612, a tenth below the rated flux; from memory, not re-read).
 inline constexpr double kFluxToleranceRelative = 0.10;
 
-// Flux over 4 pi I of what a lamp taken for a point may be, 95 %. Bulbs: 667 traced ones
-// (tests/tools/traced_rooms), .71 to 1.01 with the median .86, for a base hides some and glass is
-// not alike all round. A flat lamp has pi I. What nobody described may be a narrow beam: .0089 is
-// the 2.5 % quantile of 667 traced ones.
+// Flux over that of its kind's own pattern, 95 %. Of what is taken for a point, over 4 pi I: bulbs,
+// 667 traced ones (tests/tools/traced_rooms), .71 to 1.01 with the median .86, for a base hides some
+// and glass is not alike all round. A flat lamp has pi I. What nobody described may be a narrow
+// beam: .0089 is the 2.5 % quantile of 667 traced ones. Other kinds but a sphere's: within 15 %.
 struct FluxSpread {
   double low, high;
 };
-[[nodiscard]] FluxSpread FluxSpreadOf(const std::optional<Fixture>& fixture);
+[[nodiscard]] FluxSpread FluxSpreadOf(const LightDescription& light);
 
 // Whether flux_lm is given for a kind that has an axial intensity.
 [[nodiscard]] bool HasDataSheet(const LightDescription& light);
@@ -32,6 +32,10 @@ struct FluxSpread {
 
 // Fills intensity and the diagnostics of a light that was never read: everything is a prior.
 [[nodiscard]] Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out);
+
+// The printed flux beside `by_readings`, an interval of readings alone; `held`: how likely it is this
+// lamp's (LightEstimate). Two normals of ln Phi, mixed with the readings' own.
+[[nodiscard]] Uncertain FluxBeside(const Uncertain& by_readings, Lumens printed, double held);
 
 // Adds the warning data_sheet_disagrees when the intensity that readings alone give and the data
 // sheet's do not overlap within their 95 % intervals.

@@ -44,8 +44,7 @@ Uncertain ScaledTo(const Uncertain& intensity, double value) {
 // Its own interval: that of the intensity and that of the pattern, side by side.
 Uncertain FluxOf(const LightDescription& light, const Uncertain& intensity, double model_lm) {
   Uncertain flux = ScaledTo(intensity, model_lm);
-  if (light.kind != LightKind::kPoint) return flux;
-  const FluxSpread spread = FluxSpreadOf(light.fixture);
+  const FluxSpread spread = FluxSpreadOf(light);
   const double least = std::max(intensity.low.value_or(intensity.value - intensity.u95), 0.0);
   const double most = intensity.high.value_or(intensity.value + intensity.u95);
   const double down = std::log(std::max(least / intensity.value, 1e-9));
