@@ -6,6 +6,8 @@ import json
 import math
 import os
 import pathlib
+import platform
+import re
 import shutil
 import statistics
 import subprocess
@@ -146,6 +148,14 @@ def function_task(method, setting, kind, answer, truth, relative=True):
     return task
 
 
+def machine():
+    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    system = re.search(r'PRETTY_NAME="(.*)"', pathlib.Path("/etc/os-release").read_text())
+    compiler = run(["g++", "-dumpfullversion"]).strip()
+    return (f"{model.group(1) if model else platform.machine()}, {os.cpu_count()} processors, "
+            f"{system.group(1)}, g++ {compiler}, Release")
+
+
 def measure(figure, tasks, rounds):
     """Runs the tasks in turns, A B A B, and gathers their rows in the order they first came."""
     load_before = os.getloadavg()[0]
@@ -159,7 +169,7 @@ def measure(figure, tasks, rounds):
     figure.rows = list(rows.values())
     now = datetime.datetime.now(datetime.timezone.utc)
     figure.made = (f"{now:%Y-%m-%d %H:%M} UTC, {rounds} rounds, load {load_before:.1f} before and "
-                   f"{os.getloadavg()[0]:.1f} after on {os.cpu_count()} processors")
+                   f"{os.getloadavg()[0]:.1f} after, on {machine()}")
     return figure
 
 

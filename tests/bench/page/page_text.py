@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the measured part of tests/bench/README.md."""
 import pathlib
-import platform
-import re
 import sys
 
 import measure
@@ -15,7 +13,7 @@ Down and to the left is better. A mark is the median processor time (all cores a
 else the machine does is left out) at the worst error; the bar across spans the quartiles of the
 times, the thin line down reaches the median error (none: the lower edge). Blue and filled is
 lightcal, orange and open public tools, grey methods written here as they were published. Compare
-the ratios: the seconds are this machine's. Every error is against what made the data, or against
+the ratios: the seconds are the machine's that is named. Every error is against what made the data, or against
 the number itself worked out in 80 bits or by brute force; where a rival wins, the line below the
 table says so. One command writes this part:
 
@@ -25,14 +23,6 @@ tests/bench/standing_page --only cct      # one figure anew; the others stay as 
 tests/bench/standing_page --quick --no-install --own-only -o /tmp/page
 ```
 """
-
-
-def machine():
-    model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
-    system = re.search(r'PRETTY_NAME="(.*)"', pathlib.Path("/etc/os-release").read_text())
-    compiler = measure.run(["g++", "-dumpfullversion"]).strip()
-    return (f"{model.group(1) if model else platform.machine()}, {measure.os.cpu_count()} "
-            f"processors, {system.group(1)}, g++ {compiler}, Release")
 
 
 def seconds(row):
@@ -96,5 +86,5 @@ def by_hand(path):
 
 def write(figures, path):
     before, after = by_hand(path)
-    part = "\n".join([BEGIN, "", HEAD, machine() + ".\n", *(section(f) for f in figures), END])
+    part = "\n".join([BEGIN, "", HEAD, *(section(f) for f in figures), END])
     path.write_text(before + part + after, encoding="utf-8")
