@@ -30,6 +30,16 @@ std::optional<std::string> SourceDateIso8601() {
   return Iso8601(value);
 }
 
+std::string MomentIso8601() {
+  if (auto fixed = SourceDateIso8601()) return *std::move(fixed);
+  std::timespec now{};
+  ::clock_gettime(CLOCK_REALTIME, &now);
+  std::string text = Iso8601(now.tv_sec);
+  constexpr long kNanosecondsEach = 1'000'000;
+  const std::string milliseconds = std::to_string(1000 + now.tv_nsec / kNanosecondsEach);
+  return text.insert(text.size() - 1, "." + milliseconds.substr(1));
+}
+
 std::string NowIso8601() { return SourceDateIso8601().value_or(Iso8601(std::time(nullptr))); }
 
 }  // namespace lightcal::app

@@ -14,4 +14,7 @@ namespace lightcal::app {
 // bytes.
 [[nodiscard]] std::string NowIso8601();
 
+// The same to the millisecond, "2026-11-21T10:00:00.123Z": a script may type two readings a second.
+[[nodiscard]] std::string MomentIso8601();
+
 }  // namespace lightcal::app

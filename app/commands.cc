@@ -140,16 +140,16 @@ constexpr CommandRow kCommands[] = {
      "  lightcal diff sample_data/lights/desk_lamp_march.json sample_data/lights/desk_lamp_june.json "
      "--correlation 0.5 --json",
      BuildDiff},
-    {"lights", "A library of fitted lights: add, search, compare on one sheet",
+    {"lights", "A library of fitted lights: add, list those that fit, compare on one sheet",
      "  lightcal lights add sample_data/lights/desk_lamp_june.json\n"
-     "  lightcal lights list --cct 2500..3500 --cd 10..\n"
+     "  lightcal lights list desk --cct 2500..3500 --cd 10..\n"
      "  lightcal lights --library sample_data/lights sheet -o sheet.html", BuildLights},
     {"validate", "Whether files are whole: sessions, lights, presets, tapes, IES, spectra ...",
      "  lightcal validate sample_data/sessions sample_data/photometric/sample2.ldt\n"
      "  lightcal validate out/light.json --json", BuildValidate},
     {"color", "CCT, Duv, XYZ and linear RGB of a chromaticity, a temperature or a spectrum",
-     "  lightcal color --xy 0.4476 0.4074\n"
-     "  lightcal color --cct 3200K --duv -0.003 --json\n"
+     "  lightcal color 0.4476,0.4074\n"
+     "  lightcal color 3200K --duv -0.003 --json\n"
      "  lightcal color --spectrum \"sample_data/spectra/uprtek_cv600/Nichia 80 CRI.xls\"\n"
      "  lightcal color --spectrum illuminant:A --through \"full ctb\"", BuildColor},
     {"match", "Gels and dimming that bring one lamp to another, as eye and camera see it",

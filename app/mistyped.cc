@@ -109,6 +109,19 @@ std::optional<Error> TooFewValues(const Chosen& chosen, const std::string& said)
   return std::nullopt;
 }
 
+// Words beyond what the command takes in its place.
+std::optional<Error> TooManyWords(const Chosen& chosen, const std::vector<std::string>& left) {
+  if (left.empty()) return std::nullopt;
+  for (const CLI::Option* option : chosen.parser->get_options()) {
+    if (!option->get_positional() || option->get_items_expected_max() != 1) continue;
+    if (option->count() == 0) continue;
+    return Usage(left.front(), "one word too many: " + option->get_name() + " is " +
+                                   option->results().front() + ", and it takes one" +
+                                   Hint("", chosen));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Error MistypedLine(const CLI::App& parser, const CLI::ParseError& thrown) {
@@ -123,6 +136,9 @@ Error MistypedLine(const CLI::App& parser, const CLI::ParseError& thrown) {
   }
   if (thrown.get_name() == "ArgumentMismatch") {
     if (auto few = TooFewValues(chosen, thrown.what())) return *std::move(few);
+  }
+  if (thrown.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError)) {
+    if (auto many = TooManyWords(chosen, left)) return *std::move(many);
   }
   return Usage("", std::string(thrown.what()) + " (see " + chosen.name + " --help)");
 }

@@ -45,7 +45,7 @@ Result<devices::Summary> TypedSummary(const std::string& text) {
   summary.count = 1;
   summary.kept.reading.illuminance = (*typed)->illuminance;
   summary.kept.reading.cct = (*typed)->cct;
-  summary.kept.reading.time = NowIso8601();
+  summary.kept.reading.time = MomentIso8601();
   return summary;
 }
 

@@ -43,6 +43,15 @@ bool EndsWithDigit(const std::string& text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
 }
 
+// What a word without a distance looks like, where that is an option.
+std::string MeantWithoutDistance(const std::string& text) {
+  const bool kelvin = text.ends_with("K") || text.ends_with("k");
+  if (kelvin && ParseLampTemperature(text)) return "a colour temperature is --cct " + text + "; ";
+  if (text.ends_with("lm")) return "what the box says is --lumens " + text + "; ";
+  if (text.ends_with("W")) return "what it draws is --watts " + text + "; ";
+  return "";
+}
+
 // No lamp gives more; a thousand times what the sun's own surface does.
 constexpr double kMostLux = 1e12;
 constexpr double kFarthestMetres = 1e6;
@@ -110,7 +119,7 @@ Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const st
     }
   }
   const auto at = first.find('@');
-  if (at == std::string::npos) return WrongUsage(text, kForm);
+  if (at == std::string::npos) return WrongUsage(text, MeantWithoutDistance(text) + kForm);
   const Result<Lux> illuminance = NotNegative(first.substr(0, at));
   if (!illuminance) return tl::unexpected(illuminance.error());
   const auto distance = ParseLength(first.substr(at + 1));

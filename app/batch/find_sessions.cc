@@ -18,12 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSessionFile = "session.toml";
 
-bool IsSession(const fs::path& path) {
-  std::error_code error;
-  return fs::is_regular_file(path / kSessionFile, error) ||
-         (path.extension() == ".toml" && fs::is_regular_file(path, error));
-}
-
 constexpr int kAnyDepth = 1000;
 
 // Below a session no other session is looked for: its captures and outputs lie there.
@@ -94,6 +88,12 @@ void DropRepeated(std::vector<std::string>& sessions) {
 }
 
 }  // namespace
+
+bool IsSession(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path / kSessionFile, error) ||
+         (path.extension() == ".toml" && fs::is_regular_file(path, error));
+}
 
 Result<std::vector<std::string>> FindSessions(const std::vector<std::string>& given,
                                               bool recursive) {

@@ -2,12 +2,16 @@
 // Which sessions a person means by paths, folders of sessions and wildcards.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
 
 namespace lightcal::app {
+
+// A directory with a session.toml, or a .toml file.
+[[nodiscard]] bool IsSession(const std::filesystem::path& path);
 
 // A session directory or a .toml file stands for itself, a wildcard for what matches it, any other
 // directory for every session directory in it, by name; recursive: at any depth. Each session once.

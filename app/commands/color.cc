@@ -86,6 +86,10 @@ Result<void> RunOneOrMany(const ColorOptions& options, const ColorExtras& extras
 
 Run BuildColor(CLI::App& parser) {
   auto o = std::make_shared<ColorOptions>();
+  parser
+      .add_option("color", o->typed,
+                  "3200K, a chromaticity 0.33,0.34 or a spectrum: as --cct, --xy, --spectrum")
+      ->expected(0, 3);
   parser.add_option("--xy", o->xy, "CIE 1931 chromaticity")
       ->delimiter(',')
       ->expected(2)
@@ -126,6 +130,7 @@ Run BuildColor(CLI::App& parser) {
       ->type_name("FILE.csv");
   AddColorExtraOptions(parser, o->extra);
   return [o](Console& console) -> Result<void> {
+    TakeTyped(*o);
     if (auto checked = CheckColor(*o); !checked) return checked;
     if (!o->batch.empty()) return RunColorBatch(o->batch, console);
     const auto extras = ParseColorExtras(o->extra);

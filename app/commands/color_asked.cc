@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "color_asked.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -238,13 +240,36 @@ Result<AnsweredColors> AnswerSpectra(const ColorOptions& options, const ColorExt
 
 }  // namespace
 
+void TakeTyped(ColorOptions& o) {
+  const bool named = !o.xy.empty() || !o.xyz.empty() || !o.cct.empty() || !o.spectrum.empty();
+  if (named || o.typed.empty()) return;  // both: CheckColor refuses
+  const std::vector<std::string> given = std::exchange(o.typed, {});
+  std::vector<std::string> words;
+  for (const std::string& word : given) {
+    std::istringstream parts(word);
+    for (std::string part; std::getline(parts, part, ',');) words.push_back(part);
+  }
+  const bool numbers =
+      std::ranges::all_of(words, [](const auto& w) { return ParseNumber(w).has_value(); });
+  if (words.size() > 1 && numbers) {
+    (words.size() == 2 ? o.xy : o.xyz) = words;
+  } else if (given.size() > 1) {
+    o.typed = given;
+  } else if (ParseTemperature(given.front())) {
+    o.cct = given.front();
+  } else {
+    o.spectrum = given.front();
+  }
+}
+
 Result<void> CheckColor(const ColorOptions& o) {
   const int questions = static_cast<int>(!o.xy.empty()) + static_cast<int>(!o.xyz.empty()) +
                         static_cast<int>(!o.cct.empty()) + static_cast<int>(!o.spectrum.empty()) +
-                        static_cast<int>(!o.batch.empty());
+                        static_cast<int>(!o.batch.empty()) + 2 * static_cast<int>(!o.typed.empty());
   if (questions != 1) {
     return WrongUsage(
-        "color", "give one of --xy X Y, --xyz X Y Z, --cct K, --spectrum FILE, --batch FILE.csv");
+        "color",
+        "give one colour: 3200K, 0.33,0.34 or a spectrum's file, --xyz X,Y,Z or --batch FILE.csv");
   }
   if (o.cct.empty() && (!o.duv.empty() || o.locus != "planck")) {
     return WrongUsage("color", "--duv and --locus go with --cct");

@@ -14,6 +14,7 @@
 namespace lightcal::app {
 
 struct ColorOptions {
+  std::vector<std::string> typed;  // without an option's name
   std::vector<std::string> xy, xyz;
   std::string cct, duv, locus = "planck";
   std::string spectrum, column, vector_graphic;
@@ -22,6 +23,9 @@ struct ColorOptions {
   std::string through, gels;
   ColorExtraOptions extra;
 };
+
+// Puts what was typed where it belongs: "3200K", "0.33,0.34", "X,Y,Z" or a spectrum's source.
+void TakeTyped(ColorOptions& options);
 
 // Wrong usage: not one colour asked for, or what does not go together.
 [[nodiscard]] Result<void> CheckColor(const ColorOptions& options);

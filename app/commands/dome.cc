@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal dome: a panorama as a calibrated environment, its lights as lights.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 #include "clock.h"
 #include "color_words.h"
 #include "commands.h"
+#include "directory_name.h"
 #include "dome/dome_options.h"
 #include "dome/dome_outputs.h"
 #include "dome/dome_words.h"
@@ -242,8 +244,8 @@ Result<void> RunDome(const DomeCommandOptions& options, Console& console) {
   if (!preview) return Propagate(std::move(preview));
   texts.push_back(std::move(*preview));
   PlaceUnder(options.output, texts);
-  std::vector<OutputWriter> writers = {
-      DomeExr(options.output + "/" + kDomePicture, *made, plan->settings)};
+  std::vector<OutputWriter> writers = {DomeExr(
+      (std::filesystem::path(options.output) / kDomePicture).string(), *made, plan->settings)};
   for (const OutputFile& file : texts) writers.push_back(WriterOf(file));
   if (auto written = WriteOutputsWith(writers, options.force); !written) return written;
   std::vector<std::string> paths;
@@ -273,7 +275,8 @@ Run BuildDome(CLI::App& parser) {
   parser.add_option("--white", o.white,
                     "What becomes white, in the dome and its lights: 3200K, D65 or x,y [as it is]");
   parser.add_option("-o,--output", o.output, "Directory of dome.exr, light.json and dome.png")
-      ->required();
+      ->required()
+      ->check(DirectoryName());
   parser.add_flag("--force", o.force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunDome(*options, console); };
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "directory_name.h"
 #include "input_files.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/core/numbers_text.h"
@@ -231,7 +232,9 @@ Run BuildEngine(CLI::App& parser) {
   rig->add_option("--to", options->target, "The preset to render")
       ->required()
       ->check(OneOf(TargetWords()));
-  rig->add_option("-o,--output", options->output, "Directory of the scenes")->required();
+  rig->add_option("-o,--output", options->output, "Directory of the scenes")
+      ->required()
+      ->check(DirectoryName());
   rig->add_option("--engine", options->files,
                   "With what was learnt undone, to see that it then renders right")
       ->expected(1);

@@ -7,6 +7,7 @@
 
 #include "color_words.h"
 #include "commands.h"
+#include "directory_name.h"
 #include "export_request.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
@@ -88,6 +89,7 @@ Run BuildExport(CLI::App& parser) {
       ->delimiter(',')
       ->allow_extra_args(false);
   parser.add_option("-o,--output", options->output, "Directory of the presets")
+      ->check(DirectoryName())
       ->capture_default_str();
   parser.add_option("--space", options->space, "Linear RGB of the colours [rec709]")
       ->check(OneOf(kSpaceWords));

@@ -4,6 +4,8 @@
 #include "lightcal/photometry/exposure.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -23,6 +25,7 @@ constexpr int kExposureDigits = 6;
 constexpr double kFullTurnDegrees = 360.0;
 
 struct ExposureOptions {
+  std::vector<std::string> settings;  // as a camera shows them
   std::string aperture, t_stop, shutter, angle, fps, iso;
   std::string transmittance, vignetting, field_angle;
   std::vector<std::string> lights;
@@ -212,7 +215,39 @@ std::string LightsTable(const std::vector<PreExposedLight>& lights) {
   return TextTable({"light", "pre-exposed", "fp16"}, rows);
 }
 
-Result<void> RunExposure(const ExposureOptions& o, Console& console) {
+// "f/2.8" "T2.9" "ISO400" "180deg" "24fps" "1/60": each says by its letters what it is.
+Result<void> TakeSettings(ExposureOptions& o) {
+  for (const std::string& word : o.settings) {
+    std::string lower = word;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::string* meant = &o.shutter;
+    std::string value = word;
+    if (lower.starts_with("iso")) {
+      meant = &o.iso;
+      value = word.substr(3);
+    } else if (lower.starts_with("f") || lower.starts_with("t")) {
+      meant = lower.starts_with("f") ? &o.aperture : &o.t_stop;
+    } else if (lower.ends_with("deg") || lower.ends_with("°")) {
+      meant = &o.angle;
+    } else if (lower.ends_with("fps")) {
+      meant = &o.fps;
+      value = word.substr(0, word.size() - 3);
+    } else if (ParseNumber(word)) {
+      return WrongUsage(word, "is it the opening, the time or the speed? write f/" + word + ", 1/" +
+                                  word + " or ISO" + word);
+    }
+    if (meant == &o.shutter && !ParseDuration(word)) {
+      return WrongUsage(word, "is no setting: f/2.8, T2.9, 1/60, 180deg, 24fps or ISO400");
+    }
+    if (!meant->empty()) return WrongUsage(word, "stands beside " + *meant + ": give it once");
+    *meant = value;
+  }
+  return {};
+}
+
+Result<void> RunExposure(const ExposureOptions& typed, Console& console) {
+  ExposureOptions o = typed;
+  if (auto taken = TakeSettings(o); !taken) return taken;
   const auto camera = ParseCamera(o, console);
   if (!camera) return tl::unexpected(camera.error());
   const auto q = ChosenLensConstant(o);
@@ -250,6 +285,7 @@ Result<void> RunExposure(const ExposureOptions& o, Console& console) {
 
 Run BuildExposure(CLI::App& parser) {
   auto o = std::make_shared<ExposureOptions>();
+  parser.add_option("settings", o->settings, "As the camera shows them: f/2.8 1/60 ISO400");
   parser.add_option("--aperture", o->aperture, "Relative aperture N, f/2.8 or 2.8");
   parser.add_option("--t-stop", o->t_stop,
                     "T-stop of a cine lens instead, T2.9 or 2.9; EV then counts in T");

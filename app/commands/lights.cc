@@ -247,7 +247,7 @@ void AddSearch(CLI::App& verb, SearchWords& search) {
   verb.add_option("--lx", search.lx, "Illuminance of directional lights and domes (lx)")
       ->type_name("RANGE");
   verb.add_option("--kind", search.kind, "point, spot, rect ...");
-  verb.add_option("--name", search.name, "Part of the name or of the file's name");
+  verb.add_option("name,--name", search.name, "Part of the name or of the file's name");
   verb.add_option("--sort", search.sort,
                   "name, kind, cct, lm, cd, lx or time; -cd: largest first [name]");
 }

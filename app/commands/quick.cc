@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "directory_name.h"
 #include "lamp_answer.h"
 #include "lamp_words.h"
 #include "light_table.h"
@@ -185,7 +186,9 @@ Run BuildQuick(CLI::App& parser) {
       ->check(OneOf(TargetWords()))
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser.add_option("-o,--output", options->output, "Where the presets go")->capture_default_str();
+  parser.add_option("-o,--output", options->output, "Where the presets go")
+      ->check(DirectoryName(".csv"))  // a table's answers
+      ->capture_default_str();
   CLI::Option* const plan =
       parser.add_flag("--plan", options->plan,
                       "What the next minutes of measuring buy, from these readings or from none");

@@ -12,6 +12,7 @@
 #include "calibration_options.h"
 #include "clock.h"
 #include "commands.h"
+#include "directory_name.h"
 #include "input_files.h"
 #include "lamp_answer.h"
 #include "light_table.h"
@@ -148,8 +149,10 @@ Run BuildRun(CLI::App& parser) {
                   "Session directories or .toml files, folders of sessions, wildcards")
       ->required();
   AddCalibrationSettings(parser, options->calibration);
-  parser.add_option("-o,--output", options->output,
-                    "Where everything goes; of several sessions a folder for each [SESSION/out]");
+  parser
+      .add_option("-o,--output", options->output,
+                  "Where everything goes; of several sessions a folder for each [SESSION/out]")
+      ->check(DirectoryName());
   parser.add_option("--to", options->targets, "Presets to write [all]")
       ->check(OneOf(TargetWords()))
       ->delimiter(',')

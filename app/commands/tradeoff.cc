@@ -9,6 +9,7 @@
 
 #include "calibration_options.h"
 #include "commands.h"
+#include "directory_name.h"
 #include "guide/shell_word.h"
 #include "input_files.h"
 #include "interrupt.h"
@@ -163,8 +164,10 @@ Run BuildTradeoff(CLI::App& parser) {
       "On a synthetic twin: the fitted lamps, read anew with the meter's noise, so that "
       "settings are judged by their errors against the truth");
   AddMinutesOptions(parser, options->minutes);
-  parser.add_option("-o,--output", options->output,
-                    "Where profile.json, the figures and the page go [nothing is written]");
+  parser
+      .add_option("-o,--output", options->output,
+                  "Where profile.json, the figures and the page go [nothing is written]")
+      ->check(DirectoryName());
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunTradeoff(*options, console); };
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <system_error>
 
@@ -50,6 +51,25 @@ std::string Faults(const std::vector<FileVerdict>& verdicts) {
   return text.empty() ? "" : "\n" + text;
 }
 
+// What lies in a folder of outputs, by name; what is none of our formats is passed over.
+std::vector<FileVerdict> VerdictsIn(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    std::error_code ignored;
+    const bool hidden = entry.path().filename().string().starts_with('.');
+    if (entry.is_regular_file(ignored) && !hidden) files.push_back(entry.path().string());
+  }
+  std::ranges::sort(files);
+  std::vector<FileVerdict> verdicts;
+  for (const std::string& file : files) {
+    FileVerdict verdict = ValidateFile(file);
+    const bool foreign = verdict.error && verdict.error->code == "unknown_format";
+    if (!foreign) verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
 Result<void> RunValidate(const std::vector<std::string>& paths, Console& console) {
   std::vector<FileVerdict> verdicts;
   for (const std::string& path : paths) {
@@ -58,6 +78,11 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
     const auto files =
         folder ? FindSessions({path}, true) : Result<std::vector<std::string>>{std::vector{path}};
     if (!files) return tl::unexpected(files.error());
+    if (folder && *files == std::vector{path} && !IsSession(path)) {
+      std::vector<FileVerdict> inside = VerdictsIn(path);
+      std::ranges::move(inside, std::back_inserter(verdicts));
+      if (!inside.empty()) continue;
+    }
     for (const std::string& file : *files) verdicts.push_back(ValidateFile(file));
   }
   for (const FileVerdict& verdict : verdicts) {

@@ -151,7 +151,8 @@ Result<GlareAnswer> MeasureGlareOf(const GlareWords& words, GlareSettings settin
   if (!angles) {
     return Refused("no_projection", inspected.info.file,
                    "glare needs the direction of each pixel, and the file does not say it; give "
-                   "--projection equidistant --fov 180, or as your lens draws");
+                   "--projection equidistant --fov 180, latlong of a whole panorama, or as your "
+                   "lens draws");
   }
   if (inspected.luminance.scale == "assumed_nits") {
     return Refused("no_absolute_scale", inspected.info.file,

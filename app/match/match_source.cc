@@ -55,6 +55,10 @@ Result<MatchLight> OneSpectrum(const std::string& source, const std::string& col
     return Failed("not_found", source,
                   "there is no such file; the illuminant is illuminant:" + source);
   }
+  if (!file && file.error().code == "not_found" && ParseNumber(source)) {
+    return Failed("not_found", source,
+                  "there is no such file; the colour temperature is " + source + "K");
+  }
   if (!file) return Propagate(std::move(file));
   auto chosen = ChosenSpectra(*file, source, column);
   if (!chosen) return Propagate(std::move(chosen));

@@ -72,6 +72,11 @@ Result<std::vector<TableColumn>> ColumnsOf(const std::vector<std::string>& names
   std::vector<TableColumn> columns;
   for (const std::string& name : names) {
     const auto column = ColumnOf(name);
+    if (!column && ColumnFromName(name).quantity == CsvQuantity::kNeedsUnit) {
+      return Refused(
+          "bad_table", where,
+          "the column \"" + name + "\" has no unit; put it into its name: " + kColumnNames);
+    }
     if (!column) {
       return Refused("bad_table", where,
                      "no column is called \"" + name + "\"; there are " + kColumnNames);
@@ -119,7 +124,8 @@ Result<std::string> InSi(const std::string& cell, const TableColumn& column,
 // A row as if it had been typed.
 class RowReader {
  public:
-  RowReader(const QuickOptions& asked, std::string where) : out_(asked), where_(std::move(where)) {}
+  RowReader(const QuickOptions& asked, std::string where, bool decimal_comma)
+      : out_(asked), where_(std::move(where)), decimal_comma_(decimal_comma) {}
 
   Result<QuickOptions> Read(const std::vector<TableColumn>& columns, const Row& row) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
@@ -142,7 +148,7 @@ class RowReader {
         out_.readings.push_back(cell);
         return {};
       case TableWord::kCct:
-        out_.cct = cell;
+        out_.cct = WithPoint(cell);
         return {};
       case TableWord::kOption:
         SetOption(column.option, cell);
@@ -150,7 +156,7 @@ class RowReader {
       default:
         break;
     }
-    const auto number = InSi(cell, column, where_);
+    const auto number = InSi(WithPoint(cell), column, where_);
     if (!number) return tl::unexpected(number.error());
     if (column.word == TableWord::kDistance) {
       if (!pending_.distance.empty()) {
@@ -168,6 +174,11 @@ class RowReader {
       pending_.rest += (column.word == TableWord::kCard ? ",card=" : ",off=") + *number + "lx";
     }
     return {};
+  }
+
+  [[nodiscard]] std::string WithPoint(std::string cell) const {
+    if (decimal_comma_) std::ranges::replace(cell, ',', '.');
+    return cell;
   }
 
   void SetOption(const std::string& name, const std::string& cell) {
@@ -191,6 +202,7 @@ class RowReader {
 
   QuickOptions out_;
   std::string where_;
+  bool decimal_comma_;  // in cells that hold one number
   PendingReading pending_;
 };
 
@@ -297,8 +309,9 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
   const auto text = devices::files::TextFromBytes(*bytes, options.table);
   if (!text) return tl::unexpected(text.error());
   const std::string first_line = text->substr(0, text->find('\n'));
-  const bool semicolons = first_line.find(';') != std::string::npos;
-  auto rows = devices::files::ReadRows(*text, semicolons ? ';' : ',');
+  const auto separator = first_line.find_first_of(";\t");
+  const bool commas = separator == std::string::npos;
+  auto rows = devices::files::ReadRows(*text, commas ? ',' : first_line[separator]);
   if (!rows) return Propagate(std::move(rows));
   std::erase_if(*rows, [](const Row& row) { return row.cells.empty(); });
   std::vector<std::string> names = SplitNames(options.columns);
@@ -317,7 +330,7 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
     lamp.name = "line " + std::to_string(row.line);
     QuickOptions of_row = options;
     of_row.name = lamp.name;
-    auto typed = RowReader(of_row, lamp.where).Read(*columns, row);
+    auto typed = RowReader(of_row, lamp.where, !commas).Read(*columns, row);
     if (typed) typed = UnderANameOfItsOwn(*std::move(typed), lamps, lamp.where);
     if (typed) lamp.name = typed->name;
     const auto answered =
