@@ -251,7 +251,7 @@ void TakeTyped(ColorOptions& o) {
   }
   const bool numbers =
       std::ranges::all_of(words, [](const auto& w) { return ParseNumber(w).has_value(); });
-  if (words.size() > 1 && numbers) {
+  if (numbers && (words.size() == 2 || words.size() == 3)) {
     (words.size() == 2 ? o.xy : o.xyz) = words;
   } else if (given.size() > 1) {
     o.typed = given;

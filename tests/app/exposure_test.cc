@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "expect_says.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
 
@@ -24,11 +25,9 @@ test::CliResult Exposure(Words words) {
 
 json ExposureJson(const Words& words) { return test::LightcalJson("exposure", words); }
 
-void ExpectExposureRefused(const Words& words, int exit_code, const std::string& says) {
-  const test::CliResult run = Exposure(words);
-  EXPECT_EQ(run.exit_code, exit_code) << run.out << run.err;
-  EXPECT_EQ(run.out, "");
-  EXPECT_NE(run.err.find(says), std::string::npos) << run.err;
+void ExpectExposureRefused(Words words, int exit_code, const std::string& says) {
+  words.insert(words.begin(), "exposure");
+  test::ExpectSays(words, exit_code, says);
 }
 
 TEST(ExposureCommand, GivesEvAndTheSaturatingLuminance) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "expect_says.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
 
@@ -17,12 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
-
-void ExpectSays(const Words& words, int exit_code, const std::string& what) {
-  const CliResult told = RunLightcal(words);
-  EXPECT_EQ(told.exit_code, exit_code) << told.err;
-  EXPECT_THAT(told.err, HasSubstr(what));
-}
 
 TEST(TypedPlainly, AColourNeedsNoOption) {
   const auto same = [](const Words& plain, const Words& named) {
@@ -36,6 +31,7 @@ TEST(TypedPlainly, AColourNeedsNoOption) {
   same({"illuminant:FL11"}, {"--spectrum", "illuminant:FL11"});
   ExpectSays({"color", "3200K", "--cct", "3200"}, 2, "give one colour");
   ExpectSays({"color", "3200K", "0.33,0.34"}, 2, "give one colour");
+  ExpectSays({"color", "1,2,3,4"}, 1, "there is no such file");
   ExpectSays({"color", "a,b.csv"}, 1, "there is no such file");
 }
 
@@ -96,7 +92,7 @@ TEST(TypedPlainly, AFolderOfOutputsIsValidatedFileByFile) {
               ::testing::IsSupersetOf({"light", "preset", "IES", "EULUMDAT", "engine file"}));
   std::filesystem::remove_all(out);
   std::filesystem::create_directory(out);
-  ExpectSays({"validate", out}, 1, "cannot be read");
+  EXPECT_EQ(RunLightcal({"validate", out}).exit_code, 1) << "no session, nothing else";
 }
 
 TEST(TypedPlainly, TwoReadingsTypedWithinASecondAreTwo) {
