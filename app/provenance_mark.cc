@@ -147,6 +147,7 @@ struct Ending {
   std::string_view ending;
   std::string_view formats;  // between blanks; a name without one is no output of ours
 };
+constexpr std::string_view kAny = "";  // of an engine or a picture: not checked against it
 constexpr std::array kEndings = {
     Ending{".exr", " exr "},    Ending{".png", " png "},   Ending{".svg", " svg "},
     Ending{".pdf", " pdf "},    Ending{".html", " html "}, Ending{".htm", " html "},
@@ -155,8 +156,17 @@ constexpr std::array kEndings = {
     Ending{".zip", " zip "},    Ending{".gdtf", " gdtf "}, Ending{".toml", " "},
     Ending{".jsonl", " tape "}, Ending{".py", " script "}, Ending{".jpg", " "},
     Ending{".jpeg", " "},       Ending{".tif", " "},       Ending{".tiff", " "},
-    Ending{".hdr", " hdr "},    Ending{".dng", " "},
+    Ending{".hdr", " hdr "},    Ending{".dng", " "},       Ending{".tscn", kAny},
+    Ending{".pbrt", kAny},      Ending{".xml", kAny},      Ending{".js", kAny},
+    Ending{".t3d", kAny},       Ending{".cs", kAny},       Ending{".h", kAny},
+    Ending{".glb", kAny},       Ending{".usd", kAny},
 };
+
+const Ending* EndingOf(const std::string& path) {
+  const std::string ending = LowerAscii(std::filesystem::path(path).extension().string());
+  const auto known = std::ranges::find(kEndings, ending, &Ending::ending);
+  return known == kEndings.end() ? nullptr : &*known;
+}
 
 // Archives of ours are not compressed: the first file follows its own name.
 std::string OwnArchive(std::string_view head) {
@@ -202,9 +212,8 @@ std::string OwnFormatOfFile(const std::string& path) {
 }
 
 Result<void> CheckEnding(const std::string& path, std::string_view format) {
-  const std::string ending = LowerAscii(std::filesystem::path(path).extension().string());
-  const auto known = std::ranges::find(kEndings, ending, &Ending::ending);
-  if (format.empty() || known == kEndings.end()) return {};
+  const Ending* const known = EndingOf(path);
+  if (format.empty() || known == nullptr || known->formats == kAny) return {};
   std::string wanted = " json ";
   if (!format.starts_with(kSchema)) wanted = " " + std::string(format) + " ";
   if (format == kTape) wanted = " tape ";
@@ -212,6 +221,11 @@ Result<void> CheckEnding(const std::string& path, std::string_view format) {
   return Refused("wrong_ending", path,
                  "ends as another kind of file than what would be written there (" +
                      std::string(format) + "); nothing was written, choose a name that fits");
+}
+
+bool EndsAsOurs(const std::string& path) {
+  const Ending* const known = EndingOf(path);
+  return known != nullptr && known->formats != " ";
 }
 
 }  // namespace lightcal::app

@@ -24,4 +24,7 @@ namespace lightcal::app {
 // would hold IES. Endings nobody knows say nothing.
 [[nodiscard]] Result<void> CheckEnding(const std::string& path, std::string_view format);
 
+// Whether a name ends as a file that lightcal writes.
+[[nodiscard]] bool EndsAsOurs(const std::string& path);
+
 }  // namespace lightcal::app

@@ -19,17 +19,6 @@ namespace {
 constexpr const char* kForm =
     "a reading is written ILLUMINANCE@DISTANCE, for example 192lx@0.5m or 52lx@1m,card=5lx";
 
-std::vector<std::string> SplitAtCommas(const std::string& text) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  while (true) {
-    const std::size_t comma = text.find(',', begin);
-    parts.push_back(text.substr(begin, comma - begin));
-    if (comma == std::string::npos) return parts;
-    begin = comma + 1;
-  }
-}
-
 // "192,5lx@1m": a decimal comma, which here begins the next part.
 tl::unexpected<Error> DecimalComma(const std::string& before, const std::string& after) {
   return WrongUsage(before + "," + after,
@@ -109,8 +98,18 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
 
 }  // namespace
 
+std::vector<std::string> SplitAt(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const std::size_t at = text.find(separator);
+    parts.emplace_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
 Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const std::string& light) {
-  const std::vector<std::string> parts = SplitAtCommas(text);
+  const std::vector<std::string> parts = SplitAt(text, ',');
   const std::string& first = parts.front();
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const bool color = parts[i].ends_with('K') || parts[i].ends_with('k');
@@ -143,14 +142,8 @@ Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const st
 
 Result<std::vector<double>> ParseLengths(const std::string& option, const std::string& text,
                                          char separator) {
-  std::vector<std::string> parts;
-  std::string_view rest = text;
-  for (;;) {
-    const std::size_t at = rest.find(separator);
-    parts.emplace_back(TrimBlanks(rest.substr(0, at)));
-    if (at == std::string_view::npos) break;
-    rest.remove_prefix(at + 1);
-  }
+  std::vector<std::string> parts = SplitAt(text, separator);
+  for (std::string& part : parts) part = TrimBlanks(part);
   const auto last = SplitNumberAndUnit(parts.back());
   std::vector<double> out;
   for (std::string part : parts) {
@@ -201,7 +194,7 @@ Result<void> SetRoom(const std::string& text, Session& session) {
     session.surroundings = text == "dark" ? Surroundings::kDark : Surroundings::kOutdoors;
     return {};
   }
-  const std::vector<std::string> parts = SplitAtCommas(text);
+  const std::vector<std::string> parts = SplitAt(text, ',');
   if (parts.size() != 3 && parts.size() != 4) return WrongUsage(text, kRoomForm);
   Room room;
   for (std::size_t i = 0; i < 3; ++i) {

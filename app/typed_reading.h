@@ -4,12 +4,16 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::app {
+
+// The pieces between separators: one more than there are separators, blanks kept.
+[[nodiscard]] std::vector<std::string> SplitAt(std::string_view text, char separator);
 
 // "192lx@0.5m" is a reading facing the lamp; ",card=5lx" what the same place showed behind a shadow
 // card, ",off=2lx" with the lamp off, ",15deg" off its axis, ",2900K" its colour temperature.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -17,6 +17,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/files/import_file.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -246,8 +247,9 @@ void TakeTyped(ColorOptions& o) {
   const std::vector<std::string> given = std::exchange(o.typed, {});
   std::vector<std::string> words;
   for (const std::string& word : given) {
-    std::istringstream parts(word);
-    for (std::string part; std::getline(parts, part, ',');) words.push_back(part);
+    std::vector<std::string> parts = SplitAt(word, ',');
+    if (parts.back().empty()) parts.pop_back();  // "0.33, 0.34"
+    std::ranges::move(parts, std::back_inserter(words));
   }
   const bool numbers =
       std::ranges::all_of(words, [](const auto& w) { return ParseNumber(w).has_value(); });

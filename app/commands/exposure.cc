@@ -4,8 +4,6 @@
 #include "lightcal/photometry/exposure.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -218,8 +216,7 @@ std::string LightsTable(const std::vector<PreExposedLight>& lights) {
 // "f/2.8" "T2.9" "ISO400" "180deg" "24fps" "1/60": each says by its letters what it is.
 Result<void> TakeSettings(ExposureOptions& o) {
   for (const std::string& word : o.settings) {
-    std::string lower = word;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lower = LowerAscii(word);
     std::string* meant = &o.shutter;
     std::string value = word;
     if (lower.starts_with("iso")) {

@@ -20,6 +20,7 @@
 #include "lightcal_devices/files/csv_columns.h"
 #include "lightcal_devices/files/delimited_text.h"
 #include "output_files.h"
+#include "typed_reading.h"
 
 namespace lightcal::app {
 namespace {
@@ -91,16 +92,6 @@ Result<std::vector<TableColumn>> ColumnsOf(const std::vector<std::string>& names
                    "a lamp needs a column reading, or distance_m and illuminance_lx");
   }
   return columns;
-}
-
-std::vector<std::string> SplitNames(const std::string& text) {
-  std::vector<std::string> names;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', begin), text.size());
-    names.emplace_back(TrimBlanks(text.substr(begin, comma - begin)));
-    begin = comma + 1;
-  }
-  return names;
 }
 
 // The pieces of a reading that several columns hold, until the next distance begins another.
@@ -309,12 +300,12 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
   const auto text = devices::files::TextFromBytes(*bytes, options.table);
   if (!text) return tl::unexpected(text.error());
   const std::string first_line = text->substr(0, text->find('\n'));
-  const auto separator = first_line.find_first_of(";\t");
-  const bool commas = separator == std::string::npos;
-  auto rows = devices::files::ReadRows(*text, commas ? ',' : first_line[separator]);
+  const char delimiter = devices::files::DelimiterOf(first_line);
+  auto rows = devices::files::ReadRows(*text, delimiter);
   if (!rows) return Propagate(std::move(rows));
   std::erase_if(*rows, [](const Row& row) { return row.cells.empty(); });
-  std::vector<std::string> names = SplitNames(options.columns);
+  std::vector<std::string> names = SplitAt(options.columns, ',');
+  for (std::string& name : names) name = TrimBlanks(name);
   if (options.columns.empty()) {
     if (rows->empty()) return Refused("bad_table", options.table, "holds no line");
     names = rows->front().cells;
@@ -330,7 +321,7 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
     lamp.name = "line " + std::to_string(row.line);
     QuickOptions of_row = options;
     of_row.name = lamp.name;
-    auto typed = RowReader(of_row, lamp.where, !commas).Read(*columns, row);
+    auto typed = RowReader(of_row, lamp.where, delimiter != ',').Read(*columns, row);
     if (typed) typed = UnderANameOfItsOwn(*std::move(typed), lamps, lamp.where);
     if (typed) lamp.name = typed->name;
     const auto answered =

@@ -65,7 +65,7 @@ Result<std::shared_ptr<void>> MapScratchFile(std::size_t bytes) {
 }
 
 Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject) {
-  struct stat about{};
+  struct stat about {};
   if (fstat(scratch.get(), &about) != 0) return Failed("unreadable", subject, std::strerror(errno));
   if (about.st_size == 0) return MappedFile{};
   const auto size = static_cast<std::size_t>(about.st_size);
@@ -76,7 +76,7 @@ Result<MappedFile> MapWritten(const Scratch& scratch, const std::string& subject
 
 Result<MappedFile> MapFile(const std::string& path) {
   const Scratch fd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  struct stat about{};
+  struct stat about {};
   if (fd.get() < 0 || fstat(fd.get(), &about) != 0) {
     return Failed(errno == ENOENT ? "not_found" : "unreadable", path, std::strerror(errno));
   }

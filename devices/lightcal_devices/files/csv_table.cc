@@ -27,13 +27,6 @@ std::string_view HeaderLine(std::string_view text) {
   return {};
 }
 
-char DelimiterOf(std::string_view header) {
-  for (const char delimiter : {'\t', ';'}) {
-    if (header.find(delimiter) != std::string_view::npos) return delimiter;
-  }
-  return ',';
-}
-
 bool HasDecimalComma(const CsvTable& table, char delimiter) {
   if (delimiter == ',') return false;
   for (std::size_t column = 0; column < table.columns.size(); ++column) {

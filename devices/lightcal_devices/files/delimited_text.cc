@@ -104,6 +104,13 @@ Result<std::string> TextFromBytes(std::string_view bytes, std::string_view name)
   return std::move(*text);
 }
 
+char DelimiterOf(std::string_view header) {
+  for (const char delimiter : {'\t', ';'}) {
+    if (header.find(delimiter) != std::string_view::npos) return delimiter;
+  }
+  return ',';
+}
+
 Result<void> ForEachRow(std::string_view text, char delimiter, const RowVisitor& visit) {
   csv_parser parser;
   if (csv_init(&parser, CSV_REPALL_NL) != 0) {

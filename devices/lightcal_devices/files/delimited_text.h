@@ -18,6 +18,9 @@ namespace lightcal::devices::files {
 // Refused: not_text (NUL bytes).
 [[nodiscard]] Result<std::string> TextFromBytes(std::string_view bytes, std::string_view name);
 
+// What stands between the cells of a header: a tab, else a ';', else a comma.
+[[nodiscard]] char DelimiterOf(std::string_view header);
+
 struct Row {
   int line = 0;  // 1-based line of the file
   std::vector<std::string> cells;

@@ -60,7 +60,7 @@ struct LightEstimate {
   std::optional<LnInterval> ln_interval;
   // The same of the readings alone, where a data sheet is heard too.
   std::optional<LnInterval> ln_by_readings;
-  // How likely what a data sheet prints is this lamp's; 0: nothing is printed, or the readings deny it.
+  // How likely what a data sheet prints is this lamp's; 0: none, or the readings deny it.
   double sheet_held = 0.0;
   std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
   std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = no walls fitted

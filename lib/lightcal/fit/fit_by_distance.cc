@@ -62,10 +62,14 @@ std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedL
 // The flux as a data sheet that the readings bear out leaves it.
 void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out) {
   if (!(estimate.sheet_held > 0.0) || !out.flux_lm) return;
-  FittedLight read = out;
-  read.intensity_cd = ByReadings(estimate, out);
-  AddDerivedQuantities(light, read);
-  out.flux_lm = FluxBeside(*read.flux_lm, *light.flux, estimate.sheet_held);
+  Uncertain by_readings = *out.flux_lm;
+  if (estimate.ln_by_readings) {
+    FittedLight read;
+    read.intensity_cd = ByReadings(estimate, out);
+    AddDerivedQuantities(light, read);
+    by_readings = *read.flux_lm;
+  }
+  out.flux_lm = FluxBeside(by_readings, *light.flux, estimate.sheet_held);
 }
 
 }  // namespace

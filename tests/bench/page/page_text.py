@@ -13,9 +13,9 @@ Down and to the left is better. A mark is the median processor time (all cores a
 else the machine does is left out) at the worst error; the bar across spans the quartiles of the
 times, the thin line down reaches the median error (none: the lower edge). Blue and filled is
 lightcal, orange and open public tools, grey methods written here as they were published. Compare
-the ratios: the seconds are the machine's that is named. Every error is against what made the data, or against
-the number itself worked out in 80 bits or by brute force; where a rival wins, the line below the
-table says so. One command writes this part:
+the ratios: the seconds are the machine's that is named. Every error is against what made the data,
+or against the number itself worked out in 80 bits or by brute force; where a rival wins, the line
+below the table says so. One command writes this part:
 
 ```sh
 tests/bench/standing_page                 # root: installs what it compares with, builds, measures

@@ -13,9 +13,10 @@ namespace lightcal::fit {
 inline constexpr double kFluxToleranceRelative = 0.10;
 
 // Flux over that of its kind's own pattern, 95 %. Of what is taken for a point, over 4 pi I: bulbs,
-// 667 traced ones (tests/tools/traced_rooms), .71 to 1.01 with the median .86, for a base hides some
-// and glass is not alike all round. A flat lamp has pi I. What nobody described may be a narrow
-// beam: .0089 is the 2.5 % quantile of 667 traced ones. Other kinds but a sphere's: within 15 %.
+// 667 traced ones (tests/tools/traced_rooms), .71 to 1.01 with the median .86, for a base hides
+// some and glass is not alike all round. A flat lamp has pi I. What nobody described may be a
+// narrow beam: .0089 is the 2.5 % quantile of 667 traced ones. Other kinds but a sphere's: within
+// 15 %.
 struct FluxSpread {
   double low, high;
 };
@@ -33,8 +34,8 @@ struct FluxSpread {
 // Fills intensity and the diagnostics of a light that was never read: everything is a prior.
 [[nodiscard]] Result<void> FillFromDataSheet(const LightDescription& light, FittedLight& out);
 
-// The printed flux beside `by_readings`, an interval of readings alone; `held`: how likely it is this
-// lamp's (LightEstimate). Two normals of ln Phi, mixed with the readings' own.
+// The printed flux beside `by_readings`, an interval of readings alone; `held`: how likely it is
+// this lamp's (LightEstimate). Two normals of ln Phi, mixed with the readings' own.
 [[nodiscard]] Uncertain FluxBeside(const Uncertain& by_readings, Lumens printed, double held);
 
 // Adds the warning data_sheet_disagrees when the intensity that readings alone give and the data
