@@ -126,6 +126,40 @@ TEST(MergedRows, TellHowMuchLikelierOneHypothesisIsThanAnother) {
   EXPECT_NEAR(near - far, near_merged - far_merged, 2.0);
 }
 
+// How much the walls' light scatters depends on how much of it there is: the answer is where both
+// agree, wherever one begins.
+TEST(ScatterOfTheWalls, SettlesAtOnePlaceFromAnyStart) {
+  Estimation asked = InARoom(6);
+  for (ReadingRow& row : asked.rows) row.walls->scatter = 0.25;
+  Estimation settled = asked;
+  const auto optimum = SolveSettled(settled);
+  ASSERT_TRUE(optimum.has_value());
+  UncertaintyInput input;
+  input.estimation = &settled;
+  input.theta = *optimum;
+  const auto covariance = EstimateCovariance(input);
+  ASSERT_TRUE(covariance.has_value());
+  std::mt19937_64 random(23);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int i = 0; i < 200; ++i) {
+    Theta start = *optimum;
+    start[kLnIntensity] += uniform(random);
+    start[kDistanceOffset] += 0.05 * uniform(random);
+    start[kLnWalls] += uniform(random);
+    start[kWallsSlope] += uniform(random);
+    Estimation again = asked;
+    const auto found = SolveSettledFrom(start, again);
+    ASSERT_TRUE(found.has_value());
+    for (const Parameter k : {kLnIntensity, kDistanceOffset, kLnWalls, kWallsSlope}) {
+      const double sd = std::sqrt((*covariance)[k * kParameters + k]);
+      EXPECT_NEAR((*found)[k], (*optimum)[k], 1e-3 * sd) << int{k} << " from start " << i;
+    }
+    for (std::size_t row = 0; row < again.rows.size(); ++row) {
+      EXPECT_NEAR(again.rows[row].sigma / settled.rows[row].sigma, 1.0, 1e-3);
+    }
+  }
+}
+
 TEST(MergedRows, AreNoneWhereTheyWouldNotBeFewer) { EXPECT_FALSE(Merge(InARoom(8)).has_value()); }
 
 }  // namespace

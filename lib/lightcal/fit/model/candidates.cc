@@ -48,7 +48,20 @@ struct MergedCandidate {
   double ln_probability = 0.0;
 };
 
-// Each begins where it or the one before it is likelier: neighbours differ little.
+// Where to begin: at its own start or, where that is likelier, at the optimum of the hypothesis
+// before it in all that may move: neighbours differ little.
+Theta StartBeside(const Theta* before, Estimation& estimation) {
+  const Theta own = StartOf(estimation);
+  if (before == nullptr || !estimation.rules[kLnWalls].free) return own;
+  Theta beside = own;
+  for (int k = 0; k < kParameters; ++k) {
+    if (estimation.rules[k].free) beside[k] = (*before)[k];
+  }
+  SettleScatter(estimation, own);
+  const double cost = HalfChiSquared(estimation, own);
+  return HalfChiSquared(estimation, beside) < cost ? beside : own;
+}
+
 std::optional<std::vector<MergedCandidate>> SolveMerged(
     const std::vector<LampHypothesis>& hypotheses, const Prepared& prepared,
     const Observations& observations) {
@@ -58,11 +71,7 @@ std::optional<std::vector<MergedCandidate>> SolveMerged(
     if (!merged) return std::nullopt;
     Estimation& rows = merged->estimation;
     if (!rows.rules[kLnWalls].free || rows.rules[kAmbient].free) return std::nullopt;
-    Theta start = ClosedFormStart(rows, rows.rules[kAmbient].prior_mean);
-    SettleScatter(rows, start);
-    if (!out.empty() && HalfChiSquared(rows, out.back().theta) < HalfChiSquared(rows, start)) {
-      start = out.back().theta;
-    }
+    const Theta start = StartBeside(out.empty() ? nullptr : &out.back().theta, rows);
     const Result<Theta> theta = SolveSettledFrom(start, rows);
     if (!theta) return std::nullopt;
     out.push_back({hypothesis, *theta, std::log(hypothesis.weight) + LnEvidence(*merged, *theta)});
@@ -113,7 +122,8 @@ Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const Forward
   const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
   for (const LampHypothesis& hypothesis : hypotheses) {
     Candidate one = CandidateUnder(hypothesis, prepared, observations);
-    const Result<Theta> theta = SolveSettled(one.estimation);
+    const Theta start = StartBeside(out.empty() ? nullptr : &out.back().squared, one.estimation);
+    const Result<Theta> theta = SolveSettledFrom(start, one.estimation);
     if (!theta) {
       failure = theta.error();
       continue;

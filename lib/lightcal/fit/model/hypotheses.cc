@@ -109,43 +109,46 @@ namespace {
 
 double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
   if (!row.walls) return row.sigma;
-  const double walls = std::exp(theta[kLnIntensity]) * WallsPerCandela(row, theta.data());
-  const double scatter = row.walls->scatter * walls;
-  const double whole = row.form == RowForm::kLinear ? 1.0 : RowIlluminance(row, theta.data());
-  return whole > 0.0 ? std::hypot(row.own_sigma, scatter / whole) : row.own_sigma;
-}
-
-bool IsSettled(const Estimation& estimation, const Theta& theta) {
-  constexpr double kSettled = 0.02;
-  return std::ranges::all_of(estimation.rows, [&](const ReadingRow& row) {
-    return std::abs(std::log(SigmaWithScatter(row, theta) / row.sigma)) <= kSettled;
-  });
+  const double intensity = std::exp(theta[kLnIntensity]);
+  const double walls = intensity * WallsPerCandela(row, theta.data());
+  double whole = 1.0;
+  if (row.form != RowForm::kLinear) {
+    const double lamp =
+        row.direct_gain > 0.0 ? LuxPerCandela(row, theta[kDistanceOffset]) : row.bounce;
+    whole = intensity * lamp + walls + row.ambient_gain * theta[kAmbient];
+  }
+  const double scatter = row.walls->scatter * walls / whole;
+  return whole > 0.0 ? std::sqrt(row.own_sigma * row.own_sigma + scatter * scatter) : row.own_sigma;
 }
 
 }  // namespace
 
-void SettleScatter(Estimation& estimation, const Theta& theta) {
-  for (ReadingRow& row : estimation.rows) row.sigma = SigmaWithScatter(row, theta);
+double SettleScatter(Estimation& estimation, const Theta& theta) {
+  double most = 0.0;
+  for (ReadingRow& row : estimation.rows) {
+    const double sigma = SigmaWithScatter(row, theta);
+    most = std::max(most, std::abs(sigma / row.sigma - 1.0));
+    row.sigma = sigma;
+  }
+  return most;
 }
 
 Result<Theta> SolveSettled(Estimation& estimation) {
-  const ParameterRule& ambient = estimation.rules[kAmbient];
-  const Theta start =
-      ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
-  return SolveSettledFrom(start, estimation);
+  return SolveSettledFrom(StartOf(estimation), estimation);
 }
 
 Result<Theta> SolveSettledFrom(const Theta& start, Estimation& estimation) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 12;
+  constexpr double kSettled = 0.001;
   SettleScatter(estimation, start);
   if (!estimation.rules[kLnWalls].free) return Solve(estimation, start);
   // The last digits only where no other round follows.
-  Result<Theta> theta = SolveNearly(estimation, start);
-  for (int i = 0; i < kRounds && theta && !IsSettled(estimation, *theta); ++i) {
-    SettleScatter(estimation, *theta);
+  Result<Theta> theta = start;
+  for (int i = 0; i < kRounds && theta; ++i) {
     theta = SolveNearly(estimation, *theta);
+    if (theta && SettleScatter(estimation, *theta) <= kSettled) break;
   }
-  if (theta) theta = Finish(estimation, *theta);
+  if (theta) theta = Solve(estimation, *theta);
   if (theta) SettleScatter(estimation, *theta);
   return theta;
 }

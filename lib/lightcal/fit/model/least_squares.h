@@ -145,13 +145,14 @@ template <TellsBend P>
   return std::nullopt;
 }
 
-// By Newton's steps, where those come to no end by TinySolver's.
+// By Newton's steps, where those come to no end by TinySolver's and the polish.
 template <TellsBend P>
 [[nodiscard]] std::optional<ValuesOf<P>> SolveNear(const P& problem, const ValuesOf<P>& start,
                                                    const std::array<bool, P::kCount>& held,
                                                    double last_step) {
   if (const auto theta = SolveByNewton(problem, start, held, last_step)) return theta;
-  return SolveTiny(problem, start, held);
+  const auto theta = SolveTiny(problem, start, held);
+  return theta ? std::optional(Polish(problem, *theta)) : std::nullopt;
 }
 
 // What the full solver sees of any problem.

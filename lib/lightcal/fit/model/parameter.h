@@ -32,7 +32,7 @@ inline constexpr double kTukeyConstant = 4.685;
 
 // A last step of Newton's this short, in standard deviations of each parameter, were it alone,
 // leaves about its square.
-inline constexpr double kLastStep = 1e-5;
+inline constexpr double kLastStep = 1e-7;
 
 // How the full solver works. A large first trust region makes the first steps Gauss-Newton.
 struct FullSolver {

@@ -57,10 +57,7 @@ bool TwoAgainstTwo(const Estimation& estimation) {
 }
 
 Result<Theta> SolveSquared(const Estimation& estimation) {
-  const ParameterRule& ambient = estimation.rules[kAmbient];
-  const Theta start =
-      ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
-  return Solve(estimation, start);
+  return Solve(estimation, StartOf(estimation));
 }
 
 // Sum of Tukey's loss, in units of its plateau: each reading beyond the constant counts 1.

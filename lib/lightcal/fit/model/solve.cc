@@ -56,9 +56,7 @@ std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& st
 }
 
 std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
-  const std::optional<Theta> theta = SolveCoarsely(estimation, start, kLastStep);
-  if (!theta) return std::nullopt;
-  return Polish(estimation, *theta);
+  return SolveCoarsely(estimation, start, kLastStep);
 }
 
 Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss, double scale) {
@@ -71,17 +69,13 @@ Result<Theta> Solve(const Estimation& estimation, const Theta& start, Loss loss,
 }
 
 Result<Theta> SolveNearly(const Estimation& estimation, const Theta& start) {
-  if (estimation.choice.solver == SolverChoice::kQuick) {
-    if (const std::optional<Theta> theta = SolveCoarsely(estimation, start, kLastStep)) {
+  constexpr double kNearly = 0.3;
+  if (estimation.choice.solver != SolverChoice::kClosedForm) {
+    if (const std::optional<Theta> theta = SolveCoarsely(estimation, start, kNearly)) {
       return *theta;
     }
   }
   return Solve(estimation, start);
-}
-
-Theta Finish(const Estimation& estimation, const Theta& nearly) {
-  const bool quick = estimation.choice.solver == SolverChoice::kQuick;
-  return quick ? Polish(estimation, nearly) : nearly;
 }
 
 Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss loss,

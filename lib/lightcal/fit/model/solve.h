@@ -48,9 +48,8 @@ struct Estimation {
 // As estimation.choice.solver says: squared losses try SolveQuickly first by default.
 [[nodiscard]] Result<Theta> Solve(const Estimation& estimation, const Theta& start,
                                   Loss loss = Loss::kSquared, double scale = 1.0);
-// The same in two: to 1e-7 of a parameter, and the last digits from there.
+// The same to about a tenth of a standard deviation, from where Solve takes the last digits.
 [[nodiscard]] Result<Theta> SolveNearly(const Estimation& estimation, const Theta& start);
-[[nodiscard]] Theta Finish(const Estimation& estimation, const Theta& nearly);
 // The same always by the full solver.
 [[nodiscard]] Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start,
                                         Loss loss = Loss::kSquared, double scale = 1.0);

@@ -215,6 +215,11 @@ Theta ScanStart(const Estimation& estimation) {
   return best;
 }
 
+Theta StartOf(const Estimation& estimation) {
+  const ParameterRule& ambient = estimation.rules[kAmbient];
+  return ambient.free ? ScanStart(estimation) : ClosedFormStart(estimation, ambient.prior_mean);
+}
+
 namespace {
 
 // Weighted median over the rows of the ln I each asks for; absent when none carries it.

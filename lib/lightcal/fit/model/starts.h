@@ -17,6 +17,9 @@ namespace lightcal::fit {
 // linear problem.
 [[nodiscard]] Theta ScanStart(const Estimation& estimation);
 
+// The one of the two that is right: the scan where E0 is free.
+[[nodiscard]] Theta StartOf(const Estimation& estimation);
+
 // The best of 65 values of d0 and a ladder of E0, with ln I the weighted median of each: least sum
 // of absolute whitened residuals. Of many rows 24 are scanned.
 [[nodiscard]] Theta MedianStart(const Estimation& estimation);
