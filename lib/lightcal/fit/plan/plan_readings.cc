@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/stops.h"
+#include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/plan/reading_trial.h"
 
@@ -57,6 +59,9 @@ struct Left {
   double stops = std::numeric_limits<double>::infinity();
 };
 
+// Of an intensity known to so much, 1 sigma, relative.
+Left LeftBy(double deviation) { return {std::expm1(kZ95 * deviation), StopsOfSd(deviation)}; }
+
 // ln of how much shorter an interval is afterwards: in stops, as people are told; where one of
 // them reaches down to nothing, by its larger side.
 double GainOf(const Left& before, const PlannedReading& after) {
@@ -96,7 +101,7 @@ class Planner {
     MinutesLadder ladder;
     ladder.light = Light().name;
     if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
-    ladder.meter_u95_relative = std::expm1(kZ95 * SharedCalibration());
+    ladder.meter_u95_relative = LeftBy(SharedCalibration()).relative;
     std::optional<Left> left;
     if (ladder.u95_relative) left = Left{*ladder.u95_relative, fit::StopsLeft(*now_)};
     double total = 0.0;
@@ -155,6 +160,43 @@ class Planner {
       information += 1.0 / (calibration * calibration);
     }
     return 1.0 / std::sqrt(information);
+  }
+
+  // 1 sigma, relative, of an intensity of which these readings and one more were all that is not
+  // known. None where a data sheet speaks too.
+  [[nodiscard]] std::optional<double> LeastDeviation() const {
+    if (fit::HasDataSheet(Light())) return std::nullopt;
+    struct Instrument {
+      double calibration = 0.0, information = 0.0;  // of its repeated readings
+    };
+    std::map<std::string, Instrument> instruments;
+    const auto count = [&](const Reading& reading) {
+      const double repeatability = RepeatabilityRelative(session_, reading);
+      const double calibration = CalibrationRelative(session_, reading);
+      Instrument& one =
+          instruments.try_emplace(InstrumentOf(reading), Instrument{calibration}).first->second;
+      one.calibration = std::min(one.calibration, calibration);
+      one.information += 1.0 / (repeatability * repeatability);
+    };
+    count(like_);
+    for (const SessionReading& row : session_.readings) {
+      if (row.reading.illuminance) count(row.reading);
+    }
+    double information = 0.0;
+    for (const auto& [name, one] : instruments) {
+      information += 1.0 / (one.calibration * one.calibration + 1.0 / one.information);
+    }
+    return 1.0 / std::sqrt(information);
+  }
+
+  // More than any one reading takes off ln of what is left.
+  [[nodiscard]] double MostGain(const Left& before) const {
+    const std::optional<double> deviation = LeastDeviation();
+    if (!deviation) return std::numeric_limits<double>::infinity();
+    const Left least = LeftBy(*deviation);
+    const double of_relative = std::log(before.relative / least.relative);
+    return std::isfinite(before.stops) ? std::max(of_relative, std::log(before.stops / least.stops))
+                                       : of_relative;
   }
 
   [[nodiscard]] std::vector<PlannedReading> Candidates() const {
@@ -221,27 +263,40 @@ class Planner {
       const double took = MinutesOf(ranked.front(), minutes);
       return LadderStep{std::move(ranked.front()), {}, took};
     }
+    std::map<double, std::vector<PlannedReading>> by_minutes;
+    for (PlannedReading& one : Candidates()) {
+      by_minutes[MinutesOf(one, minutes)].push_back(std::move(one));
+    }
+    const double most_gain = MostGain(*left);
+    std::optional<LadderStep> best;
+    double most = 0.0;
+    for (const auto& [took, candidates] : by_minutes) {
+      if (most_gain / took <= most) continue;
+      BetterThan(*left, candidates, took, most, best);
+    }
+    return best;
+  }
+
+  // The best of those that take so many minutes, where it beats what was found.
+  void BetterThan(const Left& left, const std::vector<PlannedReading>& candidates, double minutes,
+                  double& most, std::optional<LadderStep>& best) const {
     const auto rate = [&](const fit::ReadingTrial& trial, double more = 0.0) {
-      const double a_minute =
-          (GainOf(*left, trial.planned) + more) / MinutesOf(trial.planned, minutes);
+      const double a_minute = (GainOf(left, trial.planned) + more) / minutes;
       return std::isnan(a_minute) ? -std::numeric_limits<double>::infinity() : a_minute;
     };
     std::vector<fit::ReadingTrial> trials;
-    for (const PlannedReading& candidate : Candidates()) {
+    for (const PlannedReading& candidate : candidates) {
       if (auto trial = fit::TryExpected(Known(), candidate)) trials.push_back(*std::move(trial));
     }
     std::ranges::stable_sort(trials,
                              [&](const auto& a, const auto& b) { return rate(a) > rate(b); });
-    std::optional<LadderStep> best;
-    double most = 0.0;
     for (const fit::ReadingTrial& guessed : trials) {
       if (fit::IsNearlySettled(guessed) && rate(guessed, fit::kMostBySettling) <= most) continue;
       const std::optional<fit::ReadingTrial> trial = Settled(guessed);
-      if (!trial || GainOf(*left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
+      if (!trial || GainOf(left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
       most = rate(*trial);
-      best = LadderStep{trial->planned, {}, MinutesOf(guessed.planned, minutes)};
+      best = LadderStep{trial->planned, {}, minutes};
     }
-    return best;
   }
 
   // Best first; those as good as the best keep their order.
