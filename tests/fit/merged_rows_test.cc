@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "fitted.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/uncertainty.h"
@@ -77,7 +78,7 @@ Estimation InARoom(int readings) {
     ReadingRow row;
     row.distance = 0.35 * std::pow(8.0, i / (readings - 1.0));
     const double x = std::log(row.distance / 3.0);
-    row.walls = WallsOfRow{x, 0.0, 0.07};
+    row.walls = WallsOfRow{x, 0.0, 0.07, i};
     row.measured =
         (std::pow(row.distance + 0.02, -2.0) + 0.1 * std::exp(-x)) * std::exp(noise(random));
     row.sigma = row.own_sigma = 0.02;
@@ -156,6 +157,47 @@ TEST(ScatterOfTheWalls, SettlesAtOnePlaceFromAnyStart) {
     }
     for (std::size_t row = 0; row < again.rows.size(); ++row) {
       EXPECT_NEAR(again.rows[row].sigma / settled.rows[row].sigma, 1.0, 1e-3);
+    }
+  }
+}
+
+// What the walls throw to one place scatters once, however often it is read there: the place says
+// no more of what the lamp is, only of how bright it is.
+TEST(ScatterOfTheWalls, OnePlaceSaysNoMoreOfTheLampTheOftenerItIsRead) {
+  const auto read = [](int times) {
+    Session session;
+    MeterDescription meter;
+    meter.name = "m";
+    meter.sigma_relative = 0.03;
+    session.meters = {meter};
+    LightDescription lamp;
+    lamp.name = "lamp";
+    session.lights = {lamp};
+    std::mt19937_64 random(31);
+    std::normal_distribution<double> noise(0.0, 0.005);
+    double sum = 0.0;
+    for (int i = 0; i < times; ++i) {
+      Reading reading;
+      reading.light = "lamp";
+      reading.meter = "m";
+      reading.distance = Metres(1.0);
+      reading.illuminance = Lux(100.0 * std::exp(noise(random)));
+      sum += reading.illuminance->value();
+      session.readings.push_back({reading, "typed"});
+    }
+    for (SessionReading& row : session.readings) {
+      row.reading.illuminance = Lux(row.reading.illuminance->value() * 100.0 * times / sum);
+    }
+    return test::FitOk(session);
+  };
+  const FittedLight once = read(1);
+  for (const int times : {3, 20, 60}) {  // from 24 on they are looked at merged first
+    const FittedLight often = read(times);
+    EXPECT_NEAR(often.intensity_cd->value / once.intensity_cd->value, 1.0, 1e-3) << times;
+    EXPECT_LT(often.intensity_cd->u95, once.intensity_cd->u95) << times;
+    ASSERT_EQ(often.in_room.size(), once.in_room.size()) << times;
+    for (std::size_t k = 0; k < once.in_room.size(); ++k) {
+      EXPECT_NEAR(often.in_room[k].weight, once.in_room[k].weight, 1e-3) << times << " times";
     }
   }
 }

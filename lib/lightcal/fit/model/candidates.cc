@@ -13,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/merged_rows.h"
+#include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightcal/fit/model/least_squares.h"
+#include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
@@ -23,27 +24,6 @@ WallsOfRow WallsAt(const WallPrior& prior, double distance_m, double length_m) {
 
 bool SeesWalls(const Observation& observation, bool lit_row) {
   return observation.sees_walls && (lit_row ? !observation.differenced : observation.behind_card);
-}
-
-// n rows of one place are as good as one: each takes sqrt(n) times its scatter.
-void ShareScatter(std::vector<ReadingRow>& rows) {
-  constexpr double kOnePlace = 1e-3;  // of the distance
-  std::vector<ReadingRow*> seeing;
-  for (ReadingRow& row : rows) {
-    if (row.walls) seeing.push_back(&row);
-  }
-  const auto kind_and_place = [](const ReadingRow* row) {
-    return std::pair(row->direct_gain > 0.0, row->walls->x);
-  };
-  std::ranges::sort(seeing, {}, kind_and_place);
-  for (auto first = seeing.begin(); first != seeing.end();) {
-    const auto [lit, x] = kind_and_place(*first);
-    const auto last = std::find_if(first, seeing.end(), [&](const ReadingRow* row) {
-      return (row->direct_gain > 0.0) != lit || row->walls->x > x + kOnePlace;
-    });
-    const double share = std::sqrt(static_cast<double>(last - first));
-    for (; first != last; ++first) (*first)->walls->scatter *= share;
-  }
 }
 
 double Normal(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
@@ -99,38 +79,10 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     seen = true;
   }
   if (!seen) return out;
-  ShareScatter(out.rows);
+  ShareScatter(prepared.observation, observations, out.rows);
   out.rules[kLnWalls] = {true, prior.ln_b, prior.sd_ln_b};
   out.rules[kWallsSlope] = {true, prior.slope, prior.sd_slope};
   return out;
-}
-
-namespace {
-
-double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
-  if (!row.walls) return row.sigma;
-  const double intensity = std::exp(theta[kLnIntensity]);
-  const double walls = intensity * WallsPerCandela(row, theta.data());
-  double whole = 1.0;
-  if (row.form != RowForm::kLinear) {
-    const double lamp =
-        row.direct_gain > 0.0 ? LuxPerCandela(row, theta[kDistanceOffset]) : row.bounce;
-    whole = intensity * lamp + walls + row.ambient_gain * theta[kAmbient];
-  }
-  const double scatter = row.walls->scatter * walls / whole;
-  return whole > 0.0 ? std::sqrt(row.own_sigma * row.own_sigma + scatter * scatter) : row.own_sigma;
-}
-
-}  // namespace
-
-double SettleScatter(Estimation& estimation, const Theta& theta) {
-  double most = 0.0;
-  for (ReadingRow& row : estimation.rows) {
-    const double sigma = SigmaWithScatter(row, theta);
-    most = std::max(most, std::abs(sigma / row.sigma - 1.0));
-    row.sigma = sigma;
-  }
-  return most;
 }
 
 Result<Theta> SolveSettled(Estimation& estimation) {
@@ -154,8 +106,7 @@ Result<Theta> SolveSettledFrom(const Theta& start, Estimation& estimation) {
 }
 
 double LnEvidence(const Estimation& estimation, const Theta& theta) {
-  double ln = -HalfChiSquared(estimation, theta);
-  for (const ReadingRow& row : estimation.rows) ln -= std::log(row.sigma);
+  double ln = LnDensity(estimation, theta) - 0.5 * PriorChiSquaredOf(estimation, theta);
   const auto r = FreeTriangle(estimation, Linearise(estimation, theta));
   for (int k = 0; k < kParameters; ++k) {
     if (!estimation.rules[k].free) continue;

@@ -28,10 +28,6 @@ struct LampHypothesis {
 [[nodiscard]] Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
                                          const Observations& observations);
 
-// Gives each row's sigma the scatter of the light from the walls, by their share at theta. The
-// largest change of one, relative.
-double SettleScatter(Estimation& estimation, const Theta& theta);
-
 // The optimum with its scatter settled. Fails as Solve.
 [[nodiscard]] Result<Theta> SolveSettled(Estimation& estimation);
 // The same from `start`.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "lightcal/fit/model/hypotheses.h"
 
@@ -28,6 +29,18 @@ struct OneRow {
   MergedRows::Spread spread;
 };
 
+// The rows of one place, which the walls' light scatters alike.
+struct PlaceMean {
+  int place = 0;
+  double weight = 0.0, ln_distance = 0.0, ln_moved = 0.0;
+
+  void Add(double more, double at, double moved) {
+    weight += more;
+    ln_distance += (at - ln_distance) * more / weight;
+    ln_moved += (moved - ln_moved) * more / weight;
+  }
+};
+
 // Weighted means; rows of equal sigmas keep the variance that their mean has.
 OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
   if (rows.size() == 1) return {*rows.front(), {}};
@@ -48,17 +61,24 @@ OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
   const auto moved = [&](const ReadingRow* row) {
     return std::log(row->measured) + 2.0 * (std::log(row->distance) - ln_distance);
   };
+  std::vector<PlaceMean> places;
   double ln_measured = 0.0;
-  for (const ReadingRow* row : rows) ln_measured += WeightOf(*row) * moved(row) / weights;
-  OneRow out{*rows.front(), {static_cast<int>(rows.size()) - 1, 0.0}};
+  for (const ReadingRow* row : rows) {
+    const double weight = WeightOf(*row);
+    ln_measured += weight * moved(row) / weights;
+    const int place = row->walls ? row->walls->place : static_cast<int>(places.size());
+    if (places.empty() || places.back().place != place) places.push_back({place});
+    places.back().Add(weight, std::log(row->distance), moved(row));
+  }
+  OneRow out{*rows.front(), {static_cast<int>(places.size()) - 1, 0.0}};
   // About a line: light from walls and offset turn them from the inverse square law.
   double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (const ReadingRow* row : rows) {
-    const double x = std::log(row->distance) - ln_distance;
-    const double y = moved(row) - ln_measured;
-    xx += WeightOf(*row) * x * x;
-    xy += WeightOf(*row) * x * y;
-    yy += WeightOf(*row) * y * y;
+  for (const PlaceMean& one : places) {
+    const double x = one.ln_distance - ln_distance;
+    const double y = one.ln_moved - ln_measured;
+    xx += one.weight * x * x;
+    xy += one.weight * x * y;
+    yy += one.weight * y * y;
   }
   out.spread.squares = xx > 0.0 ? std::max(0.0, yy - xy * xy / xx) : yy;
   out.row.distance = std::exp(ln_distance);

@@ -15,9 +15,9 @@ namespace lightcal::fit {
 // deviation beside that of all rows: a start, never an answer.
 struct MergedRows {
   Estimation estimation;
-  // Of the rows that were merged, beside estimation.rows (0, 0 for a row that stands alone): how
+  // Of the places that were merged, beside estimation.rows (0, 0 for one that stands alone): how
   // many more there are than one, and the sum of their squares about a line, over the variances
-  // that they have without the scatter of the walls' light.
+  // that their means have without the scatter of the walls' light.
   struct Spread {
     int more = 0;
     double squares = 0.0;

@@ -54,7 +54,9 @@ template <class T>
 struct WallsOfRow {
   double x = 0.0;         // ln(d / 3 m)
   double constant = 0.0;  // bend x^2, and ln of the solver's unit of length squared
-  double scatter = 0.0;   // 1 sigma of ln E_walls at this place, shared by the rows there
+  double scatter = 0.0;  // sqrt(rows) times 1 sigma of ln E_walls at its place, whose rows share it
+  int place = 0;         // which, of the estimation's
+  int rows = 1;          // that are there
 };
 
 struct ReadingRow {
