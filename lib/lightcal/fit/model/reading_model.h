@@ -88,6 +88,12 @@ template <class T>
   return row.direct_gain * AxialShapeFactor(row.shape, r) / (r * r) + row.bounce;
 }
 
+// The same, and of a row without the lamp what is known of the walls alone.
+template <class T>
+[[nodiscard]] T LampPerCandela(const ReadingRow& row, const T& distance_offset) {
+  return row.direct_gain > 0.0 ? LuxPerCandela(row, distance_offset) : T(row.bounce);
+}
+
 // Of the walls, per candela; 0 in rows that see none of their light.
 template <class T>
 [[nodiscard]] T WallsPerCandela(const ReadingRow& row, const T* theta) {
@@ -101,8 +107,7 @@ template <class T>
 template <class T>
 [[nodiscard]] T RowIlluminance(const ReadingRow& row, const T* theta) {
   using std::exp;
-  T per_candela =
-      row.direct_gain > 0.0 ? LuxPerCandela(row, theta[kDistanceOffset]) : T(row.bounce);
+  T per_candela = LampPerCandela(row, theta[kDistanceOffset]);
   if (row.walls) per_candela += WallsPerCandela(row, theta);
   return exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
 }

@@ -34,9 +34,8 @@ double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
   const double walls = intensity * WallsPerCandela(row, theta.data());
   double whole = 1.0;
   if (row.form != RowForm::kLinear) {
-    const double lamp =
-        row.direct_gain > 0.0 ? LuxPerCandela(row, theta[kDistanceOffset]) : row.bounce;
-    whole = intensity * lamp + walls + row.ambient_gain * theta[kAmbient];
+    whole = intensity * LampPerCandela(row, theta[kDistanceOffset]) + walls +
+            row.ambient_gain * theta[kAmbient];
   }
   const double scatter = row.walls->scatter * walls / whole;
   return whole > 0.0 ? std::sqrt(row.own_sigma * row.own_sigma + scatter * scatter) : row.own_sigma;

@@ -69,7 +69,7 @@ LinearFit FitIntensityAndAmbient(const Estimation& estimation, double d0) {
     if (row.form == ReadingRow::Form::kCensored) continue;
     const double sigma = row.form == ReadingRow::Form::kLog ? row.sigma * row.measured : row.sigma;
     const double w = 1.0 / sigma;
-    const double a = w * (row.direct_gain > 0.0 ? LuxPerCandela(row, d0) : row.bounce);
+    const double a = w * LampPerCandela(row, d0);
     const double b = w * row.ambient_gain;
     const double m = w * row.measured - (rule.free ? 0.0 : b * rule.prior_mean);
     aa += a * a;

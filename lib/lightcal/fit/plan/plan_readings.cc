@@ -269,17 +269,23 @@ class Planner {
     }
     const double most_gain = MostGain(*left);
     std::optional<LadderStep> best;
-    double most = 0.0;
     for (const auto& [took, candidates] : by_minutes) {
-      if (most_gain / took <= most) continue;
-      BetterThan(*left, candidates, took, most, best);
+      if (most_gain / took <= RateOf(*left, best)) continue;
+      best = BestOf(*left, candidates, took, std::move(best));
     }
     return best;
   }
 
-  // The best of those that take so many minutes, where it beats what was found.
-  void BetterThan(const Left& left, const std::vector<PlannedReading>& candidates, double minutes,
-                  double& most, std::optional<LadderStep>& best) const {
+  // Off ln of what is left a minute; 0 where there is no step.
+  [[nodiscard]] static double RateOf(const Left& left, const std::optional<LadderStep>& step) {
+    return step ? GainOf(left, step->reading) / step->minutes : 0.0;
+  }
+
+  // Of those that take so many minutes, and what was found before.
+  [[nodiscard]] std::optional<LadderStep> BestOf(const Left& left,
+                                                 const std::vector<PlannedReading>& candidates,
+                                                 double minutes,
+                                                 std::optional<LadderStep> best) const {
     const auto rate = [&](const fit::ReadingTrial& trial, double more = 0.0) {
       const double a_minute = (GainOf(left, trial.planned) + more) / minutes;
       return std::isnan(a_minute) ? -std::numeric_limits<double>::infinity() : a_minute;
@@ -291,12 +297,13 @@ class Planner {
     std::ranges::stable_sort(trials,
                              [&](const auto& a, const auto& b) { return rate(a) > rate(b); });
     for (const fit::ReadingTrial& guessed : trials) {
+      const double most = RateOf(left, best);
       if (fit::IsNearlySettled(guessed) && rate(guessed, fit::kMostBySettling) <= most) continue;
       const std::optional<fit::ReadingTrial> trial = Settled(guessed);
       if (!trial || GainOf(left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
-      most = rate(*trial);
       best = LadderStep{trial->planned, {}, minutes};
     }
+    return best;
   }
 
   // Best first; those as good as the best keep their order.
