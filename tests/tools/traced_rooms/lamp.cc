@@ -47,6 +47,21 @@ double Lamp::Direct(double distance) const {
   return RectangleIlluminanceOverRadiance(width, height, distance) / (width * height);
 }
 
+double Lamp::DirectAt(const Vec3& meter, const Vec3& normal) const {
+  const int cells = kind == LampKind::kPanel ? 64 : 1;
+  const Frame frame(towards);
+  double sum = 0.0;
+  for (int i = 0; i < cells * cells; ++i) {
+    const double x = cells == 1 ? 0.0 : width * ((i % cells + 0.5) / cells - 0.5);
+    const double y = cells == 1 ? 0.0 : height * ((i / cells + 0.5) / cells - 0.5);
+    const Vec3 way = meter - (place + frame.At(x, y, 0.0));
+    const double r = Length(way);
+    const double arriving = -Dot(way, normal) / r;
+    if (arriving > 0.0) sum += Intensity((1.0 / r) * way) * arriving / (r * r);
+  }
+  return sum / (cells * cells);
+}
+
 void Lamp::Emit(Random& random, Vec3* origin, Vec3* direction) const {
   *origin = place;
   if (kind == LampKind::kBulb) {

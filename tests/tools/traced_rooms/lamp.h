@@ -34,6 +34,8 @@ struct Lamp {
   // Illuminance [lx per cd] facing the lamp at a distance along `towards`: 1/d^2, a panel's
   // exactly.
   double Direct(double distance) const;
+  // The same at any place, of a meter that faces `normal`; a panel's by 64 x 64 patches.
+  double DirectAt(const Vec3& meter, const Vec3& normal) const;
   // A ray of its light: all carry the same flux.
   void Emit(Random& random, Vec3* origin, Vec3* direction) const;
   // Half the sides of a card half way to a meter that keeps all direct light from it, with a

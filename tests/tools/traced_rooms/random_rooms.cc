@@ -203,4 +203,31 @@ LitRoom RandomRoom(Family family, int number) {
   }
 }
 
+std::string_view NameOf(Layout layout) { return layout == Layout::kFacing ? "facing" : "table"; }
+
+std::vector<Meter> PlacesAround(const LitRoom& lit, Layout layout, int number) {
+  constexpr std::uint64_t kPlacesSeed = 41760229;
+  constexpr std::size_t kPlaces = 7;
+  constexpr double kTable_m = 0.76, kLeastAbove_m = 0.6, kNearest_m = 0.5, kFarthest_m = 2.5;
+  const bool table = layout == Layout::kTable;
+  Random random(kPlacesSeed + 1000003ULL * number + (table ? 1 : 0));
+  std::vector<Meter> meters;
+  if (table && lit.lamp.place[2] < kTable_m + kLeastAbove_m) return meters;
+  const double least_part = lit.lamp.kind == LampKind::kBulb ? 0.75 : 0.3;
+  for (int attempt = 0; attempt < 20000 && meters.size() < kPlaces; ++attempt) {
+    const Vec3 at = {random.Between(kFree, lit.room.size[0] - kFree),
+                     random.Between(kFree, lit.room.size[1] - kFree),
+                     table ? kTable_m : random.Between(0.3, 2.0)};
+    const Vec3 way = at - lit.lamp.place;
+    const double distance = Length(way);
+    if (distance < kNearest_m || distance > kFarthest_m) continue;
+    const Vec3 from_lamp = (1.0 / distance) * way;
+    if (lit.lamp.Intensity(from_lamp) < least_part || (table && from_lamp[2] > -0.3)) continue;
+    if (!Clear(lit.room, lit.lamp.place, at)) continue;
+    meters.push_back({at, table ? Vec3{0, 0, 1} : -1.0 * from_lamp, 0.5 * distance, from_lamp});
+  }
+  if (meters.size() < kPlaces) meters.clear();
+  return meters;
+}
+
 }  // namespace traced_rooms

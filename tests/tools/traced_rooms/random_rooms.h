@@ -7,6 +7,7 @@
 
 #include "lamp.h"
 #include "room.h"
+#include "trace.h"
 
 namespace traced_rooms {
 
@@ -31,6 +32,17 @@ struct LitRoom {
 
 // Room `number` of a family: bulb, panel, beam in turn.
 LitRoom RandomRoom(Family family, int number);
+
+// How a lamp is read whose place is sought.
+enum class Layout {
+  kFacing,  // anywhere in the room, the meter turned to the lamp
+  kTable,   // flat on tables .76 m high, the lamp at least .6 m above them
+};
+std::string_view NameOf(Layout layout);
+// Seven places about the lamp of such a room, half a metre to 2.5 m from it and in its light (a
+// bulb: three quarters of what it sends its first meter; a panel: three tenths), .2 m from
+// everything, each with a card half way. Empty: the room has no such seven.
+std::vector<Meter> PlacesAround(const LitRoom& lit, Layout layout, int number);
 
 // Metres from the lamp at which the table has readings; those beyond `reach` are left out.
 inline const std::vector<double> kDistances = {0.5, 0.7, 1.0, 1.5, 2.0, 3.0};

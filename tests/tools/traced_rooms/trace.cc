@@ -10,6 +10,7 @@ using Mask = unsigned;  // bit k: the light has not crossed meter k's card
 
 struct Card {
   double distance, half_u, half_v;
+  Frame frame;  // w from the lamp to the meter
 };
 
 class Tracer {
@@ -18,7 +19,12 @@ class Tracer {
       : room_(room), lamp_(lamp), meters_(meters), frame_(lamp.towards) {
     double u = 0.0, v = 0.0;
     lamp.CardHalfSides(&u, &v);
-    for (const Meter& meter : meters) cards_.push_back({meter.card_distance, u, v});
+    const double diagonal = std::hypot(u, v);
+    for (const Meter& meter : meters) {
+      const bool ahead = meter.from_lamp == lamp.towards;
+      cards_.push_back({meter.card_distance, ahead ? u : diagonal, ahead ? v : diagonal,
+                        Frame(meter.from_lamp)});
+    }
     sum_.resize(meters.size());
     sum_card_.resize(meters.size());
   }
@@ -93,11 +99,12 @@ class Tracer {
     if (card.distance <= 0.0) return false;
     const Vec3 a = from - lamp_.place;
     const Vec3 b = to - lamp_.place;
-    const double before = Dot(a, frame_.w) - card.distance;
-    const double after = Dot(b, frame_.w) - card.distance;
+    const double before = Dot(a, card.frame.w) - card.distance;
+    const double after = Dot(b, card.frame.w) - card.distance;
     if (before * after >= 0.0) return false;
     const Vec3 at = a + (before / (before - after)) * (b - a);
-    return std::abs(Dot(at, frame_.u)) < card.half_u && std::abs(Dot(at, frame_.v)) < card.half_v;
+    return std::abs(Dot(at, card.frame.u)) < card.half_u &&
+           std::abs(Dot(at, card.frame.v)) < card.half_v;
   }
 
   // From a point to meter k by way of the glossy wall.
@@ -151,7 +158,7 @@ class Tracer {
 std::vector<Meter> MetersAlong(const Lamp& lamp, const std::vector<double>& distances) {
   std::vector<Meter> meters;
   for (const double d : distances) {
-    meters.push_back({lamp.place + d * lamp.towards, -1.0 * lamp.towards, 0.5 * d});
+    meters.push_back({lamp.place + d * lamp.towards, -1.0 * lamp.towards, 0.5 * d, lamp.towards});
   }
   return meters;
 }

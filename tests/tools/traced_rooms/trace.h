@@ -11,7 +11,8 @@ namespace traced_rooms {
 
 struct Meter {
   Vec3 place, normal;
-  double card_distance = 0.0;  // of its shadow card along the lamp's `towards`; 0: it has none
+  double card_distance = 0.0;  // of its shadow card from the lamp; 0: it has none
+  Vec3 from_lamp{};            // unit, from the lamp to the meter: across it stands the card
 };
 
 // A cosine receiver at each distance along lamp.towards, facing the lamp, its card half way.

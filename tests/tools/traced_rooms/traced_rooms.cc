@@ -2,6 +2,7 @@
 // Illuminance in random rooms, traced: truth for the intervals of `lightcal fit` that comes from
 // outside. Nothing here includes a header of lightcal. See README.md here.
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
+//   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
 //   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
@@ -96,6 +97,44 @@ int DescribeRoom(int number) {
   return 0;
 }
 
+// Seven rows a room and layout: a lamp of 1 cd towards its first meter.
+int PrintPlaces(int ordinary, int unseen) {
+  std::printf(
+      "family,room,kind,layout,width_m,height_m,size_x_m,size_y_m,size_z_m,reflectance,lamp_x_m,"
+      "lamp_y_m,lamp_z_m,aim_x,aim_y,aim_z,x_m,y_m,z_m,normal_x,normal_y,normal_z,direct,wall,"
+      "card\n");
+  const auto print = [](Family family, int number, Layout layout) {
+    const LitRoom lit = RandomRoom(family, number);
+    const Lamp& lamp = lit.lamp;
+    if (lamp.kind == LampKind::kBeam) return;
+    const std::vector<Meter> meters = PlacesAround(lit, layout, number);
+    Random random(7000000ULL + 2 * number + (layout == Layout::kTable ? 1 : 0));
+    if (meters.empty()) return;
+    const TraceAnswer answer = TraceLight(lit.room, lamp, meters, {}, random);
+    const bool panel = lamp.kind == LampKind::kPanel;
+    const Vec3& size = lit.room.size;
+    for (std::size_t k = 0; k < meters.size(); ++k) {
+      const Meter& meter = meters[k];
+      std::printf("%s,%d,%s,%s,", std::string(NameOf(family)).c_str(), number,
+                  std::string(NameOf(lamp.kind)).c_str(), std::string(NameOf(layout)).c_str());
+      panel ? std::printf("%.4g,%.4g", lamp.width, lamp.height) : std::printf(",");
+      std::printf(",%.3f,%.3f,%.3f,%.3f", size[0], size[1], size[2], lit.room.MeanAlbedo());
+      for (const Vec3& v : {lamp.place, lamp.towards, meter.place, meter.normal}) {
+        std::printf(",%.4f,%.4f,%.4f", v[0], v[1], v[2]);
+      }
+      std::printf(",%.5g,%.4g,%.4g\n", lamp.DirectAt(meter.place, meter.normal),
+                  answer.meters[k].wall, answer.meters[k].behind_card);
+    }
+  };
+  for (int i = 0; i < ordinary + unseen; ++i) {
+    const bool of_unseen = i >= ordinary;
+    for (const Layout layout : {Layout::kFacing, Layout::kTable}) {
+      print(of_unseen ? Family::kUnseen : Family::kOrdinary, of_unseen ? i - ordinary : i, layout);
+    }
+  }
+  return 0;
+}
+
 int Compare(const char* path, int every) {
   std::ifstream table(path);
   std::string line;
@@ -138,14 +177,17 @@ int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "--check") == 0) {
     return traced_rooms::ClosedFormsHold() ? 0 : 1;
   }
+  if (argc == 4 && std::strcmp(argv[1], "--places") == 0) {
+    return traced_rooms::PrintPlaces(std::atoi(argv[2]), std::atoi(argv[3]));
+  }
   if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
   if (argc == 4 && argv[1][0] != '-') {
     return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
   }
-  std::fprintf(
-      stderr,
-      "traced_rooms ORDINARY UNSEEN THREE | --describe N | --check | --compare TABLE EVERY\n");
+  std::fprintf(stderr,
+               "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --describe N | "
+               "--check | --compare TABLE EVERY\n");
   return 2;
 }
