@@ -2,6 +2,7 @@
 // A session whose lamp has no position and whose readings have theirs, through the program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -85,6 +86,77 @@ TEST(LocateByProgram, ASquareAloneIsRefusedAndTheReadingItAsksForCuresIt) {
   EXPECT_NE(report.find("Position found"), std::string::npos);
   const json light = json::parse(ReadFile(folder.path() + "/out/light.json"))["lights"][0];
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(double(light["position_m"][k]), lamp[k], 1e-3);
+}
+
+// ---- in a room ----
+
+// Lux of a bulb of 1 cd at (5.8731, 3.4414, 1.6692) m on tables of room 18 of
+// tests/tools/traced_rooms/traced_places.csv: from itself, from the walls, behind a card half way.
+struct TableReading {
+  const char* position_m;
+  double direct, wall, card;
+};
+constexpr std::array<TableReading, 7> kTables = {
+    {{"[3.9968, 2.8922, 0.76]", .09071, .07336, .07268},
+     {"[5.1432, 3.0233, 0.76]", .47845, .1123, .1102},
+     {"[5.5439, 3.0171, 0.76]", .77218, .1254, .1226},
+     {"[4.3409, 4.5664, 0.76]", .09718, .08182, .08132},
+     {"[5.6200, 4.6179, 0.76]", .26499, .1298, .1281},
+     {"[4.8700, 2.9436, 0.76]", .30294, .1024, .1008},
+     {"[3.5602, 3.4910, 0.76]", .0592, .07216, .07105}}};
+constexpr Point kBulb = {5.8731, 3.4414, 1.6692};
+
+// 500 cd, cards read at the first so many tables.
+std::string BulbOverTables(std::size_t cards) {
+  std::string text =
+      "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+      "lamp_class = \"white_led\"\nminutes_on = 600\nflicker_depth = 0.0\n"
+      "[[meter]]\nname = \"m\"\nsigma_relative = 0.03\n";
+  const auto add = [&text](const TableReading& at, double lux, const char* more) {
+    text += std::string("[[reading]]\nlight = \"key\"\nmeter = \"m\"\nnormal = [0, 0, 1]\n") +
+            "position_m = " + at.position_m + "\nilluminance_lx = " + std::to_string(500.0 * lux) +
+            "\n" + more;
+  };
+  for (std::size_t i = 0; i < kTables.size(); ++i) {
+    add(kTables[i], kTables[i].direct + kTables[i].wall, "");
+    if (i < cards) add(kTables[i], kTables[i].card, "shadow_card = true\n");
+  }
+  return text;
+}
+
+void ExpectBulbHeld(const json& light) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(double(light["position_m"][k]), kBulb[k], double(light["position_u95_m"][k]));
+  }
+  EXPECT_LE(double(light["intensity_cd"]["low95"]), 500.0);
+  EXPECT_GE(double(light["intensity_cd"]["high95"]), 500.0);
+}
+
+TEST(LocateInARoom, WhatTheWallsLeaveOpenIsRefusedAndCardsTellIt) {
+  const TempDir folder;
+  const std::string session = folder.Write("session.toml", BulbOverTables(0));
+  const CliResult refused =
+      RunLightcal({"fit", session, "-o", folder.path() + "/l.json", "--json"});
+  EXPECT_EQ(refused.exit_code, 3);
+  const std::string message = json::parse(refused.out)["error"]["message"];
+  EXPECT_NE(message.find("behind a shadow card"), std::string::npos) << message;
+  folder.Write("session.toml", BulbOverTables(kTables.size()));
+  const json light = LightcalJson("fit", {session, "-o", folder.path() + "/l.json"})["lights"][0];
+  ExpectBulbHeld(light);
+  for (const double u95 : light["position_u95_m"]) EXPECT_LT(u95, 0.08);
+  EXPECT_LT(double(light["intensity_cd"]["u95"]), 60.0);
+}
+
+TEST(LocateInARoom, ThreeCardsTellTheWallsOfTheOtherPlaces) {
+  const TempDir folder;
+  const std::string session = folder.Write("session.toml", BulbOverTables(3));
+  const json light = LightcalJson("fit", {session, "-o", folder.path() + "/l.json"})["lights"][0];
+  ExpectBulbHeld(light);
+  EXPECT_EQ(light["fit"]["used"], 10);
+  EXPECT_EQ(light["fit"]["learned"], json({"intensity", "position", "room_bounce"}));
+  const json& budget = light["budget"];
+  EXPECT_TRUE(std::any_of(budget.begin(), budget.end(),
+                          [](const json& part) { return part["name"] == "room_bounce"; }));
 }
 
 }  // namespace

@@ -193,6 +193,24 @@ std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
   return OfAnyMake(room);
 }
 
+std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls) {
+  if (walls.empty()) return std::nullopt;
+  WallPrior out = walls.front().prior;
+  double b = 0.0, bb = 0.0, s = 0.0, ss = 0.0;
+  for (const WallHypothesis& one : walls) {
+    const WallPrior& p = one.prior;
+    b += one.weight * p.ln_b;
+    bb += one.weight * (p.ln_b * p.ln_b + p.sd_ln_b * p.sd_ln_b);
+    s += one.weight * p.slope;
+    ss += one.weight * (p.slope * p.slope + p.sd_slope * p.sd_slope);
+  }
+  out.ln_b = b;
+  out.sd_ln_b = std::sqrt(std::max(1e-6, bb - b * b));
+  out.slope = s;
+  out.sd_slope = std::sqrt(std::max(1e-6, ss - s * s));
+  return out;
+}
+
 double WallsPerCandela(const WallPrior& prior, double distance_m, double deviates) {
   const double x = std::log(distance_m / kWallReference_m);
   const double sd = std::hypot(prior.sd_ln_b, prior.sd_slope * x);

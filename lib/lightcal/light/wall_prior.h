@@ -57,6 +57,9 @@ struct StatedRoom {
 [[nodiscard]] std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
                                                      const std::optional<StatedRoom>& room);
 
+// One normal of all that a lamp may be, its bend and scatter the first one's. Absent of none.
+[[nodiscard]] std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls);
+
 // Median of E_walls/I at a distance, lx/cd, and the same `deviates` standard deviations above.
 [[nodiscard]] double WallsPerCandela(const WallPrior& prior, double distance_m,
                                      double deviates = 0.0);

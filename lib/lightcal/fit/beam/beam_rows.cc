@@ -59,25 +59,6 @@ void SetForm(bool over_range, double dark, BeamRow& row) {
   row.sigma = row.own_sigma = log ? sigma / row.measured : sigma;
 }
 
-// One normal of all the hypotheses.
-std::optional<WallPrior> MergedWalls(const std::vector<WallHypothesis>& walls) {
-  if (walls.empty()) return std::nullopt;
-  WallPrior out = walls.front().prior;
-  double b = 0.0, bb = 0.0, s = 0.0, ss = 0.0;
-  for (const WallHypothesis& one : walls) {
-    const WallPrior& p = one.prior;
-    b += one.weight * p.ln_b;
-    bb += one.weight * (p.ln_b * p.ln_b + p.sd_ln_b * p.sd_ln_b);
-    s += one.weight * p.slope;
-    ss += one.weight * (p.slope * p.slope + p.sd_slope * p.sd_slope);
-  }
-  out.ln_b = b;
-  out.sd_ln_b = std::sqrt(std::max(1e-6, bb - b * b));
-  out.slope = s;
-  out.sd_slope = std::sqrt(std::max(1e-6, ss - s * s));
-  return out;
-}
-
 void AddWalls(const Observations& observations, const WallPrior& prior, BeamRows& out) {
   for (std::size_t i = 0; i < out.readings.rows.size(); ++i) {
     BeamRow& row = out.readings.rows[i];
@@ -169,7 +150,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     out.readings.rows.push_back(row);
     out.observation.push_back(out.observation[i]);
   }
-  out.readings.walls = MergedWalls(model->walls);
+  out.readings.walls = OneNormalOf(model->walls);
   if (out.readings.walls) AddWalls(observations, *out.readings.walls, out);
   return out;
 }

@@ -36,31 +36,11 @@ void WidenByShape(const Observations& seen, ForwardModel& model) {
   if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0, "finite_source"});
 }
 
-// Of a lamp whose place is sought, the light from the walls is not fitted: its prior's mean shines
-// and its spread widens the interval.
-void HoldWalls(const Observations& seen, ForwardModel& model) {
-  if (model.walls.empty()) return;
-  double lit = 0.0;
-  double sd = 0.0;
-  model.bounce_per_candela.clear();
-  for (const Observation& o : seen.rows) {
-    double mean = 0.0;
-    double square = 0.0;
-    for (const WallHypothesis& one : model.walls) {
-      const double median = WallsPerCandela(one.prior, o.distance_m);
-      const double above = WallsPerCandela(one.prior, o.distance_m, 1.0);
-      const double variance = std::pow(std::log(above / median), 2.0);
-      mean += one.weight * median * std::exp(0.5 * variance);
-      square += one.weight * median * median * std::exp(2.0 * variance);
-    }
-    const bool counts = o.lit && o.sees_walls && !o.differenced;
-    model.bounce_per_candela.push_back(counts ? mean : 0.0);
-    if (!counts) continue;
-    lit += 1.0;
-    sd += std::sqrt(std::max(0.0, square - mean * mean));
-  }
-  if (lit > 0.0) model.considered.push_back({sd / lit, 2.0, "room_bounce"});
-  model.walls.clear();
+// Whoever seeks a point's place takes it that it shines alike towards every meter: it lights its
+// room as a bulb does, unless its fixture says more.
+LightDescription ShiningEvenly(LightDescription light) {
+  if (light.kind == LightKind::kPoint && !light.fixture) light.fixture = Fixture::kBulb;
+  return light;
 }
 
 }  // namespace
@@ -69,15 +49,20 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
                                     const Observations& observations, const FitSettings& settings,
                                     FittedLight out, FittedSession& session_out) {
   Warnings& warnings = session_out.warnings;
-  Result<LampLocation> first = LocateLamp(observations, light, ForwardModel{});
+  // What the walls may add is asked of a lamp at 1 m until its place is known.
+  const LightDescription even = ShiningEvenly(light);
+  Result<ForwardPlan> rough = PlanForward(session, even, observations, settings);
+  if (!rough) return Propagate(std::move(rough));
+  ForwardModel walls_alone;
+  walls_alone.walls = rough->model.walls;
+  Result<LampLocation> first = LocateLamp(observations, light, walls_alone);
   if (!first) return Propagate(std::move(first));
-  LightDescription placed = light;
+  LightDescription placed = even;
   placed.position_m = first->position_m;
   const Observations seen = PlaceObservations(observations, first->position_m);
   Result<ForwardPlan> plan = PlanForward(session, placed, seen, settings);
   if (!plan) return Propagate(std::move(plan));
   WidenByShape(seen, plan->model);
-  HoldWalls(seen, plan->model);
   Result<LampLocation> location = LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
   if (auto known = CheckKnown(location->estimate, light.name); !known) {

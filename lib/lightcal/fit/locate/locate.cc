@@ -11,39 +11,14 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/locate/locate_refusals.h"
+#include "lightcal/fit/locate/placed_modes.h"
 
 namespace lightcal::fit {
 namespace {
 
 constexpr double kLargestCondition = 1000.0;
-constexpr double kDistinct = 30.0;         // squared Mahalanobis distance of another minimum
 constexpr double kLargestVagueness = 0.5;  // u95 of the position over the nearest distance
 constexpr double kOutlier = 4.685;
-
-Eigen::Matrix3d PositionBlock(const PlacedCovariance& covariance) {
-  Eigen::Matrix3d block;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      block(i, j) = covariance[(kPlacedX + i) * kPlacedParameters + kPlacedX + j];
-    }
-  }
-  return block;
-}
-
-// The best solution and others that are allowed and lie apart from it beyond its own interval.
-std::vector<PlacedTheta> Distinct(const std::vector<PlacedSolution>& solutions,
-                                  const PlacedCovariance& covariance) {
-  std::vector<PlacedTheta> out;
-  const Eigen::LDLT<Eigen::Matrix3d> block(PositionBlock(covariance));
-  const Vec3 best = LampOf(solutions.front().theta);
-  for (const PlacedSolution& s : solutions) {
-    if (s.chi_squared > solutions.front().chi_squared + kAllowedChiSquared) break;
-    const Vec3 d = LampOf(s.theta) - best;
-    const Eigen::Vector3d apart(d[0], d[1], d[2]);
-    if (out.empty() || apart.dot(block.solve(apart)) > kDistinct) out.push_back(s.theta);
-  }
-  return out;
-}
 
 // ---- one reading that spoils the others ----
 
@@ -111,9 +86,8 @@ void FillResiduals(const Observations& observations, const PlacedProblem& all, c
     const PlacedRow& row = all.estimation.rows[i];
     const Observation& o = observations.rows[static_cast<std::size_t>(all.observation[i])];
     double predicted = 0.0;
-    if (!o.lit ||
-        !PlacedIlluminance(row, all.estimation.aim, theta[kPlacedLnIntensity], &theta[kPlacedX],
-                           theta[kPlacedAmbient], theta[kPlacedOffset], &predicted)) {
+    if (!(row.direct_gain > 0.0) ||
+        !PlacedIlluminance(row, all.estimation.aim, theta.data(), &predicted)) {
       continue;
     }
     predicted *= all.frame.lux;
@@ -134,7 +108,8 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
                      const PlacedCovariance& covariance, FitDiagnostics& d) {
   const PlacedEstimation& estimation = kept.problem.estimation;
   d.readings = observations.readings;
-  d.used = static_cast<int>(estimation.rows.size() + observations.shadow_used.size());
+  d.used = static_cast<int>(estimation.rows.size() + observations.shadow_used.size()) -
+           kept.problem.card_rows;
   d.rejected = observations.rejected;
   for (const int row : kept.rejected) {
     d.rejected.push_back(observations.rows[static_cast<std::size_t>(row)].index);
@@ -148,6 +123,11 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
                     (!(estimation.rules[kPlacedAmbient].prior_sd > 0.0) ||
                      ambient_sd < kLearnedShare * estimation.rules[kPlacedAmbient].prior_sd);
   (told ? d.learned : d.prior).emplace_back("ambient");
+  const ParameterRule& walls = estimation.rules[kPlacedLnWalls];
+  if (walls.free) {
+    const double sd = std::sqrt(covariance[kPlacedLnWalls * (kPlacedParameters + 1)]);
+    (sd < kLearnedShare * walls.prior_sd ? d.learned : d.prior).emplace_back("room_bounce");
+  }
   d.degrees_of_freedom = std::max(0, DegreesOfFreedom(estimation));
   if (d.degrees_of_freedom < 1) return;
   const std::vector<double> residuals = PlacedResiduals(estimation, kept.solutions.front().theta);
@@ -268,6 +248,54 @@ void HoldAmbientIfVague(Kept& kept) {
   kept.solutions = SearchPlace(kept.problem);
 }
 
+std::vector<PlacedSolution> SolutionsOf(const std::vector<PossiblePlace>& places) {
+  std::vector<PlacedSolution> out;
+  for (const PossiblePlace& place : places) {
+    const PlacedMode& best = place.modes.front();
+    out.push_back({best.theta, PlacedChiSquared(best.estimation, best.theta)});
+  }
+  return out;
+}
+
+Result<MixedPlace> MixedWith(const std::vector<PlacedMode>& modes,
+                             const PlacedUncertainty& uncertainty) {
+  std::vector<PlacedCovariance> covariances;
+  for (const PlacedMode& one : modes) {
+    auto covariance = EstimatePlacedCovariance(one.estimation, one.theta, uncertainty);
+    if (!covariance) return Propagate(std::move(covariance));
+    covariances.push_back(*covariance);
+  }
+  return MixOf(modes, covariances);
+}
+
+// Of ln I: the likeliest's, what its walls add to it, and what not knowing the lamp adds to both.
+std::vector<VariancePart> PartsOf(const std::vector<PlacedMode>& modes,
+                                  const PlacedUncertainty& uncertainty, const MixedPlace& mixed) {
+  constexpr int kVariance = kPlacedLnIntensity * (kPlacedParameters + 1);
+  const PlacedMode& best = modes.front();
+  const auto variance = [&](const PlacedEstimation& estimation,
+                            const std::vector<Consider>& considered) {
+    const auto some = EstimatePlacedCovariance(
+        estimation, best.theta, {uncertainty.row_scale, uncertainty.position_sd, considered});
+    return some ? (*some)[kVariance] : -1.0;
+  };
+  std::vector<VariancePart> parts = VarianceParts("readings_and_place", uncertainty.considered,
+                                                  [&](const std::vector<Consider>& considered) {
+                                                    return variance(best.estimation, considered);
+                                                  });
+  if (parts.empty() || !best.estimation.rules[kPlacedLnWalls].free) return parts;
+  PlacedEstimation known_walls = best.estimation;
+  known_walls.rules[kPlacedLnWalls] = known_walls.rules[kPlacedWallsSlope] = {};
+  const double whole = parts.front().variance;
+  const double held = std::clamp(variance(known_walls, {}), 0.0, whole);
+  parts.front().variance = held;
+  parts.push_back({"room_bounce", whole - held});
+  const double unknown =
+      mixed.covariance[kVariance] - variance(best.estimation, uncertainty.considered);
+  if (unknown > 0.0) parts.push_back({"unknown_lamp", unknown});
+  return parts;
+}
+
 }  // namespace
 
 bool NeedsLocating(const Observations& observations, const LightDescription& light) {
@@ -282,7 +310,8 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   if (near != nullptr) {
     all.near = (near->position_m - all.frame.origin) * (1.0 / all.frame.length_m);
   }
-  Kept kept{all, SearchPlace(all), {}};
+  Kept kept{all, {}, {}};
+  kept.solutions = SearchPlace(kept.problem);
   HoldAmbientIfVague(kept);
   if (kept.solutions.empty()) {
     return Refused("no_position", light.name,
@@ -293,44 +322,44 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
     return RefuseLayout(kept.problem, kept.solutions, light.name);
   while (RejectOne(kept)) {
   }
-  const PlacedEstimation& estimation = kept.problem.estimation;
-  const PlacedTheta theta = kept.solutions.front().theta;
-  const double condition = PlacedCondition(estimation, theta);
-  const bool circle_alone = OnOneCircleExactly(kept.problem) && !HasDistanceRow(estimation);
-  if (circle_alone || !(condition <= kLargestCondition)) {
+  if (OnOneCircleExactly(kept.problem) && !HasDistanceRow(kept.problem.estimation)) {
     return RefuseLayout(kept.problem, kept.solutions, light.name);
   }
+  const std::vector<PossiblePlace> places =
+      PossiblePlaces(kept.problem, kept.solutions, model.walls);
+  if (places.empty()) return RefuseLayout(kept.problem, kept.solutions, light.name);
+  const std::vector<PlacedMode>& modes = places.front().modes;
+  kept.problem.estimation = modes.front().estimation;
+  kept.solutions = SolutionsOf(places);
+  const PlacedEstimation& estimation = kept.problem.estimation;
+  const double condition = PlacedCondition(estimation, modes.front().theta);
+  if (!(condition <= kLargestCondition)) {
+    return RefuseLayout(kept.problem, kept.solutions, light.name);
+  }
+  if (places.size() > 1) return RefuseMirror(kept.problem, kept.solutions, light.name);
+
+  LampLocation out;
   PlacedUncertainty uncertainty;
   uncertainty.considered = model.considered;
   for (Consider& influence : uncertainty.considered) {
     influence.relative *= std::pow(kept.problem.frame.length_m, influence.distance_power);
   }
-  auto covariance = EstimatePlacedCovariance(estimation, theta, uncertainty);
-  if (!covariance) return RefuseLayout(kept.problem, kept.solutions, light.name);
-  const auto apart = Distinct(kept.solutions, *covariance);
-  if (apart.size() > 1) return RefuseMirror(kept.problem, apart, light.name);
-
-  LampLocation out;
-  FillDiagnostics(observations, kept, condition, *covariance, out.estimate.diagnostics);
+  FillDiagnostics(observations, kept, condition, modes.front().covariance,
+                  out.estimate.diagnostics);
   WarnOfRows(observations, kept, light.name, out.estimate);
   const FitDiagnostics& d = out.estimate.diagnostics;
   if (d.chi2_dof && *d.chi2_dof * d.degrees_of_freedom > ChiSquared95(d.degrees_of_freedom)) {
     uncertainty.row_scale = std::sqrt(*d.chi2_dof);
-    covariance = EstimatePlacedCovariance(estimation, theta, uncertainty);
-    if (!covariance) return Propagate(std::move(covariance));
   }
-  if (TooVague(estimation, theta, *covariance)) {
+  auto mixed = MixedWith(modes, uncertainty);
+  if (!mixed) return Propagate(std::move(mixed));
+  if (TooVague(estimation, mixed->theta, mixed->covariance)) {
     return RefuseLayout(kept.problem, kept.solutions, light.name);
   }
-  out.estimate.variance_parts = VarianceParts(
-      "readings_and_place", uncertainty.considered, [&](const std::vector<Consider>& considered) {
-        const auto some = EstimatePlacedCovariance(
-            estimation, theta, {uncertainty.row_scale, uncertainty.position_sd, considered});
-        return some ? (*some)[kPlacedLnIntensity * (kPlacedParameters + 1)] : -1.0;
-      });
+  out.estimate.variance_parts = PartsOf(modes, uncertainty, *mixed);
   out.estimate.ambient_free = estimation.rules[kPlacedAmbient].free;
   FillResiduals(observations, all, kept, out.estimate);
-  FillEstimate(kept.problem.frame, theta, *covariance, out);
+  FillEstimate(kept.problem.frame, mixed->theta, mixed->covariance, out);
   return out;
 }
 

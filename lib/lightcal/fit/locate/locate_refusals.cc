@@ -7,12 +7,15 @@
 #include <iterator>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
+#include "lightcal/fit/locate/placed_modes.h"
 #include "lightcal/fit/locate/placed_starts.h"
 
 namespace lightcal::fit {
 namespace {
 
 constexpr std::size_t kMostFamily = 6;
+constexpr double kVague_m = 5.0;  // u95 that is no advice beside a better one
 
 // One of each cluster of solutions that the readings allow, where a lamp of a room may be.
 std::vector<PlacedTheta> FamilyOf(const std::vector<PlacedSolution>& solutions) {
@@ -40,16 +43,53 @@ std::string PointText(const Vec3& p) {
   return "[" + text(p[0]) + ", " + text(p[1]) + ", " + text(p[2]) + "]";
 }
 
+// u95 of the lamp's place in metres, were every reading taken again behind a shadow card.
+std::optional<double> BehindCards_m(const PlacedProblem& problem, const PlacedTheta& theta) {
+  PlacedEstimation estimation = problem.estimation;
+  bool seen = false;
+  for (PlacedRow& row : estimation.rows) {
+    if (!(row.direct_gain > 0.0) || !row.walls) continue;
+    double lux = 0.0;
+    if (!PlacedIlluminance(row, estimation.aim, theta.data(), &lux)) return std::nullopt;
+    const double walls = std::exp(theta[kPlacedLnIntensity]) *
+                         WallsPerCandela(row, DistanceOf(row, theta.data()), theta.data());
+    // Two readings, what is left being smaller than both.
+    row.measured = lux - walls;
+    row.sigma = row.own_sigma * std::hypot(lux, walls) / row.measured;
+    row.walls.reset();
+    seen = true;
+  }
+  if (!seen) return std::nullopt;
+  const auto covariance = EstimatePlacedCovariance(estimation, theta, {});
+  if (!covariance) return std::nullopt;
+  const double variance =
+      PositionBlock(*covariance).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return kZ95 * std::sqrt(variance) * problem.frame.length_m;
+}
+
+std::string CardText(const PlacedProblem& problem, const std::vector<PlacedTheta>& solutions) {
+  if (problem.lit < kFewestPlacedReadings || solutions.empty()) return "";
+  const auto u95_m = BehindCards_m(problem, solutions.front());
+  if (!u95_m || !(*u95_m < 1.0)) return "";
+  return "; or read each of these again behind a shadow card, since it is the light from the walls "
+         "that leaves it open: +-" +
+         RoundedText(*u95_m, 2) + " m";
+}
+
 std::string CureText(const PlacedProblem& problem, const std::vector<PlacedTheta>& solutions,
                      bool separate) {
   const auto place = BestPlacement(problem.estimation, solutions, separate, problem.frame);
-  if (!place) return "add a reading well away from the others, or give the lamp's position_m";
+  const std::string cards = CardText(problem, solutions);
+  if (!place || (place->lamp_u95_m > kVague_m && !cards.empty())) {
+    return "add a reading well away from the others, or give the lamp's position_m" + cards;
+  }
   return "add a reading at position_m = " + PointText(place->position) +
          (place->normal ? ", normal = " + PointText(*place->normal) : " facing the lamp") +
          (problem.lit + 1 < kFewestPlacedReadings
               ? " first"
               : ": it would bring the lamp's position to about +-" +
-                    RoundedText(place->lamp_u95_m, 2) + " m");
+                    RoundedText(place->lamp_u95_m, 2) + " m") +
+         cards;
 }
 
 // Whether all meters of one normal stand on one circle or one line.
@@ -110,14 +150,16 @@ tl::unexpected<Error> RefuseLayout(const PlacedProblem& problem,
 }
 
 tl::unexpected<Error> RefuseMirror(const PlacedProblem& problem,
-                                   const std::vector<PlacedTheta>& apart,
+                                   const std::vector<PlacedSolution>& apart,
                                    const std::string& light) {
-  const auto at = [&](const PlacedTheta& theta) {
-    return PointText(problem.frame.origin + LampOf(theta) * problem.frame.length_m);
+  const auto at = [&](const PlacedSolution& one) {
+    return PointText(problem.frame.origin + LampOf(one.theta) * problem.frame.length_m);
   };
+  std::vector<PlacedTheta> thetas;
+  for (const PlacedSolution& one : apart) thetas.push_back(one.theta);
   return Refused("mirror_ambiguous", light,
                  "a lamp at " + at(apart[0]) + " explains these readings as well as one at " +
-                     at(apart[1]) + "; nothing tells which: " + CureText(problem, apart, true));
+                     at(apart[1]) + "; nothing tells which: " + CureText(problem, thetas, true));
 }
 
 }  // namespace lightcal::fit

@@ -22,7 +22,7 @@ inline constexpr double kAllowedChiSquared = 9.0;  // beyond the best: what the 
                                                  const std::string& light);
 // mirror_ambiguous: two places or more explain the readings.
 [[nodiscard]] tl::unexpected<Error> RefuseMirror(const PlacedProblem& problem,
-                                                 const std::vector<PlacedTheta>& apart,
+                                                 const std::vector<PlacedSolution>& apart,
                                                  const std::string& light);
 
 }  // namespace lightcal::fit

@@ -6,12 +6,20 @@
 
 #include "lightcal/fit/locate/placed_starts.h"
 #include "lightcal/fit/model/row_values.h"
+#include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/light/effects/detector_size.h"
 
 namespace lightcal::fit {
 namespace {
 
 constexpr int kReadingsForAmbient = 6;
+// 1 sigma of ln E_walls between meters of one place that face elsewhere than the lamp, beside their
+// scatter (tests/tools/traced_rooms: tables under bulbs and panels).
+constexpr double kTurnedScatter = 0.06;
+// 1 sigma of what a card hides at one place beside what it hides at the lamp's others, of all that
+// it leaves (tests/tools/traced_rooms: .018 facing, .009 flat).
+constexpr double kCardHidesHere = 0.02;
+constexpr double kUsualShare = 0.5;  // of the walls' light in a reading, before a place is known
 
 PlacedFrame FrameOf(const Observations& observations) {
   std::vector<PlacedRow> rows;
@@ -35,16 +43,69 @@ PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardMo
   const Observation& o = observations.rows[i];
   PlacedRow row;
   FillRowValues(o, i, model, frame.length_m, frame.lux, row);
+  row.own_sigma = row.sigma;
   row.direct_gain = o.lit ? 1.0 : 0.0;
-  if (!o.lit) return row;
-  if (IsPlaced(o)) row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
-  row.normal = o.normal;
   row.distance = o.distance_m / frame.length_m;
+  if (o.measured_from_center && o.position_m) {
+    row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
+  }
+  if (!o.lit) return row;
+  row.normal = o.normal;
   if (!o.normal) row.direct_gain = std::cos(o.tilt_rad);
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, o.distance_m);
   }
   return row;
+}
+
+// The walls alone, behind the card whose reading was subtracted.
+PlacedRow CardRowOf(const Observation& o, const PlacedFrame& frame) {
+  PlacedRow row;
+  FillRowValues(BehindCard(o), 0, ForwardModel{}, frame.length_m, frame.lux, row);
+  row.own_sigma = row.sigma;
+  row.direct_gain = 0.0;
+  if (IsPlaced(o)) row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
+  row.distance = o.distance_m / frame.length_m;
+  return row;
+}
+
+// One normal of all that the lamp may be.
+void AddWalls(const Observations& observations, const WallPrior& prior, PlacedProblem& problem) {
+  std::vector<PlacedRow>& rows = problem.estimation.rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Observation& o = observations.rows[static_cast<std::size_t>(problem.observation[i])];
+    if (o.lit && o.differenced) WidenByCard(o, kCardHidesHere, problem.frame.lux, rows[i]);
+  }
+  const bool some_open = std::ranges::any_of(
+      observations.rows, [](const Observation& o) { return o.lit && !o.differenced; });
+  for (std::size_t i = 0; some_open && i < observations.rows.size(); ++i) {
+    const Observation& o = observations.rows[i];
+    if (!o.lit || !o.differenced || !(o.card_sigma_lx > 0.0)) continue;
+    rows.push_back(CardRowOf(o, problem.frame));
+    problem.observation.push_back(static_cast<int>(i));
+    ++problem.card_rows;
+  }
+  const double unit = problem.frame.length_m;
+  std::vector<ReadingOfWalls> seeing;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    PlacedRow& row = rows[i];
+    const Observation& o = observations.rows[static_cast<std::size_t>(problem.observation[i])];
+    const bool lit_row = row.direct_gain > 0.0;
+    const bool behind_card = !lit_row && o.behind_card && o.placed;
+    if (!o.sees_walls || !(lit_row ? SeesWalls(o, true) : behind_card)) continue;
+    PlacedWalls walls;
+    walls.x = std::log(o.distance_m / kWallReference_m);
+    walls.constant = 2.0 * std::log(unit);
+    walls.ln_unit = std::log(unit / kWallReference_m);
+    row.walls = walls;
+    seeing.push_back({lit_row, &*row.walls, &o});
+  }
+  if (seeing.empty()) return;
+  ShareScatter(std::move(seeing));
+  SetWalls(prior, problem.estimation);
+  for (PlacedRow& row : rows) {
+    if (row.walls) row.sigma = std::hypot(row.own_sigma, kUsualShare * row.walls->scatter);
+  }
 }
 
 void SetRules(const ForwardModel& model, PlacedProblem& problem) {
@@ -60,6 +121,7 @@ void SetRules(const ForwardModel& model, PlacedProblem& problem) {
       }
       continue;
     }
+    if (row.walls) continue;
     off += row.measured;
     ++offs;
   }
@@ -67,7 +129,8 @@ void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   if (problem.ambient_told) {
     problem.estimation.rules[kPlacedAmbient].free = true;
     problem.ambient_start = std::max(0.0, off / offs);
-  } else if (model.fit_ambient && problem.lit >= kReadingsForAmbient && std::isfinite(dimmest)) {
+  } else if (model.fit_ambient && model.walls.empty() && problem.lit >= kReadingsForAmbient &&
+             std::isfinite(dimmest)) {
     problem.estimation.rules[kPlacedAmbient] = {true, 0.0, dimmest};
   }
   if (model.fit_offset && std::isfinite(shortest)) {
@@ -109,6 +172,21 @@ std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
 
 }  // namespace
 
+void SetWalls(const WallPrior& prior, PlacedEstimation& estimation) {
+  estimation.rules[kPlacedLnWalls] = {true, prior.ln_b, prior.sd_ln_b};
+  estimation.rules[kPlacedWallsSlope] = {true, prior.slope, prior.sd_slope};
+  for (PlacedRow& row : estimation.rows) {
+    if (!row.walls) continue;
+    const double own = row.normal ? std::hypot(prior.scatter, kTurnedScatter) : prior.scatter;
+    row.walls->scatter = own * std::sqrt(static_cast<double>(row.walls->rows));
+    row.walls->bend = prior.bend;
+  }
+}
+
+bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b) {
+  return Length(LampOf(a) - LampOf(b)) < 0.05 * Length(LampOf(a));
+}
+
 PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescription& light,
                               const ForwardModel& model) {
   PlacedProblem out;
@@ -122,12 +200,9 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
     out.observation.push_back(static_cast<int>(i));
     if (observations.rows[i].lit) ++out.lit;
   }
+  if (const auto walls = OneNormalOf(model.walls)) AddWalls(observations, *walls, out);
   SetRules(model, out);
   return out;
-}
-
-bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b) {
-  return Length(LampOf(a) - LampOf(b)) < 0.05 * Length(LampOf(a));
 }
 
 std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem) {

@@ -11,6 +11,7 @@
 #include "lightcal/fit/locate/next_placement.h"
 #include "lightcal/fit/locate/placed_solve.h"
 #include "lightcal/fit/model/observations.h"
+#include "lightcal/light/wall_prior.h"
 
 namespace lightcal::fit {
 
@@ -23,6 +24,7 @@ struct PlacedProblem {
   double ambient_start = 0.0;
   bool ambient_told = false;
   int lit = 0;
+  int card_rows = 0;  // at the end of the rows: what cards left of readings that stand before them
 };
 
 struct PlacedSolution {
@@ -38,14 +40,19 @@ struct PlacedSolution {
   return o.lit && o.measured_from_center && o.position_m;
 }
 
-// E0 is free where lamp-off readings tell it, or beside six readings under the prior that it cannot
-// exceed the dimmest; d0 where readings give distances alone.
+// The rows as one prior of the walls' light has them: its rules, bend and scatter.
+void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
+
+// E0 is free where lamp-off readings tell it, or, where no wall shines, beside six readings under
+// the prior that it cannot exceed the dimmest; d0 where readings give distances alone; the walls'
+// light under one normal of all that the lamp may be.
 [[nodiscard]] PlacedProblem PlacedProblemOf(const Observations& observations,
                                             const LightDescription& light,
                                             const ForwardModel& model);
 
 // Every minimum that the starts lead to, best first: found with the ambient light held, then with
 // it free from each place that may still win (beside it, hopeless starts creep for a long time).
+// What the walls scatter counts as of a reading half of which is theirs.
 [[nodiscard]] std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem);
 
 // Whether two solutions are one.

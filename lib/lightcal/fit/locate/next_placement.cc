@@ -92,6 +92,10 @@ class Judge {
     PlacedRow row;
     row.normal = NormalOf(estimation);
     row.sigma = FinestSigma(estimation);
+    // It sees the walls as the others do.
+    const auto seeing = std::ranges::find_if(
+        estimation.rows, [](const PlacedRow& one) { return one.direct_gain > 0.0 && one.walls; });
+    if (seeing != estimation.rows.end()) row.walls = seeing->walls;
     with_.rows.push_back(row);
   }
 
@@ -107,10 +111,7 @@ class Judge {
     double sum = 0.0;
     for (const PlacedTheta& theta : solutions_) {
       double lux = 0.0;
-      if (!PlacedIlluminance(row, with_.aim, theta[kPlacedLnIntensity], &theta[kPlacedX],
-                             theta[kPlacedAmbient], theta[kPlacedOffset], &lux)) {
-        return kNever;
-      }
+      if (!PlacedIlluminance(row, with_.aim, theta.data(), &lux)) return kNever;
       row.measured = lux;
       ln_lux.push_back(std::log(lux));
       const double distance = Length(LampOf(theta) - middle_);

@@ -13,7 +13,8 @@
 namespace lightcal::fit {
 
 // The parameters, in this order everywhere: ln I, the effective source's place, the ambient
-// illuminance, the distance offset of readings that give a distance alone.
+// illuminance, the distance offset of readings that give a distance alone, and of the walls' light
+// (light/wall_prior.h) ln b and the slope.
 enum PlacedParameter : std::uint8_t {
   kPlacedLnIntensity = 0,
   kPlacedX = 1,
@@ -21,58 +22,91 @@ enum PlacedParameter : std::uint8_t {
   kPlacedZ = 3,
   kPlacedAmbient = 4,
   kPlacedOffset = 5,
+  kPlacedLnWalls = 6,
+  kPlacedWallsSlope = 7,
 };
-inline constexpr int kPlacedParameters = 6;
+inline constexpr int kPlacedParameters = 8;
 using PlacedTheta = std::array<double, kPlacedParameters>;
+
+// The light from the walls in one row, whose distance is to be found:
+//   E_walls = exp(ln I + ln b + slope x + bend x^2 + constant),  x = ln(r / 3 m)
+struct PlacedWalls : WallsOfRow {
+  double ln_unit = 0.0;  // ln of the solver's unit of length over 3 m
+  double bend = 0.0;
+};
 
 struct PlacedRow {
   RowForm form = RowForm::kLog;
   std::optional<Vec3> position;  // of the meter; absent: `distance` from the lamp, facing it
   std::optional<Vec3> normal;    // unit; absent: facing the lamp
   double distance = 1.0;
-  double direct_gain = 1.0;   // what tilt, head and source size leave; 0 without the lamp
-  double bounce = 0.0;        // illuminance from the room's walls per candela, known
+  double direct_gain = 1.0;  // what tilt, head and source size leave; 0 without the lamp
+  double bounce = 0.0;       // illuminance from the room's walls per candela, known
+  std::optional<PlacedWalls> walls;
   double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
   double measured = 0.0;
-  double sigma = 1.0;  // as of ReadingRow's forms
+  double sigma = 1.0;      // as of ReadingRow's forms
+  double own_sigma = 1.0;  // of it, what is not scatter of the walls' light
 };
 
-// E = exp(ln I) [ gain (n.v/r) (-a.v/r)/r^2 + bounce ] + ambient,  v = lamp - meter, r = |v|;
-// the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat Lambertian source shining
-// along a) is 1 where no aim is given. False where the meter or the lamp faces away. T is double or
-// an automatic-differentiation scalar.
+// Of the walls, per candela, at a distance; 0 in rows that see none of their light.
+template <class T>
+[[nodiscard]] T WallsPerCandela(const PlacedRow& row, const T& distance, const T* theta) {
+  using std::exp;
+  using std::log;
+  if (!row.walls) return T(0.0);
+  const T x = log(distance) + row.walls->ln_unit;
+  return exp(theta[kPlacedLnWalls] + (theta[kPlacedWallsSlope] + row.walls->bend * x) * x +
+             row.walls->constant);
+}
+
+// From the lamp: r of a placed row, the stated distance and its offset of another.
+template <class T>
+[[nodiscard]] T DistanceOf(const PlacedRow& row, const T* theta) {
+  using std::sqrt;
+  if (!row.position) return row.distance + theta[kPlacedOffset];
+  const std::array<T, 3> v = {theta[kPlacedX] - (*row.position)[0],
+                              theta[kPlacedY] - (*row.position)[1],
+                              theta[kPlacedZ] - (*row.position)[2]};
+  return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+// E = exp(ln I) [ gain (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,  v = lamp - meter,
+// r = |v|; the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat Lambertian source
+// shining along a) is 1 where no aim is given. False where the meter or the lamp faces away. theta:
+// kPlacedParameters of T, which is double or an automatic-differentiation scalar.
 template <class T>
 [[nodiscard]] bool PlacedIlluminance(const PlacedRow& row, const std::optional<Vec3>& aim,
-                                     const T& ln_intensity, const T* lamp, const T& ambient,
-                                     const T& distance_offset, T* lux) {
+                                     const T* theta, T* lux) {
   using std::exp;
-  using std::sqrt;
   T per_candela(row.bounce);
-  if (row.direct_gain > 0.0 && row.position) {
-    const std::array<T, 3> v = {lamp[0] - (*row.position)[0], lamp[1] - (*row.position)[1],
-                                lamp[2] - (*row.position)[2]};
-    const auto along = [&v](const Vec3& u) { return v[0] * u[0] + v[1] * u[1] + v[2] * u[2]; };
-    const T r2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (!(r2 > T(0.0))) return false;
-    const T r = sqrt(r2);
-    T direct = row.direct_gain / r2;
-    if (row.normal) {
-      const T cosine = along(*row.normal) / r;
-      if (!(cosine > T(0.0))) return false;
-      direct *= cosine;
-    }
-    if (aim) {
-      const T cosine = -along(*aim) / r;
-      if (!(cosine > T(0.0))) return false;
-      direct *= cosine;
-    }
-    per_candela += direct;
-  } else if (row.direct_gain > 0.0) {
-    const T r = row.distance + distance_offset;
+  if (row.direct_gain > 0.0 || row.walls) {
+    const T r = DistanceOf(row, theta);
     if (!(r > T(0.0))) return false;
-    per_candela += row.direct_gain / (r * r);
+    if (row.walls) per_candela += WallsPerCandela(row, r, theta);
+    if (row.direct_gain > 0.0) {
+      T direct = row.direct_gain / (r * r);
+      if (row.position) {
+        const auto along = [&](const Vec3& u) {
+          return (theta[kPlacedX] - (*row.position)[0]) * u[0] +
+                 (theta[kPlacedY] - (*row.position)[1]) * u[1] +
+                 (theta[kPlacedZ] - (*row.position)[2]) * u[2];
+        };
+        if (row.normal) {
+          const T cosine = along(*row.normal) / r;
+          if (!(cosine > T(0.0))) return false;
+          direct *= cosine;
+        }
+        if (aim) {
+          const T cosine = -along(*aim) / r;
+          if (!(cosine > T(0.0))) return false;
+          direct *= cosine;
+        }
+      }
+      per_candela += direct;
+    }
   }
-  *lux = exp(ln_intensity) * per_candela + row.ambient_gain * ambient;
+  *lux = exp(theta[kPlacedLnIntensity]) * per_candela + row.ambient_gain * theta[kPlacedAmbient];
   return true;
 }
 

@@ -26,11 +26,6 @@ void CutAmbient(const At& at, double estimate, const PlacedMatrix& covariance,
   total += regression * regression.transpose() * (truncated.variance - variance + shift * shift);
 }
 
-double DistanceOf(const PlacedRow& row, const PlacedTheta& theta) {
-  if (!row.position) return row.distance;
-  return Length(Vec3{theta[kPlacedX], theta[kPlacedY], theta[kPlacedZ]} - *row.position);
-}
-
 void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
                    const PlacedUncertainty& input, const At& at, const PlacedMatrix& covariance,
                    PlacedMatrix& total) {
@@ -40,7 +35,7 @@ void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
       const PlacedRow& row = estimation.rows[i];
       if (row.form != RowForm::kLog || !(row.direct_gain > 0.0)) continue;
       whitened[static_cast<Eigen::Index>(i)] =
-          influence.relative * std::pow(DistanceOf(row, theta), influence.distance_power) /
+          influence.relative * std::pow(DistanceOf(row, theta.data()), influence.distance_power) /
           (row.sigma * input.row_scale);
     }
     const PlacedVector shift = Carried<PlacedEstimation>(at, covariance, whitened);
@@ -52,6 +47,19 @@ void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
 
 Result<PlacedTheta> SolvePlaced(const PlacedEstimation& estimation, const PlacedTheta& start) {
   return SolveInFullBy(estimation, start, {.iterations = 100}, "position");
+}
+
+void SettleScatter(PlacedEstimation& estimation, const PlacedTheta& theta) {
+  for (PlacedRow& row : estimation.rows) {
+    if (!row.walls) continue;
+    double whole = 1.0;
+    const bool seen = PlacedIlluminance(row, estimation.aim, theta.data(), &whole);
+    if (row.form == RowForm::kLinear) whole = 1.0;
+    const double walls = std::exp(theta[kPlacedLnIntensity]) *
+                         WallsPerCandela(row, DistanceOf(row, theta.data()), theta.data());
+    const double scatter = row.walls->scatter * walls / whole;
+    row.sigma = seen && whole > 0.0 ? std::hypot(row.own_sigma, scatter) : row.own_sigma;
+  }
 }
 
 std::vector<double> PlacedResiduals(const PlacedEstimation& estimation, const PlacedTheta& theta) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maximum a posteriori estimate of (ln I, position, E0, d0) from placed readings, in any one set of
-// units, and how well they determine it.
+// Maximum a posteriori estimate of (ln I, position, E0, d0, the walls' light) from placed readings,
+// in any one set of units, and how well they determine it.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct PlacedEstimation {
   std::vector<PlacedRow> rows;
   std::optional<Vec3> aim;  // unit, of a flat Lambertian source
   std::array<ParameterRule, kPlacedParameters> rules = {
-      {{.free = true}, {.free = true}, {.free = true}, {.free = true}, {}, {}}};
+      {{.free = true}, {.free = true}, {.free = true}, {.free = true}, {}, {}, {}, {}}};
 
   static constexpr int kCount = kPlacedParameters;
   [[nodiscard]] std::size_t RowCount() const { return rows.size(); }
@@ -32,8 +32,7 @@ struct PlacedEstimation {
   [[nodiscard]] bool Residual(std::size_t i, const T* theta, T* residual) const {
     T lux(0.0);
     const PlacedRow& row = rows[i];
-    return PlacedIlluminance(row, aim, theta[kPlacedLnIntensity], &theta[kPlacedX],
-                             theta[kPlacedAmbient], theta[kPlacedOffset], &lux) &&
+    return PlacedIlluminance(row, aim, theta, &lux) &&
            WhitenedResidual(row.form, row.measured, row.sigma, lux, residual);
   }
 };
@@ -46,13 +45,16 @@ using PlacedCovariance =
 [[nodiscard]] Result<PlacedTheta> SolvePlaced(const PlacedEstimation& estimation,
                                               const PlacedTheta& start);
 
+// Gives each row's sigma the scatter of the light from the walls, by their share at theta.
+void SettleScatter(PlacedEstimation& estimation, const PlacedTheta& theta);
+
 // Sum of squared residuals with the priors of free parameters; infinite where a row has none.
 [[nodiscard]] double PlacedChiSquared(const PlacedEstimation& estimation, const PlacedTheta& theta);
 // Of the rows one by one.
 [[nodiscard]] std::vector<double> PlacedResiduals(const PlacedEstimation& estimation,
                                                   const PlacedTheta& theta);
 
-// Covariance of the six parameters at theta, those held having none: the inverse of J^T J of rows
+// Covariance of the parameters at theta, those held having none: the inverse of J^T J of rows
 // and priors, E0 cut at zero as by EstimateCovariance, `considered` influences carried through.
 // `position_sd` > 0 adds that prior on each coordinate (for layouts that do not determine it).
 // Fails: underdetermined.
@@ -66,8 +68,8 @@ struct PlacedUncertainty {
                                                                 const PlacedUncertainty& input);
 
 // Ratio of the largest to the smallest singular value of the rows' Jacobian over the free
-// parameters, columns scaled to unit length, priors left out (offset's prior is kept: nothing else
-// tells it). Infinite with fewer rows than parameters.
+// parameters, columns scaled to unit length, priors left out (those of the offset and of the walls
+// are kept: little else tells them). Infinite with fewer rows than parameters.
 [[nodiscard]] double PlacedCondition(const PlacedEstimation& estimation, const PlacedTheta& theta);
 
 }  // namespace lightcal::fit

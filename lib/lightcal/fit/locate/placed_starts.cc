@@ -66,8 +66,16 @@ std::optional<Eigen::VectorXd> SolveLinear(const PlacedEstimation& estimation,
   return scale.cwiseInverse().asDiagonal() * qr.solve(b.head(n));
 }
 
-PlacedTheta ThetaOf(double intensity, const Vec3& lamp, double ambient) {
-  return {std::log(intensity), lamp[0], lamp[1], lamp[2], ambient, 0.0};
+PlacedTheta ThetaOf(const PlacedEstimation& estimation, double intensity, const Vec3& lamp,
+                    double ambient) {
+  return {std::log(intensity),
+          lamp[0],
+          lamp[1],
+          lamp[2],
+          ambient,
+          0.0,
+          estimation.rules[kPlacedLnWalls].prior_mean,
+          estimation.rules[kPlacedWallsSlope].prior_mean};
 }
 
 std::optional<PlacedTheta> FromCommonPlane(const PlacedEstimation& estimation,
@@ -83,7 +91,7 @@ std::optional<PlacedTheta> FromCommonPlane(const PlacedEstimation& estimation,
   const double h = std::sqrt(h2);
   const Vec3 lamp =
       plane.origin + plane.across * (*x)[0] + plane.along * (*x)[1] + plane.normal * h;
-  return ThetaOf(faces ? c * c / h2 : c * std::sqrt(c) / h, lamp, ambient);
+  return ThetaOf(estimation, faces ? c * c / h2 : c * std::sqrt(c) / h, lamp, ambient);
 }
 
 std::optional<PlacedTheta> FromFacingMeters(const PlacedEstimation& estimation, double ambient) {
@@ -94,7 +102,7 @@ std::optional<PlacedTheta> FromFacingMeters(const PlacedEstimation& estimation, 
       LayoutOf(estimation.rows).middle, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}, 1.0};
   const auto x = SolveLinear(estimation, form, ambient);
   if (!x || !((*x)[4] > 0.0)) return std::nullopt;
-  return ThetaOf((*x)[4], form.origin + Vec3{(*x)[0], (*x)[1], (*x)[2]}, ambient);
+  return ThetaOf(estimation, (*x)[4], form.origin + Vec3{(*x)[0], (*x)[1], (*x)[2]}, ambient);
 }
 
 // ln I as the weighted mean of what each row asks for at this place, and chi-squared about it.
@@ -107,11 +115,11 @@ ScanPoint Evaluate(const PlacedEstimation& estimation, const Vec3& lamp, double 
   double w = 0.0;
   double x = 0.0;
   double xx = 0.0;
+  const PlacedTheta one_candela = ThetaOf(estimation, 1.0, lamp, 0.0);
   for (const PlacedRow& row : estimation.rows) {
     if (!Lit(row)) continue;
     double per_candela = 0.0;
-    const double none = 0.0;
-    if (!PlacedIlluminance(row, estimation.aim, none, lamp.data(), none, none, &per_candela)) {
+    if (!PlacedIlluminance(row, estimation.aim, one_candela.data(), &per_candela)) {
       return {};
     }
     const auto direct = DirectOf(row, ambient);
@@ -189,7 +197,7 @@ std::optional<PlacedTheta> PlacedStartAt(const PlacedEstimation& estimation, con
                                          double ambient) {
   const ScanPoint point = Evaluate(estimation, lamp, ambient);
   if (!std::isfinite(point.chi_squared)) return std::nullopt;
-  return ThetaOf(std::exp(point.ln_intensity), lamp, ambient);
+  return ThetaOf(estimation, std::exp(point.ln_intensity), lamp, ambient);
 }
 
 std::vector<PlacedTheta> ScanPlacedStarts(const PlacedEstimation& estimation, double ambient) {
@@ -213,7 +221,7 @@ std::vector<PlacedTheta> ScanPlacedStarts(const PlacedEstimation& estimation, do
         kept, [&](const Vec3& other) { return Alike(point.lamp, other, layout.middle); });
     if (known) continue;
     kept.push_back(point.lamp);
-    starts.push_back(ThetaOf(std::exp(point.ln_intensity), point.lamp, ambient));
+    starts.push_back(ThetaOf(estimation, std::exp(point.ln_intensity), point.lamp, ambient));
     if (starts.size() == kMostStarts) break;
   }
   return starts;

@@ -7,7 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "lightcal/fit/model/least_squares.h"
+#include "lightcal/fit/model/evidence.h"
+#include "lightcal/fit/model/row_values.h"
 #include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/fit/model/starts.h"
 
@@ -20,10 +21,6 @@ constexpr double kNearestSource = -0.7;  // of the shortest distance
 WallsOfRow WallsAt(const WallPrior& prior, double distance_m, double length_m) {
   const double x = std::log(distance_m / kWallReference_m);
   return {x, prior.bend * x * x + 2.0 * std::log(length_m), prior.scatter};
-}
-
-bool SeesWalls(const Observation& observation, bool lit_row) {
-  return observation.sees_walls && (lit_row ? !observation.differenced : observation.behind_card);
 }
 
 double Normal(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
@@ -62,7 +59,7 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
   }
   if (!hypothesis.walls) return out;
   const WallPrior& prior = hypothesis.walls->prior;
-  bool seen = false;
+  std::vector<ReadingOfWalls> seeing;
   for (std::size_t i = 0; i < out.rows.size(); ++i) {
     ReadingRow& row = out.rows[i];
     const Observation& observation =
@@ -76,10 +73,10 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     }
     if (!SeesWalls(observation, lit_row)) continue;
     row.walls = WallsAt(prior, observation.distance_m, prepared.scales.length_m);
-    seen = true;
+    seeing.push_back({lit_row, &*row.walls, &observation});
   }
-  if (!seen) return out;
-  ShareScatter(prepared.observation, observations, out.rows);
+  if (seeing.empty()) return out;
+  ShareScatter(std::move(seeing));
   out.rules[kLnWalls] = {true, prior.ln_b, prior.sd_ln_b};
   out.rules[kWallsSlope] = {true, prior.slope, prior.sd_slope};
   return out;
@@ -106,14 +103,7 @@ Result<Theta> SolveSettledFrom(const Theta& start, Estimation& estimation) {
 }
 
 double LnEvidence(const Estimation& estimation, const Theta& theta) {
-  double ln = LnDensity(estimation, theta) - 0.5 * PriorChiSquaredOf(estimation, theta);
-  const auto r = FreeTriangle(estimation, Linearise(estimation, theta));
-  for (int k = 0; k < kParameters; ++k) {
-    if (!estimation.rules[k].free) continue;
-    ln -= std::log(std::abs(r(k, k)));
-    if (estimation.rules[k].prior_sd > 0.0) ln -= std::log(estimation.rules[k].prior_sd);
-  }
-  return std::isfinite(ln) ? ln : -std::numeric_limits<double>::max();
+  return LnEvidenceOf(estimation, theta);
 }
 
 // By Newton's steps on the distribution function within what is known to hold the root, halved

@@ -84,23 +84,12 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
 
 // Behind the card, without the direct light.
 ReadingRow CardRowOf(const Observation& observation, const Scales& scales) {
-  Observation card = observation;
-  card.lit = true;
-  card.differenced = card.ambient_subtracted = false;
-  card.measured_lx = observation.card_lx;
-  card.sigma_lx = std::hypot(observation.card_sigma_lx, kCardHides * observation.card_lx);
   ReadingRow row;
-  FillRowValues(card, 0, ForwardModel{}, scales.length_m, scales.illuminance_lx, row);
+  FillRowValues(BehindCard(observation), 0, ForwardModel{}, scales.length_m, scales.illuminance_lx,
+                row);
   row.own_sigma = row.sigma;
   row.direct_gain = 0.0;
   return row;
-}
-
-// A card before the lamp hides some of the walls too.
-void WidenByCard(const Observation& observation, const Scales& scales, ReadingRow& row) {
-  const double hidden = kCardHides * observation.card_lx / scales.illuminance_lx;
-  const double unit = row.form == RowForm::kLinear ? 1.0 : row.measured;
-  row.sigma = row.own_sigma = std::hypot(row.sigma, hidden / unit);
 }
 
 void AddCardRows(const Observations& observations, Prepared& out) {
@@ -111,7 +100,7 @@ void AddCardRows(const Observations& observations, Prepared& out) {
     if (!observation.lit || !observation.differenced) continue;
     const auto own = std::ranges::find(out.observation, static_cast<int>(i));
     if (own == out.observation.end()) continue;
-    WidenByCard(observation, out.scales,
+    WidenByCard(observation, kCardHides, out.scales.illuminance_lx,
                 out.estimation.rows[static_cast<std::size_t>(own - out.observation.begin())]);
     if (!some_open || !(observation.card_sigma_lx > 0.0)) continue;
     out.estimation.rows.push_back(CardRowOf(observation, out.scales));

@@ -2,6 +2,7 @@
 // What an observation says wherever its meter stands, in the solver's units.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "lightcal/fit/estimate_light.h"
@@ -16,6 +17,12 @@ inline constexpr double kLinearBeyondSigma = 0.3;
 // 1 sigma of what a card hides besides the direct light, of all that it leaves: in traced rooms 3
 // to 5 % for cards of a lamp's size half way (tests/tools/traced_rooms).
 inline constexpr double kCardHides = 0.04;
+
+// Whether the light from the walls is in that row: of one with the lamp unless a card's reading was
+// subtracted, of one without it if it was read behind a card.
+[[nodiscard]] inline bool SeesWalls(const Observation& observation, bool lit_row) {
+  return observation.sees_walls && (lit_row ? !observation.differenced : observation.behind_card);
+}
 
 // Fills measured, sigma, form, ambient_gain and, of a lit row, bounce: Row is ReadingRow or
 // PlacedRow. `i` is the observation's place among all (the model's bounce lies beside them).
@@ -36,6 +43,25 @@ void FillRowValues(const Observation& o, std::size_t i, const ForwardModel& mode
     row.form = o.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
     row.sigma = relative;
   }
+}
+
+// What was read behind the card that was subtracted: the walls' light, without the lamp's own.
+[[nodiscard]] inline Observation BehindCard(const Observation& observation) {
+  Observation card = observation;
+  card.lit = true;
+  card.differenced = card.ambient_subtracted = false;
+  card.measured_lx = observation.card_lx;
+  card.sigma_lx = std::hypot(observation.card_sigma_lx, kCardHides * observation.card_lx);
+  return card;
+}
+
+// A card before the lamp hides some of the walls too: what was subtracted lacks it. `hides`: 1
+// sigma, of what the card left.
+template <class Row>
+void WidenByCard(const Observation& observation, double hides, double lux, Row& row) {
+  const double hidden = hides * observation.card_lx / lux;
+  const double unit = row.form == RowForm::kLinear ? 1.0 : row.measured;
+  row.sigma = row.own_sigma = std::hypot(row.sigma, hidden / unit);
 }
 
 }  // namespace lightcal::fit

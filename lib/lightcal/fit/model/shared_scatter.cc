@@ -43,22 +43,18 @@ double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
 
 }  // namespace
 
-void ShareScatter(const std::vector<int>& observation, const Observations& observations,
-                  std::vector<ReadingRow>& rows) {
-  std::vector<std::size_t> seeing;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].walls) seeing.push_back(i);
-  }
-  const auto lit = [&](std::size_t i) { return rows[i].direct_gain > 0.0; };
-  std::ranges::sort(seeing, {}, [&](std::size_t i) { return std::pair(lit(i), rows[i].walls->x); });
+void ShareScatter(std::vector<ReadingOfWalls> readings) {
+  std::ranges::sort(readings, {},
+                    [](const ReadingOfWalls& one) { return std::pair(one.lit, one.walls->x); });
   std::vector<SharedPlace> places;  // as near as their nearest row, ascending
-  for (const std::size_t i : seeing) {
-    const Observation& at = observations.rows[static_cast<std::size_t>(observation[i])];
-    WallsOfRow& walls = *rows[i].walls;
+  for (const ReadingOfWalls& one : readings) {
+    WallsOfRow& walls = *one.walls;
     auto place = places.rbegin();
-    while (place != places.rend() && place->Reaches(lit(i), walls.x) && !place->IsOf(at)) ++place;
-    if (place == places.rend() || !place->Reaches(lit(i), walls.x)) {
-      places.push_back({lit(i), walls.x, &at, {}});
+    while (place != places.rend() && place->Reaches(one.lit, walls.x) && !place->IsOf(*one.at)) {
+      ++place;
+    }
+    if (place == places.rend() || !place->Reaches(one.lit, walls.x)) {
+      places.push_back({one.lit, walls.x, one.at, {}});
       place = places.rbegin();
     }
     walls.place = static_cast<int>(places.rend() - place) - 1;
@@ -80,33 +76,6 @@ double SettleScatter(Estimation& estimation, const Theta& theta) {
     row.sigma = sigma;
   }
   return most;
-}
-
-double LnDensity(const Estimation& estimation, const Theta& theta) {
-  struct Shared {
-    double strength = 0.0, pull = 0.0;  // s^T D^-1 s, s^T D^-1 (reading - model)
-  };
-  std::vector<Shared> places;
-  double ln = 0.0;
-  for (const ReadingRow& row : estimation.rows) {
-    const double residual = RowResidual(row, theta);
-    if (!row.walls || row.walls->rows == 1) {
-      ln -= 0.5 * residual * residual + std::log(row.sigma);
-      continue;
-    }
-    const double whole = row.sigma / row.own_sigma;
-    const double own = residual * whole;
-    ln -= 0.5 * own * own + std::log(row.own_sigma);
-    const double scatter = std::sqrt(std::max(0.0, whole * whole - 1.0) / row.walls->rows);
-    const auto at = static_cast<std::size_t>(row.walls->place);
-    if (places.size() <= at) places.resize(at + 1);
-    places[at].strength += scatter * scatter;
-    places[at].pull += scatter * own;
-  }
-  for (const Shared& place : places) {
-    ln += 0.5 * place.pull * place.pull / (1.0 + place.strength) - 0.5 * std::log1p(place.strength);
-  }
-  return ln;
 }
 
 }  // namespace lightcal::fit
