@@ -99,11 +99,12 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kPartWords = {
     {{"room_bounce", "walls"},
      {"meter_calibration", "meter"},
      {"readings", "reading by reading"},
      {"readings_and_place", "meter and place"},
+     {"uneven_light", "how evenly it shines"},
      {"distance_offset", "where the light starts"},
      {"unknown_lamp", "what lamp it is"},
      {"data_sheet", "what the box says"},

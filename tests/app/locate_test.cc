@@ -159,5 +159,43 @@ TEST(LocateInARoom, ThreeCardsTellTheWallsOfTheOtherPlaces) {
                           [](const json& part) { return part["name"] == "room_bounce"; }));
 }
 
+TEST(LocateByProgram, ABulbMayShineUnevenlyAndAPointSaysThatItDoesNot) {
+  // Twice as bright downwards as upwards: I = 900 (1 + .35 cos) from the base above.
+  const Point lamp{0.3, -0.2, 1.6};
+  std::string readings;
+  for (const Point& at :
+       {Point{1.3, 0.0, 0.4}, Point{-0.9, 0.1, 1.0}, Point{0.4, 1.0, 2.3}, Point{0.2, -1.4, 0.6},
+        Point{1.1, 0.8, 1.9}, Point{-0.7, -0.9, 2.4}, Point{0.1, 0.4, 0.2}}) {
+    const Point way = {lamp[0] - at[0], lamp[1] - at[1], lamp[2] - at[2]};
+    const double r = std::hypot(way[0], way[1], way[2]);
+    const auto triple = [](double x, double y, double z) {
+      return "[" + std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z) + "]\n";
+    };
+    readings +=
+        "[[reading]]\nlight = \"key\"\nmeter = \"m\"\nnormal = " +
+        triple(way[0] / r, way[1] / r, way[2] / r) + "position_m = " + triple(at[0], at[1], at[2]) +
+        "illuminance_lx = " + std::to_string(900.0 * (1.0 + 0.35 * way[2] / r) / (r * r)) + "\n";
+  }
+  const TempDir folder;
+  const std::string session = folder.Write("session.toml", kLocatedHead + readings);
+  const CliResult point = RunLightcal({"fit", session, "-o", folder.path() + "/p.json"});
+  EXPECT_EQ(point.exit_code, 0) << point.err;
+  EXPECT_NE(point.err.find("shines alike towards every meter"), std::string::npos) << point.err;
+  const auto off = [&](const json& light) {
+    return std::abs(double(light["position_m"][2]) - lamp[2]) / double(light["position_u95_m"][2]);
+  };
+  const json even = LightcalJson("fit", {session, "-o", folder.path() + "/p.json"})["lights"][0];
+  EXPECT_GT(off(even), 1.5);
+  folder.Write("session.toml", std::string(kLocatedHead)
+                                       .replace(std::string(kLocatedHead).find("[[meter]]"), 0,
+                                                "fixture = \"bulb\"\n") +
+                                   readings);
+  const json bulb = LightcalJson("fit", {session, "-o", folder.path() + "/b.json"})["lights"][0];
+  EXPECT_LT(off(bulb), 1.0);
+  const json& budget = bulb["budget"];
+  EXPECT_TRUE(std::any_of(budget.begin(), budget.end(),
+                          [](const json& part) { return part["name"] == "uneven_light"; }));
+}
+
 }  // namespace
 }  // namespace lightcal::test

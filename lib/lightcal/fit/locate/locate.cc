@@ -53,7 +53,9 @@ PlacedProblem Without(const PlacedProblem& problem, std::size_t row) {
 // The row whose leaving explains the rest best, where it lies beyond kOutlier of what they say.
 bool RejectOne(Kept& kept) {
   const PlacedEstimation& all = kept.problem.estimation;
-  if (DegreesOfFreedom(all) < 2 ||
+  // What an uneven lamp may take up is no proof that the rest agree.
+  const int taken_up = all.rules[kPlacedGradientX].free ? 3 : 0;
+  if (DegreesOfFreedom(all) - taken_up < 2 ||
       kept.solutions.front().chi_squared < ChiSquared95(DegreesOfFreedom(all))) {
     return false;
   }
@@ -283,13 +285,18 @@ std::vector<VariancePart> PartsOf(const std::vector<PlacedMode>& modes,
                                                   [&](const std::vector<Consider>& considered) {
                                                     return variance(best.estimation, considered);
                                                   });
-  if (parts.empty() || !best.estimation.rules[kPlacedLnWalls].free) return parts;
-  PlacedEstimation known_walls = best.estimation;
-  known_walls.rules[kPlacedLnWalls] = known_walls.rules[kPlacedWallsSlope] = {};
-  const double whole = parts.front().variance;
-  const double held = std::clamp(variance(known_walls, {}), 0.0, whole);
-  parts.front().variance = held;
-  parts.push_back({"room_bounce", whole - held});
+  if (parts.empty()) return parts;
+  PlacedEstimation known = best.estimation;
+  const auto part_of = [&](const char* name, int first, int last) {
+    if (!known.rules[first].free) return;
+    for (int k = first; k <= last; ++k) known.rules[k] = {};
+    const double whole = parts.front().variance;
+    const double held = std::clamp(variance(known, {}), 0.0, whole);
+    parts.front().variance = held;
+    parts.push_back({name, whole - held});
+  };
+  part_of("room_bounce", kPlacedLnWalls, kPlacedWallsSlope);
+  part_of("uneven_light", kPlacedGradientX, kPlacedGradientZ);
   const double unknown =
       mixed.covariance[kVariance] - variance(best.estimation, uncertainty.considered);
   if (unknown > 0.0) parts.push_back({"unknown_lamp", unknown});
@@ -306,10 +313,8 @@ bool NeedsLocating(const Observations& observations, const LightDescription& lig
 Result<LampLocation> LocateLamp(const Observations& observations, const LightDescription& light,
                                 const ForwardModel& model, const LampLocation* near) {
   if (auto kind = CheckKind(observations, light); !kind) return Propagate(std::move(kind));
-  PlacedProblem all = PlacedProblemOf(observations, light, model);
-  if (near != nullptr) {
-    all.near = (near->position_m - all.frame.origin) * (1.0 / all.frame.length_m);
-  }
+  const Vec3* near_m = near != nullptr ? &near->position_m : nullptr;
+  PlacedProblem all = PlacedProblemOf(observations, light, model, near_m);
   Kept kept{all, {}, {}};
   kept.solutions = SearchPlace(kept.problem);
   HoldAmbientIfVague(kept);

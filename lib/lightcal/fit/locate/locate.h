@@ -23,14 +23,14 @@ struct LampLocation {
 
 // Fits E_i = I ((n_i.v_i/r_i)/r_i^2 + walls(r_i)) + E0 (v_i = lamp - meter, walls as in
 // light/wall_prior.h) for I, the lamp's position, where the model has walls their light, and where
-// lamp-off readings or, without walls, six readings tell it, E0, from a closed form where the layout has one and a
-// scan of directions and distances. Readings without a normal face the lamp; readings that give a
-// distance alone join with an offset of their own, N(0, (0.15 d_min)^2). Points and spheres shine
-// evenly, disks and rectangles as cos from their aim. With more readings than parameters by two,
-// one beyond 4.7 sigma is rejected when the rest agree without it, again while any is. Each of
-// model.walls is weighed by its evidence, the answer mean and covariance of all. `model` adds
-// what the effect gate decided (head size, influences that widen). Refused, each with the
-// reading that would help most: cocircular (meters of one normal on one circle or line),
+// lamp-off readings or, without walls, six readings tell it, E0, from a closed form where the
+// layout has one and a scan of directions and distances. Readings without a normal face the lamp;
+// readings that give a distance alone join with an offset of their own, N(0, (0.15 d_min)^2).
+// Points and spheres shine evenly, disks and rectangles as cos from their aim. With more readings
+// than parameters by two, one beyond 4.7 sigma is rejected when the rest agree without it, again
+// while any is. Each of model.walls is weighed by its evidence, the answer mean and covariance of
+// all. `model` adds what the effect gate decided (head size, influences that widen). Refused, each
+// with the reading that would help most: cocircular (meters of one normal on one circle or line),
 // mirror_ambiguous (two places explain the readings), position_unknown (fewer than four readings),
 // underdetermined (scaled condition beyond 1000, or a position no better known than half its
 // distance). Refused also: position_unknown (kinds whose beam has a shape), aim_unknown (disk,

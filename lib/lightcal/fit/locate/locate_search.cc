@@ -108,6 +108,26 @@ void AddWalls(const Observations& observations, const WallPrior& prior, PlacedPr
   }
 }
 
+// How the lamp shines more to one side than to another, about the mean direction to its readings.
+void AddGradient(const Vec3& sd, PlacedProblem& problem) {
+  Vec3 middle{};
+  int count = 0;
+  const auto seen = [](const PlacedRow& row) { return row.direct_gain > 0.0 && row.position; };
+  for (const PlacedRow& row : problem.estimation.rows) {
+    if (!seen(row) || !problem.near) continue;
+    const Vec3 way = *row.position - *problem.near;
+    middle = middle + way * (1.0 / Length(way));
+    ++count;
+  }
+  if (count > 0) middle = middle * (1.0 / count);
+  for (PlacedRow& row : problem.estimation.rows) {
+    if (seen(row)) row.middle = middle;
+  }
+  for (int k = 0; k < 3; ++k) {
+    problem.estimation.rules[kPlacedGradientX + k] = {true, 0.0, sd[k]};
+  }
+}
+
 void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   double dimmest = std::numeric_limits<double>::infinity();
   double shortest = std::numeric_limits<double>::infinity();
@@ -188,7 +208,7 @@ bool AtOnePlace(const PlacedTheta& a, const PlacedTheta& b) {
 }
 
 PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescription& light,
-                              const ForwardModel& model) {
+                              const ForwardModel& model, const Vec3* near_m) {
   PlacedProblem out;
   out.frame = FrameOf(observations);
   if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) {
@@ -201,6 +221,8 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
     if (observations.rows[i].lit) ++out.lit;
   }
   if (const auto walls = OneNormalOf(model.walls)) AddWalls(observations, *walls, out);
+  if (near_m != nullptr) out.near = (*near_m - out.frame.origin) * (1.0 / out.frame.length_m);
+  if (model.gradient_sd) AddGradient(*model.gradient_sd, out);
   SetRules(model, out);
   return out;
 }

@@ -45,10 +45,12 @@ void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
 
 // E0 is free where lamp-off readings tell it, or, where no wall shines, beside six readings under
 // the prior that it cannot exceed the dimmest; d0 where readings give distances alone; the walls'
-// light under one normal of all that the lamp may be.
+// light under one normal of all that the lamp may be. `near_m`: where the lamp is known to be
+// about; the mean direction to its readings counts from there, 0 without it.
 [[nodiscard]] PlacedProblem PlacedProblemOf(const Observations& observations,
                                             const LightDescription& light,
-                                            const ForwardModel& model);
+                                            const ForwardModel& model,
+                                            const Vec3* near_m = nullptr);
 
 // Every minimum that the starts lead to, best first: found with the ambient light held, then with
 // it free from each place that may still win (beside it, hopeless starts creep for a long time).

@@ -13,8 +13,9 @@
 namespace lightcal::fit {
 
 // The parameters, in this order everywhere: ln I, the effective source's place, the ambient
-// illuminance, the distance offset of readings that give a distance alone, and of the walls' light
-// (light/wall_prior.h) ln b and the slope.
+// illuminance, the distance offset of readings that give a distance alone, of the walls' light
+// (light/wall_prior.h) ln b and the slope, and how unevenly the lamp shines: ln I towards the unit
+// vector u is ln I + g.(u - middle), g the gradient and middle the mean of u over the readings.
 enum PlacedParameter : std::uint8_t {
   kPlacedLnIntensity = 0,
   kPlacedX = 1,
@@ -24,8 +25,11 @@ enum PlacedParameter : std::uint8_t {
   kPlacedOffset = 5,
   kPlacedLnWalls = 6,
   kPlacedWallsSlope = 7,
+  kPlacedGradientX = 8,
+  kPlacedGradientY = 9,
+  kPlacedGradientZ = 10,
 };
-inline constexpr int kPlacedParameters = 8;
+inline constexpr int kPlacedParameters = 11;
 using PlacedTheta = std::array<double, kPlacedParameters>;
 
 // The light from the walls in one row, whose distance is to be found:
@@ -43,7 +47,8 @@ struct PlacedRow {
   double direct_gain = 1.0;  // what tilt, head and source size leave; 0 without the lamp
   double bounce = 0.0;       // illuminance from the room's walls per candela, known
   std::optional<PlacedWalls> walls;
-  double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
+  std::optional<Vec3> middle;  // of a lamp that shines unevenly: the mean direction from it
+  double ambient_gain = 1.0;   // 0 where a shadow-card reading was subtracted
   double measured = 0.0;
   double sigma = 1.0;      // as of ReadingRow's forms
   double own_sigma = 1.0;  // of it, what is not scatter of the walls' light
@@ -71,10 +76,11 @@ template <class T>
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-// E = exp(ln I) [ gain (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,  v = lamp - meter,
-// r = |v|; the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat Lambertian source
-// shining along a) is 1 where no aim is given. False where the meter or the lamp faces away. theta:
-// kPlacedParameters of T, which is double or an automatic-differentiation scalar.
+// E = exp(ln I) [ gain exp(g.(-v/r - middle)) (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,
+// v = lamp - meter, r = |v|; the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat
+// Lambertian source shining along a) is 1 where no aim is given. False where the meter or the lamp
+// faces away. theta: kPlacedParameters of T, which is double or an automatic-differentiation
+// scalar.
 template <class T>
 [[nodiscard]] bool PlacedIlluminance(const PlacedRow& row, const std::optional<Vec3>& aim,
                                      const T* theta, T* lux) {
@@ -101,6 +107,14 @@ template <class T>
           const T cosine = -along(*aim) / r;
           if (!(cosine > T(0.0))) return false;
           direct *= cosine;
+        }
+        if (row.middle) {
+          T uneven(0.0);
+          for (int k = 0; k < 3; ++k) {
+            const T towards = ((*row.position)[k] - theta[kPlacedX + k]) / r;
+            uneven += theta[kPlacedGradientX + k] * (towards - (*row.middle)[k]);
+          }
+          direct *= exp(uneven);
         }
       }
       per_candela += direct;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maximum a posteriori estimate of (ln I, position, E0, d0, the walls' light) from placed readings,
-// in any one set of units, and how well they determine it.
+// Maximum a posteriori estimate of ln I, position, E0, d0, the walls' light and the lamp's gradient
+// from placed readings, in any one set of units, and how well they determine it.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct PlacedEstimation {
   std::vector<PlacedRow> rows;
   std::optional<Vec3> aim;  // unit, of a flat Lambertian source
   std::array<ParameterRule, kPlacedParameters> rules = {
-      {{.free = true}, {.free = true}, {.free = true}, {.free = true}, {}, {}, {}, {}}};
+      {{.free = true}, {.free = true}, {.free = true}, {.free = true}}};
 
   static constexpr int kCount = kPlacedParameters;
   [[nodiscard]] std::size_t RowCount() const { return rows.size(); }
@@ -68,7 +68,7 @@ struct PlacedUncertainty {
                                                                 const PlacedUncertainty& input);
 
 // Ratio of the largest to the smallest singular value of the rows' Jacobian over the free
-// parameters, columns scaled to unit length, priors left out (those of the offset and of the walls
+// parameters, columns scaled to unit length, priors left out (those of offset, walls and gradient
 // are kept: little else tells them). Infinite with fewer rows than parameters.
 [[nodiscard]] double PlacedCondition(const PlacedEstimation& estimation, const PlacedTheta& theta);
 

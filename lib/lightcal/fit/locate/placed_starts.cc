@@ -68,14 +68,9 @@ std::optional<Eigen::VectorXd> SolveLinear(const PlacedEstimation& estimation,
 
 PlacedTheta ThetaOf(const PlacedEstimation& estimation, double intensity, const Vec3& lamp,
                     double ambient) {
-  return {std::log(intensity),
-          lamp[0],
-          lamp[1],
-          lamp[2],
-          ambient,
-          0.0,
-          estimation.rules[kPlacedLnWalls].prior_mean,
-          estimation.rules[kPlacedWallsSlope].prior_mean};
+  PlacedTheta theta = {std::log(intensity), lamp[0], lamp[1], lamp[2], ambient};
+  for (int k = kPlacedOffset; k < kPlacedParameters; ++k) theta[k] = estimation.rules[k].prior_mean;
+  return theta;
 }
 
 std::optional<PlacedTheta> FromCommonPlane(const PlacedEstimation& estimation,

@@ -13,10 +13,11 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 29> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 30> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
+    {"uneven_light", "readings from all sides of the lamp, or a luminaire's own file"},
     {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
     {"ambient", "a lamp-off or shadow-card reading at each distance"},
     {"cone", "four times as many readings between the beam's middle and its edge"},
