@@ -148,6 +148,9 @@ struct MeasuredState {
   FixtureState state;
   Uncertain relative;
   double repeatability = 0.0;  // 1 sigma, relative: of this state's readings alone
+  // Of states read where the reference was not: 1 sigma, relative, of what the fit predicts of it
+  // there. Such states share it; absent where the reference was read too.
+  std::optional<double> predicted_reference{};
   std::optional<Uncertain> intensity_cd{}, illuminance_lx{};
   FittedColor color{};
   int readings = 0;                    // that told its light

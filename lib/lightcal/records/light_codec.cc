@@ -151,6 +151,7 @@ constexpr auto kVisitState = [](auto& archive, auto& one) {
   archive.Object("illuminance_lx", one.illuminance_lx, kVisitUncertain);
   archive.Group("relative", [&](auto& relative) { kVisitUncertain(relative, one.relative); });
   archive.Number("repeatability", one.repeatability, kNotNegative);
+  archive.Number("predicted_reference", one.predicted_reference, kNotNegative);
   archive.Group("color", [&](auto& color) { VisitColor(color, one.color); });
   archive.Integer("readings", one.readings);
   VisitSpectrumOf(archive, one.spectrum);

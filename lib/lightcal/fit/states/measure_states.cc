@@ -64,12 +64,14 @@ class Measuring {
   struct Ratio {
     double ln = 0.0;
     double variance = 0.0, own_variance = 0.0;
+    double predicted_variance = 0.0;  // of it, what a predicted reference brings
     int readings = 0;
   };
   [[nodiscard]] std::optional<Ratio> RatioOf(const StateReadings& state) const {
     Ratio out;
     double weights = 0.0;
     double shared = 0.0;
+    double predicted = 0.0;
     for (const SessionReading* row : state.rows) {
       if (!Counts(row->reading)) continue;
       // What is behind a card holds the walls' light, which both sides have or neither.
@@ -81,6 +83,7 @@ class Measuring {
       const double weight = 1.0 / own->variance;
       out.ln += weight * (own->ln - at_reference->ln);
       shared += weight * at_reference->variance;
+      if (at_reference->predicted) predicted += weight * at_reference->variance;
       weights += weight;
       ++out.readings;
     }
@@ -88,6 +91,7 @@ class Measuring {
     out.ln /= weights;
     out.own_variance = 1.0 / weights;
     out.variance = out.own_variance + shared / weights;
+    out.predicted_variance = predicted / weights;
     return out;
   }
 
@@ -160,8 +164,11 @@ class Measuring {
   }
 
   // What a meter in that place shows of the lamp at the reference: read there, else predicted.
-  [[nodiscard]] std::optional<LogAt> Reference(const Reading& reading, bool is_reference,
-                                               bool cards) const {
+  struct ReferenceLog : LogAt {
+    bool predicted = false;
+  };
+  [[nodiscard]] std::optional<ReferenceLog> Reference(const Reading& reading, bool is_reference,
+                                                      bool cards) const {
     std::vector<DatedLog> read;
     for (const SessionReading* row : OfReference().rows) {
       if (!Counts(row->reading) || !SamePlace(row->reading, reading)) continue;
@@ -173,7 +180,7 @@ class Measuring {
     if (!read.empty()) {
       LogAt there = DriftedLog(read, SecondsOfTime(reading.time));
       if (is_reference) there.variance = 0.0;
-      return there;
+      return ReferenceLog{there, false};
     }
     if (!reading.distance) return std::nullopt;
     const auto facing = PredictInRoom(light_, *reading.distance, 0.0);
@@ -185,7 +192,8 @@ class Measuring {
     const double own = light_.meter ? light_.meter->calibration_relative : 0.0;
     const double sd = lux.u95 / kZ95 / lux.value;
     const double variance = std::max(1e-4 * sd * sd, sd * sd - own * own);
-    return LogAt{std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance};
+    return ReferenceLog{
+        {std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance}, true};
   }
 
   const Session& session_;
@@ -217,6 +225,19 @@ std::optional<Uncertain> Times(const std::optional<Uncertain>& reference, double
     scaled.u95 = std::hypot(scaled.u95, kZ95 * sd * scaled.value);
   }
   return scaled;
+}
+
+// Said once: the worst of the states that were read where the reference was not.
+void WarnOfPredictedReference(const FittedLight& light, Warnings& warnings) {
+  constexpr double kWorthSaying = 0.02;
+  const auto sd = [](const MeasuredState& one) { return one.predicted_reference.value_or(0.0); };
+  const auto worst = std::ranges::max_element(light.states, {}, sd);
+  if (worst == light.states.end() || sd(*worst) < kWorthSaying) return;
+  warnings.push_back({"reference_predicted", light.name,
+                      StateText(worst->state) + " was read where " + StateText(light.state) +
+                          " was not, so that its part of it is known to " +
+                          PercentText(kZ95 * sd(*worst)) + " alone: read " +
+                          StateText(light.state) + " there too"});
 }
 
 // Of ln I, 1 sigma: another front or another zoom may shine from elsewhere, and the nearer it was
@@ -259,6 +280,9 @@ void MeasureStates(const Session& session, const LightDescription& description,
       continue;
     }
     MeasuredState one{state.state, {}, std::sqrt(ratio->own_variance)};
+    if (!reference && ratio->predicted_variance > 0.0) {
+      one.predicted_reference = std::sqrt(ratio->predicted_variance);
+    }
     const double ln = reference ? 0.0 : ratio->ln;
     const double sd =
         reference ? 0.0
@@ -276,6 +300,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
     }
   }
   light.states = std::move(out);
+  WarnOfPredictedReference(light, warnings);
   if (other_geometry && light.intensity_cd) {
     warnings.push_back({"offset_shared", light.name,
                         "some zoom or modifier was read at one distance alone; where its light "

@@ -14,7 +14,8 @@ namespace lightcal::fit {
 //   k = (E - E0)/(E_ref - E0),   ln k of variance s^2/n + s_ref^2/n_ref + (d E0/E)^2,
 // E_ref being what the reference's readings at the same place showed (its scale, the walls and the
 // offset cancel), at that moment where they have times (fit/states/drift.h), or where none was
-// taken there what the fit predicts; E0 what was read there with the lamp off, or elsewhere, or
+// taken there what the fit predicts (predicted_reference, warned of as
+// reference_predicted beyond 2 %); E0 what was read there with the lamp off, or elsewhere, or
 // behind a card. Where nothing was, and the room is not dark, E0 is 0 within 2.5 % of the dimmest
 // reading, 1 sigma, as of other lamps everywhere. s is the meter's repeatability. Intensity and
 // illuminance are the reference's times k. A state whose readings cannot be told from E0, or that

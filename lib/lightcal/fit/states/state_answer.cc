@@ -222,6 +222,23 @@ ControlCurve LightCurve(const States& states) {
   return {states.Kinds(), CurveTarget::kLnLight, std::move(points)};
 }
 
+// 1 sigma of ln of one state's light over another's that no reading of theirs shows: what the fit
+// predicts of the reference where it was not read. States that were read elsewhere share it.
+double PredictedApart(const MeasuredState& one, const MeasuredState& other) {
+  return std::abs(one.predicted_reference.value_or(0.0) - other.predicted_reference.value_or(0.0));
+}
+
+// The same of a state between those.
+double PredictedApart(const States& states, const MeasuredState* other) {
+  double most = 0.0;
+  for (const MeasuredState* one : states.kept()) {
+    const double apart =
+        other != nullptr ? PredictedApart(*one, *other) : one->predicted_reference.value_or(0.0);
+    most = std::max(most, apart);
+  }
+  return most;
+}
+
 // What a colour's interval holds beside repeatability: the meter's own error, which every state of
 // one lamp shares.
 double SharedSd(double sd, double repeatability) {
@@ -335,7 +352,8 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     answer.illuminance_lx = read->illuminance_lx;
     answer.color = read->color;
     fit::AddSpectrumRead(light, *read, answer);
-    const double sd = read == full ? 0.0 : std::hypot(read->repeatability, full->repeatability);
+    const double sd = std::hypot(std::hypot(read->repeatability, full->repeatability),
+                                 PredictedApart(*read, *full));
     answer.relative_to_full =
         read == full ? Uncertain{1.0, 0.0, {}, {}}
                      : UncertainFromLog(std::log(read->relative.value / full->relative.value), sd);
@@ -357,7 +375,8 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   const ControlCurve curve = LightCurve(states);
   const std::vector<double> labels = states.LabelsOf(at);
   const CurveValue of_full = curve.Difference(labels, states.LabelsOf(answer.full));
-  answer.relative_to_full = UncertainFromLog(of_full.value, of_full.sd);
+  answer.relative_to_full =
+      UncertainFromLog(of_full.value, std::hypot(of_full.sd, PredictedApart(states, full)));
   if (read != nullptr) {
     answer.relative = read->relative;
     answer.intensity_cd = read->intensity_cd;
@@ -368,9 +387,10 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   }
   const CurveValue light_there = curve.At(labels);
   answer.basis = states.BetweenTwo() ? StateBasis::kBetween : StateBasis::kCombined;
-  answer.relative = UncertainFromLog(light_there.value, light_there.sd);
-  answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, light_there.sd);
-  answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, light_there.sd);
+  const double sd = std::hypot(light_there.sd, PredictedApart(states, nullptr));
+  answer.relative = UncertainFromLog(light_there.value, sd);
+  answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, sd);
+  answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, sd);
   answer.color = ColorBetween(states, at);
   fit::AddSpectrumBetween(light, MixturesAround(states), answer);
   return answer;
