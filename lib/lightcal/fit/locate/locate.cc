@@ -84,6 +84,9 @@ bool RejectOne(Kept& kept) {
 void FillResiduals(const Observations& observations, const PlacedProblem& all, const Kept& kept,
                    LightEstimate& out) {
   const PlacedTheta& theta = kept.solutions.front().theta;
+  if (kept.problem.estimation.rules[kPlacedLnWalls].free) {
+    out.walls_per_candela.assign(observations.rows.size(), 0.0);
+  }
   for (std::size_t i = 0; i < all.estimation.rows.size(); ++i) {
     const PlacedRow& row = all.estimation.rows[i];
     const Observation& o = observations.rows[static_cast<std::size_t>(all.observation[i])];
@@ -93,6 +96,11 @@ void FillResiduals(const Observations& observations, const PlacedProblem& all, c
       continue;
     }
     predicted *= all.frame.lux;
+    if (!out.walls_per_candela.empty() && row.walls) {
+      out.walls_per_candela[static_cast<std::size_t>(all.observation[i])] =
+          WallsPerCandela(row, DistanceOf(row, theta.data()), theta.data()) /
+          (all.frame.length_m * all.frame.length_m);
+    }
     ResidualRow residual;
     residual.index = o.index;
     residual.distance_m =
@@ -270,7 +278,8 @@ Result<MixedPlace> MixedWith(const std::vector<PlacedMode>& modes,
   return MixOf(modes, covariances);
 }
 
-// Of ln I: the likeliest's, what its walls add to it, and what not knowing the lamp adds to both.
+// Of ln I: the likeliest's, what its walls and its pattern add to it, and what not knowing where it
+// stands among walls adds to all.
 std::vector<VariancePart> PartsOf(const std::vector<PlacedMode>& modes,
                                   const PlacedUncertainty& uncertainty, const MixedPlace& mixed) {
   constexpr int kVariance = kPlacedLnIntensity * (kPlacedParameters + 1);
@@ -299,7 +308,7 @@ std::vector<VariancePart> PartsOf(const std::vector<PlacedMode>& modes,
   part_of("uneven_light", kPlacedGradientX, kPlacedGradientZ);
   const double unknown =
       mixed.covariance[kVariance] - variance(best.estimation, uncertainty.considered);
-  if (unknown > 0.0) parts.push_back({"unknown_lamp", unknown});
+  if (unknown > 0.0) parts.push_back({"room_bounce", unknown});
   return parts;
 }
 

@@ -17,37 +17,6 @@ double AmbientOf(const FittedLight* now) {
   return now != nullptr && now->ambient_lx ? std::max(0.0, now->ambient_lx->value) : 0.0;
 }
 
-// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient; none where
-// that is what two roundings leave.
-double WallsAt(const FittedLight* now, int index, const PlannedReading& planned) {
-  constexpr double kRounding = 1e-9;
-  if (now == nullptr || !now->intensity_cd || !planned.distance) return 0.0;
-  const auto own = PredictIlluminance(*now, *planned.distance, 0.05);
-  for (const ResidualRow& row : now->residuals) {
-    if (own && row.index == index) {
-      const double other = row.predicted_lx - own->model_lx.value;
-      return other > kRounding * row.predicted_lx ? other : 0.0;
-    }
-  }
-  return 0.0;
-}
-
-// A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
-double BehindCard(const Session& session, const FittedLight* now, const PlannedReading& planned) {
-  constexpr double kShare = 0.01;
-  int index = -1;
-  for (const SessionReading& row : session.readings) {
-    ++index;
-    if (!IsLit(row.reading) || row.reading.distance != planned.distance ||
-        row.reading.position_m != planned.position_m) {
-      continue;
-    }
-    const double other = WallsAt(now, index, planned);
-    return other > 0.0 || AmbientOf(now) > 0.0 ? other : kShare * row.reading.illuminance->value();
-  }
-  return 0.0;
-}
-
 double LuxPerCandelaAt(LightDescription light, const FittedLight* now,
                        const PlannedReading& planned) {
   if (now != nullptr && now->position_m) light.position_m = now->position_m;
@@ -65,6 +34,45 @@ double LuxPerCandelaAt(LightDescription light, const FittedLight* now,
     return LuxPerCandela(pose, 0.0);
   }
   return -Dot(from, normal) / (distance * distance * distance);
+}
+
+// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient; none
+// where that is what two roundings leave.
+double WallsAt(const LightDescription& light, const FittedLight* now, int index,
+               const PlannedReading& planned) {
+  constexpr double kRounding = 1e-9;
+  if (now == nullptr || !now->intensity_cd) return 0.0;
+  double own = -1.0;
+  if (planned.distance) {
+    const auto predicted = PredictIlluminance(*now, *planned.distance, 0.05);
+    if (predicted) own = predicted->model_lx.value;
+  } else if (planned.position_m) {
+    const double per_candela = LuxPerCandelaAt(light, now, planned);
+    if (per_candela > 0.0) own = now->intensity_cd->value * per_candela + AmbientOf(now);
+  }
+  for (const ResidualRow& row : now->residuals) {
+    if (own >= 0.0 && row.index == index) {
+      const double other = row.predicted_lx - own;
+      return other > kRounding * row.predicted_lx ? other : 0.0;
+    }
+  }
+  return 0.0;
+}
+
+// A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
+double BehindCard(const Session& session, const FittedLight* now, const PlannedReading& planned) {
+  constexpr double kShare = 0.01;
+  int index = -1;
+  for (const SessionReading& row : session.readings) {
+    ++index;
+    if (!IsLit(row.reading) || row.reading.distance != planned.distance ||
+        row.reading.position_m != planned.position_m) {
+      continue;
+    }
+    const double other = WallsAt(session.lights.front(), now, index, planned);
+    return other > 0.0 || AmbientOf(now) > 0.0 ? other : kShare * row.reading.illuminance->value();
+  }
+  return 0.0;
 }
 
 }  // namespace
