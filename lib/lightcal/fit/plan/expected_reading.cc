@@ -28,6 +28,7 @@ double LuxPerCandelaAt(LightDescription light, const FittedLight* now,
   if (!light.position_m) return -1.0;
   const Vec3 from = *planned.position_m - *light.position_m;
   const double distance = Length(from);
+  if (!(distance > 0.0)) return -1.0;
   const Vec3 normal = planned.normal.value_or(from * (-1.0 / distance));
   if (const auto source = PlacedSourceOf(light)) {
     const OffAxisPose pose{source->model, {source->frame.Of(from), source->frame.Of(normal)}};
