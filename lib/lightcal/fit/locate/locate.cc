@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/uncertain.h"
 #include "lightcal/fit/locate/locate_refusals.h"
 #include "lightcal/fit/locate/placed_modes.h"
 
@@ -237,10 +236,7 @@ double NearestMeter(const PlacedEstimation& estimation, const Vec3& lamp) {
 
 bool TooVague(const PlacedEstimation& estimation, const PlacedTheta& theta,
               const PlacedCovariance& covariance) {
-  const double variance =
-      PositionBlock(covariance).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-  return !(kZ95 * std::sqrt(variance) <
-           kLargestVagueness * NearestMeter(estimation, LampOf(theta)));
+  return !(LargestU95(covariance) < kLargestVagueness * NearestMeter(estimation, LampOf(theta)));
 }
 
 // What few readings say of ambient light may be too little beside a position: it is 0 then.

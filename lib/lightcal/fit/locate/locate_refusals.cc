@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/uncertain.h"
 #include "lightcal/fit/locate/placed_modes.h"
 #include "lightcal/fit/locate/placed_starts.h"
 
@@ -62,9 +61,7 @@ std::optional<double> BehindCards_m(const PlacedProblem& problem, const PlacedTh
   if (!seen) return std::nullopt;
   const auto covariance = EstimatePlacedCovariance(estimation, theta, {});
   if (!covariance) return std::nullopt;
-  const double variance =
-      PositionBlock(*covariance).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-  return kZ95 * std::sqrt(variance) * problem.frame.length_m;
+  return LargestU95(*covariance) * problem.frame.length_m;
 }
 
 std::string CardText(const PlacedProblem& problem, const std::vector<PlacedTheta>& solutions) {

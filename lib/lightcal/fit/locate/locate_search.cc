@@ -91,8 +91,7 @@ void AddWalls(const Observations& observations, const WallPrior& prior, PlacedPr
     PlacedRow& row = rows[i];
     const Observation& o = observations.rows[static_cast<std::size_t>(problem.observation[i])];
     const bool lit_row = row.direct_gain > 0.0;
-    const bool behind_card = !lit_row && o.behind_card && o.placed;
-    if (!o.sees_walls || !(lit_row ? SeesWalls(o, true) : behind_card)) continue;
+    if (!SeesWalls(o, lit_row) || !(lit_row || o.placed)) continue;
     PlacedWalls walls;
     walls.x = std::log(o.distance_m / kWallReference_m);
     walls.constant = 2.0 * std::log(unit);

@@ -45,7 +45,8 @@ void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
 
 // E0 is free where lamp-off readings tell it, or, where no wall shines, beside six readings under
 // the prior that it cannot exceed the dimmest; d0 where readings give distances alone; the walls'
-// light under one normal of all that the lamp may be. `near_m`: where the lamp is known to be
+// light under one normal of all that the lamp may be, its scatter as of a reading half of which is
+// theirs. `near_m`: where the lamp is known to be
 // about; the mean direction to its readings counts from there, 0 without it.
 [[nodiscard]] PlacedProblem PlacedProblemOf(const Observations& observations,
                                             const LightDescription& light,
@@ -54,7 +55,6 @@ void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
 
 // Every minimum that the starts lead to, best first: found with the ambient light held, then with
 // it free from each place that may still win (beside it, hopeless starts creep for a long time).
-// What the walls scatter counts as of a reading half of which is theirs.
 [[nodiscard]] std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem);
 
 // Whether two solutions are one.

@@ -76,6 +76,38 @@ template <class T>
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+// Of the lamp itself, per candela, at the distance r. False where the meter or the lamp faces away.
+template <class T>
+[[nodiscard]] bool DirectPerCandela(const PlacedRow& row, const std::optional<Vec3>& aim,
+                                    const T& r, const T* theta, T* direct) {
+  using std::exp;
+  *direct = row.direct_gain / (r * r);
+  if (!row.position) return true;
+  const auto along = [&](const Vec3& u) {
+    return (theta[kPlacedX] - (*row.position)[0]) * u[0] +
+           (theta[kPlacedY] - (*row.position)[1]) * u[1] +
+           (theta[kPlacedZ] - (*row.position)[2]) * u[2];
+  };
+  if (row.normal) {
+    const T cosine = along(*row.normal) / r;
+    if (!(cosine > T(0.0))) return false;
+    *direct *= cosine;
+  }
+  if (aim) {
+    const T cosine = -along(*aim) / r;
+    if (!(cosine > T(0.0))) return false;
+    *direct *= cosine;
+  }
+  if (!row.middle) return true;
+  T uneven(0.0);
+  for (int k = 0; k < 3; ++k) {
+    const T towards = ((*row.position)[k] - theta[kPlacedX + k]) / r;
+    uneven += theta[kPlacedGradientX + k] * (towards - (*row.middle)[k]);
+  }
+  *direct *= exp(uneven);
+  return true;
+}
+
 // E = exp(ln I) [ gain exp(g.(-v/r - middle)) (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,
 // v = lamp - meter, r = |v|; the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat
 // Lambertian source shining along a) is 1 where no aim is given. False where the meter or the lamp
@@ -91,32 +123,8 @@ template <class T>
     if (!(r > T(0.0))) return false;
     if (row.walls) per_candela += WallsPerCandela(row, r, theta);
     if (row.direct_gain > 0.0) {
-      T direct = row.direct_gain / (r * r);
-      if (row.position) {
-        const auto along = [&](const Vec3& u) {
-          return (theta[kPlacedX] - (*row.position)[0]) * u[0] +
-                 (theta[kPlacedY] - (*row.position)[1]) * u[1] +
-                 (theta[kPlacedZ] - (*row.position)[2]) * u[2];
-        };
-        if (row.normal) {
-          const T cosine = along(*row.normal) / r;
-          if (!(cosine > T(0.0))) return false;
-          direct *= cosine;
-        }
-        if (aim) {
-          const T cosine = -along(*aim) / r;
-          if (!(cosine > T(0.0))) return false;
-          direct *= cosine;
-        }
-        if (row.middle) {
-          T uneven(0.0);
-          for (int k = 0; k < 3; ++k) {
-            const T towards = ((*row.position)[k] - theta[kPlacedX + k]) / r;
-            uneven += theta[kPlacedGradientX + k] * (towards - (*row.middle)[k]);
-          }
-          direct *= exp(uneven);
-        }
-      }
+      T direct(0.0);
+      if (!DirectPerCandela(row, aim, r, theta, &direct)) return false;
       per_candela += direct;
     }
   }

@@ -4,10 +4,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "lightcal/core/uncertain.h"
 #include "lightcal/fit/locate/locate_refusals.h"
 #include "lightcal/fit/model/evidence.h"
 
@@ -78,6 +78,12 @@ Eigen::Matrix3d PositionBlock(const PlacedCovariance& covariance) {
     }
   }
   return block;
+}
+
+double LargestU95(const PlacedCovariance& covariance) {
+  const double variance =
+      PositionBlock(covariance).selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+  return kZ95 * std::sqrt(variance);
 }
 
 std::vector<PossiblePlace> PossiblePlaces(const PlacedProblem& problem,

@@ -37,6 +37,9 @@ struct PossiblePlace {
 // Of the coordinates alone.
 [[nodiscard]] Eigen::Matrix3d PositionBlock(const PlacedCovariance& covariance);
 
+// u95 of the place along the direction it is known worst in.
+[[nodiscard]] double LargestU95(const PlacedCovariance& covariance);
+
 // Mean and covariance of a place's modes, whose own covariances lie beside them.
 struct MixedPlace {
   PlacedTheta theta{};
