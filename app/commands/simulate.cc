@@ -200,7 +200,16 @@ void PredictRooms(const SimulateOptions& options, const Input& input, Simulated&
       const Vec3 way = lamp.pose.position_m - point.at.position_m;
       const double distance = Length(way);
       if (!(distance > 0.0)) continue;
-      const auto room = PredictInRoom(*(*chosen)[k], Metres(distance), 0.0);
+      const LampLux& part = point.parts[k];
+      const FittedLight& light = *(*chosen)[k];
+      if (light.located) {
+        const bool moved = lamp.pose.position_m != light.located->position_m;
+        if (moved) continue;
+        point.in_room[k] = PredictInRoom(
+            light, {point.at.position_m, point.at.normal, part.direct_lx / lamp.strength});
+        continue;
+      }
+      const auto room = PredictInRoom(light, Metres(distance), 0.0);
       if (!room || !*room) continue;
       const bool on_axis = lamp.pose.frame.z == Vec3{} || Dot(lamp.pose.frame.z, way) < 0.0;
       if (Dot(way, point.at.normal) > kFacing * distance && on_axis) {
@@ -209,7 +218,6 @@ void PredictRooms(const SimulateOptions& options, const Input& input, Simulated&
       }
       const double walls = (*room)->walls_lx.value;
       const double own = (*room)->walls_lx.u95;
-      const LampLux& part = point.parts[k];
       const double u95 = std::hypot(part.u95_lx, own, kZ95 * kOtherWalls * walls);
       const double lux = part.direct_lx + walls;
       point.in_room[k] = Uncertain{lux, u95, std::max(0.0, lux - u95), lux + u95};

@@ -74,6 +74,27 @@ TEST(LightJson, GeometryComesBackBitForBit) {
   EXPECT_EQ(back.covariance_lnI_d0_E0, light.covariance_lnI_d0_E0);
 }
 
+TEST(LightJson, ALocatedLampComesBackBitForBit) {
+  LightFile file = FullLightFile();
+  LocatedLamp& located = *file.lights[0].located;
+  for (std::size_t i = 0; i < located.covariance.size(); ++i) {
+    located.covariance[i] = 1.0 / (3.0 + static_cast<double>(i));
+  }
+  const LocatedLamp back = Back(JsonOf(file)).lights.at(0).located.value();
+  EXPECT_EQ(back.ln_intensity, located.ln_intensity);
+  EXPECT_EQ(back.position_m, located.position_m);
+  EXPECT_EQ(back.ambient_lx, located.ambient_lx);
+  EXPECT_EQ(back.walls.value().ln_b, -2.1);
+  EXPECT_EQ(back.walls->slope, -1.0);
+  EXPECT_EQ(back.walls->bend, -0.27);
+  EXPECT_EQ(back.walls->scatter, 0.07);
+  EXPECT_EQ(back.gradient, located.gradient);
+  EXPECT_EQ(back.middle, located.middle);
+  EXPECT_EQ(back.covariance, located.covariance);
+  located.walls.reset();
+  EXPECT_FALSE(Back(JsonOf(file)).lights.at(0).located.value().walls.has_value());
+}
+
 TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   LightFile file = FullLightFile();
   FittedLight& light = file.lights[0];

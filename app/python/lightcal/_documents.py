@@ -102,6 +102,7 @@ class Light(TypedDict, total=False):
     meter: Dict[str, Any]
     of_file: Uncertain
     in_room: List[Dict[str, Any]]
+    located: Dict[str, Any]
     spectrum: Dict[str, Any]
     state: Dict[str, Union[float, str]]
     states: List[Dict[str, Any]]

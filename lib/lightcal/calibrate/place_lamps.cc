@@ -101,6 +101,28 @@ double SdOfLog(const Uncertain& u) {
   return u.u95 / (u.value * kZ95);
 }
 
+PlaceDoubt PlaceDoubtOf(const LocatedLamp& located) {
+  constexpr int n = PlaceDoubt::kCount;
+  constexpr std::array<int, n> kFrom = {0, 1, 2, 3, 7, 8, 9};
+  PlaceDoubt doubt{located.gradient, located.middle, {}};
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      doubt.covariance[i * n + j] = located.covariance[kFrom[i] * LocatedLamp::kCount + kFrom[j]];
+    }
+  }
+  return doubt;
+}
+
+PlaceDoubt PlaceDoubtOf(const Vec3& position_u95_m, double variance_ln) {
+  PlaceDoubt doubt;
+  doubt.covariance[0] = variance_ln;
+  for (int k = 0; k < 3; ++k) {
+    const double sd = position_u95_m[k] / kZ95;
+    doubt.covariance[(k + 1) * (PlaceDoubt::kCount + 1)] = sd * sd;
+  }
+  return doubt;
+}
+
 LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stated_position) {
   LampDoubt doubt;
   const double sd = SdOfLog(strength);
@@ -115,7 +137,8 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
     doubt.variance_offset = offset * offset;
   }
   if (light.position_u95_m && stated_position) {
-    doubt.position_m = *light.position_u95_m * (1.0 / kZ95);
+    doubt.place = light.located ? PlaceDoubtOf(*light.located)
+                                : PlaceDoubtOf(*light.position_u95_m, doubt.variance_ln);
   }
   const auto radians = [](const std::optional<double>& u95_deg) {
     return RadiansFromDegrees(u95_deg.value_or(0.0) / kZ95).value();

@@ -70,6 +70,16 @@ struct IlluminanceInRoom {
                                                                      Metres distance,
                                                                      double sigma_relative);
 
+// A place in the room, a meter's unit normal there, and what the lamp alone gives it per candela.
+struct PlaceInRoom {
+  Vec3 position_m{};
+  Vec3 normal{};
+  double direct_per_candela = 0.0;  // lx/cd
+};
+// The same of a lamp whose place was sought, at a place: ln E normal about light.located.
+[[nodiscard]] std::optional<Uncertain> PredictInRoom(const FittedLight& light,
+                                                     const PlaceInRoom& at);
+
 // The one next reading that helps this light most, as a sentence: "read again at 1.4 m, facing the
 // lamp: the distance offset is still a prior".
 [[nodiscard]] std::string NextStep(const Session& session, const FittedLight& light);

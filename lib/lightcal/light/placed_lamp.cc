@@ -85,6 +85,21 @@ SourceFrame Turned(const SourceFrame& frame, double about_x, double about_y) {
   return SourceFrame::Facing(z * (1.0 / Length(z)), frame.x);
 }
 
+// Of the illuminance `here`, whose derivatives by the lamp's coordinates are `slope`.
+double VarianceOfPlace(const PlaceDoubt& doubt, const Vec3& way, double here, const Vec3& slope) {
+  constexpr int n = PlaceDoubt::kCount;
+  const double length = Length(way);
+  const Vec3 u = length > 0.0 ? way * (1.0 / length) - doubt.middle : Vec3{};
+  const std::array<double, n> by = {here,        slope[0],    slope[1],   slope[2],
+                                    here * u[0], here * u[1], here * u[2]};
+  const double uneven = here * Dot(doubt.gradient, u);
+  double variance = uneven * uneven;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) variance += by[i] * by[j] * doubt.covariance[i * n + j];
+  }
+  return variance;
+}
+
 }  // namespace
 
 double LuxPerUnit(const LampSource& source, const LampPose& pose, const SurfacePoint& at,
@@ -131,7 +146,7 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
     variance += half * half;
   };
   const double here = lux(lamp.source, lamp.pose);
-  variance += here * here * doubt.variance_ln;
+  if (!doubt.place) variance += here * here * doubt.variance_ln;
   const bool everywhere = IsEverywhere(lamp.source);
   if (doubt.variance_offset > 0.0 && !everywhere) {
     const double sd = std::sqrt(doubt.variance_offset);
@@ -143,12 +158,18 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
     const double half = 0.5 * (moved(sd) - moved(-sd));
     variance += half * half + 2.0 * here * (half / sd) * doubt.covariance;
   }
-  for (int axis = 0; axis < 3 && !everywhere; ++axis) {
-    add(doubt.position_m[axis], [&](double by) {
-      LampPose pose = lamp.pose;
-      pose.position_m[axis] += by;
-      return lux(lamp.source, pose);
-    });
+  if (doubt.place) {
+    Vec3 slope{};
+    for (int axis = 0; axis < 3 && !everywhere; ++axis) {
+      const double sd = std::sqrt(doubt.place->covariance[(axis + 1) * (PlaceDoubt::kCount + 1)]);
+      const auto moved = [&](double by) {
+        LampPose pose = lamp.pose;
+        pose.position_m[axis] += by;
+        return lux(lamp.source, pose);
+      };
+      if (sd > 0.0) slope[axis] = (moved(sd) - moved(-sd)) / (2.0 * sd);
+    }
+    variance += VarianceOfPlace(*doubt.place, at.position_m - lamp.pose.position_m, here, slope);
   }
   for (const bool about_x : {true, false}) {
     add(doubt.aim_rad, [&](double by) {

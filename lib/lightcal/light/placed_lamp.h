@@ -37,13 +37,21 @@ struct LampPose {
   double offset_m = 0.0;
 };
 
+// Of a lamp whose place was found, together with its strength or by itself. It may shine more to
+// one side: ln strength towards the unit vector u is ln strength + g.(u - middle).
+struct PlaceDoubt {
+  static constexpr int kCount = 7;
+  Vec3 gradient{}, middle{};
+  std::array<double, kCount * kCount> covariance{};  // of (ln strength, x, y, z [m], g)
+};
+
 // Standard deviations; what is not known to be unsure is 0.
 struct LampDoubt {
-  double variance_ln = 0.0;      // of ln strength
-  double variance_offset = 0.0;  // of d0 [m^2]
-  double covariance = 0.0;       // of both [m]
-  Vec3 position_m{};             // of each coordinate
-  double aim_rad = 0.0;          // of each of its two directions
+  double variance_ln = 0.0;         // of ln strength
+  double variance_offset = 0.0;     // of d0 [m^2]
+  double covariance = 0.0;          // of both [m]
+  std::optional<PlaceDoubt> place;  // variance_ln is in it
+  double aim_rad = 0.0;             // of each of its two directions
   double inner_rad = 0.0, outer_rad = 0.0;
 };
 

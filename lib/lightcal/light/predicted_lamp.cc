@@ -30,7 +30,7 @@ SourceDetail DetailOf(EffectChoice finite_source, double tolerance) {
 PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings)
     : lamp_(Settled(lamp)), haze_per_m_(settings.haze_per_m), room_(settings.room) {
   const LampDoubt& doubt = lamp.doubt;
-  shape_unsure_ = Length(doubt.position_m) > 0.0 || doubt.aim_rad > 0.0 || doubt.inner_rad > 0.0 ||
+  shape_unsure_ = doubt.place.has_value() || doubt.aim_rad > 0.0 || doubt.inner_rad > 0.0 ||
                   doubt.outer_rad > 0.0;
   const bool walls = room_ && room_->reflectance > 0.0 &&
                      settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);

@@ -84,6 +84,26 @@ struct LampInRoom {
   std::array<double, 25> covariance{};   // of (ln I, d0, E0, ln b, slope)
 };
 
+// The walls' light about a lamp, as LocatedLamp has it.
+struct WallsFound {
+  double ln_b = 0.0, slope = 0.0, bend = 0.0, scatter = 0.0;
+};
+
+// A lamp whose place was sought, as its readings leave it: at a place P a meter of normal n sees
+//   E = I [exp(g.(u - middle)) s(P, n) + b exp(slope x + bend x^2)] + E0,  x = ln(r / 3 m)
+// u the unit vector from the lamp to P, r their distance, s [1/m^2] as its kind shines evenly, b 0
+// where no walls shine. ln of E_walls scatters by `scatter` from place to place. Mean and
+// covariance over all that lamp and room may be.
+struct LocatedLamp {
+  static constexpr int kCount = 10;
+  double ln_intensity = 0.0;  // of cd
+  Vec3 position_m{};
+  double ambient_lx = 0.0;  // E0
+  std::optional<WallsFound> walls{};
+  Vec3 gradient{}, middle{};                         // g of ln I, and the mean u of its readings
+  std::array<double, kCount * kCount> covariance{};  // of (ln I, x, y, z, E0, ln b, slope, g)
+};
+
 // Intensity by direction as it was measured, and why it is no surer.
 struct MeasuredDistribution {
   // In the lamp's own frame, which stands in the room as AxesOfAim says. Ends where the measurement
@@ -209,9 +229,10 @@ struct FittedLight {
   std::optional<Uncertain> of_file{};  // of a luminaire: its intensity over its photometric file's
   // Where walls shone in the readings: what a meter will see in that room. Empty = not known.
   std::vector<LampInRoom> in_room{};
-  FixtureState state{};                 // the light is given at, "reference"; empty = no controls
-  std::vector<MeasuredState> states{};  // the reference first
-  std::optional<Spectrum> spectrum{};   // of the lamp at its own state; by 5 nm
+  std::optional<LocatedLamp> located{};  // in its stead where the lamp's place was sought
+  FixtureState state{};                  // the light is given at, "reference"; empty = no controls
+  std::vector<MeasuredState> states{};   // the reference first
+  std::optional<Spectrum> spectrum{};    // of the lamp at its own state; by 5 nm
   std::optional<FixtureEmitters> emitters{};
   std::vector<StateGeometry> geometries{};  // other than the light's own, where they are known
 };

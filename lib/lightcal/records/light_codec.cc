@@ -139,6 +139,25 @@ constexpr auto kVisitInRoom = [](auto& archive, auto& one) {
                    "bend", "scatter", "covariance"});
 };
 
+constexpr auto kVisitLocatedWalls = [](auto& archive, auto& walls) {
+  archive.Number("ln_b", walls.ln_b);
+  archive.Number("slope", walls.slope);
+  archive.Number("bend", walls.bend);
+  archive.Number("scatter", walls.scatter, kNotNegative);
+  archive.Require({"ln_b", "slope", "bend", "scatter"});
+};
+
+constexpr auto kVisitLocated = [](auto& archive, auto& one) {
+  archive.Number("ln_intensity_cd", one.ln_intensity);
+  archive.Array("position_m", one.position_m);
+  archive.Number("ambient_lx", one.ambient_lx, kNotNegative);
+  archive.Object("walls", one.walls, kVisitLocatedWalls);
+  archive.Array("gradient", one.gradient);
+  archive.Array("middle", one.middle);
+  archive.Array("covariance", one.covariance);
+  archive.Require({"ln_intensity_cd", "position_m", "ambient_lx", "covariance"});
+};
+
 constexpr auto kVisitMeter = [](auto& archive, auto& meter) {
   archive.Text("name", meter.name);
   archive.Number("calibration_relative", meter.calibration_relative, kNotNegative);
@@ -259,6 +278,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Object("meter", light.meter, kVisitMeter);
   archive.Object("of_file", light.of_file, kVisitUncertain);
   VisitRoom(archive, light.in_room);
+  archive.Object("located", light.located, kVisitLocated);
   archive.Controls("state", light.state);
   VisitStates(archive, light.states);
   VisitGeometries(archive, light.geometries);

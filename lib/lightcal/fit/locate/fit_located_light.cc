@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lightcal/fit/locate/locate.h"
+#include "lightcal/fit/locate/located_lamp.h"
 #include "lightcal/fit/model/asked_sampling.h"
 #include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/fill_light.h"
@@ -88,6 +89,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   }
   session_out.Warn(std::move(location->estimate.warnings));
   AddCalibration(LargestCalibration(seen), location->estimate);
+  AddCalibration(LargestCalibration(seen), location->known);
   if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }
@@ -97,6 +99,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   Vec3 u95{};
   for (std::size_t k = 0; k < 3; ++k) u95[k] = kZ95 * std::sqrt(location->covariance_m2[4 * k]);
   out.position_u95_m = u95;
+  out.located = location->known;
   out.fit = location->estimate.diagnostics;
   out.residuals = location->estimate.residuals;
   out.effects = ReportEffects(*plan, seen, location->estimate);

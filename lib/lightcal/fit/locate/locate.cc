@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/locate/locate_refusals.h"
+#include "lightcal/fit/locate/located_lamp.h"
 #include "lightcal/fit/locate/placed_modes.h"
 
 namespace lightcal::fit {
@@ -370,6 +371,7 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   out.estimate.ambient_free = estimation.rules[kPlacedAmbient].free;
   FillResiduals(observations, all, kept, out.estimate);
   FillEstimate(kept.problem.frame, mixed->theta, mixed->covariance, out);
+  out.known = LocatedLampOf(kept.problem.frame, modes, *mixed);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/model/observations.h"
+#include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
@@ -15,7 +16,8 @@ namespace lightcal::fit {
 struct LampLocation {
   Vec3 position_m{};
   std::array<double, 9> covariance_m2{};  // of the position, row by row
-  LightEstimate estimate;                 // d0 = 0: distances count from the position found
+  LocatedLamp known;
+  LightEstimate estimate;  // d0 = 0: distances count from the position found
 };
 
 // Whether this light's position is to be found: it has none, and readings give theirs.

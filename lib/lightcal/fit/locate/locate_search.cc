@@ -13,9 +13,6 @@ namespace lightcal::fit {
 namespace {
 
 constexpr int kReadingsForAmbient = 6;
-// 1 sigma of ln E_walls between meters of one place that face elsewhere than the lamp, beside their
-// scatter (tests/tools/traced_rooms: tables under bulbs and panels).
-constexpr double kTurnedScatter = 0.06;
 // 1 sigma of what a card hides at one place beside what it hides at the lamp's others, of all that
 // it leaves (tests/tools/traced_rooms: .018 facing, .009 flat).
 constexpr double kCardHidesHere = 0.02;

@@ -19,7 +19,8 @@ constexpr double kLeastShare = 0.005;  // of a place
 constexpr double kDistinct = 30.0;     // squared Mahalanobis distance of another place
 constexpr double kSamePoint = 1e-3;    // of the distance
 
-std::optional<PlacedMode> ModeAt(PlacedEstimation estimation, PlacedTheta theta, double ln_weight) {
+std::optional<PlacedMode> ModeAt(PlacedEstimation estimation, PlacedTheta theta,
+                                 const WallHypothesis* walls) {
   for (int i = 0; estimation.rules[kPlacedLnWalls].free && i < kRounds; ++i) {
     const auto solved = SolvePlaced(estimation, theta);
     if (!solved) return std::nullopt;
@@ -28,8 +29,13 @@ std::optional<PlacedMode> ModeAt(PlacedEstimation estimation, PlacedTheta theta,
   }
   auto covariance = EstimatePlacedCovariance(estimation, theta, {});
   if (!covariance) return std::nullopt;
-  const double ln = ln_weight + LnEvidenceOf(estimation, theta);
-  return PlacedMode{std::move(estimation), theta, *covariance, ln, 1.0};
+  double ln = LnEvidenceOf(estimation, theta);
+  std::optional<WallPrior> prior;
+  if (walls != nullptr) {
+    ln += std::log(walls->weight);
+    prior = walls->prior;
+  }
+  return PlacedMode{std::move(estimation), theta, *covariance, prior, ln, 1.0};
 }
 
 bool AreOne(const PlacedMode& a, const PlacedMode& b) {
@@ -90,11 +96,11 @@ std::vector<PossiblePlace> PossiblePlaces(const PlacedProblem& problem,
                                           const std::vector<PlacedSolution>& solutions,
                                           const std::vector<WallHypothesis>& walls) {
   std::vector<PlacedMode> modes;
-  const auto add = [&](const PlacedEstimation& estimation, double ln_weight) {
+  const auto add = [&](const PlacedEstimation& estimation, const WallHypothesis* hypothesis) {
     const std::size_t first = modes.size();
     for (const PlacedSolution& start : solutions) {
       if (start.chi_squared > solutions.front().chi_squared + kAllowedChiSquared) break;
-      auto mode = ModeAt(estimation, start.theta, ln_weight);
+      auto mode = ModeAt(estimation, start.theta, hypothesis);
       if (!mode) continue;
       const bool known =
           std::any_of(modes.begin() + static_cast<std::ptrdiff_t>(first), modes.end(),
@@ -106,10 +112,10 @@ std::vector<PossiblePlace> PossiblePlaces(const PlacedProblem& problem,
     for (const WallHypothesis& one : walls) {
       PlacedEstimation estimation = problem.estimation;
       SetWalls(one.prior, estimation);
-      add(estimation, std::log(one.weight));
+      add(estimation, &one);
     }
   } else {
-    add(problem.estimation, 0.0);
+    add(problem.estimation, nullptr);
   }
   if (std::ranges::any_of(modes, SomeMeterFaces)) {
     std::erase_if(modes, [](const PlacedMode& one) { return !SomeMeterFaces(one); });

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "lightcal/fit/locate/locate_search.h"
@@ -16,6 +17,7 @@ struct PlacedMode {
   PlacedEstimation estimation;  // the scatter of its walls settled
   PlacedTheta theta{};
   PlacedCovariance covariance{};  // of rows and priors alone
+  std::optional<WallPrior> walls;
   double ln_probability = 0.0;
   double share = 1.0;  // among those of its place
 };

@@ -56,6 +56,7 @@ Result<FittedLight> LightAtState(const FittedLight& light, const FixtureState& a
   out.residuals.clear();
   out.covariance_lnI_d0_E0.reset();
   out.in_room.clear();
+  out.located.reset();
   out.budget.clear();
   out.states.clear();
   out.geometries.clear();
