@@ -185,6 +185,19 @@ Result<void> CheckInRoom(const Simulated& simulated) {
   return {};
 }
 
+// The whole with what a point may shine more or less that way than where it was read.
+Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double direct_lx,
+                      const Vec3& way) {
+  if (!light.uneven) return whole;
+  const double share = direct_lx / whole.value;
+  const double pattern = kZ95 * share * SdTowards(*light.uneven, way * (-1.0 / Length(way)));
+  Uncertain out = whole;
+  out.low = whole.value * std::exp(-std::hypot(std::log(whole.value / *whole.low), pattern));
+  out.high = whole.value * std::exp(std::hypot(std::log(*whole.high / whole.value), pattern));
+  out.u95 = std::hypot(whole.u95, pattern * whole.value);
+  return out;
+}
+
 // What a meter sees of each lamp and of what it lights, in the room it was measured in. Turned away
 // from the lamp a meter sees other walls: the tracer's surfaces differ so much.
 void PredictRooms(const SimulateOptions& options, const Input& input, Simulated& simulated) {
@@ -211,9 +224,11 @@ void PredictRooms(const SimulateOptions& options, const Input& input, Simulated&
       }
       const auto room = PredictInRoom(light, Metres(distance), 0.0);
       if (!room || !*room) continue;
-      const bool on_axis = lamp.pose.frame.z == Vec3{} || Dot(lamp.pose.frame.z, way) < 0.0;
+      const bool even = std::holds_alternative<PointSource>(lamp.source) ||
+                        std::holds_alternative<SphereSource>(lamp.source);
+      const bool on_axis = even || -Dot(lamp.pose.frame.z, way) > kFacing * distance;
       if (Dot(way, point.at.normal) > kFacing * distance && on_axis) {
-        point.in_room[k] = (*room)->whole_lx;
+        point.in_room[k] = WithPattern((*room)->whole_lx, light, part.direct_lx, way);
         continue;
       }
       const double walls = (*room)->walls_lx.value;

@@ -91,6 +91,9 @@ TEST(LightJson, ALocatedLampComesBackBitForBit) {
   EXPECT_EQ(back.gradient, located.gradient);
   EXPECT_EQ(back.middle, located.middle);
   EXPECT_EQ(back.covariance, located.covariance);
+  const UnevenLight uneven = Back(JsonOf(file)).lights.at(0).uneven.value();
+  EXPECT_EQ(uneven.gradient_sd, file.lights[0].uneven->gradient_sd);
+  EXPECT_EQ(uneven.middle, file.lights[0].uneven->middle);
   located.walls.reset();
   EXPECT_FALSE(Back(JsonOf(file)).lights.at(0).located.value().walls.has_value());
 }

@@ -56,6 +56,7 @@ inline LightFile FullLightFile() {
   light.located = LocatedLamp{
       6.8,  {1.0, 2.0, 2.2}, 0.1, {{-2.1, -1.0, -0.27, 0.07}}, {0.0, 0.1, 0.2}, {0.0, 0.0, -0.7},
       {0.1}};
+  light.uneven = UnevenLight{{0.09, 0.08, 0.22}, {0.0, 0.1, -0.9}};
   light.meter = MeterShare{"c800", 0.031};
   light.state = {{"dimmer", 100.0}, {"cct_K", 4000.0}, {"modifier", 0.0, "softbox"}};
   MeasuredState full{light.state, Uncertain{1.0, 0.0, 1.0, 1.0}, 0.01};

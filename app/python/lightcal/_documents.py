@@ -103,6 +103,7 @@ class Light(TypedDict, total=False):
     of_file: Uncertain
     in_room: List[Dict[str, Any]]
     located: Dict[str, Any]
+    uneven: Dict[str, Any]
     spectrum: Dict[str, Any]
     state: Dict[str, Union[float, str]]
     states: List[Dict[str, Any]]

@@ -113,12 +113,18 @@ PlaceDoubt PlaceDoubtOf(const LocatedLamp& located) {
   return doubt;
 }
 
-PlaceDoubt PlaceDoubtOf(const Vec3& position_u95_m, double variance_ln) {
+// Of a place and a pattern that nothing ties to the strength.
+PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln) {
+  constexpr int kDiagonal = PlaceDoubt::kCount + 1;
   PlaceDoubt doubt;
   doubt.covariance[0] = variance_ln;
   for (int k = 0; k < 3; ++k) {
-    const double sd = position_u95_m[k] / kZ95;
-    doubt.covariance[(k + 1) * (PlaceDoubt::kCount + 1)] = sd * sd;
+    const double place = light.position_u95_m.value_or(Vec3{})[k] / kZ95;
+    doubt.covariance[(1 + k) * kDiagonal] = place * place;
+    if (!light.uneven) continue;
+    const double sd = light.uneven->gradient_sd[k];
+    doubt.middle[k] = light.uneven->middle[k];
+    doubt.covariance[(4 + k) * kDiagonal] = sd * sd;
   }
   return doubt;
 }
@@ -136,9 +142,9 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
     const double offset = light.distance_offset_m->u95 / kZ95;
     doubt.variance_offset = offset * offset;
   }
-  if (light.position_u95_m && stated_position) {
-    doubt.place = light.located ? PlaceDoubtOf(*light.located)
-                                : PlaceDoubtOf(*light.position_u95_m, doubt.variance_ln);
+  if ((light.position_u95_m || light.uneven) && stated_position) {
+    doubt.place =
+        light.located ? PlaceDoubtOf(*light.located) : PlaceDoubtOf(light, doubt.variance_ln);
   }
   const auto radians = [](const std::optional<double>& u95_deg) {
     return RadiansFromDegrees(u95_deg.value_or(0.0) / kZ95).value();

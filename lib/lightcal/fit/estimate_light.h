@@ -38,9 +38,8 @@ struct ForwardModel {
   std::vector<Consider> considered;        // influences that widen the interval
   std::optional<SheetIntensity> sheet;     // beside a person's readings
   bool judge_misfit = true;                // false: the rows follow a shape that was found in them
-  // Of a lamp whose place is sought: 1 sigma, along each axis, of the gradient by which ln I
-  // differs from direction to direction. Absent: it shines evenly, or as its kind says.
-  std::optional<Vec3> gradient_sd;
+  std::optional<Vec3> gradient_sd;         // of a lamp whose place is sought (uneven_light.h)
+  std::vector<double> uneven;              // of one whose place is known, beside the observations
   EstimatorChoice choice{};
 };
 

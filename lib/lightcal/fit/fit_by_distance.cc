@@ -17,6 +17,7 @@
 #include "lightcal/fit/model/meter_calibration.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
+#include "lightcal/fit/model/uneven_light.h"
 #include "lightcal/fit/plan/plan_forward.h"
 
 namespace lightcal::fit {
@@ -97,7 +98,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   const bool distance_law = HasDistanceLaw(light.kind);
   // Across a beam that was found, illuminance falls by its shape more than by distance.
   if (distance_law && !beam) {
-    if (auto falloff = CheckFalloff(observations, light.name, warnings); !falloff) {
+    if (auto falloff = CheckFalloff(observations, seen, warnings); !falloff) {
       return Propagate(std::move(falloff));
     }
   }
@@ -132,6 +133,10 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
     estimate->diagnostics.learned.emplace_back("cone");
   }
   FillParameters(*estimate, distance_law, out);
+  out.uneven = UnevenOf(observations, seen);
+  if (TakenToShineEvenly(observations, seen)) {
+    session_out.notes.push_back(SayThatItShinesEvenly(light.name));
+  }
   out.fit = estimate->diagnostics;
   out.residuals = estimate->residuals;
   out.effects = ReportEffects(*plan, observations, *estimate);

@@ -23,6 +23,9 @@ struct WallPrior {
   double scatter = 0.0;
 };
 inline constexpr double kWallReference_m = 3.0;
+// 1 sigma of ln E_walls between meters of one place that face elsewhere than the lamp, beside their
+// scatter (tests/tools/traced_rooms: tables under bulbs and panels).
+inline constexpr double kTurnedScatter = 0.06;
 
 // One thing that the lamp may be, of which one is.
 struct WallHypothesis {

@@ -84,6 +84,17 @@ struct LampInRoom {
   std::array<double, 25> covariance{};   // of (ln I, d0, E0, ln b, slope)
 };
 
+// How a point may shine to its sides: ln I towards the unit vector u scatters about what is given
+// by |sd (u - middle)| (1 sigma, axis by axis), middle the mean direction of its readings.
+struct UnevenLight {
+  Vec3 gradient_sd{}, middle{};
+};
+[[nodiscard]] inline double SdTowards(const UnevenLight& uneven, const Vec3& u) {
+  const Vec3 off = u - uneven.middle;
+  const Vec3& sd = uneven.gradient_sd;
+  return Length(Vec3{sd[0] * off[0], sd[1] * off[1], sd[2] * off[2]});
+}
+
 // The walls' light about a lamp, as LocatedLamp has it.
 struct WallsFound {
   double ln_b = 0.0, slope = 0.0, bend = 0.0, scatter = 0.0;
@@ -230,6 +241,7 @@ struct FittedLight {
   // Where walls shone in the readings: what a meter will see in that room. Empty = not known.
   std::vector<LampInRoom> in_room{};
   std::optional<LocatedLamp> located{};  // in its stead where the lamp's place was sought
+  std::optional<UnevenLight> uneven{};   // of a point read in known directions from a known place
   FixtureState state{};                  // the light is given at, "reference"; empty = no controls
   std::vector<MeasuredState> states{};   // the reference first
   std::optional<Spectrum> spectrum{};    // of the lamp at its own state; by 5 nm

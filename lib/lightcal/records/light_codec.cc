@@ -158,6 +158,12 @@ constexpr auto kVisitLocated = [](auto& archive, auto& one) {
   archive.Require({"ln_intensity_cd", "position_m", "ambient_lx", "covariance"});
 };
 
+constexpr auto kVisitUneven = [](auto& archive, auto& one) {
+  archive.Array("gradient_sd", one.gradient_sd, kNotNegative);
+  archive.Array("middle", one.middle);
+  archive.Require({"gradient_sd", "middle"});
+};
+
 constexpr auto kVisitMeter = [](auto& archive, auto& meter) {
   archive.Text("name", meter.name);
   archive.Number("calibration_relative", meter.calibration_relative, kNotNegative);
@@ -279,6 +285,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.Object("of_file", light.of_file, kVisitUncertain);
   VisitRoom(archive, light.in_room);
   archive.Object("located", light.located, kVisitLocated);
+  archive.Object("uneven", light.uneven, kVisitUneven);
   archive.Controls("state", light.state);
   VisitStates(archive, light.states);
   VisitGeometries(archive, light.geometries);

@@ -12,6 +12,7 @@
 #include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/meter_calibration.h"
+#include "lightcal/fit/model/uneven_light.h"
 #include "lightcal/fit/plan/plan_forward.h"
 
 namespace lightcal::fit {
@@ -35,22 +36,6 @@ void WidenByShape(const Observations& seen, ForwardModel& model) {
   }
   const double off = 1.0 - AxialShapeFactor(model.shape, nearest);
   if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0, "finite_source"});
-}
-
-// 1 sigma, along each axis, of the gradient by which ln I differs from direction to direction. A
-// bulb's base keeps light from one end, and it stands or hangs on it (Z is up): traced ones go as
-// 1 + (-.1 to .5) cos, .26 in all, one in five screwed in sideways; ENERGY STAR's omnidirectional
-// lamps (V2.1, 9.4) stay within 35 % of their mean. What shines to one side falls as the cosine
-// does. Absent: a ball's and a flat lamp's pattern is known, a point of no fixture is one.
-std::optional<Vec3> GradientOf(const LightDescription& light) {
-  if (light.kind != LightKind::kPoint || !light.fixture) return std::nullopt;
-  switch (*light.fixture) {
-    case Fixture::kBulb:
-    case Fixture::kSoftbox:
-      return Vec3{0.09, 0.09, 0.22};
-    default:
-      return Vec3{0.8, 0.8, 0.8};
-  }
 }
 
 // Whoever seeks a point's place takes it that it shines alike towards every meter: it lights its
@@ -106,10 +91,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   out.budget = BudgetOf(location->estimate.variance_parts);
   NameOffsetFound(out.effects);
   if (light.kind == LightKind::kPoint && !light.fixture) {
-    session_out.notes.push_back(
-        light.name +
-        ": its place is found as of a point that shines alike towards every meter; a bulb's base "
-        "takes light from some: fixture = \"bulb\" lets the intervals hold that too");
+    session_out.notes.push_back(SayThatItShinesEvenly(light.name));
   }
   ReportCalibration(seen, out.effects);
   out.meter = MeterOf(session, light.name, seen);

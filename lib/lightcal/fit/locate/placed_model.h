@@ -39,10 +39,6 @@ struct PlacedWalls : WallsOfRow {
   double bend = 0.0;
 };
 
-// 1 sigma of ln E_walls between meters of one place that face elsewhere than the lamp, beside their
-// scatter (tests/tools/traced_rooms: tables under bulbs and panels).
-inline constexpr double kTurnedScatter = 0.06;
-
 struct PlacedRow {
   RowForm form = RowForm::kLog;
   std::optional<Vec3> position;  // of the meter; absent: `distance` from the lamp, facing it

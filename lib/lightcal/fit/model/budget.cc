@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "lightcal/fit/model/shared_scatter.h"
+
 namespace lightcal::fit {
 namespace {
 
@@ -82,6 +84,11 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   const double readings = IntensityVariance(some);
   for (ReadingRow& row : estimation.rows) row.calibration = 0.0;
   const double repeated = IntensityVariance(some);
+  const bool some_uneven =
+      std::ranges::any_of(estimation.rows, [](const ReadingRow& row) { return row.uneven > 0.0; });
+  for (ReadingRow& row : estimation.rows) row.uneven = 0.0;
+  if (some_uneven) SettleScatter(estimation, input.theta);
+  const double even = some_uneven ? IntensityVariance(some) : repeated;
   estimation.rows = input.estimation->rows;
   estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
   const double with_offset = IntensityVariance(some);
@@ -106,7 +113,9 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   if (third > 0.0) parts.push_back({"room_bounce", third});
   const double calibration = std::clamp(readings - repeated, 0.0, first);
   if (calibration > 0.0) parts.push_back({"meter_calibration", calibration});
-  parts.push_back({"readings", first - calibration});
+  const double uneven = std::clamp(repeated - even, 0.0, first - calibration);
+  if (uneven > 0.0) parts.push_back({"uneven_light", uneven});
+  parts.push_back({"readings", first - calibration - uneven});
   return parts;
 }
 

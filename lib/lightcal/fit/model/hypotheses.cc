@@ -17,6 +17,7 @@ namespace {
 
 // The meter stands before a lamp's virtual source, however far that lies in front of its reference.
 constexpr double kNearestSource = -0.7;  // of the shortest distance
+constexpr double kTurned_rad = 0.2;      // from where on a meter sees other walls
 
 WallsOfRow WallsAt(const WallPrior& prior, double distance_m, double length_m) {
   const double x = std::log(distance_m / kWallReference_m);
@@ -73,6 +74,9 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     }
     if (!SeesWalls(observation, lit_row)) continue;
     row.walls = WallsAt(prior, observation.distance_m, prepared.scales.length_m);
+    if (observation.tilt_rad > kTurned_rad) {
+      row.walls->scatter = std::hypot(prior.scatter, kTurnedScatter);
+    }
     seeing.push_back({lit_row, &*row.walls, &observation});
   }
   if (seeing.empty()) return out;

@@ -17,10 +17,11 @@ namespace lightcal::fit {
 [[nodiscard]] Result<void> CheckUnits(const Observations& observations, const std::string& light);
 
 // Refused: increasing_with_distance when the slope of ln E over ln d is above zero by two of its
-// own standard deviations. Adds the warning slow_falloff while it stays above -0.5: more than half
-// of what was read is not the lamp's direct light.
-[[nodiscard]] Result<void> CheckFalloff(const Observations& observations, const std::string& light,
-                                        Warnings& warnings);
+// own standard deviations, whether what turned meters read is the lamp's or its walls'. Adds the
+// warning slow_falloff while it stays above -0.5: more than half of what was read is not the lamp's
+// direct light.
+[[nodiscard]] Result<void> CheckFalloff(const Observations& observations,
+                                        const LightDescription& described, Warnings& warnings);
 
 // Warns of a lamp or a reading outside the [room] (outside_room): for its walls' light it counts as
 // just inside.

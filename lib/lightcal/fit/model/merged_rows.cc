@@ -48,10 +48,12 @@ OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
   double ln_distance = 0.0;
   WallsOfRow walls;
   double scatter = 0.0;
+  double uneven = 0.0;
   for (const ReadingRow* row : rows) {
     const double weight = WeightOf(*row);
     weights += weight;
     ln_distance += weight * std::log(row->distance);
+    uneven += weight * weight * row->uneven * row->uneven;
     if (!row->walls) continue;
     walls.x += weight * row->walls->x;
     walls.constant += weight * row->walls->constant;
@@ -83,7 +85,9 @@ OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
   out.spread.squares = xx > 0.0 ? std::max(0.0, yy - xy * xy / xx) : yy;
   out.row.distance = std::exp(ln_distance);
   out.row.measured = std::exp(ln_measured);
-  out.row.own_sigma = out.row.sigma = 1.0 / std::sqrt(weights);
+  out.row.own_sigma = 1.0 / std::sqrt(weights);
+  out.row.uneven = std::sqrt(uneven) / weights;
+  out.row.sigma = std::hypot(out.row.own_sigma, out.row.uneven);
   if (out.row.walls) {
     out.row.walls = {walls.x / weights, walls.constant / weights, std::sqrt(scatter) / weights};
   }

@@ -67,6 +67,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
     row.direct_gain = 0.0;
     return row;
   }
+  if (i < model.uneven.size()) row.uneven = model.uneven[i];
   row.shape = Scaled(model.shape, scales.length_m);
   const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
   row.distance = (observation.distance_m + surface) / scales.length_m;
@@ -174,6 +175,11 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   WidenBesideDataSheet(observations, model, out);
   out.own_rows = static_cast<int>(out.estimation.rows.size());
   if (!model.walls.empty()) AddCardRows(observations, out);
+  // Beside walls the lamp's share counts (SettleScatter).
+  for (ReadingRow& row : out.estimation.rows) {
+    const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;
+    row.sigma = std::hypot(row.sigma, row.uneven * unit);
+  }
   return out;
 }
 

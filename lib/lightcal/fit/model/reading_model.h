@@ -71,7 +71,8 @@ struct ReadingRow {
   double ambient_gain = 1.0;  // 0 where a shadow-card reading was subtracted
   double measured = 0.0;
   double sigma = 1.0;
-  double own_sigma = 1.0;    // of it, what is not scatter of the walls' light
+  double own_sigma = 1.0;    // of it, what is not scatter of the walls' light, nor the lamp's own
+  double uneven = 0.0;       // 1 sigma of ln I towards this meter (uneven_light.h)
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
   int instrument = 0;
   bool data_sheet = false;  // what the manufacturer prints

@@ -29,16 +29,17 @@ struct SharedPlace {
 };
 
 double SigmaWithScatter(const ReadingRow& row, const Theta& theta) {
-  if (!row.walls) return row.sigma;
+  if (!row.walls && !(row.uneven > 0.0)) return row.own_sigma;
   const double intensity = std::exp(theta[kLnIntensity]);
   const double walls = intensity * WallsPerCandela(row, theta.data());
-  double whole = 1.0;
-  if (row.form != RowForm::kLinear) {
-    whole = intensity * LampPerCandela(row, theta[kDistanceOffset]) + walls +
-            row.ambient_gain * theta[kAmbient];
-  }
-  const double scatter = row.walls->scatter * walls / whole;
-  return whole > 0.0 ? std::sqrt(row.own_sigma * row.own_sigma + scatter * scatter) : row.own_sigma;
+  const double lamp = intensity * LampPerCandela(row, theta[kDistanceOffset]);
+  const double whole =
+      row.form == RowForm::kLinear ? 1.0 : lamp + walls + row.ambient_gain * theta[kAmbient];
+  const double scatter = row.walls ? row.walls->scatter * walls / whole : 0.0;
+  const double uneven = row.uneven * lamp / whole;
+  return whole > 0.0
+             ? std::sqrt(row.own_sigma * row.own_sigma + scatter * scatter + uneven * uneven)
+             : row.own_sigma;
 }
 
 }  // namespace

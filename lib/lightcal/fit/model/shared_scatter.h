@@ -21,8 +21,8 @@ struct ReadingOfWalls {
 // them are as good as one: each takes sqrt(n) times its scatter.
 void ShareScatter(std::vector<ReadingOfWalls> readings);
 
-// Gives each row's sigma the scatter of the light from the walls, by their share at theta. The
-// largest change of one, relative.
+// Gives each row's sigma the scatter of the light from the walls, and of the lamp's own to its
+// sides, by their shares at theta. The largest change of one, relative.
 double SettleScatter(Estimation& estimation, const Theta& theta);
 
 }  // namespace lightcal::fit

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "lightcal/fit/model/uneven_light.h"
 #include "lightcal/fit/plan/scene_of_session.h"
 #include "lightcal/light/effect_cost.h"
 #include "lightcal/light/effects/detector_size.h"
@@ -156,6 +157,7 @@ void Follow(const LightDescription& light, const Observations& observations,
   plan.model.choice = choice;
   plan.model.distance_law = HasDistanceLaw(light.kind);
   plan.model.offsets = plan.scene.offsets;
+  plan.model.uneven = UnevenTowards(observations, light);
   plan.model.tilt = false;
   plan.effects.clear();
   for (GatedEffect& effect : plan.gated) {

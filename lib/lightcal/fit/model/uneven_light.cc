@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/uneven_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace lightcal::fit {
+namespace {
+
+// A bulb's base keeps light from one end, and it stands or hangs on it (Z is up): traced ones go as
+// 1 + (-.1 to .5) cos, .26 in all, one in five screwed in sideways; ENERGY STAR's omnidirectional
+// lamps (V2.1, 9.4) stay within 35 % of their mean.
+constexpr Vec3 kOfBulb = {0.09, 0.09, 0.22};
+// What shines to one side falls as the cosine does.
+constexpr Vec3 kToOneSide = {0.8, 0.8, 0.8};
+// Unit vectors nearer together than this are one direction.
+constexpr double kOneDirection = 0.25;
+
+std::vector<std::optional<Vec3>> DirectionsOf(const Observations& observations, const Vec3& lamp) {
+  std::vector<std::optional<Vec3>> out(observations.rows.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Observation& o = observations.rows[i];
+    if (!o.lit || !o.position_m) continue;
+    const Vec3 way = *o.position_m - lamp;
+    if (Length(way) > 0.0) out[i] = way * (1.0 / Length(way));
+  }
+  return out;
+}
+
+// The mean direction to the meters whose place is known.
+std::optional<Vec3> MiddleOf(const Observations& observations, const Vec3& lamp) {
+  Vec3 sum{};
+  int count = 0;
+  for (const auto& one : DirectionsOf(observations, lamp)) {
+    if (!one) continue;
+    sum = sum + *one;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum * (1.0 / count);
+}
+
+// The mean of unit vectors that are one is as long as they are.
+bool OfOneDirection(const Vec3& middle) {
+  return Length(middle) > 1.0 - 0.5 * kOneDirection * kOneDirection;
+}
+
+}  // namespace
+
+std::optional<Vec3> GradientOf(const LightDescription& light) {
+  if (light.kind != LightKind::kPoint || !light.fixture) return std::nullopt;
+  switch (*light.fixture) {
+    case Fixture::kBulb:
+    case Fixture::kSoftbox:
+      return kOfBulb;
+    default:
+      return kToOneSide;
+  }
+}
+
+std::optional<UnevenLight> UnevenOf(const Observations& observations,
+                                    const LightDescription& light) {
+  const std::optional<Vec3> sd = GradientOf(light);
+  if (!sd || !light.position_m) return std::nullopt;
+  const std::optional<Vec3> middle = MiddleOf(observations, *light.position_m);
+  return middle ? std::optional(UnevenLight{*sd, *middle}) : std::nullopt;
+}
+
+bool TakenToShineEvenly(const Observations& observations, const LightDescription& light) {
+  if (light.kind != LightKind::kPoint || light.fixture || !light.position_m) return false;
+  const std::optional<Vec3> middle = MiddleOf(observations, *light.position_m);
+  return middle && !OfOneDirection(*middle);
+}
+
+std::string SayThatItShinesEvenly(const std::string& light) {
+  return light +
+         ": is taken for a point that shines alike towards every meter; a bulb's base takes light "
+         "from some: fixture = \"bulb\" lets the intervals hold that too";
+}
+
+std::vector<double> UnevenTowards(const Observations& observations, const LightDescription& light) {
+  const std::optional<UnevenLight> uneven = UnevenOf(observations, light);
+  if (!uneven || OfOneDirection(uneven->middle)) return {};
+  const auto directions = DirectionsOf(observations, *light.position_m);
+  const double anywhere = Length(uneven->gradient_sd) / std::sqrt(3.0);
+  std::vector<double> out(directions.size(), anywhere);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!directions[i]) continue;
+    const auto along = [&](const std::optional<Vec3>& one) {
+      return one && Length(*one - *directions[i]) <= kOneDirection;
+    };
+    const auto sharing = static_cast<double>(std::ranges::count_if(directions, along));
+    out[i] = SdTowards(*uneven, *directions[i]) * std::sqrt(sharing);
+  }
+  return out;
+}
+
+}  // namespace lightcal::fit

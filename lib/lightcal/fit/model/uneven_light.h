@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// How unevenly a lamp without a measured distribution shines to its sides.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lightcal/core/vec3.h"
+#include "lightcal/fit/model/observations.h"
+#include "lightcal/records/fitted_light.h"
+#include "lightcal/records/session.h"
+
+namespace lightcal::fit {
+
+// 1 sigma, along each axis, of the gradient by which ln I differs from direction to direction.
+// Absent: its kind says how it shines, or nothing is known of its fixture.
+[[nodiscard]] std::optional<Vec3> GradientOf(const LightDescription& light);
+
+// Of a point of stated fixture whose place is known, and that of some of its meters.
+[[nodiscard]] std::optional<UnevenLight> UnevenOf(const Observations& observations,
+                                                  const LightDescription& light);
+
+// Whether its meters stood on several sides of a point whose fixture nobody states: it counts as
+// even, which SayThatItShinesEvenly says.
+[[nodiscard]] bool TakenToShineEvenly(const Observations& observations,
+                                      const LightDescription& light);
+[[nodiscard]] std::string SayThatItShinesEvenly(const std::string& light);
+
+// Of such a point, beside the observations: 1 sigma of ln I towards the meter beside the mean
+// towards all, times the root of how many readings lie in that direction, which share it. A meter
+// whose place is not known may be anywhere. Empty where all lie in one direction.
+[[nodiscard]] std::vector<double> UnevenTowards(const Observations& observations,
+                                                const LightDescription& light);
+
+}  // namespace lightcal::fit
