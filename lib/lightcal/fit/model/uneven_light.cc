@@ -28,6 +28,12 @@ std::vector<std::optional<Vec3>> DirectionsOf(const Observations& observations, 
   return out;
 }
 
+// Readings of one direction.
+struct Bundle {
+  Vec3 towards{};
+  int readings = 0;
+};
+
 // The mean direction to the meters whose place is known.
 std::optional<Vec3> MiddleOf(const Observations& observations, const Vec3& lamp) {
   Vec3 sum{};
@@ -83,14 +89,23 @@ std::vector<double> UnevenTowards(const Observations& observations, const LightD
   const std::optional<UnevenLight> uneven = UnevenOf(observations, light);
   if (!uneven || OfOneDirection(uneven->middle)) return {};
   const auto directions = DirectionsOf(observations, *light.position_m);
+  // Each reading is of the first direction that it is near to: a sphere has some hundred of them.
+  std::vector<Bundle> bundles;
+  std::vector<std::size_t> bundle(directions.size());
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    if (!directions[i]) continue;
+    const auto near = std::ranges::find_if(bundles, [&](const Bundle& one) {
+      return Length(one.towards - *directions[i]) <= kOneDirection;
+    });
+    bundle[i] = static_cast<std::size_t>(near - bundles.begin());
+    if (near == bundles.end()) bundles.push_back({*directions[i], 0});
+    ++bundles[bundle[i]].readings;
+  }
   const double anywhere = Length(uneven->gradient_sd) / std::sqrt(3.0);
   std::vector<double> out(directions.size(), anywhere);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!directions[i]) continue;
-    const auto along = [&](const std::optional<Vec3>& one) {
-      return one && Length(*one - *directions[i]) <= kOneDirection;
-    };
-    const auto sharing = static_cast<double>(std::ranges::count_if(directions, along));
+    const double sharing = bundles[bundle[i]].readings;
     out[i] = SdTowards(*uneven, *directions[i]) * std::sqrt(sharing);
   }
   return out;
