@@ -27,7 +27,7 @@ Reading& Add(Session& session, ColorSource source, const std::string& meter = ""
 }
 FittedColor Fit(const Session& session) {
   Warnings warnings;
-  return FitColor(session, session.lights.front(), warnings);
+  return FitColor(session, session.lights.front(), nullptr, warnings).color;
 }
 
 TEST(FitColor, NoColourReadingsGiveNoColour) {
@@ -109,7 +109,7 @@ TEST(FitColor, AColourFarFromTheLocusHasNoTemperature) {
   Session session = Empty();
   Add(session, ColorSource::kSpectrometer).xy = Xy{0.30, 0.60};
   Warnings warnings;
-  const FittedColor color = FitColor(session, session.lights.front(), warnings);
+  const FittedColor color = FitColor(session, session.lights.front(), nullptr, warnings).color;
   EXPECT_FALSE(color.cct_K.has_value());
   ASSERT_TRUE(color.xy.has_value());
   EXPECT_NEAR(color.xy->y, 0.60, 1e-12);
@@ -132,7 +132,7 @@ TEST(FitColor, InstrumentsThatDisagreeWidenTheInterval) {
   const double alone = Fit(session).cct_K->u95;
   Add(session, ColorSource::kSpectrometer, "b").xy = XyFromCct(Kelvin(3600.0));
   Warnings warnings;
-  const FittedColor both = FitColor(session, session.lights.front(), warnings);
+  const FittedColor both = FitColor(session, session.lights.front(), nullptr, warnings).color;
   EXPECT_GT(both.cct_K->u95, 2.0 * alone);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_EQ(warnings.front().code, "color_disagrees");

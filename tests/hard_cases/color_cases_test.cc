@@ -61,7 +61,8 @@ TEST(HardCaseC, C02FarFromTheLocusTheCctIsWithheld) {
   ExpectColorWithoutCct(OfXy(0.3, 0.6), "far_from_locus");
   ExpectColorWithoutCct(Ask({"color", "--cct", "4000", "--duv", "0.0501"}), "far_from_locus");
   EXPECT_EQ(Ask({"color", "--cct", "4000", "--duv", "0.0499"}).document["cct_valid"], true);
-  const Answer lamp = KeySession().At(1, 100, "xy = [0.3, 0.6]").Run();
+  const Answer lamp =
+      KeySession("point", "[room]\ndark = true\n").At(1, 100, "xy = [0.3, 0.6]").Run();
   ExpectWarned(lamp, "cct_withheld");
   EXPECT_FALSE(Lamp(lamp)["color"].contains("cct_K"));
   EXPECT_NEAR(Lamp(lamp)["color"]["xy"][1].get<double>(), 0.6, 1e-12);

@@ -43,8 +43,8 @@ Result<FittedLight> FitUnread(const LightDescription& light, const fit::Observat
                            observations.warnings.front().message);
 }
 
-Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
-                           const FitSettings& settings, FittedSession& session_out) {
+Result<FittedLight> FitStrength(const Session& session, const LightDescription& light,
+                                const FitSettings& settings, FittedSession& session_out) {
   Warnings& warnings = session_out.warnings;
   Result<fit::Observations> observations = fit::CollectObservations(session, light);
   if (!observations) return Propagate(std::move(observations));
@@ -53,7 +53,6 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   if (auto sized = fit::CheckLengths(session, light, warnings); !sized)
     return Propagate(std::move(sized));
   FittedLight out = fit::Describe(light);
-  out.color = fit::FitColor(session, light, warnings, settings.cct_method);
   if (observations->rows.empty()) return FitUnread(light, *observations, std::move(out));
   if (fit::NeedsLocating(*observations, light)) {
     session_out.Warn(std::move(observations->warnings));
@@ -71,6 +70,19 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
   }
   return fit::FitByDistance(session, light, *std::move(observations), settings, std::move(out),
                             session_out);
+}
+
+// Its colour last: how much of the light in a reading was the lamp's own is what the fit found.
+Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
+                           const FitSettings& settings, FittedSession& session_out) {
+  Result<FittedLight> out = FitStrength(session, light, settings, session_out);
+  if (!out) return out;
+  const fit::OtherLight others(session, light, *out);
+  fit::ColorFit found =
+      fit::FitColor(session, light, &others, session_out.warnings, settings.cct_method);
+  out->color = found.color;
+  if (!found.note.empty()) session_out.notes.push_back(std::move(found.note));
+  return out;
 }
 
 // Each zoom and front that tells where its light starts is a lamp of its own, and its states too.

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "paint.h"
 #include "random_rooms.h"
 #include "trace.h"
 
@@ -27,7 +28,8 @@ Lamp IsotropicLamp(const Vec3& place) {
 
 // In a closed room of one albedo the mean illuminance from reflected light is, whatever its shape,
 //   flux rho / (A (1 - rho)).
-bool Furnace(bool furnished) {
+// At 460 nm a paint of ln_blue -.3 has that of 550 nm times exp(-.27).
+bool Furnace(bool furnished, bool at_460_nm = false) {
   constexpr double kAlbedo = 0.6;
   Room room;
   room.albedo.fill(kAlbedo);
@@ -35,6 +37,14 @@ bool Furnace(bool furnished) {
   if (furnished) {
     room.boxes.push_back({{0.5, 2.5, 0.0}, {1.5, 3.3, 0.9}, kAlbedo});
     area += 2.0 * 0.9 * (1.0 + 0.8);  // its top stands for the floor below
+  }
+  double albedo = kAlbedo;
+  if (at_460_nm) {
+    RoomPaint paint;
+    paint.walls.fill({-0.3, 0.2});
+    paint.boxes.assign(room.boxes.size(), {-0.3, 0.2});
+    room = RoomAt(room, paint, 460);
+    albedo *= std::exp(-0.27);
   }
   const Lamp lamp = IsotropicLamp({2.7, 1.6, 1.5});
   Random random(1);
@@ -77,9 +87,10 @@ bool Furnace(bool furnished) {
     absorbed += answer.absorbed / kRounds;
   }
   const bool conserved = Told("energy: all light ends in the surfaces", absorbed, 1.0, 0.003);
-  return Told(furnished ? "furnace with furniture: mean E = flux rho / (A (1 - rho))"
-                        : "furnace: mean E = flux rho / (A (1 - rho))",
-              sum, 4.0 * kPi * kAlbedo / (area * (1.0 - kAlbedo)), 0.012) &&
+  return Told(at_460_nm   ? "furnace with furniture, at 460 nm"
+              : furnished ? "furnace with furniture: mean E = flux rho / (A (1 - rho))"
+                          : "furnace: mean E = flux rho / (A (1 - rho))",
+              sum, 4.0 * kPi * albedo / (area * (1.0 - albedo)), 0.012) &&
          conserved;
 }
 
@@ -242,6 +253,7 @@ bool ClosedFormsHold() {
   holds = OneBounce() && holds;
   holds = Furnace(false) && holds;
   holds = Furnace(true) && holds;
+  holds = Furnace(true, true) && holds;
   holds = MirrorUnfolds() && holds;
   return BothWays() && holds;
 }

@@ -3,7 +3,8 @@
 // outside. Nothing here includes a header of lightcal. See README.md here.
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
 //   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
-//   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
+//   traced_rooms --colours ORDINARY UNSEEN  the walls' light at eight wavelengths, their paint
+//   drawn traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "closed_forms.h"
+#include "paint.h"
 #include "random_rooms.h"
 #include "trace.h"
 
@@ -135,6 +137,42 @@ int PrintPlaces(int ordinary, int unseen) {
   return 0;
 }
 
+// A row a reading: what the walls give a meter, and what they give it behind its card, at each
+// wavelength; lamp and meter as in the table of rooms. The same rays at all wavelengths.
+int PrintColours(int ordinary, int unseen) {
+  std::printf(
+      "family,room,kind,width_m,height_m,size_x_m,size_y_m,size_z_m,reflectance,distance_m,direct");
+  for (const char* what : {"wall", "card"}) {
+    for (const int nm : kBands_nm) std::printf(",%s_%d", what, nm);
+  }
+  std::printf("\n");
+  const auto print = [](Family family, int number) {
+    const LitRoom lit = RandomRoom(family, number);
+    const RoomPaint paint = PaintOf(lit, family, number);
+    std::vector<TraceAnswer> bands;
+    for (const int nm : kBands_nm) {
+      const LitRoom there{RoomAt(lit.room, paint, nm), lit.lamp, lit.reach};
+      bands.push_back(TraceRoom(there, 11000000ULL + number, {0.02, 1 << 14, 1 << 16}));
+    }
+    const bool panel = lit.lamp.kind == LampKind::kPanel;
+    const Vec3& size = lit.room.size;
+    for (std::size_t k = 0; k < bands[0].meters.size(); ++k) {
+      if (kDistances[k] == 0.7 || kDistances[k] == 1.5) continue;
+      std::printf("%s,%d,%s,", std::string(NameOf(family)).c_str(), number,
+                  std::string(NameOf(lit.lamp.kind)).c_str());
+      panel ? std::printf("%.4g,%.4g", lit.lamp.width, lit.lamp.height) : std::printf(",");
+      std::printf(",%.3f,%.3f,%.3f,%.3f,%g,%.5g", size[0], size[1], size[2], lit.room.MeanAlbedo(),
+                  kDistances[k], lit.lamp.Direct(kDistances[k]));
+      for (const TraceAnswer& band : bands) std::printf(",%.4g", band.meters[k].wall);
+      for (const TraceAnswer& band : bands) std::printf(",%.4g", band.meters[k].behind_card);
+      std::printf("\n");
+    }
+  };
+  for (int i = 0; i < ordinary; ++i) print(Family::kOrdinary, i);
+  for (int i = 0; i < unseen; ++i) print(Family::kUnseen, i);
+  return 0;
+}
+
 int Compare(const char* path, int every) {
   std::ifstream table(path);
   std::string line;
@@ -180,6 +218,9 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--places") == 0) {
     return traced_rooms::PrintPlaces(std::atoi(argv[2]), std::atoi(argv[3]));
   }
+  if (argc == 4 && std::strcmp(argv[1], "--colours") == 0) {
+    return traced_rooms::PrintColours(std::atoi(argv[2]), std::atoi(argv[3]));
+  }
   if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
@@ -187,7 +228,7 @@ int main(int argc, char** argv) {
     return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
   }
   std::fprintf(stderr,
-               "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --describe N | "
-               "--check | --compare TABLE EVERY\n");
+               "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --colours ORDINARY "
+               "UNSEEN | --describe N | --check | --compare TABLE EVERY\n");
   return 2;
 }

@@ -209,7 +209,7 @@ FittedColor ColorOf(const Session& session, const LightDescription& light,
     reading.sigma_mired = GenericColorSigma(capture.lamp_class);
     with.readings.push_back({std::move(reading), capture.where});
   }
-  return fit::FitColor(with, light, warnings);
+  return fit::FitColor(with, light, nullptr, warnings).color;
 }
 
 FittedLight LightOf(const LightDescription& light, const Wall& wall, FittedDistribution&& found,

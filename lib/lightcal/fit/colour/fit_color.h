@@ -2,10 +2,11 @@
 // Colour of one light from all its readings that saw colour.
 #pragma once
 
-#include <span>
+#include <string>
 
 #include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/core/result.h"
+#include "lightcal/fit/colour/other_light.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
@@ -25,11 +26,23 @@ inline constexpr double kSigmaDuvCamera = 0.005;
 // (ANSI C78.377 quadrangles reach +-0.006).
 inline constexpr double kSigmaDuvAssumed = 0.006;
 
-// Weighted mean in (mired, Duv) of the light's readings with the lamp on, each by the covariance of
-// its source. Readings of one meter and one kind of source share their error: more of them do not
-// lower it, their scatter adds to it. Where a reading's chromaticity has no CCT the mean is taken
-// in xy and the CCT withheld with the warning cct_withheld. Empty when no reading holds colour.
-[[nodiscard]] FittedColor FitColor(const Session& session, const LightDescription& light,
-                                   Warnings& warnings, CctMethod method = CctMethod::kExact);
+// 1 sigma by which two readings of one meter differ: of x and y, and of lux over their value.
+inline constexpr double kRepeatXy = 0.0005;
+inline constexpr double kRepeatLux = 0.01;
+
+struct ColorFit {
+  FittedColor color;
+  std::string note{};  // what would make it surer, "" = nothing the readings show
+};
+
+// The lamp's colour by its readings, each by the covariance of its source. Readings of one meter
+// and one kind of source share their error: more of them do not lower it, their scatter adds to it.
+// Walls and ambient light tint what a meter sees: `others` (null: nothing but the lamp shone) says
+// how much of each reading they are, and readings at several distances, behind the card or with the
+// lamp off tell how (shared_color.h). Where a chromaticity has no CCT that is withheld with the
+// warning cct_withheld. Empty when no reading of the lamp holds colour.
+[[nodiscard]] ColorFit FitColor(const Session& session, const LightDescription& light,
+                                const OtherLight* others, Warnings& warnings,
+                                CctMethod method = CctMethod::kExact);
 
 }  // namespace lightcal::fit

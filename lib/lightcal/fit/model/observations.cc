@@ -34,19 +34,6 @@ std::string RowName(const SessionReading& row, int index) {
   return row.where.empty() ? "reading " + std::to_string(index) : row.where;
 }
 
-// Whether the light from the walls is in a reading.
-bool SeesWalls(const Session& session, const LightDescription& light, const Reading& reading) {
-  if (session.surroundings != Surroundings::kIndoors || reading.meter == kDataSheetMeter ||
-      !HasDistanceLaw(light.kind)) {
-    return false;
-  }
-  const auto of_its_luminance = [&](const CaptureDescription& capture) {
-    return capture.light == light.name && capture.use == CaptureUse::kSource;
-  };
-  return reading.quality != MeterQuality::kDerived ||
-         std::ranges::none_of(session.captures, of_its_luminance);
-}
-
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
 
 class Collector {
@@ -98,7 +85,7 @@ class Collector {
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
     observation.data_sheet = reading.meter == kDataSheetMeter;
-    observation.sees_walls = SeesWalls(session_, light_, reading);
+    observation.sees_walls = HoldsWallLight(session_, light_, reading);
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
     observation.table_part = TablePartTowards(light_, reading);
@@ -326,6 +313,18 @@ int CountDistinctDistances(const std::vector<Observation>& rows) {
     ++count;
   }
   return count;
+}
+
+bool HoldsWallLight(const Session& session, const LightDescription& light, const Reading& reading) {
+  if (session.surroundings != Surroundings::kIndoors || reading.meter == kDataSheetMeter ||
+      !HasDistanceLaw(light.kind)) {
+    return false;
+  }
+  const auto of_its_luminance = [&](const CaptureDescription& capture) {
+    return capture.light == light.name && capture.use == CaptureUse::kSource;
+  };
+  return reading.quality != MeterQuality::kDerived ||
+         std::ranges::none_of(session.captures, of_its_luminance);
 }
 
 Result<Observations> CollectObservations(const Session& session, const LightDescription& light) {

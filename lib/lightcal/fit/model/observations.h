@@ -70,6 +70,11 @@ struct Observations {
 [[nodiscard]] Result<Observations> CollectObservations(const Session& session,
                                                        const LightDescription& light);
 
+// Whether the walls shine in a reading: not outdoors, in the dark or in a maker's figure, nor in a
+// picture of the lamp itself.
+[[nodiscard]] bool HoldsWallLight(const Session& session, const LightDescription& light,
+                                  const Reading& reading);
+
 // Whether the light's illuminance follows a distance at all (not for directional and dome).
 [[nodiscard]] bool HasDistanceLaw(LightKind kind);
 

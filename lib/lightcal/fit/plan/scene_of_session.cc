@@ -162,16 +162,7 @@ void AddPriors(const Session& session, const LightDescription& light,
                const Observations& observations, Scene& scene) {
   const auto own = [](const Observation& o) { return o.lit && o.sees_walls; };
   scene.no_walls = std::ranges::none_of(observations.rows, own);
-  if (HasDistanceLaw(light.kind) && !scene.no_walls) {
-    std::optional<StatedRoom> room;
-    if (session.room) {
-      constexpr double kU95 = 0.2;  // of the reflectance, as people guess it
-      const double rho = session.room->reflectance;
-      room = {session.room->size_m, rho, session.room->reflectance_u95.value_or(kU95 * rho) / kZ95};
-    }
-    scene.walls =
-        WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)}, room);
-  }
+  if (HasDistanceLaw(light.kind) && !scene.no_walls) scene.walls = WallPriorsOf(session, light);
   // A table of a film fixture gives its offset with its own first distance.
   const auto held = [](const Observation& o) { return o.lit && !o.data_sheet; };
   if (!light.fixture && std::ranges::none_of(observations.rows, held)) return;
@@ -187,6 +178,16 @@ void AddPriors(const Session& session, const LightDescription& light,
 }
 
 }  // namespace
+
+std::vector<WallHypothesis> WallPriorsOf(const Session& session, const LightDescription& light) {
+  std::optional<StatedRoom> room;
+  if (session.room) {
+    constexpr double kU95 = 0.2;  // of the reflectance, as people guess it
+    const double rho = session.room->reflectance;
+    room = {session.room->size_m, rho, session.room->reflectance_u95.value_or(kU95 * rho) / kZ95};
+  }
+  return WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)}, room);
+}
 
 Scene SceneOfSession(const Session& session, const LightDescription& light,
                      const Observations& observations, int patches) {

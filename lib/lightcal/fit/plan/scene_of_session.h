@@ -2,11 +2,19 @@
 // What a session says of one lamp and its readings, as the gate asks for it.
 #pragma once
 
+#include <vector>
+
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/light/scene.h"
+#include "lightcal/light/wall_prior.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
+
+// What is known beforehand of the walls' light about this lamp, in the room that the session states
+// or in an ordinary one.
+[[nodiscard]] std::vector<WallHypothesis> WallPriorsOf(const Session& session,
+                                                       const LightDescription& light);
 
 // Poses of the lit readings, the worst of the meters and pictures that took them, and the priors of
 // walls (light/wall_prior.h) and distance offset (light/fixture.h). `patches`: along each side of a

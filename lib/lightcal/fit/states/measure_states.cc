@@ -205,10 +205,10 @@ class Measuring {
 };
 
 FittedColor ColorOf(const StateReadings& state, const LightDescription& description,
-                    CctMethod method, Warnings& warnings) {
+                    const OtherLight& others, CctMethod method, Warnings& warnings) {
   Session alone;
   for (const SessionReading* row : state.rows) alone.readings.push_back(*row);
-  return FitColor(alone, description, warnings, method);
+  return FitColor(alone, description, &others, warnings, method).color;
 }
 
 std::optional<Uncertain> Times(const std::optional<Uncertain>& reference, double ln, double sd) {
@@ -263,6 +263,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
   light.state = ReferenceState(session, light.name);
   if (light.state.empty()) return;
   const Measuring measuring(session, light);
+  const OtherLight others(session, description, light);
   std::vector<MeasuredState> out;
   bool other_geometry = false;
   for (const StateReadings& state : measuring.states()) {
@@ -290,7 +291,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
     one.relative = reference ? Uncertain{1.0, 0.0, {}, {}} : UncertainFromLog(ln, sd);
     one.intensity_cd = Times(light.intensity_cd, ln, sd);
     one.illuminance_lx = Times(light.illuminance_lx, ln, sd);
-    one.color = reference ? light.color : ColorOf(state, description, cct_method, warnings);
+    one.color = reference ? light.color : ColorOf(state, description, others, cct_method, warnings);
     one.readings = ratio->readings;
     other_geometry = other_geometry || !SameGeometry(state.state, light.state);
     if (reference) {
