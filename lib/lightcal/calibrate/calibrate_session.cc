@@ -10,6 +10,7 @@
 #include "lightcal/calibrate/captures/capture_readings.h"
 #include "lightcal/calibrate/captures/wall_capture.h"
 #include "lightcal/calibrate/distributions.h"
+#include "lightcal/calibrate/lamp_spectra.h"
 #include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
@@ -70,7 +71,8 @@ void Lap(const CalibrationSettings& settings, tradeoff::Stage stage) {
 // A spectrum answers for the colour of its reading, and for its illuminance where the reading gives
 // none and the file's unit is an irradiance.
 Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, double step_nm,
-                             const Sources& sources, Evidence& evidence) {
+                             const Sources& sources, Evidence& evidence,
+                             std::vector<ReadSpectrum>& read) {
   Reading reading = row.reading;
   if (reading.spectrum_file.empty()) return reading;
   const std::string path = PathInSession(session, reading.spectrum_file);
@@ -93,7 +95,8 @@ Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, 
     reading.illuminance = Lux(xyz->Y);
   }
   evidence.AddFile(path);
-  evidence.AddSpectrum(reading.light, reading.spectrum_file, one->imported.spectrum, reading.state);
+  read.push_back({row, one->imported.spectrum});
+  read.back().row.reading = reading;
   return reading;
 }
 
@@ -118,14 +121,16 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   session = AsSet(std::move(loaded->session), settings);
   evidence.files = std::move(session.input_files);
   Lap(settings, tradeoff::Stage::kLoad);
+  std::vector<ReadSpectrum> read;
   for (auto* const rows : {&session.readings, &session.state_readings}) {
     for (SessionReading& row : *rows) {
       auto resolved =
-          WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence);
+          WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence, read);
       if (!resolved) return Propagate(std::move(resolved));
       row.reading = *std::move(resolved);
     }
   }
+  evidence.spectra = LampSpectra(read);
   for (LightDescription& light : session.lights) {
     auto described =
         WithDistribution(session, light, settings.profile.table_step_deg, sources, evidence);

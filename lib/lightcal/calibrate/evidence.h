@@ -12,7 +12,7 @@
 
 namespace lightcal {
 
-// The first spectrum of a light, or of one state of its controls, as its file has it.
+// The spectrum of a light, or of one state of its controls (lamp_spectra.h).
 struct NamedSpectrum {
   std::string light;
   std::string file;  // as the session names it
@@ -27,6 +27,7 @@ struct Evidence {
   Warnings warnings;
 
   void AddFile(const std::string& path);
+  // Where that light and state has none yet.
   void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum,
                    const FixtureState& state = {});
   void AddWarnings(const Warnings& more);
