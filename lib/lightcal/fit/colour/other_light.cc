@@ -120,7 +120,8 @@ std::optional<OtherLight::Walls> OtherLight::WallsAt(double distance_m) const {
   const auto facing = PredictInRoom(light_, Metres(distance_m), 0.0);
   if (facing && *facing) {
     out.walls_lx = (*facing)->walls_lx.value;
-    out.direct_lx = (*facing)->whole_lx.value - out.walls_lx - ambient_lx_;
+    const double ambient = light_.ambient_lx ? light_.ambient_lx->value : 0.0;
+    out.direct_lx = (*facing)->whole_lx.value - out.walls_lx - ambient;
     out.sd_ln = SdOfLn((*facing)->walls_lx);
     out.scatter = MeanScatter(light_.in_room);
     return out;
@@ -166,6 +167,7 @@ OtherShares OtherLight::Unlit(const Reading& reading) const {
 OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   const Reading& reading = row.reading;
   if (!MeasuresColor(reading) || !row.others_lit.empty()) return {};
+  if (reading.meter == kDataSheetMeter) return {};
   const bool walls_shine = HoldsWallLight(session_, description_, reading);
   if (!walls_shine && !(ambient_lx_ > 0.0)) return {};
   if (reading.lamp == LampState::kOff || reading.shadow_card) return Unlit(reading);
