@@ -10,11 +10,10 @@ void Evidence::AddFile(const std::string& path) {
 }
 
 void Evidence::AddSpectrum(const std::string& light, const std::string& file,
-                           const Spectrum& spectrum, const FixtureState& state) {
-  const bool known = std::ranges::any_of(spectra, [&](const NamedSpectrum& one) {
-    return one.light == light && SameState(one.state, state);
-  });
-  if (!known) spectra.push_back({light, file, spectrum, state});
+                           const Spectrum& spectrum) {
+  const bool known = std::ranges::any_of(
+      spectra, [&](const NamedSpectrum& one) { return one.light == light && one.state.empty(); });
+  if (!known) spectra.push_back({light, file, spectrum});
 }
 
 void Evidence::AddWarnings(const Warnings& more) {

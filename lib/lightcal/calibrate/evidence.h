@@ -27,9 +27,8 @@ struct Evidence {
   Warnings warnings;
 
   void AddFile(const std::string& path);
-  // Where that light and state has none yet.
-  void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum,
-                   const FixtureState& state = {});
+  // At no state of its controls; where that has none yet.
+  void AddSpectrum(const std::string& light, const std::string& file, const Spectrum& spectrum);
   void AddWarnings(const Warnings& more);
 };
 

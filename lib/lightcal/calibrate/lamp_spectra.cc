@@ -2,11 +2,10 @@
 #include "lightcal/calibrate/lamp_spectra.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 
-#include "lightcal/fit/colour/other_light.h"
+#include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/states/state_spectrum.h"
 
 namespace lightcal {
@@ -38,15 +37,10 @@ std::optional<Spectrum> BesideItsCard(const ReadSpectrum& open,
                                       const std::vector<ReadSpectrum>& read) {
   const Reading& reading = open.row.reading;
   if (!reading.illuminance) return std::nullopt;
-  for (const ReadSpectrum& one : read) {
-    const Reading& card = one.row.reading;
-    if (card.shadow_card && card.illuminance && card.light == reading.light &&
-        card.meter == reading.meter && one.row.others_lit.empty() &&
-        SameState(card.state, reading.state) && fit::SameSpot(card, reading)) {
-      return LessItsCard(open, one);
-    }
-  }
-  return std::nullopt;
+  const auto card = std::ranges::find_if(read, [&](const ReadSpectrum& one) {
+    return one.row.reading.meter == reading.meter && fit::IsCardOf(one.row, reading);
+  });
+  return card == read.end() ? std::nullopt : LessItsCard(open, *card);
 }
 
 double DistanceOf(const Reading& reading) {

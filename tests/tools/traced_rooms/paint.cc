@@ -12,7 +12,7 @@ constexpr std::uint64_t kUnseenPaintSeed = 83405517;
 constexpr double kBlue_nm = 450.0, kGreen_nm = 550.0, kRed_nm = 620.0;
 constexpr double kBrightest = 0.92;
 
-// A paint's middle and 1 sigma, uniform of that width, and how common it is.
+// How common a paint is, on albedos above .6 and below, and its tint's mean and 1 sigma.
 struct Sort {
   double common_on_bright, common_on_dark;
   double ln_blue, wide_blue, ln_red, wide_red;

@@ -3,8 +3,8 @@
 // outside. Nothing here includes a header of lightcal. See README.md here.
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
 //   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
-//   traced_rooms --colours ORDINARY UNSEEN  the walls' light at eight wavelengths, their paint
-//   drawn traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
+//   traced_rooms --colours ORDINARY UNSEEN  what painted walls give at eight wavelengths
+//   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
 #include <cstdio>

@@ -103,9 +103,8 @@ std::optional<ColorReading> Difference(const Reading& both, const Reading& other
   const double own = whole - rest;
   if (!(own > 0.0)) return std::nullopt;
   const auto xyz = [](const Reading& reading) -> Eigen::Vector3d {
-    const Xy& xy = *reading.xy;
-    return Eigen::Vector3d(xy.x / xy.y, 1.0, (1.0 - xy.x - xy.y) / xy.y) *
-           reading.illuminance->value();
+    const Xyz unit = XyzFromXyAtUnitY(*reading.xy);
+    return Eigen::Vector3d(unit.X, unit.Y, unit.Z) * reading.illuminance->value();
   };
   const Eigen::Vector3d left = xyz(both) - xyz(others);
   if (!(left.minCoeff() > 0.0)) return std::nullopt;

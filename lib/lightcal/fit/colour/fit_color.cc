@@ -53,16 +53,15 @@ void WarnOfDisagreement(const SharedColor& found, const std::string& light, Warn
 
 // Said where walls and ambient light more than double the interval.
 std::string NoteOfOthers(const std::vector<ColorReading>& readings, const ColorFit& fit,
-                         const Matrix2& covariance, const Matrix2& by_others,
-                         const std::string& light) {
+                         const SharedColor& found, const std::string& light) {
   constexpr double kDoubled = 0.75;  // of the variance
-  if (!fit.color.cct_K || !(by_others.trace() > kDoubled * covariance.trace())) return "";
+  const double by_others = found.by_others.trace() / found.color.covariance.trace();
+  if (!(by_others > kDoubled)) return "";
   double least = 1.0;
   for (const ColorReading& one : readings) {
     if (one.lit) least = std::min(least, one.others.walls + one.others.ambient);
   }
-  const double alone =
-      fit.color.cct_K->u95 * std::sqrt(1.0 - by_others.trace() / covariance.trace());
+  const double alone = fit.color.cct_K->u95 * std::sqrt(1.0 - by_others);
   return light + ": its colour was read where " + RoundedText(100.0 * least, 2) +
          " % of the light came off the walls or from elsewhere, which tints it: \u00b1 " +
          RoundedText(fit.color.cct_K->u95, 2) + " K, of which the meter brings \u00b1 " +
@@ -78,10 +77,10 @@ ColorFit FitColor(const Session& session, const LightDescription& light, const O
   const std::vector<ColorReading> readings =
       CollectColors(session, light, others, method, warnings);
   if (std::ranges::none_of(readings, [](const ColorReading& one) { return one.lit; })) return out;
-  const ColorAnswer answer = SolveSharedColor(readings, method);
-  WarnOfDisagreement(answer.shared, light.name, warnings);
-  Estimate2 color = answer.shared.color;
-  if (!answer.in_mired) {
+  const SharedColor found = SolveSharedColor(readings, method);
+  WarnOfDisagreement(found, light.name, warnings);
+  Estimate2 color = found.color;
+  if (!found.in_mired) {
     const Vector2 xy = color.mean;
     Vector2 mired_duv;
     out.color.xy = Xy{xy[0], xy[1]};
@@ -97,8 +96,7 @@ ColorFit FitColor(const Session& session, const LightDescription& light, const O
   }
   out.color.cct_K = KelvinFromMiredEstimate(color.mean[0], color.covariance(0, 0));
   out.color.duv = UncertainFromNormal(color.mean[1], std::sqrt(color.covariance(1, 1)));
-  out.note = NoteOfOthers(readings, out, answer.shared.color.covariance, answer.shared.by_others,
-                          light.name);
+  out.note = NoteOfOthers(readings, out, found, light.name);
   return out;
 }
 

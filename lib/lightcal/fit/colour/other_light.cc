@@ -62,12 +62,6 @@ std::pair<double, double> LnWalls(const LocatedLamp& lamp, double distance_m) {
 
 }  // namespace
 
-bool SameSpot(const Reading& a, const Reading& b) {
-  constexpr double kSpot_m = 0.005;
-  if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) < kSpot_m;
-  return a.distance && b.distance && SameDistance(a.distance->value(), b.distance->value());
-}
-
 OtherLight::OtherLight(const Session& session, const LightDescription& description,
                        const FittedLight& light)
     : session_(session), description_(description), light_(light) {
@@ -84,7 +78,7 @@ OtherLight::OtherLight(const Session& session, const LightDescription& descripti
 void OtherLight::Note(const SessionReading& row) {
   const Reading& reading = row.reading;
   if (reading.shadow_card) {
-    if (reading.illuminance) cards_.push_back(&reading);
+    cards_.push_back(&row);
     return;
   }
   if (!MeasuresColor(reading) || reading.lamp == LampState::kOff) return;
@@ -146,10 +140,9 @@ std::optional<OtherLight::Walls> OtherLight::WallsAt(double distance_m) const {
 }
 
 const Reading* OtherLight::CardBeside(const Reading& reading) const {
-  const auto beside = std::ranges::find_if(cards_, [&](const Reading* card) {
-    return SameState(card->state, reading.state) && SameSpot(*card, reading);
-  });
-  return beside == cards_.end() ? nullptr : *beside;
+  const auto beside = std::ranges::find_if(
+      cards_, [&](const SessionReading* card) { return IsCardOf(*card, reading); });
+  return beside == cards_.end() ? nullptr : &(*beside)->reading;
 }
 
 OtherShares OtherLight::Unlit(const Reading& reading) const {
@@ -176,12 +169,12 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   if (!distance) return walls_shine ? of_unknown_place_ : OtherShares{};
   const auto known = walls_.find(*distance);
   if (known == walls_.end()) return {};
-  const Walls* const there = &known->second;
+  const Walls& there = known->second;
   const double direct =
-      std::max(0.0, there->direct_lx) * std::max(0.0, std::cos(reading.tilt.value()));
+      std::max(0.0, there.direct_lx) * std::max(0.0, std::cos(reading.tilt.value()));
   const double lux = reading.illuminance ? reading.illuminance->value() : 0.0;
   const double whole =
-      lux > 0.0 ? lux : direct + (walls_shine ? there->walls_lx : 0.0) + ambient_lx_;
+      lux > 0.0 ? lux : direct + (walls_shine ? there.walls_lx : 0.0) + ambient_lx_;
   if (!(whole > 0.0)) return {};
   out.ambient = std::min(1.0, ambient_lx_ / whole);
   if (!walls_shine) return out;
@@ -192,13 +185,13 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
     out.own = std::hypot(kCardHides, kCardLux);
     return out;
   }
-  const double lamp = direct + there->walls_lx;
-  out.walls = lamp > 0.0 ? (1.0 - out.ambient) * there->walls_lx / lamp : 0.0;
+  const double lamp = direct + there.walls_lx;
+  out.walls = lamp > 0.0 ? (1.0 - out.ambient) * there.walls_lx / lamp : 0.0;
   // d w / w = (1 - w) d ln(walls/direct)
   const double open = lamp > 0.0 ? direct / lamp : 0.0;
-  out.own = open * there->scatter;
-  out.common = open * std::sqrt(std::max(
-                          0.0, there->sd_ln * there->sd_ln - there->scatter * there->scatter));
+  out.own = open * there.scatter;
+  out.common =
+      open * std::sqrt(std::max(0.0, there.sd_ln * there.sd_ln - there.scatter * there.scatter));
   return out;
 }
 

@@ -20,9 +20,6 @@ struct OtherShares {
   [[nodiscard]] bool any() const { return walls > 0.0 || ambient > 0.0; }
 };
 
-// Whether two readings were taken at one place, as they say.
-[[nodiscard]] bool SameSpot(const Reading& a, const Reading& b);
-
 // After the fit: what it found of the walls (in_room, located), else what is known of them
 // beforehand (WallPriors); what was read behind a card at a reading's own place before both.
 // Ambient light as it was read, else what may be where nobody read any.
@@ -50,7 +47,7 @@ class OtherLight {
   const LightDescription& description_;
   const FittedLight& light_;
   double ambient_lx_ = 0.0;
-  std::vector<const Reading*> cards_;
+  std::vector<const SessionReading*> cards_;
   std::map<double, Walls> walls_;  // at the distances, in metres, that its colours were read at
   OtherShares of_unknown_place_;
 };

@@ -231,13 +231,11 @@ class Problem {
 
   // Of the color, were walls and ambient light known.
   [[nodiscard]] Matrix2 CovarianceOfKnownOthers() const {
-    const Eigen::Index others = kInstruments - kTint;
-    Eigen::MatrixXd known(count() - others, count() - others);
     std::vector<Eigen::Index> kept;
     for (Eigen::Index i = 0; i < count(); ++i) {
       if (i < kTint || i >= kInstruments) kept.push_back(i);
     }
-    known = information_(kept, kept);
+    const Eigen::MatrixXd known = information_(kept, kept);
     return known.inverse().topLeftCorner<2, 2>();
   }
 
@@ -252,11 +250,11 @@ class Problem {
 
 }  // namespace
 
-ColorAnswer SolveSharedColor(const std::vector<ColorReading>& readings, CctMethod method) {
+SharedColor SolveSharedColor(const std::vector<ColorReading>& readings, CctMethod method) {
   Bundles bundles = BundlesOf(readings);
-  ColorAnswer out;
-  out.in_mired = !bundles.tinted && TakeToMired(bundles, method);
-  out.shared = Problem(bundles).Solve();
+  const bool in_mired = !bundles.tinted && TakeToMired(bundles, method);
+  SharedColor out = Problem(bundles).Solve();
+  out.in_mired = in_mired;
   return out;
 }
 

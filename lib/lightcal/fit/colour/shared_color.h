@@ -18,18 +18,14 @@ namespace lightcal::fit {
 // but c under its prior.
 struct SharedColor {
   Estimate2 color;
+  bool in_mired = false;                // (mired, Duv), else (x, y)
   Matrix2 by_others = Matrix2::Zero();  // of its covariance, what walls and ambient light bring
   bool scatters = false;                // a reading lies beyond 3 sigma of its instrument
   bool disagrees = false;  // instruments and places do; the covariance is widened by that (Birge)
 };
 
-// Where `in_mired`, in (mired, Duv) if each reading has them and no other light is in any; else in
-// (x, y).
-struct ColorAnswer {
-  SharedColor shared;
-  bool in_mired = false;
-};
-[[nodiscard]] ColorAnswer SolveSharedColor(const std::vector<ColorReading>& readings,
+// In (mired, Duv) if each reading has them and no other light is in any; else in (x, y).
+[[nodiscard]] SharedColor SolveSharedColor(const std::vector<ColorReading>& readings,
                                            CctMethod method);
 
 }  // namespace lightcal::fit

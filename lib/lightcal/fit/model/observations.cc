@@ -299,6 +299,23 @@ bool SameDistance(double a_m, double b_m) {
   return std::abs(a_m - b_m) <= 1e-3 * std::max(std::abs(a_m), std::abs(b_m));
 }
 
+bool SamePlace(const Reading& a, const Reading& b) {
+  constexpr double kSameAngle_rad = 1e-3;
+  if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) < kSamePlace;
+  if (a.distance && b.distance) {
+    return SameDistance(a.distance->value(), b.distance->value()) &&
+           std::abs(a.tilt.value() - b.tilt.value()) < kSameAngle_rad &&
+           std::abs(a.off_axis.value() - b.off_axis.value()) < kSameAngle_rad;
+  }
+  return !a.distance && !b.distance && !a.position_m && !b.position_m;
+}
+
+bool IsCardOf(const SessionReading& row, const Reading& reading) {
+  const Reading& card = row.reading;
+  return card.shadow_card && card.illuminance && card.light == reading.light &&
+         row.others_lit.empty() && SameState(card.state, reading.state) && SamePlace(card, reading);
+}
+
 int CountDistinctDistances(const std::vector<Observation>& rows) {
   std::vector<double> distances;
   for (const Observation& row : rows) {

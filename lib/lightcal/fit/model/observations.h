@@ -80,6 +80,11 @@ struct Observations {
 
 // Readings within a thousandth of each other stand at one distance.
 [[nodiscard]] bool SameDistance(double a_m, double b_m);
+// Whether two readings were taken at one place, as they say: within 5 mm, or at one distance and
+// one angle; those that say nothing at all stand together.
+[[nodiscard]] bool SamePlace(const Reading& a, const Reading& b);
+// Whether `row` is what was read behind the card where `reading` was, nothing else lit.
+[[nodiscard]] bool IsCardOf(const SessionReading& row, const Reading& reading);
 [[nodiscard]] int CountDistinctDistances(const std::vector<Observation>& rows);
 
 }  // namespace lightcal::fit

@@ -29,7 +29,7 @@ std::vector<std::optional<Vec3>> DirectionsOf(const Observations& observations, 
 }
 
 // Readings of one direction.
-struct Bundle {
+struct SharedDirection {
   Vec3 towards{};
   int readings = 0;
 };
@@ -90,22 +90,22 @@ std::vector<double> UnevenTowards(const Observations& observations, const LightD
   if (!uneven || OfOneDirection(uneven->middle)) return {};
   const auto directions = DirectionsOf(observations, *light.position_m);
   // Each reading is of the first direction that it is near to: a sphere has some hundred of them.
-  std::vector<Bundle> bundles;
-  std::vector<std::size_t> bundle(directions.size());
+  std::vector<SharedDirection> shared;
+  std::vector<std::size_t> which(directions.size());
   for (std::size_t i = 0; i < directions.size(); ++i) {
     if (!directions[i]) continue;
-    const auto near = std::ranges::find_if(bundles, [&](const Bundle& one) {
+    const auto near = std::ranges::find_if(shared, [&](const SharedDirection& one) {
       return Length(one.towards - *directions[i]) <= kOneDirection;
     });
-    bundle[i] = static_cast<std::size_t>(near - bundles.begin());
-    if (near == bundles.end()) bundles.push_back({*directions[i], 0});
-    ++bundles[bundle[i]].readings;
+    which[i] = static_cast<std::size_t>(near - shared.begin());
+    if (near == shared.end()) shared.push_back({*directions[i], 0});
+    ++shared[which[i]].readings;
   }
   const double anywhere = Length(uneven->gradient_sd) / std::sqrt(3.0);
   std::vector<double> out(directions.size(), anywhere);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!directions[i]) continue;
-    const double sharing = bundles[bundle[i]].readings;
+    const double sharing = shared[which[i]].readings;
     out[i] = SdTowards(*uneven, *directions[i]) * std::sqrt(sharing);
   }
   return out;

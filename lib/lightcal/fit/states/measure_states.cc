@@ -21,8 +21,6 @@ namespace {
 
 // Other lamps, of the dimmest reading, 1 sigma: what light/effects takes where none is stated.
 constexpr double kOtherLamps = 0.025;
-constexpr double kSamePlace_m = 0.005;
-constexpr double kSameAngle_rad = 1e-3;
 
 struct StateReadings {
   FixtureState state;
@@ -32,16 +30,6 @@ struct StateReadings {
 bool Counts(const Reading& reading) {
   return reading.illuminance && reading.lamp == LampState::kOn && !reading.shadow_card &&
          !reading.over_range && !reading.under_range && reading.illuminance->value() > 0.0;
-}
-
-bool SamePlace(const Reading& a, const Reading& b) {
-  if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) < kSamePlace_m;
-  if (a.distance && b.distance) {
-    return SameDistance(a.distance->value(), b.distance->value()) &&
-           std::abs(a.tilt.value() - b.tilt.value()) < kSameAngle_rad &&
-           std::abs(a.off_axis.value() - b.off_axis.value()) < kSameAngle_rad;
-  }
-  return !a.distance && !b.distance && !a.position_m && !b.position_m;
 }
 
 struct Background {
