@@ -7,9 +7,9 @@
                                       messages when one does not
     check_headers.py --self-test      a header that leaves an include out is found
 
-Nine tenths of such a compilation read the standard library. A few precompiled beginnings spare it:
-one is used only by headers that include, themselves or through other headers of ours, everything
-that it holds, so that it hides no missing include.
+Nine tenths of such a compilation read what the header includes. A few precompiled beginnings spare
+it: one is used only by headers that include, themselves or through other headers of ours,
+everything that it holds, so that it hides no missing include.
 """
 import concurrent.futures
 import json
@@ -21,22 +21,22 @@ import subprocess
 import sys
 import tempfile
 
-BEGINNINGS = 8
+BEGINNINGS = 24
 INCLUDE = re.compile(r'\s*#\s*include\s+[<"]([^>"]+)[>"]')
 
 
 class Includes:
-    """What a header includes of others, through all of ours, wherever no #if stands before it."""
+    """What a header includes, through all of ours, wherever no #if stands before it."""
 
     def __init__(self, roots):
         self.roots = roots
         self.found = {}
 
-    def of_others(self, header):
+    def all_of(self, header):
         if header in self.found:
             return self.found[header]
         self.found[header] = frozenset()
-        others, conditions = set(), 0
+        names, conditions = set(), 0
         for line in header.read_text().splitlines():
             word = re.match(r"\s*#\s*(if|endif)", line)
             if word:
@@ -47,20 +47,20 @@ class Includes:
             own = next((path for path in (folder / include.group(1)
                                           for folder in [header.parent, *self.roots])
                         if path.exists()), None)
-            others |= self.of_others(own) if own else {include.group(1)}
-        self.found[header] = frozenset(others)
+            names |= self.all_of(own) | {str(own)} if own else {include.group(1)}
+        self.found[header] = frozenset(names)
         return self.found[header]
 
 
-def beginnings_of(others):
+def beginnings_of(included):
     """{header: the includes precompiled before it}: greedily those sets that spare most."""
-    before = dict.fromkeys(others, frozenset())
+    before = dict.fromkeys(included, frozenset())
     for _ in range(BEGINNINGS):
         def gain(names):
-            return sum(max(0, len(names) - len(before[header])) for header in others
-                       if names <= others[header])
-        best = max(sorted(set(others.values()), key=sorted), key=gain)
-        for header, names in others.items():
+            return sum(max(0, len(names) - len(before[header])) for header in included
+                       if names <= included[header])
+        best = max(sorted(set(included.values()), key=sorted), key=gain)
+        for header, names in included.items():
             if best <= names and len(best) > len(before[header]):
                 before[header] = best
     return before
@@ -68,15 +68,16 @@ def beginnings_of(others):
 
 def compile_all(commands, includes):
     """{header: (its command's words without output and source, the source)} -> messages."""
-    others = {header: includes.of_others(header) for header in commands}
-    before = beginnings_of(others)
+    included = {header: includes.all_of(header) for header in commands}
+    before = beginnings_of(included)
     folder = tempfile.TemporaryDirectory()
     paths = {names: pathlib.Path(folder.name) / f"beginning{number}.h"
              for number, names in enumerate(set(before.values()))}
 
     def precompile(names):
-        paths[names].write_text("".join(f"#include <{name}>\n" for name in sorted(names)))
-        words = next(commands[header][0] for header in commands if names <= others[header])
+        ours_last = sorted(names, key=lambda name: (name.startswith("/"), name))
+        paths[names].write_text("".join(f"#include <{name}>\n" for name in ours_last))
+        words = next(commands[header][0] for header in commands if names <= included[header])
         subprocess.run([*words, "-x", "c++-header", "-c", paths[names], "-o", f"{paths[names]}.gch"],
                        check=True)
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/calibrate/calibrate_session.h"
+#include "lightcal/core/standard_normal.h"
 #include "lightcal/presets/export_presets.h"
 #include "lightcal/tradeoff/knobs.h"
 
@@ -44,7 +45,7 @@ void ExpectReadings(const Session& session, const FittedLight& light, SessionTwi
 std::map<std::string, double> FactorsOf(const SessionTwin& twin, int replica) {
   std::seed_seq seed{kSeed, static_cast<std::uint64_t>(replica)};
   std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
+  StandardNormal normal;
   std::map<std::string, double> gains, factors;
   for (const auto& [where, made] : twin.readings) {
     if (!gains.contains(made.instrument)) gains[made.instrument] = normal(random);

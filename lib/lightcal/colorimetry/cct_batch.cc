@@ -11,15 +11,7 @@
 #include <vector>
 
 #include "lightcal/colorimetry/locus_table.h"
-
-// One machine code for each generation of processors, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define LIGHTCAL_PER_PROCESSOR \
-  __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define LIGHTCAL_PER_PROCESSOR
-#endif
+#include "lightcal/core/every_processor.h"
 
 namespace lightcal {
 namespace {
@@ -83,7 +75,8 @@ struct Block {
 };
 
 // Which cell holds each colour; any cell for one outside the grid or not a number.
-LIGHTCAL_PER_PROCESSOR void FindCells(Block& b) {
+LIGHTCAL_EVERY_CPU
+void FindCells(Block& b) {
   for (std::size_t i = 0; i < kBlock; ++i) {
     const double column = (b.u[i] - kFirstU) * (1.0 / kCell);
     const double row = (b.v[i] - kFirstV) * (1.0 / kCell);
@@ -119,7 +112,8 @@ void LoadSegments(const locus::LocusTable& table, const Start* starts, Block& b)
 }
 
 // Three Newton steps for the stationary point of the distance, and what the answer needs there.
-LIGHTCAL_PER_PROCESSOR void Solve(Block& b) {
+LIGHTCAL_EVERY_CPU
+void Solve(Block& b) {
   for (std::size_t i = 0; i < kBlock; ++i) {
     const double a0 = b.c[0][i], a1 = b.c[1][i], a2 = b.c[2][i], a3 = b.c[3][i], a4 = b.c[4][i],
                  a5 = b.c[5][i];

@@ -7,15 +7,7 @@
 
 #include "lightcal/colorimetry/cie_tables/samples.h"
 #include "lightcal/colorimetry/sample_colors.h"
-
-// Four samples at a time where the processor has such registers; without fused multiplication, so
-// that every processor finds the same digits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define LIGHTCAL_VIEW_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define LIGHTCAL_VIEW_LANES
-#endif
+#include "lightcal/core/every_processor.h"
 
 namespace lightcal {
 namespace {
@@ -69,7 +61,8 @@ constexpr NodeValues kOnes = Ones();
 
 // sum[channel][sample] = sum over the nodes of the channel's factor times the weight.
 using NodeBlock = std::array<std::array<double, 4>, 3>;
-LIGHTCAL_VIEW_LANES void SumOverNodes(const NodeBlock* weights, const double* red,
+LIGHTCAL_EVERY_CPU
+void SumOverNodes(const NodeBlock* weights, const double* red,
                                       const double* green, const double* blue, NodeBlock& sum) {
   NodeBlock total{};
   for (std::size_t k = 0; k < kNodeCount; ++k) {

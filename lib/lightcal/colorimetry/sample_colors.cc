@@ -5,15 +5,7 @@
 #include <tuple>
 
 #include "lightcal/colorimetry/cie_tables/samples.h"
-
-// Four lanes at a time where the processor has them. Without fused multiplication, so that every
-// processor finds the same digits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define LIGHTCAL_WIDER_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define LIGHTCAL_WIDER_LANES
-#endif
+#include "lightcal/core/every_processor.h"
 
 namespace lightcal {
 namespace {
@@ -88,7 +80,8 @@ Weights WeightsOf(const NanometrePowers& test, const NanometrePowers& reference,
 
 // sum[j][lane] = sum over the weighted nanometres of weight_j times the reflectance of one sample
 // in each lane.
-LIGHTCAL_WIDER_LANES void Accumulate(const Weights& w, const Lanes* block,
+LIGHTCAL_EVERY_CPU
+void Accumulate(const Weights& w, const Lanes* block,
                                      std::array<Lanes, kChannels>& sum) {
   std::array<Lanes, kChannels> total{};
   for (std::size_t i = 0; i < w.weight.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "lightcal/colorimetry/ssi.h"
+#include "lightcal/core/standard_normal.h"
 #include "lightcal/match/smooth_noise.h"
 
 namespace lightcal::match {
@@ -88,7 +89,7 @@ MatchDraws::MatchDraws(const MatchScene& scene) : scene_(scene) {
   const SmoothNoise meter(kMeterCorrelationNm);
   const SmoothNoise channels(kChannelCorrelationNm);
   std::mt19937_64 random(kSceneSeed);
-  std::normal_distribution<double> normal;
+  StandardNormal normal;
   const double lamp_sigma = request.lamp_measured ? spread.spectral : 0.0;
   const double target_sigma = request.target_measured ? spread.spectral : 0.0;
   const double levels = std::hypot(request.lamp_measured ? spread.level : 0.0,

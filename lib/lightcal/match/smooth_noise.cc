@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/standard_normal.h"
+
 namespace lightcal::match {
 
 SmoothNoise::SmoothNoise(double length_nm) {
@@ -19,7 +21,7 @@ SmoothNoise::SmoothNoise(double length_nm) {
 }
 
 NodeValues SmoothNoise::Draw(std::mt19937_64& random) const {
-  std::normal_distribution<double> normal;
+  StandardNormal normal;
   NodeValues independent{};
   for (double& each : independent) each = normal(random);
   NodeValues out{};

@@ -151,9 +151,9 @@ def function_task(method, setting, kind, answer, truth, relative=True):
 def machine():
     model = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     system = re.search(r'PRETTY_NAME="(.*)"', pathlib.Path("/etc/os-release").read_text())
-    compiler = run(["g++", "-dumpfullversion"]).strip()
+    compiler = run(["clang++-19", "-dumpversion"]).strip()
     return (f"{model.group(1) if model else platform.machine()}, {os.cpu_count()} processors, "
-            f"{system.group(1)}, g++ {compiler}, Release")
+            f"{system.group(1)}, clang++ {compiler}, Release")
 
 
 def measure(figure, tasks, rounds):

@@ -34,7 +34,7 @@ fit::Estimation EstimationOf(const SolverProblem& problem) {
 }  // namespace
 
 void OwnSolver(const std::vector<Numbers>& table) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  constexpr double kNoAnswer = std::numeric_limits<double>::infinity();
   std::vector<fit::Estimation> all;
   std::vector<fit::Theta> starts;
   for (const Numbers& row : table) {
@@ -49,12 +49,12 @@ void OwnSolver(const std::vector<Numbers>& table) {
     for (fit::Estimation& one : all) one.choice.solver = choice;
     rows.PrintEach("lightcal", name, [&](std::size_t i) {
       const auto theta = fit::Solve(all[i], starts[i]);
-      return theta ? (*theta)[fit::kLnIntensity] : kNone;
+      return theta ? (*theta)[fit::kLnIntensity] : kNoAnswer;
     });
   }
   rows.PrintEach("lightcal", "for samples", [&](std::size_t i) {
     const auto theta = fit::SolveCoarsely(all[i], starts[i], fit::kLastStep);
-    return theta ? (*theta)[fit::kLnIntensity] : kNone;
+    return theta ? (*theta)[fit::kLnIntensity] : kNoAnswer;
   });
   rows.PrintEach("lightcal", "closed form",
                  [&](std::size_t i) { return fit::ScanStart(all[i])[fit::kLnIntensity]; });

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/core/uncertain.h"
 
@@ -18,7 +19,7 @@ namespace {
 constexpr std::uint64_t kStateMatchSeed = 20260123;
 
 LightPoint Drawn(const LightPoint& point, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
+  StandardNormal normal;
   const double mired = normal(random) * point.sd_ln_mired;
   const double duv = normal(random) * point.sd_duv;
   const double across = normal(random) * point.sd_duv;

@@ -9,6 +9,7 @@
 #include <random>
 #include <utility>
 
+#include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/fit/beam/solved_beams.h"
 #include "lightcal/fit/model/hypotheses.h"
@@ -68,17 +69,7 @@ double FluxOf(const std::vector<double>& gamma_deg, const std::vector<double>& c
 
 // ---- draws ----
 
-class Normals {
- public:
-  double operator()() {
-    const double u = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53;
-    const double v = (static_cast<double>(random_() >> 11) + 0.5) * 0x1p-53;
-    return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * kPi * v);
-  }
-
- private:
-  std::mt19937_64 random_{20240917};
-};
+constexpr std::uint64_t kSeed = 20240917;
 
 // Never rises from the axis outwards.
 bool FallsOnly(const std::vector<double>& candela) {
@@ -106,15 +97,16 @@ std::vector<double> CurveOf(const SolvedBeam& beam, const Eigen::VectorXd& p,
 
 // Share of falling curves among what a smooth curve may be before any reading.
 double FallingShareOfPrior(const BeamShape& curve) {
-  Normals normal;
+  std::mt19937_64 random(kSeed);
+  StandardNormal normal;
   int falling = 0;
   std::array<double, BeamShape::kNodes> nodes{};
   std::vector<double> values(nodes.size());
   for (int n = 0; n < kPriorDraws; ++n) {
     nodes[0] = 1.0;
-    nodes[1] = 1.0 + 0.5 * curve.bend * normal();
+    nodes[1] = 1.0 + 0.5 * curve.bend * normal(random);
     for (std::size_t k = 2; k < nodes.size(); ++k) {
-      nodes[k] = 2.0 * nodes[k - 1] - nodes[k - 2] + curve.bend * normal();
+      nodes[k] = 2.0 * nodes[k - 1] - nodes[k - 2] + curve.bend * normal(random);
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
       values[i] = curve.Relative(curve.scale * std::sinh(curve.step * static_cast<double>(i)),
@@ -130,12 +122,12 @@ struct Drawn {
 };
 
 Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int count,
-               Normals& normal) {
+               std::mt19937_64& random, StandardNormal& normal) {
   Drawn out;
   const Eigen::Index n = beam.theta.size();
   Eigen::VectorXd z(n);
   for (int i = 0; i < count; ++i) {
-    for (Eigen::Index k = 0; k < n; ++k) z[k] = normal();
+    for (Eigen::Index k = 0; k < n; ++k) z[k] = normal(random);
     const Eigen::VectorXd p = beam.theta + beam.root * z;
     BeamDraw draw;
     draw.candela = CurveOf(beam, p, gamma_deg);
@@ -174,14 +166,15 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   if (beams.empty()) {
     return Failed("no_convergence", light, "the solver found no beam; check angles and readings");
   }
-  Normals normal;
+  std::mt19937_64 random(kSeed);
+  StandardNormal normal;
   std::vector<BeamDraw> draws;
   BeamProfile out;
   out.gamma_deg = AnglesFor(RoughHalfAngle(readings.rows));
   double smooth = 0.0;
   for (const SolvedBeam& one : beams) {
     const int count = std::max(8, static_cast<int>(std::lround(kDraws * one.share)));
-    Drawn drawn = DrawFrom(one, out.gamma_deg, count, normal);
+    Drawn drawn = DrawFrom(one, out.gamma_deg, count, random, normal);
     const double after = static_cast<double>(drawn.falling.size()) /
                          std::max(1.0, static_cast<double>(drawn.all.size()));
     const bool falls =

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/fit/model/least_squares.h"
 
@@ -102,7 +103,7 @@ class Draws {
   const UncertaintyInput& input_;
   Estimation drawn_;
   std::mt19937_64 random_;
-  std::normal_distribution<double> normal_;
+  StandardNormal normal_;
   int instruments_ = 0;
   std::vector<double> shared_;     // of each instrument, then of each considered influence
   std::vector<double> influence_;  // of each row and influence, relative
