@@ -12,29 +12,50 @@ namespace lightcal {
 namespace {
 
 constexpr int kBlurColumns = 128;
+constexpr double kLeastOfLobe = 1e-6;
+const double kFarthestOfLobe =
+    std::log(kLeastOfLobe) - 0.1;  // exponents beyond give less than that
 
-// The picture towards a direction of glTF's axes, blurred by a lobe as wide as a roughness makes
-// it; a mirror shows its mean over a cone of that many radians.
-std::array<double, 3> BlurredTowards(const EnvironmentPicture& picture, const Vec3& towards,
-                                     double sharpness) {
-  std::array<double, 3> sum{};
-  double weight = 0.0;
+// One place of the picture, its direction in glTF's axes.
+struct PlaceOfPicture {
+  Vec3 towards;
+  double sin_zenith = 0.0;  // its solid angle, relative
+  std::array<double, 3> radiance;
+};
+
+std::vector<PlaceOfPicture> PlacesOf(const EnvironmentPicture& picture) {
   const int w = picture.small_width, h = picture.small_height;
   const int step = std::max(1, w / kBlurColumns);
+  std::vector<PlaceOfPicture> places;
   for (int y = step / 2; y < h; y += step) {
     const double zenith = std::numbers::pi * (y + 0.5) / h;
     for (int x = step / 2; x < w; x += step) {
       const double azimuth = 2.0 * std::numbers::pi * ((x + 0.5) / w - 0.5);
-      const Vec3 d = GltfFromZUp({std::sin(zenith) * std::sin(azimuth),
-                                  std::sin(zenith) * std::cos(azimuth), std::cos(zenith)});
-      const double lobe = std::exp(sharpness * (Dot(d, towards) - 1.0)) * std::sin(zenith);
-      if (lobe < 1e-6) continue;
-      weight += lobe;
       const double* p =
           picture.small.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
                                       static_cast<std::size_t>(x));
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += lobe * p[c];
+      places.push_back({GltfFromZUp({std::sin(zenith) * std::sin(azimuth),
+                                     std::sin(zenith) * std::cos(azimuth), std::cos(zenith)}),
+                        std::sin(zenith),
+                        {p[0], p[1], p[2]}});
     }
+  }
+  return places;
+}
+
+// The picture towards a direction of glTF's axes, blurred by a lobe as wide as a roughness makes
+// it; a mirror shows its mean over a cone of that many radians.
+std::array<double, 3> BlurredTowards(const std::vector<PlaceOfPicture>& places, const Vec3& towards,
+                                     double sharpness) {
+  std::array<double, 3> sum{};
+  double weight = 0.0;
+  for (const PlaceOfPicture& place : places) {
+    const double exponent = sharpness * (Dot(place.towards, towards) - 1.0);
+    if (exponent < kFarthestOfLobe) continue;
+    const double lobe = std::exp(exponent) * place.sin_zenith;
+    if (lobe < kLeastOfLobe) continue;
+    weight += lobe;
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += lobe * place.radiance[c];
   }
   for (double& v : sum) v = weight > 0.0 ? std::max(0.0, v / weight) : 0.0;
   return sum;
@@ -66,6 +87,7 @@ std::vector<CubeMap> PrefilteredCube(const EnvironmentPicture& picture, int side
   int levels = 1;
   while ((side >> (levels - 1)) > 1) ++levels;
   std::vector<CubeMap> mips(static_cast<std::size_t>(levels));
+  const std::vector<PlaceOfPicture> places = PlacesOf(picture);
   for (int level = 0; level < levels; ++level) {
     const int width = side >> level;
     const double roughness = std::max(0.2, static_cast<double>(level) / (levels - 1));
@@ -76,7 +98,7 @@ std::vector<CubeMap> PrefilteredCube(const EnvironmentPicture& picture, int side
       for (int j = 0; j < width; ++j) {
         for (int i = 0; i < width; ++i) {
           texels.push_back(RgbdOf(BlurredTowards(
-              picture, TexelOfCube(face, (i + 0.5) / width, (j + 0.5) / width), sharpness)));
+              places, TexelOfCube(face, (i + 0.5) / width, (j + 0.5) / width), sharpness)));
         }
       }
       mip[static_cast<std::size_t>(face)] = PngOfTexels(width, texels);

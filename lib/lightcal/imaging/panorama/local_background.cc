@@ -40,24 +40,43 @@ std::vector<double> CellMedians(View2d<const float> nits, const LatLongGrid& cel
   return medians;
 }
 
-double PercentileAround(const std::vector<double>& medians, const LatLongGrid& cells,
-                        const Vec3& centre) {
-  std::vector<std::pair<double, double>> near;  // value, solid angle
-  double total = 0.0;
-  for (int y = 0; y < cells.height(); ++y) {
-    for (int x = 0; x < cells.width(); ++x) {
-      if (Dot(centre, cells.Direction(x, y)) < kNeighbourhoodCosine) continue;
-      near.emplace_back(medians[static_cast<std::size_t>(cells.Index(x, y))], cells.SolidAngle(y));
-      total += near.back().second;
+struct BackgroundCell {
+  double median = 0.0, solid_angle = 0.0;
+  Vec3 direction;
+};
+
+// Row by row.
+std::vector<BackgroundCell> CellsOf(View2d<const float> nits, const LatLongGrid& grid) {
+  const std::vector<double> medians = CellMedians(nits, grid);
+  std::vector<BackgroundCell> cells;
+  cells.reserve(medians.size());
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      cells.push_back({medians[static_cast<std::size_t>(grid.Index(x, y))], grid.SolidAngle(y),
+                       grid.Direction(x, y)});
     }
   }
-  std::sort(near.begin(), near.end());
-  double below = 0.0;
-  for (const auto& [value, weight] : near) {
-    below += weight;
-    if (below >= kPercentile * total) return std::max(0.0, value);
+  return cells;
+}
+
+// `rising` are the same cells, the darkest first.
+double PercentileAround(const std::vector<BackgroundCell>& cells,
+                        const std::vector<BackgroundCell>& rising, const Vec3& centre) {
+  const auto near = [&](const BackgroundCell& cell) {
+    return Dot(centre, cell.direction) >= kNeighbourhoodCosine;
+  };
+  double total = 0.0;
+  for (const BackgroundCell& cell : cells) {
+    if (near(cell)) total += cell.solid_angle;
   }
-  return near.empty() ? 0.0 : std::max(0.0, near.back().first);
+  double below = 0.0, last = 0.0;
+  for (const BackgroundCell& cell : rising) {
+    if (!near(cell)) continue;
+    last = cell.median;
+    below += cell.solid_angle;
+    if (below >= kPercentile * total) break;
+  }
+  return std::max(0.0, last);
 }
 
 }  // namespace
@@ -67,12 +86,14 @@ LocalBackground::LocalBackground(View2d<const float> nits, const LatLongGrid& gr
       cells_per_x_(double(cells_.width()) / grid.width()),
       cells_per_y_(double(cells_.height()) / grid.height()),
       value_(static_cast<std::size_t>(cells_.width()) * cells_.height()) {
-  const std::vector<double> medians = CellMedians(nits, cells_);
-  ParallelFor(cells_.height(), [&](int y) {
-    for (int x = 0; x < cells_.width(); ++x) {
-      value_[static_cast<std::size_t>(cells_.Index(x, y))] =
-          PercentileAround(medians, cells_, cells_.Direction(x, y));
-    }
+  const std::vector<BackgroundCell> cells = CellsOf(nits, cells_);
+  std::vector<BackgroundCell> rising = cells;
+  std::ranges::sort(rising, {}, [](const BackgroundCell& cell) {
+    return std::pair(cell.median, cell.solid_angle);
+  });
+  ParallelFor(static_cast<int>(cells.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    value_[at] = PercentileAround(cells, rising, cells[at].direction);
   });
 }
 
