@@ -12,11 +12,28 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Vec3 DirectionOfPixel(double x, double y, int width, int height) {
-  const double azimuth = 2.0 * kPi * (x / width - 0.5);
-  const double zenith = kPi * y / height;
-  return {std::sin(zenith) * std::sin(azimuth), std::sin(zenith) * std::cos(azimuth),
-          std::cos(zenith)};
+// Calls visit(direction, solid angle [sr], rgb) for every pixel of the small picture.
+template <class Visit>
+void ForSmallPixels(const EnvironmentPicture& picture, const Visit& visit) {
+  const int w = picture.small_width, h = picture.small_height;
+  struct Azimuth {
+    double sine = 0.0, cosine = 0.0;
+  };
+  std::vector<Azimuth> columns;
+  for (int x = 0; x < w; ++x) {
+    const double azimuth = 2.0 * kPi * ((x + 0.5) / w - 0.5);
+    columns.push_back({std::sin(azimuth), std::cos(azimuth)});
+  }
+  const double* rgb = picture.small.data();
+  for (int y = 0; y < h; ++y) {
+    const double omega = PixelSolidAngle(y, w, h);
+    const double zenith = kPi * (y + 0.5) / h;
+    const double aside = std::sin(zenith), up = std::cos(zenith);
+    for (const Azimuth& column : columns) {
+      visit(Vec3{aside * column.sine, aside * column.cosine, up}, omega, rgb);
+      rgb += 3;
+    }
+  }
 }
 
 template <class Value>
@@ -102,35 +119,24 @@ Vec3 IrradianceOn(const EnvironmentPicture& picture, const Vec3& normal) {
 
 std::vector<Vec3> IrradianceOn(const EnvironmentPicture& picture, std::span<const Vec3> normals) {
   std::vector<Vec3> sums(normals.size());
-  const int w = picture.small_width, h = picture.small_height;
-  for (int y = 0; y < h; ++y) {
-    const double omega = PixelSolidAngle(y, w, h);
-    for (int x = 0; x < w; ++x) {
-      const Vec3 direction = DirectionOfPixel(x + 0.5, y + 0.5, w, h);
-      const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
-      for (std::size_t i = 0; i < normals.size(); ++i) {
-        const double cosine = Dot(normals[i], direction);
-        if (cosine <= 0.0) continue;
-        for (std::size_t c = 0; c < 3; ++c) sums[i][c] += omega * cosine * p[c];
-      }
+  ForSmallPixels(picture, [&](const Vec3& direction, double omega, const double* rgb) {
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const double cosine = Dot(normals[i], direction);
+      if (cosine <= 0.0) continue;
+      for (std::size_t c = 0; c < 3; ++c) sums[i][c] += omega * cosine * rgb[c];
     }
-  }
+  });
   return sums;
 }
 
 Harmonics RadianceHarmonics(const EnvironmentPicture& picture, Vec3 (*turn)(const Vec3&)) {
   Harmonics out{};
-  const int w = picture.small_width, h = picture.small_height;
-  for (int y = 0; y < h; ++y) {
-    const double omega = PixelSolidAngle(y, w, h);
-    for (int x = 0; x < w; ++x) {
-      const auto basis = BasisOf(turn(DirectionOfPixel(x + 0.5, y + 0.5, w, h)));
-      const double* p = picture.small.data() + 3 * (static_cast<std::size_t>(y * w + x));
-      for (std::size_t i = 0; i < out.size(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c) out[i][c] += omega * basis[i] * p[c];
-      }
+  ForSmallPixels(picture, [&](const Vec3& direction, double omega, const double* rgb) {
+    const auto basis = BasisOf(turn(direction));
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) out[i][c] += omega * basis[i] * rgb[c];
     }
-  }
+  });
   return out;
 }
 
