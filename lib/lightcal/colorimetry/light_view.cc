@@ -62,8 +62,8 @@ constexpr NodeValues kOnes = Ones();
 // sum[channel][sample] = sum over the nodes of the channel's factor times the weight.
 using NodeBlock = std::array<std::array<double, 4>, 3>;
 LIGHTCAL_EVERY_CPU
-void SumOverNodes(const NodeBlock* weights, const double* red,
-                                      const double* green, const double* blue, NodeBlock& sum) {
+void SumOverNodes(const NodeBlock* weights, const double* red, const double* green,
+                  const double* blue, NodeBlock& sum) {
   NodeBlock total{};
   for (std::size_t k = 0; k < kNodeCount; ++k) {
     const NodeBlock& w = weights[k];

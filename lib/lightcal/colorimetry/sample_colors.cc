@@ -81,8 +81,7 @@ Weights WeightsOf(const NanometrePowers& test, const NanometrePowers& reference,
 // sum[j][lane] = sum over the weighted nanometres of weight_j times the reflectance of one sample
 // in each lane.
 LIGHTCAL_EVERY_CPU
-void Accumulate(const Weights& w, const Lanes* block,
-                                     std::array<Lanes, kChannels>& sum) {
+void Accumulate(const Weights& w, const Lanes* block, std::array<Lanes, kChannels>& sum) {
   std::array<Lanes, kChannels> total{};
   for (std::size_t i = 0; i < w.weight.size(); ++i) {
     const Lanes& rho = block[w.nanometre[i]];
