@@ -130,7 +130,7 @@ def self_test():
 def main():
     if sys.argv[1] == "--self-test":
         return self_test()
-    source, build = map(pathlib.Path, sys.argv[1:3])
+    source, build = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
     roots = [source / "lib", source / "devices", source / "app"]
     commands = commands_of(build, roots)
     if len(commands) < 400:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled with -O3 -fno-trapping-math -fno-math-errno (see CMakeLists.txt), so that the loops over
-// a block become vector instructions; arithmetic stays IEEE.
+// Compiled with LIGHTCAL_VECTOR_LOOPS (CMakeLists.txt of the house), so that the loops over a block
+// become vector instructions; arithmetic stays IEEE.
 #include "lightcal/colorimetry/cct_batch.h"
 
 #include <algorithm>

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Calls visit(direction, solid angle [sr], rgb) for every pixel of the small picture.
+// Calls visit(PixelDirection, PixelSolidAngle, rgb) for every pixel of the small picture, asking
+// for sines once a row and once a column.
 template <class Visit>
 void ForSmallPixels(const EnvironmentPicture& picture, const Visit& visit) {
   const int w = picture.small_width, h = picture.small_height;
@@ -75,6 +76,13 @@ std::array<double, 9> BasisOf(const Vec3& d) {
 }
 
 }  // namespace
+
+Vec3 PixelDirection(int x, int y, int width, int height) {
+  const double azimuth = 2.0 * kPi * ((x + 0.5) / width - 0.5);
+  const double zenith = kPi * (y + 0.5) / height;
+  return {std::sin(zenith) * std::sin(azimuth), std::sin(zenith) * std::cos(azimuth),
+          std::cos(zenith)};
+}
 
 double PixelSolidAngle(int y, int width, int height) {
   return 2.0 * kPi / width * (std::cos(kPi * y / height) - std::cos(kPi * (y + 1) / height));

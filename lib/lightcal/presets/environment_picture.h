@@ -48,6 +48,8 @@ using Harmonics = std::array<Vec3, 9>;
 // What a plane of unit normal n (in the harmonics' axes) gets of them.
 [[nodiscard]] Vec3 IrradianceOn(const Harmonics& radiance, const Vec3& normal);
 
+// The unit vector through the middle of a pixel of a lat-long picture, in our axes.
+[[nodiscard]] Vec3 PixelDirection(int x, int y, int width, int height);
 // Of a pixel in row y of a lat-long picture [sr].
 [[nodiscard]] double PixelSolidAngle(int y, int width, int height);
 

@@ -49,14 +49,11 @@ std::vector<Beamlet> BeamletsOf(const EnvironmentPicture& picture) {
     for (int i = 0; i < columns; ++i) {
       Beamlet one;
       for (int y = j * step; y < (j + 1) * step; ++y) {
-        const double zenith = std::numbers::pi * (y + 0.5) / picture.small_height;
+        const double part = std::sin(std::numbers::pi * (y + 0.5) / picture.small_height);
         for (int x = i * step; x < (i + 1) * step; ++x) {
-          const double azimuth = 2.0 * std::numbers::pi * ((x + 0.5) / picture.small_width - 0.5);
-          const double part = std::sin(zenith);
           one.from =
-              one.from + GltfFromZUp({std::sin(zenith) * std::sin(azimuth),
-                                      std::sin(zenith) * std::cos(azimuth), std::cos(zenith)}) *
-                             part;
+              one.from +
+              GltfFromZUp(PixelDirection(x, y, picture.small_width, picture.small_height)) * part;
           const double* p =
               picture.small.data() +
               3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.small_width) +

@@ -13,8 +13,7 @@ namespace {
 
 constexpr int kBlurColumns = 128;
 constexpr double kLeastOfLobe = 1e-6;
-const double kFarthestOfLobe =
-    std::log(kLeastOfLobe) - 0.1;  // exponents beyond give less than that
+constexpr double kFarthestOfLobe = -13.9;  // an exponent below ln(kLeastOfLobe) = -13.82
 
 // One place of the picture, its direction in glTF's axes.
 struct PlaceOfPicture {
@@ -28,16 +27,12 @@ std::vector<PlaceOfPicture> PlacesOf(const EnvironmentPicture& picture) {
   const int step = std::max(1, w / kBlurColumns);
   std::vector<PlaceOfPicture> places;
   for (int y = step / 2; y < h; y += step) {
-    const double zenith = std::numbers::pi * (y + 0.5) / h;
+    const double sin_zenith = std::sin(std::numbers::pi * (y + 0.5) / h);
     for (int x = step / 2; x < w; x += step) {
-      const double azimuth = 2.0 * std::numbers::pi * ((x + 0.5) / w - 0.5);
       const double* p =
           picture.small.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
                                       static_cast<std::size_t>(x));
-      places.push_back({GltfFromZUp({std::sin(zenith) * std::sin(azimuth),
-                                     std::sin(zenith) * std::cos(azimuth), std::cos(zenith)}),
-                        std::sin(zenith),
-                        {p[0], p[1], p[2]}});
+      places.push_back({GltfFromZUp(PixelDirection(x, y, w, h)), sin_zenith, {p[0], p[1], p[2]}});
     }
   }
   return places;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/presets/environment_picture.h"
 #include "lightcal/presets/export_presets.h"
 
 namespace lightcal {
@@ -89,16 +89,12 @@ constexpr std::array<Side, 6> kSides = {{{{1, 0, 0}, {3000, 900, 600}},
 
 std::shared_ptr<const EnvironmentPicture> LearningSky() {
   constexpr int kWidth = 256, kHeight = kWidth / 2;
-  const double pi = std::numbers::pi;
   auto picture = std::make_shared<EnvironmentPicture>();
   picture->width = kWidth;
   picture->height = kHeight;
   for (int y = 0; y < kHeight; ++y) {
-    const double zenith = pi * (y + 0.5) / kHeight;
     for (int x = 0; x < kWidth; ++x) {
-      const double azimuth = 2.0 * pi * ((x + 0.5) / kWidth - 0.5);
-      const Vec3 d = {std::sin(zenith) * std::sin(azimuth), std::sin(zenith) * std::cos(azimuth),
-                      std::cos(zenith)};
+      const Vec3 d = PixelDirection(x, y, kWidth, kHeight);
       Vec3 sum{};
       double weights = 0.0;
       for (const Side& side : kSides) {

@@ -53,16 +53,14 @@ TurnedIrradiance IrradianceIfTurned(const EnvironmentPicture& picture, const Vec
 EnvironmentPicture ForEngineThatTurns(const EnvironmentPicture& picture, std::size_t way,
                                       double turn_deg) {
   const MistakenTurn mistake = MistakenTurns()[way];
-  const double pi = std::numbers::pi, turn = turn_deg * pi / 180.0;
+  const double turn = turn_deg * std::numbers::pi / 180.0;
   EnvironmentPicture out = picture;
   for (int y = 0; y < picture.height; ++y) {
-    const double zenith = pi * (y + 0.5) / picture.height;
     for (int x = 0; x < picture.width; ++x) {
-      const double azimuth = 2.0 * pi * ((x + 0.5) / picture.width - 0.5);
+      const Vec3 direction = PixelDirection(x, y, picture.width, picture.height);
       // Where the engine shows this pixel: by the columns, then round by the turn.
-      const Vec3 hung = mistake.columns[0] * (std::sin(zenith) * std::sin(azimuth)) +
-                        mistake.columns[1] * (std::sin(zenith) * std::cos(azimuth)) +
-                        mistake.columns[2] * std::cos(zenith);
+      const Vec3 hung = mistake.columns[0] * direction[0] + mistake.columns[1] * direction[1] +
+                        mistake.columns[2] * direction[2];
       const Vec3 shown = {hung[0] * std::cos(turn) + hung[1] * std::sin(turn),
                           -hung[0] * std::sin(turn) + hung[1] * std::cos(turn), hung[2]};
       const auto rgb = RadianceTowards(picture, shown);
