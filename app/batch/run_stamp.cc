@@ -49,7 +49,9 @@ std::vector<std::string> MatchedFrames(const Session& session) {
   };
   for (const CaptureDescription& capture : session.captures) {
     add(capture.frames);
-    if (capture.wall) add(capture.wall->board_views);
+    if (!capture.wall) continue;
+    add(capture.wall->board_views);
+    add(capture.wall->off_frames);
   }
   return frames;
 }

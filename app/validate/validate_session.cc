@@ -39,6 +39,7 @@ std::vector<NamedFile> FilesNamedBy(const Session& session) {
     if (!capture.wall) continue;
     add(capture.wall->board_frame, capture.where);
     add(capture.wall->board_views, capture.where);
+    add(capture.wall->off_frames, capture.where);
   }
   return files;
 }

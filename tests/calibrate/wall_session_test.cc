@@ -9,7 +9,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "plain_exr.h"
 #include "run_cli.h"
 #include "run_cli_json.h"
 #include "synthetic_wall.h"
@@ -62,8 +64,9 @@ class WallSession : public testing::Test {
       const auto begin = toml.find("\"" + folder);
       if (begin != std::string::npos) toml.insert(begin + 1, session + "/");
     }
-    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", toml), "--allow-outside", "-o",
-                                          folder_.path() + "/light.json", "--json"});
+    const CliResult result =
+        RunLightcal({"fit", folder_.Write("session.toml", toml), "--allow-outside", "-o",
+                     folder_.path() + "/light.json", "--json"});
     EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
     EXPECT_FALSE(fs::exists(folder_.path() + "/light.json"));
     const json answer = json::parse(result.out, nullptr, false);
@@ -80,6 +83,119 @@ TEST_F(WallSession, WhatCannotBeMeasuredIsRefusedByName) {
   EXPECT_EQ(RefusalOf("square_m = 0.03 ", "dictionary = \"6x6_250\"\nsquare_m = 0.03 "),
             "board_not_found");
   EXPECT_EQ(RefusalOf("aim = [0, 1, 0]", "aim = [1, 0, 0]"), "axis_not_covered");
+}
+
+// A spot on a wall of a room that throws light back, up to 4 % of the peak and more to the right,
+// and in the light of a lamp that was left on.
+class WallInARoom : public testing::Test {
+ protected:
+  static double RoomLux(double x, double z) { return 25.0 + 10.0 * (x - 0.5) - 4.0 * (z - 0.35); }
+  static constexpr double kAmbient = 9.0;
+
+  void SetUp() override {
+    LightcalJson("plan", {"--board", folder_.path() + "/board.svg"});
+    wall_.board = RectanglesOfSvg(ReadFile(folder_.path() + "/board.svg"));
+    wall_.width = 800;
+    wall_.height = 600;
+    wall_.focal_px = 640.0;
+    wall_.intensity = Shaded;
+    wall_.other_lx = [](double x, double z) { return RoomLux(x, z) + kAmbient; };
+    Photograph("wall.exr");
+    const Point3 stands = wall_.camera, looks = wall_.looks_at;
+    wall_.camera = {-0.4, -0.5, 0.4};
+    wall_.looks_at = {0.13, 0.0, 0.09};
+    Photograph("views/board.exr");
+    wall_.camera = stands;
+    wall_.looks_at = looks;
+  }
+  // A card near the lamp shades what lies about (.30, -.25) of the wall off the lamp's foot.
+  static double Shaded(const Point3& d) {
+    return std::hypot(d[0] / d[1] - 0.30, d[2] / d[1] + 0.25) < 0.06 ? 0.0 : SpotInAGlow(d);
+  }
+  void Photograph(const std::string& name) {
+    std::vector<float> nits = PhotographWall(wall_);
+    folder_.Write(name, EncodeExr(wall_.width, wall_.height, nits, {FloatOf("whiteLuminance", 1)}));
+  }
+  // The box around the shadow, x, y, width, height.
+  std::string ShadowPixels() const {
+    int left = wall_.width, right = 0, top = wall_.height, bottom = 0;
+    for (int y = 0; y < wall_.height; ++y) {
+      for (int x = 0; x < wall_.width; ++x) {
+        const auto at = WallSeenAt(wall_, x + 0.5, y + 0.5);
+        if (!at || std::hypot((*at)[0] - 0.80, (*at)[1] - 0.10) > 0.06) continue;
+        left = std::min(left, x);
+        right = std::max(right, x);
+        top = std::min(top, y);
+        bottom = std::max(bottom, y);
+      }
+    }
+    return std::to_string(left) + ", " + std::to_string(top) + ", " +
+           std::to_string(right - left + 1) + ", " + std::to_string(bottom - top + 1);
+  }
+  json Measure(const std::string& of_wall, const std::string& of_lamp = "") {
+    const std::string session =
+        folder_.Write("session.toml",
+                      "lightcal = 1\n[[light]]\nname = \"spot\"\nkind = \"photometric\"\n"
+                      "position_m = [0.5, -1.0, 0.35]\naim = [0, 1, 0]\n" +
+                          of_lamp +
+                          "[[capture]]\n"
+                          "light = \"spot\"\nuse = \"wall\"\nframes = \"wall.exr\"\n"
+                          "reflectance = 0.8\nlens_glare = 0.0\n[capture.wall]\n"
+                          "square_m = 0.03\nboard_views = \"views/*.exr\"\n"
+                          "vignetting = 3.6\n" +
+                          of_wall);
+    return LightcalJson("fit", {session, "-o", folder_.path() + "/light.json", "--force"});
+  }
+  // 1 sigma of the flux that a cause leaves open.
+  static double PartOf(const json& light, const char* cause) {
+    for (const json& part : light["distribution"]["budget"]) {
+      if (part["name"] == cause) return double(part["flux_sd_relative"]);
+    }
+    return 0.0;
+  }
+  static double FoundOverTrue(const json& light, const char* what) {
+    const double seen_deg = light["distribution"]["vertical_deg"].back();
+    const ConeTruth truth = TruthWithin(SpotInAGlow, {0, 1, 0}, seen_deg);
+    const double of = what == std::string("flux_lm") ? truth.flux_lm : truth.peak_cd;
+    EXPECT_TRUE(Holds(light[what], of)) << what << " " << light[what] << ", truth " << of;
+    return double(light[what]["value"]) / of;
+  }
+
+  TempDir folder_;
+  SyntheticWall wall_;
+};
+
+TEST_F(WallInARoom, WhatTheRoomThrowsBackIsInTheIntervalAndACardsShadowMeasuresIt) {
+  const json without = Measure("masks = [" + ShadowPixels() + "]\n");
+  const json& guessed = without["lights"].at(0);
+  EXPECT_NEAR(FoundOverTrue(guessed, "intensity_cd"), 1.0, 0.05);
+  EXPECT_NEAR(FoundOverTrue(guessed, "flux_lm"), 1.0, 0.15);
+  ASSERT_EQ(guessed["effects"].size(), 1U);
+  EXPECT_EQ(guessed["effects"][0]["name"], "room_bounce");
+  EXPECT_GT(double(guessed["effects"][0]["bound"]), 34.0 / 934.0);
+
+  const json with = Measure("shadows = [" + ShadowPixels() + "]\n");
+  const json& light = with["lights"].at(0);
+  EXPECT_NEAR(FoundOverTrue(light, "intensity_cd"), 1.0, 0.02);
+  EXPECT_NEAR(FoundOverTrue(light, "flux_lm"), 1.0, 0.03);
+  EXPECT_LT(PartOf(light, "other_light"), PartOf(guessed, "other_light"));
+  // The room's 25 lx and the other lamp's 9 at the middle, 38 in the shadow; the slope is not told.
+  EXPECT_NEAR(double(light["effects"][0]["contribution"]) * 934.0, 36.0, 2.5);
+}
+
+TEST_F(WallInARoom, APictureWithTheLampOffTakesOtherLampsAway) {
+  wall_.intensity = [](const Point3&) { return 0.0; };
+  wall_.other_lx = [](double, double) { return kAmbient; };
+  Photograph("off/wall.exr");
+  const json off = Measure("off_frames = \"off/*.exr\"\nshadows = [" + ShadowPixels() + "]\n",
+                           "size_m = [0.3, 0.3]\n");
+  const json& light = off["lights"].at(0);
+  EXPECT_NEAR(double(light["effects"][0]["contribution"]) * 925.0, 27.0, 2.5);
+  FoundOverTrue(light, "intensity_cd");
+  EXPECT_NEAR(FoundOverTrue(light, "flux_lm"), 1.0, 0.03);
+  // 2 <rho^2>/d^2 of a square of 30 cm, 1 m away.
+  EXPECT_NEAR(PartOf(light, "finite_source"), 0.03, 1e-3);
+  EXPECT_EQ(off["provenance"]["inputs"].size(), 4U) << "session, wall, lamp off, view";
 }
 
 // Length of the first run of dark pixels in the picture's rows, over rows where there is one.

@@ -118,10 +118,12 @@ squares = [9, 6]
 dictionary = "5x5_100"
 board_frame = "board.exr"
 board_views = "views/*.exr"
+off_frames = "off/*.exr"
 position_sigma_m = 0.005
 vignetting = 3.5
 sensor_width_m = 0.0236
 masks = [0, 0, 10, 10, 20, 20, 5, 5]
+shadows = [40, 10, 9, 9]
 anchor_rect = [30, 30, 8, 8]
 [[capture]]
 light = "key"

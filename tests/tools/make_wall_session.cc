@@ -4,15 +4,14 @@
 //   make_wall_session BOARD.svg SESSION_DIRECTORY
 #include <bit>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
-#include "lightcal_devices/captures/picture.h"
 #include "synthetic_wall.h"
+#include "wall_picture_file.h"
 
 namespace {
 
@@ -27,15 +26,7 @@ float Rounded(float value, std::uint32_t kept) {
 bool Write(const std::string& path, const SyntheticWall& wall, std::uint32_t kept) {
   auto samples = PhotographWall(wall);
   for (float& sample : samples) sample = Rounded(sample, kept);
-  lightcal::devices::ExrPicture picture;
-  picture.samples = lightcal::View2d<const float>(samples.data(), wall.width, wall.height);
-  picture.channel_names = {"Y"};
-  picture.white_luminance = lightcal::Nits(1.0);
-  picture.attributes = {{"note", "SYNTHETIC: no camera took this picture"},
-                        {"scale_u95_relative", "0.04"}};
-  const auto written = lightcal::devices::WriteExr(path, picture);
-  if (!written) std::fprintf(stderr, "%s\n", written.error().message.c_str());
-  return written.has_value();
+  return WriteWallPicture(path, wall, samples);
 }
 
 }  // namespace

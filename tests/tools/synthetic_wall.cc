@@ -74,22 +74,28 @@ struct Seen {
   bool plain = true;  // wall, far enough from the sheet of paper
 };
 
-Seen LuminanceAlong(const SyntheticWall& wall, const Eye& eye, double px, double py) {
-  const auto tangent = Ray(wall, px, py);
+Point3 RayAlong(const Eye& eye, const std::array<double, 2>& tangent) {
   Point3 ray{};
   for (std::size_t i = 0; i < 3; ++i) {
     ray[i] = eye.ahead[i] + tangent[0] * eye.right[i] + tangent[1] * eye.down[i];
   }
+  return ray;
+}
+
+Seen LuminanceAlong(const SyntheticWall& wall, const Eye& eye, double px, double py) {
+  const auto tangent = Ray(wall, px, py);
+  const Point3 ray = RayAlong(eye, tangent);
   if (ray[1] <= 1e-6) return {};
   const double length = -wall.camera[1] / ray[1];
   const double x = wall.camera[0] + length * ray[0], z = wall.camera[2] + length * ray[2];
   const Point3 beam = Minus({x, 0.0, z}, wall.lamp);
   const double r2 = Inner(beam, beam);
   const double incidence = beam[1] / std::sqrt(r2);
-  const double lux = wall.intensity(Unit(beam)) / r2 * incidence;
+  double lux = wall.intensity(Unit(beam)) / r2 * incidence * (1.0 - wall.gloss * (1.0 - incidence));
+  if (wall.other_lx) lux += wall.other_lx(x, z);
   const double off_axis = 1.0 / std::sqrt(1.0 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
-  const double nits = ReflectanceAt(wall, x, z) / std::numbers::pi * lux *
-                      (1.0 - wall.gloss * (1.0 - incidence)) * std::pow(off_axis, wall.vignetting);
+  const double nits =
+      ReflectanceAt(wall, x, z) / std::numbers::pi * lux * std::pow(off_axis, wall.vignetting);
   const double margin = 0.1;
   const bool plain = wall.board.empty() || x < -margin || x > wall.board_width + margin ||
                      z < -margin || z > wall.board_height + margin;
@@ -142,6 +148,13 @@ double TwoLobes(const Point3& d) {
          300.0 * Bell(std::hypot(x + 14.0, z), 9.0) + 60.0 * std::max(0.0, d[1]);
 }
 
+std::optional<std::array<double, 2>> WallSeenAt(const SyntheticWall& wall, double px, double py) {
+  const Point3 ray = RayAlong(EyeOf(wall), Ray(wall, px, py));
+  if (ray[1] <= 1e-6) return std::nullopt;
+  const double length = -wall.camera[1] / ray[1];
+  return std::array{wall.camera[0] + length * ray[0], wall.camera[2] + length * ray[2]};
+}
+
 std::vector<float> PhotographWall(const SyntheticWall& wall) {
   const Eye eye = EyeOf(wall);
   std::vector<float> picture;
@@ -160,6 +173,12 @@ std::vector<float> PhotographWall(const SyntheticWall& wall) {
       }
       picture.push_back(static_cast<float>(sum));
     }
+  }
+  if (wall.glare > 0.0) {
+    double sum = 0.0;
+    for (const float value : picture) sum += double{value};
+    const auto veil = static_cast<float>(wall.glare * sum / static_cast<double>(picture.size()));
+    for (float& value : picture) value += veil;
   }
   if (wall.blur_px > 0.0) Blur(picture, wall.width, wall.height, wall.blur_px);
   std::mt19937_64 random(wall.seed);

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct SyntheticWall {
   double roll_deg = 1.0;
   Point3 lamp{0.5, -1.0, 0.35};
   SyntheticIntensity intensity;
+  // Light on the wall at (x, z) that does not come from the lamp, in lx.
+  std::function<double(double x, double z)> other_lx;
+  double glare = 0.0;  // part of the picture's mean that the lens lays on every pixel
   double wall_reflectance = 0.8, paper_reflectance = 0.85, ink_reflectance = 0.04;
   std::vector<PrintedRectangle> board;              // painted in this order
   double paper_width = 0.297, paper_height = 0.21;  // the sheet about the chessboard's middle
@@ -51,6 +55,9 @@ struct SyntheticWall {
   std::uint64_t seed = 1;
 };
 
+// The point (x, z) of the wall that a pixel sees; absent where its ray misses.
+[[nodiscard]] std::optional<std::array<double, 2>> WallSeenAt(const SyntheticWall& wall, double px,
+                                                              double py);
 // Luminance in cd/m^2, row by row; pixels about the board are averages
 // of 4 x 4 points.
 [[nodiscard]] std::vector<float> PhotographWall(const SyntheticWall& wall);

@@ -19,11 +19,13 @@ struct WallDescription {
   CharucoBoard board;
   std::string board_frame;  // the board, by the camera where it stands; "" = it hangs in the frames
   std::string board_views;  // wildcard: further pictures of the board, by the same lens and focus
+  std::string off_frames;   // the same wall with the lamp off, as `frames`; "" = not taken
   double position_sigma_m = kSigmaLampPosition;
   // n of cos^n(angle off the lens's axis) that the frames still fall off by; absent = unknown.
   std::optional<double> vignetting;
   std::optional<Metres> sensor_width;             // with the files' focal length: a start and prior
   std::vector<std::array<int, 4>> masks;          // x, y, width, height of what is no plain wall
+  std::vector<std::array<int, 4>> shadows;        // likewise, around shadows of a card near the lamp
   std::optional<std::array<int, 4>> anchor_rect;  // where anchor_illuminance_lx was read
 };
 

@@ -38,7 +38,7 @@ std::vector<std::array<int, 4>> ReadRectangles(FieldReader& reader, std::string_
   if (!reader.Failed() && numbers.size() % 4 != 0) {
     reader.Fail(key, std::string(key) +
                          " = [x, y, width, height] in pixels, from the upper left corner" +
-                         (key == "masks" ? ", again and again" : ""));
+                         (key != "anchor_rect" ? ", again and again" : ""));
   }
   return out;
 }
@@ -53,10 +53,12 @@ void ReadWall(FieldReader& reader, WallDescription& wall) {
   reader.Word("dictionary", wall.board.dictionary, kMarkerDictionaryWords);
   reader.Text("board_frame", wall.board_frame);
   reader.Text("board_views", wall.board_views);
+  reader.Text("off_frames", wall.off_frames);
   reader.Number("position_sigma_m", wall.position_sigma_m, kPositive);
   reader.Number("vignetting", wall.vignetting, kVignettingRule);
   reader.Number("sensor_width_m", wall.sensor_width, kPositive);
   wall.masks = ReadRectangles(reader, "masks");
+  wall.shadows = ReadRectangles(reader, "shadows");
   const auto anchors = ReadRectangles(reader, "anchor_rect");
   if (!anchors.empty()) wall.anchor_rect = anchors.front();
   reader.Require({"square_m"});

@@ -4,6 +4,7 @@
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
 //   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
 //   traced_rooms --colours ORDINARY UNSEEN  what painted walls give at eight wavelengths
+//   traced_rooms --lit_walls ORDINARY UNSEEN  what the room gives a wall that a lamp is turned to
 //   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "closed_forms.h"
+#include "lit_walls.h"
 #include "paint.h"
 #include "random_rooms.h"
 #include "trace.h"
@@ -173,6 +175,45 @@ int PrintColours(int ordinary, int unseen) {
   return 0;
 }
 
+// A row a place on the wall: what the lamp gives it, and all else.
+int PrintLitWalls(int ordinary, int unseen) {
+  std::printf(
+      "family,room,kind,width_m,height_m,power,base_deg,base_right,base_ahead,base_up,slope,size_x_"
+      "m,size_y_m,size_z_m,"
+      "reflectance,wall_reflectance,flux_over_intensity,distance_m,gamma_deg,azimuth_deg,direct,"
+      "room_lx\n");
+  const auto print = [](Family family, int number) {
+    const LitWall wall = LitWallOf(family, number);
+    if (wall.places.empty()) return;
+    const Lamp& lamp = wall.lit.lamp;
+    const Vec3& size = wall.lit.room.size;
+    std::vector<Meter> meters;
+    for (const WallPlace& place : wall.places) meters.push_back(place.meter);
+    Random random(13000000ULL + 2 * number + (family == Family::kUnseen ? 1 : 0));
+    const TraceAnswer answer =
+        TraceLight(wall.lit.room, lamp, meters, {0.015, 1 << 14, 1 << 17}, random);
+    for (std::size_t k = 0; k < meters.size(); ++k) {
+      std::printf("%s,%d,%s,", std::string(NameOf(family)).c_str(), number,
+                  std::string(NameOf(lamp.kind)).c_str());
+      const bool panel = lamp.kind == LampKind::kPanel, bulb = lamp.kind == LampKind::kBulb;
+      panel ? std::printf("%.4g,%.4g,", lamp.width, lamp.height) : std::printf(",,");
+      lamp.kind == LampKind::kBeam ? std::printf("%.4g,", lamp.power) : std::printf(",");
+      const Vec3 right = Cross(lamp.towards, Vec3{0, 0, 1});
+      bulb ? std::printf("%.4g,%.4f,%.4f,%.4f,%.4g", lamp.base_angle * 180.0 / kPi,
+                         Dot(lamp.base, right), Dot(lamp.base, lamp.towards), lamp.base[2],
+                         lamp.slope)
+           : std::printf(",,,,");
+      std::printf(",%.3f,%.3f,%.3f,%.3f,%.3f,%.4g,%.4f,%g,%g,%.5g,%.4g\n", size[0], size[1],
+                  size[2], wall.lit.room.MeanAlbedo(), wall.albedo, lamp.FluxOverIntensity(),
+                  wall.distance, wall.places[k].gamma_deg, wall.places[k].azimuth_deg,
+                  lamp.DirectAt(meters[k].place, meters[k].normal), answer.meters[k].wall);
+    }
+  };
+  for (int i = 0; i < ordinary; ++i) print(Family::kOrdinary, i);
+  for (int i = 0; i < unseen; ++i) print(Family::kUnseen, i);
+  return 0;
+}
+
 int Compare(const char* path, int every) {
   std::ifstream table(path);
   std::string line;
@@ -221,14 +262,18 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--colours") == 0) {
     return traced_rooms::PrintColours(std::atoi(argv[2]), std::atoi(argv[3]));
   }
+  if (argc == 4 && std::strcmp(argv[1], "--lit_walls") == 0) {
+    return traced_rooms::PrintLitWalls(std::atoi(argv[2]), std::atoi(argv[3]));
+  }
   if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
   if (argc == 4 && argv[1][0] != '-') {
     return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
   }
-  std::fprintf(stderr,
-               "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --colours ORDINARY "
-               "UNSEEN | --describe N | --check | --compare TABLE EVERY\n");
+  std::fprintf(
+      stderr,
+      "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --colours ORDINARY "
+      "UNSEEN | --lit_walls ORDINARY UNSEEN | --describe N | --check | --compare TABLE EVERY\n");
   return 2;
 }

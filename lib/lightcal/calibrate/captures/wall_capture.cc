@@ -9,10 +9,11 @@
 
 #include "lightcal/calibrate/captures/capture_reading.h"
 #include "lightcal/calibrate/captures/capture_readings.h"
-#include "lightcal/calibrate/captures/wall_pictures.h"
+#include "lightcal/calibrate/captures/posed_wall.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/distribution/fit_distribution.h"
+#include "lightcal/fit/distribution/other_wall_light.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/wall_samples.h"
@@ -23,113 +24,10 @@ namespace {
 constexpr double kLikelyVignetting = 3.0, kUnknownVignettingSd = 1.5, kKnownVignettingSd = 0.25;
 constexpr double kGlossLightSd = 0.1, kGlossViewSd = 0.05;
 constexpr double kBoardScaleSd = 0.002;
-
-// What the pictures say of one wall.
-struct Wall {
-  WallPicture picture;
-  SolvedCamera camera;
-};
-
-// The board by the camera that took the frames, where it stands.
-Result<GreyPicture> PoseGrey(const Session& session, const CaptureDescription& capture,
-                             const WallPicture& frames, const Sources& sources,
-                             Evidence& evidence) {
-  const std::string& name = capture.wall->board_frame;
-  if (name.empty()) return frames.nits;
-  const std::string path = PathInSession(session, name);
-  auto grey = ReadGrey(sources, path);
-  if (!grey) return grey;
-  if (grey->width != frames.whole_width || grey->height != frames.whole_height) {
-    return Refused("mixed_size", path,
-                   "the picture of the board and the frames differ in size; one camera must take "
-                   "both, from one place");
-  }
-  evidence.AddFile(path);
-  return grey;
-}
-
-// Further views of the board; one where it cannot be found is left out and named.
-Result<std::vector<std::vector<BoardCorner>>> FurtherViews(const Session& session,
-                                                           const CaptureDescription& capture,
-                                                           const WallPicture& first,
-                                                           const Sources& sources,
-                                                           Evidence& evidence) {
-  std::vector<std::vector<BoardCorner>> views;
-  if (capture.wall->board_views.empty()) return views;
-  const std::vector<std::string> patterns = {PathInSession(session, capture.wall->board_views)};
-  const auto files = sources.expand_files(patterns);
-  if (!files) return tl::unexpected(files.error());
-  for (const std::string& file : *files) {
-    const auto grey = ReadGrey(sources, file);
-    if (!grey) return tl::unexpected(grey.error());
-    if (grey->width != first.whole_width || grey->height != first.whole_height) {
-      return Refused("mixed_size", file,
-                     "the views of the board must be as large as the frames, by the same lens");
-    }
-    evidence.AddFile(file);
-    auto corners = sources.find_board(grey->view(), capture.wall->board);
-    if (corners) {
-      views.push_back(*std::move(corners));
-    } else {
-      evidence.warnings.push_back(
-          {corners.error().code, file, corners.error().message + "; this view is left out"});
-    }
-  }
-  return views;
-}
-
-// Places in a picture made smaller as places in the whole one.
-void Enlarge(const Thinning& thinning, std::vector<BoardCorner>& corners) {
-  for (BoardCorner& corner : corners) {
-    corner.pixel = {thinning.n * (corner.pixel[0] - thinning.ThinX(0.0)),
-                    thinning.n * (corner.pixel[1] - thinning.ThinY(0.0))};
-  }
-}
-
-// The camera of the whole picture as one of the picture made smaller.
-SolvedCamera CameraOfSmaller(SolvedCamera camera, const Thinning& thinning) {
-  const double size = 1.0 / thinning.n;
-  camera.parameters[kLnFocal] += std::log(size);
-  camera.parameters[kCentreX] = thinning.ThinX(camera.parameters[kCentreX]);
-  camera.parameters[kCentreY] = thinning.ThinY(camera.parameters[kCentreY]);
-  for (const int centre : {kCentreX, kCentreY}) {
-    for (int other = 0; other < kCameraParameters; ++other) {
-      camera.covariance[static_cast<std::size_t>(centre * kCameraParameters + other)] *= size;
-      camera.covariance[static_cast<std::size_t>(other * kCameraParameters + centre)] *= size;
-    }
-  }
-  camera.rms_px *= size;
-  camera.sigma_px *= size;
-  return camera;
-}
-
-Result<Wall> ReadWall(const Session& session, const CaptureDescription& capture,
-                      const Sources& sources, Evidence& evidence) {
-  auto picture = ReadWallPicture(session, capture, sources, evidence);
-  if (!picture) return Propagate(std::move(picture));
-  evidence.pictures.push_back(RecordedOf(capture, picture->nits.view()));
-  const auto grey = PoseGrey(session, capture, *picture, sources, evidence);
-  if (!grey) return tl::unexpected(grey.error());
-  auto corners = sources.find_board(grey->view(), capture.wall->board);
-  if (!corners) return Propagate(std::move(corners));
-  // In the camera's own pixels, as those of further views.
-  if (capture.wall->board_frame.empty()) Enlarge(picture->thinning, *corners);
-  const auto further = FurtherViews(session, capture, *picture, sources, evidence);
-  if (!further) return tl::unexpected(further.error());
-  std::vector<std::vector<BoardCorner>> views = {*std::move(corners)};
-  views.insert(views.end(), further->begin(), further->end());
-  std::optional<double> focal_px;
-  if (grey->focal_length && capture.wall->sensor_width) {
-    focal_px = *grey->focal_length / *capture.wall->sensor_width * picture->whole_width;
-  }
-  auto camera = SolveCamera(views, picture->whole_width, picture->whole_height, focal_px);
-  if (!camera) return Propagate(std::move(camera));
-  const SolvedCamera thinned = CameraOfSmaller(*camera, picture->thinning);
-  return Wall{*std::move(picture), thinned};
-}
+constexpr const char* kOtherLight = "other_light";
 
 WallModel ModelOf(const LightDescription& light, const CaptureDescription& capture,
-                  const Wall& wall) {
+                  const PosedWall& wall) {
   WallModel model;
   model.camera = wall.camera.parameters;
   model.lamp_m = *light.position_m;
@@ -138,8 +36,9 @@ WallModel ModelOf(const LightDescription& light, const CaptureDescription& captu
   return model;
 }
 
-std::vector<DistributionShift> ShiftsOf(const WallDescription& description, const Wall& wall,
-                                        const WallBlocks& blocks, const WallModel& model) {
+std::vector<DistributionShift> ShiftsOf(const WallDescription& description, const PosedWall& wall,
+                                        const WallBlocks& blocks, const WallModel& model,
+                                        const OtherLightFound& other) {
   std::vector<DistributionShift> shifts;
   const auto add = [&](const char* name, const auto& change) {
     WallModel moved = model;
@@ -159,21 +58,42 @@ std::vector<DistributionShift> ShiftsOf(const WallDescription& description, cons
   add("not_matt", [](WallModel& moved) { moved.gloss_light += kGlossLightSd; });
   add("not_matt", [](WallModel& moved) { moved.gloss_view += kGlossViewSd; });
   add("board_size", [](WallModel& moved) { moved.board_scale += kBoardScaleSd; });
+  for (const OtherWallLight& shift : other.shifts) {
+    add(kOtherLight, [&](WallModel& moved) { moved.other = shift; });
+  }
   return shifts;
 }
 
-WallSelection SelectionOf(const CaptureDescription& capture, const Thinning& thinning) {
+// What a Lambertian lamp of this size gives less than its intensity over the square of so near a
+// distance, relative: 2 <rho^2>/d^2, rho from its middle.
+double NearFieldPart(const LightDescription& light) {
+  const double d = -(*light.position_m)[1];
+  const double w = light.width ? light.width->value() : 0.0;
+  const double h = light.height ? light.height->value() : 0.0;
+  const double disk = light.diameter ? light.diameter->value() : 0.0;
+  return ((w * w + h * h) / 6.0 + disk * disk / 4.0) / (d * d);
+}
+
+WallSelection SelectionOf(const CaptureDescription& capture, const WallPicture& picture) {
+  const Thinning& thinning = picture.thinning;
   WallSelection selection;
   const auto region = [&](const std::array<int, 4>& r) {
     return ThinRegion({r[0], r[1], r[2], r[3]}, thinning);
   };
   if (capture.rect) selection.wall = region(*capture.rect);
-  // All that a mask touches: a block more on each side.
-  const int more = thinning.n == 1 ? 0 : thinning.n * std::max(thinning.columns, thinning.rows);
-  for (const auto& mask : capture.wall->masks) {
+  // All that a mask touches: a block more on each side. A shadow's edge is soft.
+  const int block = thinning.n == 1 ? 0 : thinning.n * std::max(thinning.columns, thinning.rows);
+  const auto leave_out = [&](const std::array<int, 4>& mask, int more) {
     const int x = std::max(0, mask[0] - more), y = std::max(0, mask[1] - more);
-    selection.masks.push_back(
-        region({x, y, mask[0] + mask[2] + more - x, mask[1] + mask[3] + more - y}));
+    const int right =
+        std::min(std::max(picture.whole_width, mask[0] + mask[2]), mask[0] + mask[2] + more);
+    const int bottom =
+        std::min(std::max(picture.whole_height, mask[1] + mask[3]), mask[1] + mask[3] + more);
+    selection.masks.push_back(region({x, y, right - x, bottom - y}));
+  };
+  for (const auto& mask : capture.wall->masks) leave_out(mask, block);
+  for (const auto& shadow : capture.wall->shadows) {
+    leave_out(shadow, block + std::max(shadow[2], shadow[3]) / 5);
   }
   selection.board_hangs = capture.wall->board_frame.empty();
   return selection;
@@ -212,8 +132,8 @@ FittedColor ColorOf(const Session& session, const LightDescription& light,
   return fit::FitColor(with, light, nullptr, warnings).color;
 }
 
-FittedLight LightOf(const LightDescription& light, const Wall& wall, FittedDistribution&& found,
-                    const Vec3& aim) {
+FittedLight LightOf(const LightDescription& light, const PosedWall& wall,
+                    FittedDistribution&& found, const Vec3& aim) {
   FittedLight out;
   out.name = light.name;
   out.kind = LightKind::kPhotometric;
@@ -239,8 +159,8 @@ FittedLight LightOf(const LightDescription& light, const Wall& wall, FittedDistr
   return out;
 }
 
-void WarnOf(const CaptureDescription& capture, const Wall& wall, const WallBlocks& blocks,
-            const FittedDistribution& found, Warnings& warnings) {
+void WarnOf(const Session& session, const CaptureDescription& capture, const PosedWall& wall,
+            int saturated, const FittedDistribution& found, Warnings& warnings) {
   if (!capture.wall->vignetting && !wall.picture.flat) {
     warnings.push_back(
         {"vignetting_unknown", capture.where,
@@ -248,9 +168,17 @@ void WarnOf(const CaptureDescription& capture, const Wall& wall, const WallBlock
          "give vignetting = 0 for frames that were corrected by a flat field, or camera = a "
          "profile that has one"});
   }
-  if (blocks.saturated > 0) {
+  constexpr double kNoticed = 0.02;
+  const LightDescription& light = *FindLight(session, capture.light);
+  if (const double part = NearFieldPart(light); part > kNoticed) {
+    warnings.push_back({"near_field", capture.light,
+                        "a lamp of this size gives a wall so near up to " + PercentText(part) +
+                            " less than from afar, which is in the interval: hang it ten times "
+                            "its size away"});
+  }
+  if (saturated > 0) {
     warnings.push_back({"saturated_wall", capture.where,
-                        std::to_string(blocks.saturated) +
+                        std::to_string(saturated) +
                             " pieces of the wall are saturated in every frame and left out; "
                             "expose shorter"});
   }
@@ -260,30 +188,159 @@ void WarnOf(const CaptureDescription& capture, const Wall& wall, const WallBlock
   warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
 }
 
-Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription& capture,
-                                const Sources& sources, Evidence& evidence) {
-  const LightDescription& light = *FindLight(session, capture.light);
-  if (auto good = CheckLight(light); !good) return Propagate(std::move(good));
-  const auto wall = ReadWall(session, capture, sources, evidence);
-  if (!wall) return AtCapture(capture, wall.error());
-  const WallModel model = ModelOf(light, capture, *wall);
-  const auto blocks = BlocksOfWall(wall->picture.nits.view(), wall->picture.sigma_view(),
-                                   SelectionOf(capture, wall->picture.thinning),
-                                   WallCamera(model.camera), capture.wall->board);
+// The darkest quarter of a shadow's pixels, which no half shadow reaches; its noise left out below.
+WallBlock DarkestOf(View2d<const float> nits, const Region& shadow) {
+  std::vector<float> values;
+  for (int y = shadow.y; y < shadow.y + shadow.height; ++y) {
+    for (int x = shadow.x; x < shadow.x + shadow.width; ++x) values.push_back(nits(x, y));
+  }
+  std::ranges::sort(values);
+  const std::size_t from = values.size() / 20, to = std::max(from + 1, values.size() / 4);
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = from; i < to; ++i) {
+    sum += double{values[i]};
+    squares += double{values[i]} * double{values[i]};
+  }
+  const auto n = static_cast<double>(to - from);
+  const double mean = sum / n;
+  return {{shadow.x + 0.5 * shadow.width, shadow.y + 0.5 * shadow.height},
+          mean,
+          std::sqrt(std::max(0.0, squares / n - mean * mean))};
+}
+
+// What the picture shows in the shadows that a card throws. Refused: bad_region (off the picture or
+// the wall, or hardly darker than the wall beside it, `lit`).
+Result<std::vector<SeenPlace>> SeenInShadows(const CaptureDescription& capture,
+                                             const WallPicture& picture, const WallModel& model,
+                                             const std::vector<SeenPlace>& lit) {
+  constexpr double kDarker = 0.9;
+  WallBlocks shadows;
+  for (const auto& r : capture.wall->shadows) {
+    const Region region = ThinRegion({r[0], r[1], r[2], r[3]}, picture.thinning);
+    if (auto inside = CheckRegion(region, picture.nits.width, picture.nits.height); !inside) {
+      return Propagate(std::move(inside));
+    }
+    shadows.blocks.push_back(DarkestOf(picture.nits.view(), region));
+  }
+  std::vector<SeenPlace> places = PlacesSeen(shadows, model);
+  if (places.size() < capture.wall->shadows.size()) {
+    return Refused("bad_region", "wall.shadows", "a shadow lies off the wall, or too far aside");
+  }
+  for (const SeenPlace& shadow : places) {
+    const auto apart = [&](const SeenPlace& place) {
+      return std::hypot(place.x_m - shadow.x_m, place.z_m - shadow.z_m);
+    };
+    if (!lit.empty() && shadow.lux > kDarker * std::ranges::min(lit, {}, apart).lux) {
+      return Refused("bad_region", "wall.shadows",
+                     "is hardly darker than the wall beside it: give a box around the card's "
+                     "shadow, [x, y, width, height] in pixels from the upper left corner");
+    }
+  }
+  return places;
+}
+
+struct Measured {
+  FittedDistribution distribution;
+  OtherLightFound other;
+  double brightest_lx = 0.0;  // of the wall, other light in it
+  int saturated = 0;          // blocks left out
+};
+
+// What is left of the light on the wall when all that is not the lamp's own is taken off.
+Result<Measured> MeasureDistribution(const Session& session, const CaptureDescription& capture,
+                                     const LightDescription& light, const PosedWall& wall) {
+  WallModel model = ModelOf(light, capture, wall);
+  const auto blocks = BlocksOfWall(wall.picture.nits.view(), wall.picture.sigma_view(),
+                                   SelectionOf(capture, wall.picture), WallCamera(model.camera),
+                                   capture.wall->board);
   if (!blocks) return AtCapture(capture, blocks.error());
   DistributionData data;
   data.light = light.name;
   data.aim = light.aim.value_or(Vec3{0.0, 1.0, 0.0});
+  const LampAsSeen seen = LampOf(IntensitiesOf(*blocks, model), data.aim, Metres(-model.lamp_m[1]));
+  const std::vector<SeenPlace> lit = PlacesSeen(*blocks, model);
+  const auto shadows = SeenInShadows(capture, wall.picture, model, lit);
+  if (!shadows) return AtCapture(capture, shadows.error());
+  double mean_lx = 0.0;
+  for (const SeenPlace& place : lit) mean_lx += place.lux / static_cast<double>(lit.size());
+  const OtherWallLight about{
+      .foot_x_m = model.lamp_m[0], .foot_z_m = model.lamp_m[2], .distance_m = -model.lamp_m[1]};
+  OtherLightFound other = FindOtherLight(PriorOfOtherLight(session, light, capture, mean_lx), seen,
+                                         capture.reflectance, about, lit, *shadows);
+  model.other = other.mean;
   data.samples = IntensitiesOf(*blocks, model);
-  data.shifts = ShiftsOf(*capture.wall, *wall, *blocks, model);
+  data.shifts = ShiftsOf(*capture.wall, wall, *blocks, model, other);
+  const double near_field = NearFieldPart(light);
+  if (near_field > 0.0) {
+    DistributionShift shift{"finite_source", data.samples};
+    for (IntensitySample& sample : shift.samples) sample.intensity_cd *= 1.0 + near_field;
+    data.shifts.push_back(std::move(shift));
+  }
   // An anchor on the wall sets L / rho as a whole.
   const double reflectance_sd = capture.anchor_illuminance ? 0.0 : capture.reflectance_sigma;
-  data.scale_sd = std::hypot(wall->picture.scale_sd, reflectance_sd);
+  data.scale_sd = std::hypot(wall.picture.scale_sd, reflectance_sd);
   auto found = FitDistribution(data);
   if (!found) return AtCapture(capture, found.error());
-  WarnOf(capture, *wall, *blocks, *found, evidence.warnings);
+  return Measured{*std::move(found), std::move(other),
+                  std::ranges::max(lit, {}, &SeenPlace::lux).lux, blocks->saturated};
+}
+
+// Said where light beside the lamp's own is most of an interval's variance.
+void WarnOfOtherLight(const CaptureDescription& capture, const Measured& measured,
+                      Warnings& warnings) {
+  constexpr double kMost = 0.5;
+  double peak = 0.0, flux = 0.0, whole_peak = 0.0, whole_flux = 0.0;
+  for (const auto& part : measured.distribution.budget) {
+    whole_peak += part.peak * part.peak;
+    whole_flux += part.flux * part.flux;
+    if (part.name != kOtherLight) continue;
+    peak = part.peak * part.peak;
+    flux = part.flux * part.flux;
+  }
+  if (!(peak > kMost * whole_peak) && !(flux > kMost * whole_flux)) return;
+  const OtherLightFound& other = measured.other;
+  warnings.push_back(
+      {"other_light", capture.where,
+       RoundedText(other.mean.lux, 2) + " lx (\u00b1 " + RoundedText(kZ95 * other.sd_lx, 2) +
+           ") of the " + RoundedText(measured.brightest_lx, 3) +
+           " lx on the wall's brightest place are taken for light that the room throws back, or "
+           "that others shine: hold a card into the beam near the lamp for the frames and give "
+           "wall.shadows = [x, y, width, height] around its shadow; or state the room's size"});
+}
+
+EffectReport OtherLightReport(const Session& session, const CaptureDescription& capture,
+                              const Measured& measured) {
+  EffectReport out;
+  const bool room = session.surroundings == Surroundings::kIndoors;
+  const bool outdoors = session.surroundings == Surroundings::kOutdoors;
+  out.name = room ? "room_bounce" : outdoors ? "ambient" : "veiling_glare";
+  out.state = EffectState::kFitted;
+  out.bound = measured.other.most_lx / measured.brightest_lx;
+  out.contribution = measured.other.mean.lux / measured.brightest_lx;
+  out.reason = capture.wall->shadows.empty()
+                   ? "known by the flux that was seen, and not above the wall's darkest place"
+                   : "measured in the card's shadow";
+  out.key = room       ? "capture.wall.shadows, room.size_m"
+            : outdoors ? "capture.wall.shadows, capture.wall.off_frames"
+                       : "capture.lens_glare";
+  return out;
+}
+
+Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription& capture,
+                                const Sources& sources, Evidence& evidence) {
+  const LightDescription& light = *FindLight(session, capture.light);
+  if (auto good = CheckLight(light); !good) return Propagate(std::move(good));
+  const auto wall = ReadPosedWall(session, capture, sources, evidence);
+  if (!wall) return AtCapture(capture, wall.error());
+  auto measured = MeasureDistribution(session, capture, light, *wall);
+  if (!measured) return Propagate(std::move(measured));
+  WarnOf(session, capture, *wall, measured->saturated, measured->distribution, evidence.warnings);
+  WarnOfOtherLight(capture, *measured, evidence.warnings);
   FittedColor color = ColorOf(session, light, capture, wall->picture, evidence.warnings);
-  FittedLight out = LightOf(light, *wall, *std::move(found), data.aim);
+  EffectReport other = OtherLightReport(session, capture, *measured);
+  FittedLight out = LightOf(light, *wall, std::move(measured->distribution),
+                            light.aim.value_or(Vec3{0.0, 1.0, 0.0}));
+  out.effects = {std::move(other)};
   out.color = std::move(color);
   return out;
 }

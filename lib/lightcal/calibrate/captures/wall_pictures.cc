@@ -65,8 +65,7 @@ double StatedScaleSd(const FrameInfo& info) {
   return kPictureScaleSd;
 }
 
-Result<WallPicture> FromAbsolutePicture(const Session& session, const CaptureDescription& capture,
-                                        const FrameInfo& info, const Sources& sources,
+Result<WallPicture> FromAbsolutePicture(const FrameInfo& info, const Sources& sources,
                                         Evidence& evidence) {
   const auto frame = sources.load_frame(info);
   if (!frame) return tl::unexpected(frame.error());
@@ -81,17 +80,56 @@ Result<WallPicture> FromAbsolutePicture(const Session& session, const CaptureDes
   out.scale_sd = StatedScaleSd(info);
   out.camera = info.camera;
   out.time = info.time;
-  if (!capture.anchor_illuminance) return out;
-  const auto spot = MeasureRegion(out.nits.view(), AnchorRegion(capture));
+  return out;
+}
+
+// The pictures, of one scale, times what makes the first one the meter's luminance at its place.
+Result<void> ScaleByAnchor(const Session& session, const CaptureDescription& capture,
+                           WallPicture& lit, WallPicture* off) {
+  const auto spot = MeasureRegion(lit.nits.view(), AnchorRegion(capture));
   if (!spot) return tl::unexpected(spot.error());
   if (!(spot->mean.value() > 0.0)) {
     return Refused("bad_anchor", "wall.anchor_rect", "is dark; give the place the meter read");
   }
   const auto factor = static_cast<float>(AnchorLuminance(capture) / spot->mean);
-  for (float& value : out.nits.values) value *= factor;
-  out.scale_sd = AnchorSigma(session, capture);
-  out.scale_source = ScaleSource::kAnchor;
-  return out;
+  for (WallPicture* picture : {&lit, off}) {
+    if (picture == nullptr) continue;
+    for (float& value : picture->nits.values) value *= factor;
+    for (float& sigma : picture->sigma) sigma *= factor;
+  }
+  lit.scale_sd = AnchorSigma(session, capture);
+  lit.scale_source = ScaleSource::kAnchor;
+  return {};
+}
+
+double MeanOf(const std::vector<float>& values) {
+  double sum = 0.0;
+  for (const float value : values) sum += double{value};
+  return sum / static_cast<double>(values.size());
+}
+
+// What the lamp adds to what shines without it, in luminance and colour.
+Result<void> Subtract(const WallPicture& off, const CaptureDescription& capture, WallPicture& lit) {
+  if (off.nits.width != lit.nits.width || off.nits.height != lit.nits.height) {
+    return Refused("mixed_size", capture.wall->off_frames,
+                   "the pictures with the lamp off and the frames differ in size; one camera must "
+                   "take both, from one place");
+  }
+  if (lit.xy && off.xy) {
+    const double whole = MeanOf(lit.nits.values) / lit.xy->y;
+    const double rest = MeanOf(off.nits.values) / off.xy->y;
+    const double y = whole * lit.xy->y - rest * off.xy->y;
+    if (y > 0.0 && whole > rest) {
+      lit.xy = Xy{(whole * lit.xy->x - rest * off.xy->x) / (whole - rest), y / (whole - rest)};
+    }
+  }
+  for (std::size_t i = 0; i < lit.nits.values.size(); ++i) {
+    lit.nits.values[i] -= off.nits.values[i];
+    if (i < lit.sigma.size() && i < off.sigma.size()) {
+      lit.sigma[i] = std::hypot(lit.sigma[i], off.sigma[i]);
+    }
+  }
+  return {};
 }
 
 // Mean of what the frames show, as the lamp's colour: the wall is taken to be neutral.
@@ -146,6 +184,25 @@ Result<WallPicture> FromBracket(const Session& session, const CaptureDescription
   return out;
 }
 
+// One linear picture in cd/m^2 as it is, its scale its own; everything else merged as a bracket,
+// with the anchor's scale.
+Result<WallPicture> ReadPicture(const Session& session, const CaptureDescription& capture,
+                                const Sources& sources, Evidence& evidence) {
+  const auto bracket = OpenCapture(session, capture, sources);
+  if (!bracket) return tl::unexpected(bracket.error());
+  const FrameInfo& first = bracket->frames.front();
+  const bool absolute = bracket->frames.size() == 1 && first.meaning == SampleMeaning::kLinear &&
+                        first.white_luminance.has_value();
+  // In cd/m^2 already: how long it was exposed does not matter.
+  if (!absolute) return FromBracket(session, capture, *bracket, sources, evidence);
+  auto picture = FromAbsolutePicture(first, sources, evidence);
+  if (!picture || !capture.anchor_illuminance) return picture;
+  if (auto scaled = ScaleByAnchor(session, capture, *picture, nullptr); !scaled) {
+    return Propagate(std::move(scaled));
+  }
+  return picture;
+}
+
 }  // namespace
 
 Result<GreyPicture> ReadGrey(const Sources& sources, const std::string& path) {
@@ -163,14 +220,24 @@ Result<GreyPicture> ReadGrey(const Sources& sources, const std::string& path) {
 
 Result<WallPicture> ReadWallPicture(const Session& session, const CaptureDescription& capture,
                                     const Sources& sources, Evidence& evidence) {
-  const auto bracket = OpenCapture(session, capture, sources);
-  if (!bracket) return tl::unexpected(bracket.error());
-  const FrameInfo& first = bracket->frames.front();
-  const bool absolute = bracket->frames.size() == 1 && first.meaning == SampleMeaning::kLinear &&
-                        first.white_luminance.has_value();
-  // In cd/m^2 already: how long it was exposed does not matter.
-  if (absolute) return FromAbsolutePicture(session, capture, first, sources, evidence);
-  return FromBracket(session, capture, *bracket, sources, evidence);
+  if (capture.wall->off_frames.empty()) return ReadPicture(session, capture, sources, evidence);
+  CaptureDescription one = capture;  // both in the camera's own scale
+  one.anchor_illuminance.reset();
+  auto lit = ReadPicture(session, one, sources, evidence);
+  if (!lit) return lit;
+  one.frames = capture.wall->off_frames;
+  one.exposure_s.clear();
+  auto off = ReadPicture(session, one, sources, evidence);
+  if (!off) return off;
+  if (capture.anchor_illuminance) {
+    if (auto scaled = ScaleByAnchor(session, capture, *lit, &*off); !scaled) {
+      return Propagate(std::move(scaled));
+    }
+  }
+  if (auto subtracted = Subtract(*off, capture, *lit); !subtracted) {
+    return Propagate(std::move(subtracted));
+  }
+  return lit;
 }
 
 }  // namespace lightcal

@@ -51,8 +51,9 @@ struct WallPicture {
 // The wall in cd/m^2. One linear picture with a white luminance is
 // taken as it is, its scale as sure as it says (5 % where it does not); everything else is merged
 // as a bracket, at the size the capture's work asks for, and corrected for the lamp like a card.
-// anchor_illuminance_lx at wall.anchor_rect sets the scale of both. Refused: as OpenCapture,
-// MergeCapture, LuminanceOfPicture, LuminanceOfLamp, bad_region.
+// anchor_illuminance_lx at wall.anchor_rect sets the scale of both. wall.off_frames, read likewise,
+// are taken off. Refused: mixed_size (they are not as large), and as OpenCapture, MergeCapture,
+// LuminanceOfPicture, LuminanceOfLamp, bad_region.
 [[nodiscard]] Result<WallPicture> ReadWallPicture(const Session& session,
                                                   const CaptureDescription& capture,
                                                   const Sources& sources, Evidence& evidence);

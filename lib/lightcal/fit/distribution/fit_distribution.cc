@@ -223,11 +223,15 @@ void AddTo(Part& part, double peak, double flux) {
   part.flux = std::hypot(part.flux, flux);
 }
 
-// What every shift makes of peak and flux, the coefficients at zero staying there.
+// What every shift makes of peak and flux, the coefficients at zero staying there. To first order
+// the largest intensity moves as the one where it was; the lesser of both is free of what a beam
+// moved aside adds to the one, and a flat distribution's other heights to the other.
 Result<void> AddShifts(const DistributionData& data, const LampAxes& axes, const Surface& surface,
                        const std::vector<ChartSample>& chart, const Nodes& nodes,
                        FittedDistribution& out) {
   const double peak = out.table.peak().intensity.value(), flux = out.table.Flux().value();
+  const double u = out.table.peak().gamma.value() * std::cos(out.table.peak().c.value());
+  const double v = out.table.peak().gamma.value() * std::sin(out.table.peak().c.value());
   for (const DistributionShift& shift : data.shifts) {
     std::vector<ChartSample> moved = fit::OnChart(axes, shift.samples, peak);
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -239,8 +243,9 @@ Result<void> AddShifts(const DistributionData& data, const LampAxes& axes, const
     const auto x = problem.SolveWithZeros(surface.lambda, surface.coefficients);
     const auto table = TableOf(surface, x, nodes, data.light);
     if (!table) return tl::unexpected(table.error());
-    AddTo(PartNamed(out.budget, shift.name), table->peak().intensity.value() / peak - 1.0,
-          table->Flux().value() / flux - 1.0);
+    const double off = std::min(std::abs(table->peak().intensity.value() / peak - 1.0),
+                                std::abs(surface.At(u, v, x) / peak - 1.0));
+    AddTo(PartNamed(out.budget, shift.name), off, table->Flux().value() / flux - 1.0);
   }
   return {};
 }

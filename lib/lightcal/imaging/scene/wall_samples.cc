@@ -67,6 +67,40 @@ std::optional<WallBlock> ReadBlock(const Picture& picture, const Region& pixels)
   return block;
 }
 
+struct SeenPoint {
+  double x = 0.0, z = 0.0;  // of the wall, m
+  Vec3 direction{};         // from the lamp
+  double r = 0.0, cos_light = 0.0;
+  double lux_per_nit = 0.0;
+};
+
+// Which point of the wall a pixel shows, and how.
+class WallSight {
+ public:
+  explicit WallSight(const WallModel& model)
+      : model_(model), camera_(model.camera), camera_m_(camera_.position_m() * model.board_scale) {}
+
+  // Absent where the light grazes the wall, or the sight does.
+  [[nodiscard]] std::optional<SeenPoint> PlaceOf(const std::array<double, 2>& pixel) const {
+    const auto wall = camera_.WallPointOf(pixel);
+    if (!wall) return std::nullopt;
+    const Vec3 point = Vec3{(*wall)[0], 0.0, (*wall)[1]} * model_.board_scale;
+    const Vec3 ray = point - model_.lamp_m, sight = point - camera_m_;
+    const double r = Length(ray);
+    const double cos_light = ray[1] / r, cos_view = sight[1] / Length(sight);
+    if (!(cos_light > kSmallestCosine) || !(cos_view > kSmallestCosine)) return std::nullopt;
+    const double seen = std::pow(camera_.CosineOffAxis(pixel), model_.vignetting) *
+                        (1.0 - model_.gloss_view * (1.0 - cos_view));
+    return SeenPoint{point[0], point[2],  ray * (1.0 / r),
+                     r,        cos_light, std::numbers::pi / (model_.reflectance * seen)};
+  }
+
+ private:
+  const WallModel& model_;
+  WallCamera camera_;
+  Vec3 camera_m_{};
+};
+
 }  // namespace
 
 Result<WallBlocks> BlocksOfWall(View2d<const float> nits, View2d<const float> sigma,
@@ -109,27 +143,31 @@ Result<WallBlocks> BlocksOfWall(View2d<const float> nits, View2d<const float> si
 }
 
 std::vector<IntensitySample> IntensitiesOf(const WallBlocks& blocks, const WallModel& model) {
-  const WallCamera camera(model.camera);
-  const Vec3 camera_m = camera.position_m() * model.board_scale;
+  const WallSight sight(model);
   std::vector<IntensitySample> out;
   out.reserve(blocks.blocks.size());
   for (const WallBlock& block : blocks.blocks) {
     IntensitySample& sample = out.emplace_back();
-    const auto wall = camera.WallPointOf(block.pixel);
-    if (!wall) continue;
-    const Vec3 point = Vec3{(*wall)[0], 0.0, (*wall)[1]} * model.board_scale;
-    const Vec3 ray = point - model.lamp_m, sight = point - camera_m;
-    const double r = Length(ray);
-    const double cos_light = ray[1] / r, cos_view = sight[1] / Length(sight);
-    if (!(cos_light > kSmallestCosine) || !(cos_view > kSmallestCosine)) continue;
-    const double seen = std::pow(camera.CosineOffAxis(block.pixel), model.vignetting) *
-                        (1.0 - model.gloss_light * (1.0 - cos_light)) *
-                        (1.0 - model.gloss_view * (1.0 - cos_view));
-    const double candela_per_nit =
-        std::numbers::pi / model.reflectance * r * r / (cos_light * seen);
-    sample.direction = ray * (1.0 / r);
-    sample.intensity_cd = candela_per_nit * block.nits;
-    sample.sigma_cd = candela_per_nit * block.sigma_nits;
+    const auto place = sight.PlaceOf(block.pixel);
+    if (!place) continue;
+    const double matt = 1.0 - model.gloss_light * (1.0 - place->cos_light);
+    const double candela_per_lux = place->r * place->r / (place->cos_light * matt);
+    const double lux = place->lux_per_nit * block.nits - model.other.At(place->x, place->z);
+    sample.direction = place->direction;
+    sample.intensity_cd = candela_per_lux * lux;
+    sample.sigma_cd = candela_per_lux * place->lux_per_nit * block.sigma_nits;
+  }
+  return out;
+}
+
+std::vector<SeenPlace> PlacesSeen(const WallBlocks& blocks, const WallModel& model) {
+  const WallSight sight(model);
+  std::vector<SeenPlace> out;
+  for (const WallBlock& block : blocks.blocks) {
+    const auto place = sight.PlaceOf(block.pixel);
+    if (!place) continue;
+    out.push_back({place->x, place->z, place->lux_per_nit * block.nits,
+                   place->lux_per_nit * block.sigma_nits});
   }
   return out;
 }

@@ -19,6 +19,7 @@
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/light/intensity_sample.h"
+#include "lightcal/light/other_wall_light.h"
 
 namespace lightcal {
 
@@ -58,14 +59,19 @@ struct WallModel {
   double vignetting = 0.0;   // n: the picture fell off as cos^n of the angle off the lens's axis
   double gloss_light = 0.0;  // a: a surface that is not quite matt reflects 1 - a (1 - cos theta_i)
   double gloss_view = 0.0;   // b: likewise by the angle it is seen at
+  OtherWallLight other{};    // taken off what is seen
 };
 
 // One sample a block, in the order of the blocks:
-//   L = seen / [cos^n(off axis) (1 - a (1 - cos theta_i)) (1 - b (1 - cos theta_v))]
-//   E = pi L / rho,   I = E r^2 / cos theta_i,   cos theta_i = |y_lamp| / r
+//   E_seen = pi/rho seen / [cos^n(off axis) (1 - b (1 - cos theta_v))]
+//   E = (E_seen - E_other)/(1 - a (1 - cos theta_i)),   I = E r^2 / cos theta_i,
+//   cos theta_i = |y_lamp| / r
 // Lambertian but for a and b. Blocks that the light grazes or that are seen at more than 80 degrees
 // have intensity and sigma 0 and are not to be used.
 [[nodiscard]] std::vector<IntensitySample> IntensitiesOf(const WallBlocks& blocks,
                                                          const WallModel& model);
+
+// E_seen above of the blocks whose intensity can be used.
+[[nodiscard]] std::vector<SeenPlace> PlacesSeen(const WallBlocks& blocks, const WallModel& model);
 
 }  // namespace lightcal
