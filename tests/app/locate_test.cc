@@ -107,11 +107,11 @@ constexpr std::array<TableReading, 7> kTables = {
 constexpr Point kBulb = {5.8731, 3.4414, 1.6692};
 
 // 500 cd, cards read at the first so many tables.
-std::string BulbOverTables(std::size_t cards) {
+std::string BulbOverTables(std::size_t cards, const std::string& sheet = "") {
   std::string text =
       "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
-      "lamp_class = \"white_led\"\nminutes_on = 600\nflicker_depth = 0.0\n"
-      "[[meter]]\nname = \"m\"\nsigma_relative = 0.03\n";
+      "lamp_class = \"white_led\"\nminutes_on = 600\nflicker_depth = 0.0\n" +
+      sheet + "[[meter]]\nname = \"m\"\nsigma_relative = 0.03\n";
   const auto add = [&text](const TableReading& at, double lux, const char* more) {
     text += std::string("[[reading]]\nlight = \"key\"\nmeter = \"m\"\nnormal = [0, 0, 1]\n") +
             "position_m = " + at.position_m + "\nilluminance_lx = " + std::to_string(500.0 * lux) +
@@ -157,6 +157,31 @@ TEST(LocateInARoom, ThreeCardsTellTheWallsOfTheOtherPlaces) {
   const json& budget = light["budget"];
   EXPECT_TRUE(std::any_of(budget.begin(), budget.end(),
                           [](const json& part) { return part["name"] == "room_bounce"; }));
+}
+
+TEST(LocateInARoom, ADataSheetTellsHowFarOffTheLampIs) {
+  const TempDir folder;
+  const auto fit = [&](const std::string& sheet) {
+    const std::string session = folder.Write("session.toml", BulbOverTables(1, sheet));
+    return LightcalJson("fit", {session, "-o", folder.path() + "/l.json", "--force"});
+  };
+  const auto width = [](const json& value) {
+    return std::log(double(value["high95"]) / double(value["low95"]));
+  };
+  const json readings = fit("")["lights"][0];
+  // 500 cd of a bulb whose base takes 15 % of 4 pi.
+  const json told = fit("flux_lm = 5340\n")["lights"][0];
+  ExpectBulbHeld(readings);
+  ExpectBulbHeld(told);
+  EXPECT_LT(width(told["intensity_cd"]), 0.9 * width(readings["intensity_cd"]));
+  EXPECT_LT(width(told["flux_lm"]), 0.8 * width(readings["flux_lm"]));
+  EXPECT_LT(double(told["position_u95_m"][2]), 0.95 * double(readings["position_u95_m"][2]));
+  // Of another lamp it is not heard, and that is said.
+  const json other = fit("flux_lm = 53400\n");
+  EXPECT_EQ(other["lights"][0]["intensity_cd"], readings["intensity_cd"]);
+  EXPECT_TRUE(std::ranges::any_of(other["warnings"], [](const json& warning) {
+    return warning["code"] == "data_sheet_disagrees";
+  }));
 }
 
 TEST(LocateByProgram, ABulbMayShineUnevenlyAndAPointSaysThatItDoesNot) {

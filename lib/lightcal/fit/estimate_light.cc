@@ -9,6 +9,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/fit/model/candidates.h"
+#include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/misfit.h"
 #include "lightcal/fit/model/parameter.h"
 #include "lightcal/fit/model/prepare.h"
@@ -141,14 +142,6 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
   }
 }
 
-// Not where the readings ask for another intensity, as of a lamp that is dimmed, aged or another.
-bool Agrees(const SheetIntensity& sheet, const LightEstimate& read) {
-  constexpr double kConflict = 2.0;  // standard deviations of both
-  const double sd = SdOf(read.covariance, kLnIntensity);
-  const double off = std::abs(read.theta[kLnIntensity] - sheet.ln_cd);
-  return off <= kConflict * std::hypot(sd, sheet.sd);
-}
-
 // Whether a data sheet that agrees takes more than a twentieth off the readings' interval.
 bool TellsMore(const SheetIntensity& sheet, const LightEstimate& read) {
   constexpr double kLeastPart = 1.0 / 3.0;
@@ -276,7 +269,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
   std::optional<SheetIntensity> sheet = model.sheet;
   if (sheet) sheet->ln_cd -= LnUnitOfIntensity(prepared.scales);
   std::optional<WeighedCandidates> told;
-  if (sheet && Agrees(*sheet, out)) {
+  if (sheet && Agrees(*sheet, out.theta[kLnIntensity], SdOf(out.covariance, kLnIntensity))) {
     told = WithSheet(*sheet, candidates, shares);
     out.sheet_held = told->held;
   }

@@ -37,42 +37,6 @@ void WidenByCone(double variance_of_ln, LightEstimate& estimate) {
   estimate.variance_parts.push_back({"cone", variance_of_ln});
 }
 
-// What the manufacturer says beside a person's readings, of a lamp without controls: which setting
-// of others it is of nobody says.
-std::optional<SheetIntensity> SheetBeside(const Session& session, const Observations& observations,
-                                          const LightDescription& light) {
-  const auto own = [](const Observation& row) { return row.lit && !row.data_sheet; };
-  const auto set = [&](const SessionReading& row) {
-    return row.reading.light == light.name && !row.reading.state.empty();
-  };
-  if (!HasDataSheet(light) || std::ranges::none_of(observations.rows, own)) return std::nullopt;
-  if (std::ranges::any_of(session.readings, set)) return std::nullopt;
-  const auto sheet = IntensityFromDataSheet(light);
-  if (!sheet) return std::nullopt;
-  const double low = std::log(*sheet->low), high = std::log(*sheet->high);
-  return SheetIntensity{0.5 * (low + high), (high - low) / (2.0 * kZ95)};
-}
-
-// The intensity before a data sheet was heard.
-std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedLight& out) {
-  if (!estimate.ln_by_readings) return out.intensity_cd;
-  const auto [low, high] = *estimate.ln_by_readings;
-  return UncertainFromLog(0.5 * (low + high), (high - low) / (2.0 * kZ95));
-}
-
-// The flux as a data sheet that the readings bear out leaves it.
-void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out) {
-  if (!(estimate.sheet_held > 0.0) || !out.flux_lm) return;
-  Uncertain by_readings = *out.flux_lm;
-  if (estimate.ln_by_readings) {
-    FittedLight read;
-    read.intensity_cd = ByReadings(estimate, out);
-    AddDerivedQuantities(light, read);
-    by_readings = *read.flux_lm;
-  }
-  out.flux_lm = FluxBeside(by_readings, *light.flux, estimate.sheet_held);
-}
-
 }  // namespace
 
 Result<FittedLight> FitByDistance(const Session& session, const LightDescription& light,

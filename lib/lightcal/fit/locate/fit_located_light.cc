@@ -45,6 +45,22 @@ LightDescription ShiningEvenly(LightDescription light) {
   return light;
 }
 
+// The lamp again, by its data sheet too, where what the readings say of its intensity agrees. Where
+// it stands follows: to a few meters, a lamp farther off and brighter is much the same.
+void HearSheet(const SheetIntensity& sheet, const Observations& seen, const LightDescription& light,
+               ForwardModel model, LampLocation& location) {
+  constexpr double kHeld = 0.95;
+  const LightEstimate& read = location.estimate;
+  const double ln_cd = read.theta[kLnIntensity], sd = SdOf(read.covariance, kLnIntensity);
+  if (!Agrees(sheet, ln_cd, sd)) return;
+  model.sheet = sheet;
+  Result<LampLocation> told = LocateLamp(seen, light, model, &location);
+  if (!told) return;
+  told->estimate.ln_by_readings = LnInterval{ln_cd - kZ95 * sd, ln_cd + kZ95 * sd};
+  told->estimate.sheet_held = kHeld;
+  location = *std::move(told);
+}
+
 }  // namespace
 
 Result<FittedLight> FitLocatedLight(const Session& session, const LightDescription& light,
@@ -69,6 +85,9 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   plan->model.gradient_sd = rough_model.gradient_sd;
   Result<LampLocation> location = LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));
+  if (const auto sheet = SheetBeside(session, seen, even)) {
+    HearSheet(*sheet, seen, light, plan->model, *location);
+  }
   if (auto known = CheckKnown(location->estimate, light.name); !known) {
     return Propagate(std::move(known));
   }
@@ -96,7 +115,8 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   ReportCalibration(seen, out.effects);
   out.meter = MeterOf(session, light.name, seen);
   AddDerivedQuantities(light, out);
-  CheckDataSheet(light, out.intensity_cd, warnings);
+  TellFlux(location->estimate, light, out);
+  CheckDataSheet(light, ByReadings(location->estimate, out), warnings);
   return out;
 }
 

@@ -220,6 +220,11 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
   if (near_m != nullptr) out.near = (*near_m - out.frame.origin) * (1.0 / out.frame.length_m);
   if (model.gradient_sd) AddGradient(*model.gradient_sd, out);
   SetRules(model, out);
+  if (model.sheet) {
+    const double ln_unit = std::log(out.frame.lux * out.frame.length_m * out.frame.length_m);
+    out.estimation.rules[kPlacedLnIntensity] = {true, model.sheet->ln_cd - ln_unit,
+                                                model.sheet->sd};
+  }
   return out;
 }
 

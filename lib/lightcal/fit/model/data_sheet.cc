@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/model/data_sheet.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/light/beam_ensemble.h"
 #include "lightcal/photometry/source_photometry.h"
@@ -108,6 +110,11 @@ Uncertain FluxBeside(const Uncertain& by_readings, Lumens printed, double held) 
   return UncertainFromLogMixture(std::array{both, read});
 }
 
+bool Agrees(const SheetIntensity& sheet, double ln_cd, double sd) {
+  constexpr double kConflict = 2.0;  // standard deviations of both
+  return std::abs(ln_cd - sheet.ln_cd) <= kConflict * std::hypot(sd, sheet.sd);
+}
+
 void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain>& measured,
                     Warnings& warnings) {
   if (!HasDataSheet(light) || !measured) return;
@@ -121,6 +128,38 @@ void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain
                           RoundedText(light.flux->value(), 4) + " lm) gives " +
                           RoundedText(*sheet->low, 3) + " to " + RoundedText(*sheet->high, 3) +
                           " cd; check distance, beam_deg and whether the lamp is dimmed"});
+}
+
+std::optional<SheetIntensity> SheetBeside(const Session& session, const Observations& observations,
+                                          const LightDescription& light) {
+  const auto own = [](const Observation& row) { return row.lit && !row.data_sheet; };
+  const auto set = [&](const SessionReading& row) {
+    return row.reading.light == light.name && !row.reading.state.empty();
+  };
+  if (!HasDataSheet(light) || std::ranges::none_of(observations.rows, own)) return std::nullopt;
+  if (std::ranges::any_of(session.readings, set)) return std::nullopt;
+  const auto sheet = IntensityFromDataSheet(light);
+  if (!sheet) return std::nullopt;
+  const double low = std::log(*sheet->low), high = std::log(*sheet->high);
+  return SheetIntensity{0.5 * (low + high), (high - low) / (2.0 * kZ95)};
+}
+
+std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedLight& out) {
+  if (!estimate.ln_by_readings) return out.intensity_cd;
+  const auto [low, high] = *estimate.ln_by_readings;
+  return UncertainFromLog(0.5 * (low + high), (high - low) / (2.0 * kZ95));
+}
+
+void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out) {
+  if (!(estimate.sheet_held > 0.0) || !out.flux_lm) return;
+  Uncertain by_readings = *out.flux_lm;
+  if (estimate.ln_by_readings) {
+    FittedLight read;
+    read.intensity_cd = ByReadings(estimate, out);
+    AddDerivedQuantities(light, read);
+    by_readings = *read.flux_lm;
+  }
+  out.flux_lm = FluxBeside(by_readings, *light.flux, estimate.sheet_held);
 }
 
 }  // namespace lightcal::fit

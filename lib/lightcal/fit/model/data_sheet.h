@@ -2,7 +2,11 @@
 // A lamp's data sheet as prior: the answer without readings, the check with them.
 #pragma once
 
+#include <optional>
+
 #include "lightcal/core/result.h"
+#include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/observations.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
@@ -37,6 +41,21 @@ struct FluxSpread {
 // The printed flux beside `by_readings`, an interval of readings alone; `held`: how likely it is
 // this lamp's (LightEstimate). Two normals of ln Phi, mixed with the readings' own.
 [[nodiscard]] Uncertain FluxBeside(const Uncertain& by_readings, Lumens printed, double held);
+
+// What the manufacturer says beside a person's readings, of a lamp without controls: which setting
+// of others it is of nobody says.
+[[nodiscard]] std::optional<SheetIntensity> SheetBeside(const Session& session,
+                                                        const Observations& observations,
+                                                        const LightDescription& light);
+// Not where the readings (ln I and its 1 sigma) ask for another intensity, as of a lamp that is
+// dimmed, aged or another.
+[[nodiscard]] bool Agrees(const SheetIntensity& sheet, double ln_cd, double sd);
+
+// The intensity before a data sheet was heard.
+[[nodiscard]] std::optional<Uncertain> ByReadings(const LightEstimate& estimate,
+                                                  const FittedLight& out);
+// The flux as a data sheet that the readings bear out leaves it.
+void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out);
 
 // Adds the warning data_sheet_disagrees when the intensity that readings alone give and the data
 // sheet's do not overlap within their 95 % intervals.
