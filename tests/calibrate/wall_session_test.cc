@@ -116,21 +116,10 @@ class WallInARoom : public testing::Test {
     std::vector<float> nits = PhotographWall(wall_);
     folder_.Write(name, EncodeExr(wall_.width, wall_.height, nits, {FloatOf("whiteLuminance", 1)}));
   }
-  // The box around the shadow, x, y, width, height.
   std::string ShadowPixels() const {
-    int left = wall_.width, right = 0, top = wall_.height, bottom = 0;
-    for (int y = 0; y < wall_.height; ++y) {
-      for (int x = 0; x < wall_.width; ++x) {
-        const auto at = WallSeenAt(wall_, x + 0.5, y + 0.5);
-        if (!at || std::hypot((*at)[0] - 0.80, (*at)[1] - 0.10) > 0.06) continue;
-        left = std::min(left, x);
-        right = std::max(right, x);
-        top = std::min(top, y);
-        bottom = std::max(bottom, y);
-      }
-    }
-    return std::to_string(left) + ", " + std::to_string(top) + ", " +
-           std::to_string(right - left + 1) + ", " + std::to_string(bottom - top + 1);
+    const auto box = PixelsAround(wall_, 0.80, 0.10, 0.06);
+    return std::to_string(box[0]) + ", " + std::to_string(box[1]) + ", " + std::to_string(box[2]) +
+           ", " + std::to_string(box[3]);
   }
   json Measure(const std::string& of_wall, const std::string& of_lamp = "") {
     const std::string session =
@@ -193,7 +182,7 @@ TEST_F(WallInARoom, APictureWithTheLampOffTakesOtherLampsAway) {
   EXPECT_NEAR(double(light["effects"][0]["contribution"]) * 925.0, 27.0, 2.5);
   FoundOverTrue(light, "intensity_cd");
   EXPECT_NEAR(FoundOverTrue(light, "flux_lm"), 1.0, 0.03);
-  // 2 <rho^2>/d^2 of a square of 30 cm, 1 m away.
+  // 2 <rho^2>/d^2, to second order, of a square of 30 cm 1 m away.
   EXPECT_NEAR(PartOf(light, "finite_source"), 0.03, 1e-3);
   EXPECT_EQ(off["provenance"]["inputs"].size(), 4U) << "session, wall, lamp off, view";
 }

@@ -139,23 +139,11 @@ int PhotographLitWall(const std::string& board_svg, const std::string& out) {
                                                           (z - stated[2]) / distance));
   };
   if (task.Of("off", 0.0) > 0.0) wall.intensity = [](const Point3&) { return 0.0; };
-  int left = wall.width, right = -1, top = wall.height, bottom = -1;
-  for (int y = 0; y < wall.height && shadow_tan > 0.0; ++y) {
-    for (int x = 0; x < wall.width; ++x) {
-      const auto at = WallSeenAt(wall, x + 0.5, y + 0.5);
-      if (!at ||
-          std::hypot(((*at)[0] - wall.lamp[0]) / -wall.lamp[1] - shadow_x,
-                     ((*at)[1] - wall.lamp[2]) / -wall.lamp[1] - shadow_z) > 0.6 * shadow_tan) {
-        continue;
-      }
-      left = std::min(left, x);
-      right = std::max(right, x);
-      top = std::min(top, y);
-      bottom = std::max(bottom, y);
-    }
-  }
-  if (right >= left) {
-    std::printf("%d, %d, %d, %d\n", left, top, right - left + 1, bottom - top + 1);
+  if (shadow_tan > 0.0) {
+    const double far = -wall.lamp[1];
+    const auto box = PixelsAround(wall, wall.lamp[0] + shadow_x * far,
+                                  wall.lamp[2] + shadow_z * far, shadow_tan * far);
+    std::printf("%d, %d, %d, %d\n", box[0], box[1], box[2], box[3]);
   }
   std::vector<float> nits = PhotographWall(wall);
   for (float& value : nits) value *= static_cast<float>(task.Of("scale", 1.0));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <regex>
 
@@ -74,20 +75,23 @@ struct Seen {
   bool plain = true;  // wall, far enough from the sheet of paper
 };
 
-Point3 RayAlong(const Eye& eye, const std::array<double, 2>& tangent) {
+// The point (x, z) of the wall on a ray; absent where it misses.
+std::optional<std::array<double, 2>> WallOn(const SyntheticWall& wall, const Eye& eye,
+                                            const std::array<double, 2>& tangent) {
   Point3 ray{};
   for (std::size_t i = 0; i < 3; ++i) {
     ray[i] = eye.ahead[i] + tangent[0] * eye.right[i] + tangent[1] * eye.down[i];
   }
-  return ray;
+  if (ray[1] <= 1e-6) return std::nullopt;
+  const double length = -wall.camera[1] / ray[1];
+  return std::array{wall.camera[0] + length * ray[0], wall.camera[2] + length * ray[2]};
 }
 
 Seen LuminanceAlong(const SyntheticWall& wall, const Eye& eye, double px, double py) {
   const auto tangent = Ray(wall, px, py);
-  const Point3 ray = RayAlong(eye, tangent);
-  if (ray[1] <= 1e-6) return {};
-  const double length = -wall.camera[1] / ray[1];
-  const double x = wall.camera[0] + length * ray[0], z = wall.camera[2] + length * ray[2];
+  const auto seen = WallOn(wall, eye, tangent);
+  if (!seen) return {};
+  const auto [x, z] = *seen;
   const Point3 beam = Minus({x, 0.0, z}, wall.lamp);
   const double r2 = Inner(beam, beam);
   const double incidence = beam[1] / std::sqrt(r2);
@@ -148,11 +152,20 @@ double TwoLobes(const Point3& d) {
          300.0 * Bell(std::hypot(x + 14.0, z), 9.0) + 60.0 * std::max(0.0, d[1]);
 }
 
-std::optional<std::array<double, 2>> WallSeenAt(const SyntheticWall& wall, double px, double py) {
-  const Point3 ray = RayAlong(EyeOf(wall), Ray(wall, px, py));
-  if (ray[1] <= 1e-6) return std::nullopt;
-  const double length = -wall.camera[1] / ray[1];
-  return std::array{wall.camera[0] + length * ray[0], wall.camera[2] + length * ray[2]};
+std::array<int, 4> PixelsAround(const SyntheticWall& wall, double x, double z, double radius) {
+  const Eye eye = EyeOf(wall);
+  int left = wall.width, right = -1, top = wall.height, bottom = -1;
+  for (int py = 0; py < wall.height; ++py) {
+    for (int px = 0; px < wall.width; ++px) {
+      const auto at = WallOn(wall, eye, Ray(wall, px + 0.5, py + 0.5));
+      if (!at || std::hypot((*at)[0] - x, (*at)[1] - z) > radius) continue;
+      left = std::min(left, px);
+      right = std::max(right, px);
+      top = std::min(top, py);
+      bottom = std::max(bottom, py);
+    }
+  }
+  return {left, top, right - left + 1, bottom - top + 1};
 }
 
 std::vector<float> PhotographWall(const SyntheticWall& wall) {

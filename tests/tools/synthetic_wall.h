@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,9 +54,9 @@ struct SyntheticWall {
   std::uint64_t seed = 1;
 };
 
-// The point (x, z) of the wall that a pixel sees; absent where its ray misses.
-[[nodiscard]] std::optional<std::array<double, 2>> WallSeenAt(const SyntheticWall& wall, double px,
-                                                              double py);
+// The box, x, y, width, height, around the pixels that see the wall within `radius` of (x, z).
+[[nodiscard]] std::array<int, 4> PixelsAround(const SyntheticWall& wall, double x, double z,
+                                              double radius);
 // Luminance in cd/m^2, row by row; pixels about the board are averages
 // of 4 x 4 points.
 [[nodiscard]] std::vector<float> PhotographWall(const SyntheticWall& wall);

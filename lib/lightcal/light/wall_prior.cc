@@ -38,14 +38,10 @@ constexpr double kLeastOfBulb = 7.0;
 constexpr double kLeastOfPanel = 2.0;
 
 WallPrior InRoom(const Family& family, double flux, const StatedRoom& room) {
-  const double rho = std::clamp(room.reflectance, 0.02, 0.95);
-  const Vec3& s = room.size_m;
-  const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
+  const RoomPart part = PartOfRoom(room);
   WallPrior prior = family.prior;
-  prior.ln_b = std::log(family.in_room * flux) +
-               kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom);
-  prior.sd_ln_b =
-      std::hypot(family.sd_in_room, kRoomPower * room.reflectance_sigma / (rho * (1.0 - rho)));
+  prior.ln_b = std::log(family.in_room * flux) + part.ln;
+  prior.sd_ln_b = std::hypot(family.sd_in_room, part.sd);
   return prior;
 }
 
@@ -174,6 +170,14 @@ std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
 }
 
 }  // namespace
+
+RoomPart PartOfRoom(const StatedRoom& room) {
+  const double rho = std::clamp(room.reflectance, 0.02, 0.95);
+  const Vec3& s = room.size_m;
+  const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
+  return {kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom),
+          kRoomPower * room.reflectance_sigma / (rho * (1.0 - rho))};
+}
 
 std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
                                        const std::optional<StatedRoom>& room) {

@@ -54,9 +54,15 @@ struct StatedRoom {
   double reflectance_sigma = 0.05;
 };
 
+// What a stated room makes of an ordinary one's light from walls, ln and 1 sigma: (f/.0088)^.7 with
+// f = rho/(A (1 - rho)), .0088 being an ordinary room's, by what is not known of rho.
+struct RoomPart {
+  double ln = 0.0, sd = 0.0;
+};
+[[nodiscard]] RoomPart PartOfRoom(const StatedRoom& room);
+
 // From 1,500 path-traced ordinary rooms (tests/tools/traced_rooms): b of the lamp's flux over
-// intensity, in a stated room b = k flux/I (f/.0088)^.7 with f = rho/(A (1 - rho)), .0088 being an
-// ordinary room's. Empty for kinds without a distance.
+// intensity, in a stated room b = k flux/I times its part. Empty for kinds without a distance.
 [[nodiscard]] std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
                                                      const std::optional<StatedRoom>& room);
 

@@ -17,6 +17,7 @@
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/wall_samples.h"
+#include "lightcal/light/axial_shape.h"
 
 namespace lightcal {
 namespace {
@@ -64,14 +65,15 @@ std::vector<DistributionShift> ShiftsOf(const WallDescription& description, cons
   return shifts;
 }
 
-// What a Lambertian lamp of this size gives less than its intensity over the square of so near a
-// distance, relative: 2 <rho^2>/d^2, rho from its middle.
+// How much more than its intensity over the square of the distance a Lambertian lamp of this size
+// would give the wall, were it small: relative, on its axis.
 double NearFieldPart(const LightDescription& light) {
-  const double d = -(*light.position_m)[1];
-  const double w = light.width ? light.width->value() : 0.0;
-  const double h = light.height ? light.height->value() : 0.0;
-  const double disk = light.diameter ? light.diameter->value() : 0.0;
-  return ((w * w + h * h) / 6.0 + disk * disk / 4.0) / (d * d);
+  AxialShape shape;
+  if (light.diameter) shape = {AxialShape::Outline::kDisk, 0.5 * light.diameter->value()};
+  if (light.width && light.height) {
+    shape = {AxialShape::Outline::kRect, 0.5 * light.width->value(), 0.5 * light.height->value()};
+  }
+  return 1.0 / AxialShapeFactor(shape, -(*light.position_m)[1]) - 1.0;
 }
 
 WallSelection SelectionOf(const CaptureDescription& capture, const WallPicture& picture) {
@@ -159,7 +161,7 @@ FittedLight LightOf(const LightDescription& light, const PosedWall& wall,
   return out;
 }
 
-void WarnOf(const Session& session, const CaptureDescription& capture, const PosedWall& wall,
+void WarnOf(const LightDescription& light, const CaptureDescription& capture, const PosedWall& wall,
             int saturated, const FittedDistribution& found, Warnings& warnings) {
   if (!capture.wall->vignetting && !wall.picture.flat) {
     warnings.push_back(
@@ -169,7 +171,6 @@ void WarnOf(const Session& session, const CaptureDescription& capture, const Pos
          "profile that has one"});
   }
   constexpr double kNoticed = 0.02;
-  const LightDescription& light = *FindLight(session, capture.light);
   if (const double part = NearFieldPart(light); part > kNoticed) {
     warnings.push_back({"near_field", capture.light,
                         "a lamp of this size gives a wall so near up to " + PercentText(part) +
@@ -334,7 +335,7 @@ Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription
   if (!wall) return AtCapture(capture, wall.error());
   auto measured = MeasureDistribution(session, capture, light, *wall);
   if (!measured) return Propagate(std::move(measured));
-  WarnOf(session, capture, *wall, measured->saturated, measured->distribution, evidence.warnings);
+  WarnOf(light, capture, *wall, measured->saturated, measured->distribution, evidence.warnings);
   WarnOfOtherLight(capture, *measured, evidence.warnings);
   FittedColor color = ColorOf(session, light, capture, wall->picture, evidence.warnings);
   EffectReport other = OtherLightReport(session, capture, *measured);

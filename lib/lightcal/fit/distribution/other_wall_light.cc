@@ -13,9 +13,11 @@
 #include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/fit/plan/scene_of_session.h"
 #include "lightcal/light/effects/ambient.h"
 #include "lightcal/light/effects/veiling_glare.h"
 #include "lightcal/light/lamp_axes.h"
+#include "lightcal/light/wall_prior.h"
 
 namespace lightcal {
 namespace {
@@ -26,9 +28,9 @@ using Matrix4 = Eigen::Matrix4d;
 constexpr double kPi = std::numbers::pi;
 // Of 600 path-traced ordinary rooms (tests/tools/traced_rooms: lit walls). E_room at the middle
 // over what the lamp lets loose in the room: bulbs, panels and beams alike .0146, .0179, .0184 with
-// sd of ln .42, .54, .50; in a stated room, over f = rho/(A (1 - rho)) to the power .7, .32 to .44.
+// sd of ln .42, .54, .50; in a stated room, over its part (PartOfRoom), .32 to .44.
 constexpr double kLooseToRoom = 0.0175, kSdOfAnyRoom = 0.62;
-constexpr double kOrdinaryRoom = 0.0088, kRoomPower = 0.7, kSdOfStatedRoom = 0.48;
+constexpr double kSdOfStatedRoom = 0.48;
 // 1 sigma of its slopes across the wall, and mean and 1 sigma of its bend.
 constexpr double kSlope = 0.40, kBend = -0.12, kSdBend = 0.33;
 // 1 sigma of a shadow's light: what the card hides of the room's, and what the shape leaves over.
@@ -38,28 +40,23 @@ constexpr double kBeyondBulb = 1.4, kBeyondAny = 0.7, kSdBeyondAny = 0.7, kSdBey
 constexpr double kLeastGlare = 0.005;
 constexpr int kDraws = 4000;
 
-// Of the reflectance, as people guess it.
-constexpr double kReflectanceU95 = 0.2;
-
 OtherLightPrior::Room PriorOfRoom(const Session& session) {
   OtherLightPrior::Room prior{std::log(kLooseToRoom), kSdOfAnyRoom};
-  if (!session.room) return prior;
-  const Vec3& s = session.room->size_m;
-  const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-  const double rho = std::clamp(session.room->reflectance, 0.02, 0.95);
-  const double sd_rho = session.room->reflectance_u95.value_or(kReflectanceU95 * rho) / kZ95;
-  prior.ln_k += kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom);
-  prior.sd = std::min(kSdOfAnyRoom,
-                      std::hypot(kSdOfStatedRoom, kRoomPower * sd_rho / (rho * (1.0 - rho))));
+  if (const auto room = fit::StatedRoomOf(session)) {
+    const RoomPart part = PartOfRoom(*room);
+    prior.ln_k += part.ln;
+    prior.sd = std::min(kSdOfAnyRoom, std::hypot(kSdOfStatedRoom, part.sd));
+  }
   return prior;
 }
 
-// The inverse of the normal distribution's Phi.
+// Share of the standard normal distribution below z, and its inverse.
+double ShareBelow(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 double StandardNormalBelow(double share) {
   double low = -9.0, high = 9.0;
   for (int i = 0; i < 50; ++i) {
     const double middle = 0.5 * (low + high);
-    (0.5 * std::erfc(-middle / std::numbers::sqrt2) < share ? low : high) = middle;
+    (ShareBelow(middle) < share ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -87,9 +84,8 @@ class Draws {
                                ? std::log(room_most / (left - room_most * per_lx))
                                : std::numeric_limits<double>::infinity();
     const double z = (highest - prior_.room->ln_k) / prior_.room->sd;
-    const double below = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-    const double k = std::exp(prior_.room->ln_k +
-                              prior_.room->sd * std::min(z, StandardNormalBelow(share * below)));
+    const double drawn = std::min(z, StandardNormalBelow(share * ShareBelow(z)));
+    const double k = std::exp(prior_.room->ln_k + prior_.room->sd * drawn);
     return ambient + k * left / (1.0 + k * per_lx);
   }
   double Normal() { return normal_(random_); }

@@ -179,14 +179,17 @@ void AddPriors(const Session& session, const LightDescription& light,
 
 }  // namespace
 
+std::optional<StatedRoom> StatedRoomOf(const Session& session) {
+  if (!session.room) return std::nullopt;
+  constexpr double kU95 = 0.2;  // of the reflectance, as people guess it
+  const double rho = session.room->reflectance;
+  return StatedRoom{session.room->size_m, rho,
+                    session.room->reflectance_u95.value_or(kU95 * rho) / kZ95};
+}
+
 std::vector<WallHypothesis> WallPriorsOf(const Session& session, const LightDescription& light) {
-  std::optional<StatedRoom> room;
-  if (session.room) {
-    constexpr double kU95 = 0.2;  // of the reflectance, as people guess it
-    const double rho = session.room->reflectance;
-    room = {session.room->size_m, rho, session.room->reflectance_u95.value_or(kU95 * rho) / kZ95};
-  }
-  return WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)}, room);
+  return WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)},
+                    StatedRoomOf(session));
 }
 
 Scene SceneOfSession(const Session& session, const LightDescription& light,

@@ -2,6 +2,7 @@
 // What a session says of one lamp and its readings, as the gate asks for it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lightcal/fit/model/observations.h"
@@ -10,6 +11,10 @@
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
+
+// The session's [room], its reflectance within a fifth (95 %) unless it says how well; absent:
+// none.
+[[nodiscard]] std::optional<StatedRoom> StatedRoomOf(const Session& session);
 
 // What is known beforehand of the walls' light about this lamp, in the room that the session states
 // or in an ordinary one.
