@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -75,6 +76,41 @@ TEST(FitColor, ACamerasOwnSigmaIsItsInterval) {
   camera.sigma_mired = Mireds(12.0);
   const Uncertain cct = *Fit(session).cct_K;
   EXPECT_NEAR(1e6 / *cct.low - 1e6 / cct.value, kZ95 * 12.0, 1e-3);
+}
+
+// A wall of X/Y and Z/Y over those of white shows a lamp so much off: numbers by hand.
+TEST(FitColor, PaintIsTakenOffWhatAWallShows) {
+  const Session session = Empty();
+  const Xyz lamp = XyzFromXyAtUnitY(XyFromCct(Kelvin(3000.0)));
+  const Xyz off_paint = {lamp.X * std::exp(0.02), 1.0, lamp.Z * std::exp(-0.15)};
+  ColorOffWall seen{XyFromXyz(off_paint), Mireds(5.0), {0.02, 0.0, -0.15, 0.0, 0.0}, {}};
+  Warnings warnings;
+  const auto fit = [&] {
+    return FitColor(session, session.lights.front(), nullptr, warnings, CctMethod::kExact, &seen)
+        .color;
+  };
+  const FittedColor known = fit();
+  EXPECT_NEAR(known.cct_K->value, 3000.0, 0.1);
+  EXPECT_NEAR(known.duv->value, 0.0, 1e-5);
+  seen.paint = kTintOfPaint;
+  const FittedColor any = fit();
+  EXPECT_GT(any.cct_K->u95, 3.0 * known.cct_K->u95);
+  EXPECT_LT(any.cct_K->low, 3000.0);
+  EXPECT_GT(any.cct_K->high, 3000.0);
+  seen.others = {0.3, 0.1, 0.0, 0.0};
+  EXPECT_GT(fit().cct_K->u95, any.cct_K->u95);
+}
+
+// #EDEAE0: linear .8469, .8228, .7454; X, Y, Z by IEC 61966-2-1's four decimals over D65's.
+TEST(FitColor, AMakersSrgbIsThePaintsTint) {
+  const SurfaceTint tint = TintOfPaint(std::array<int, 3>{237, 234, 224});
+  const double x = (0.4124 * 0.8469 + 0.3576 * 0.8228 + 0.1805 * 0.7454) / 0.9505;
+  const double y = 0.2126 * 0.8469 + 0.7152 * 0.8228 + 0.0722 * 0.7454;
+  const double z = (0.0193 * 0.8469 + 0.1192 * 0.8228 + 0.9505 * 0.7454) / 1.0890;
+  EXPECT_NEAR(tint.ln_x, std::log(x / y), 1e-3);
+  EXPECT_NEAR(tint.ln_z, std::log(z / y), 1e-3);
+  EXPECT_LT(tint.sd_z, kTintOfPaint.sd_z);
+  EXPECT_EQ(TintOfPaint({}).ln_z, kTintOfPaint.ln_z);
 }
 
 TEST(FitColor, RepeatingAReadingDoesNotLowerTheInstrumentsOwnError) {

@@ -124,6 +124,7 @@ vignetting = 3.5
 sensor_width_m = 0.0236
 masks = [0, 0, 10, 10, 20, 20, 5, 5]
 shadows = [40, 10, 9, 9]
+paint_srgb = [237, 234, 224]
 anchor_rect = [30, 30, 8, 8]
 [[capture]]
 light = "key"

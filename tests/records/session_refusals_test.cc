@@ -132,6 +132,10 @@ std::vector<BadSession> BadSessions() {
        kCapture + "use = \"wall\"\nreflectance = 0.8\n[capture.wall]\nsquare_m = 0.03\n" +
            "masks = [1, 2, 3]\n",
        "bad_session", 12, "again and again"},
+      {"WallOfNoPaint",
+       kCapture + "use = \"wall\"\nreflectance = 0.8\n[capture.wall]\nsquare_m = 0.03\n" +
+           "paint_srgb = [237, 234, 256]\n",
+       "bad_session", 12, "1 to 255"},
       {"SourceWithoutFieldOfView", kCapture + "use = \"source\"\ndistance_m = 1\n", "bad_session",
        5, "fov_deg"},
       {"BallWithoutItsTable", kCapture + "use = \"ball\"\nfov_deg = 30\n", "bad_session", 5,

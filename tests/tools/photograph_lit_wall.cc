@@ -5,7 +5,8 @@
 // the lamp from the wall sets the scale of all: the board's squares are .03 of it. `place GAMMA
 // AZIMUTH LX` what the room throws onto a place of the wall as the lamp sees it; between places it
 // is interpolated. The lamp shines `candela` straight ahead, elsewhere as cos^`power`, or as a bulb
-// with a base (traced_rooms/lamp.h).
+// with a base (traced_rooms/lamp.h). With `lamp_red`, `_green`, `_blue` and `room_red` ... the picture
+// has these colours where the lamp, and where the room lights the wall.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -113,6 +114,24 @@ SyntheticWall WallAt(double distance, const std::string& board_svg) {
   return wall;
 }
 
+// What the lamp shows in its colour, and all else in the room's.
+std::vector<float> InColours(const Task& task, SyntheticWall wall) {
+  SyntheticWall others = wall;
+  others.intensity = [](const Point3&) { return 0.0; };
+  wall.other_lx = [](double, double) { return 0.0; };
+  ++others.seed;
+  const std::vector<float> by_lamp = PhotographWall(wall), by_others = PhotographWall(others);
+  std::vector<float> out;
+  for (std::size_t i = 0; i < by_lamp.size(); ++i) {
+    for (const char* channel : {"red", "green", "blue"}) {
+      const double value = by_lamp[i] * task.Of(std::string("lamp_") + channel, 1.0) +
+                           by_others[i] * task.Of(std::string("room_") + channel, 1.0);
+      out.push_back(static_cast<float>(value));
+    }
+  }
+  return out;
+}
+
 int PhotographLitWall(const std::string& board_svg, const std::string& out) {
   const Task task = ReadTask(std::cin);
   const double distance = task.Of("distance", 1.0);
@@ -145,7 +164,8 @@ int PhotographLitWall(const std::string& board_svg, const std::string& out) {
                                   wall.lamp[2] + shadow_z * far, shadow_tan * far);
     std::printf("%d, %d, %d, %d\n", box[0], box[1], box[2], box[3]);
   }
-  std::vector<float> nits = PhotographWall(wall);
+  std::vector<float> nits =
+      task.numbers.contains("lamp_red") ? InColours(task, wall) : PhotographWall(wall);
   for (float& value : nits) value *= static_cast<float>(task.Of("scale", 1.0));
   return WriteWallPicture(out, wall, nits) ? 0 : 1;
 }

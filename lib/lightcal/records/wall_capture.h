@@ -23,9 +23,10 @@ struct WallDescription {
   double position_sigma_m = kSigmaLampPosition;
   // n of cos^n(angle off the lens's axis) that the frames still fall off by; absent = unknown.
   std::optional<double> vignetting;
-  std::optional<Metres> sensor_width;             // with the files' focal length: a start and prior
-  std::vector<std::array<int, 4>> masks;          // x, y, width, height of what is no plain wall
-  std::vector<std::array<int, 4>> shadows;        // likewise, around shadows of a card near the lamp
+  std::optional<Metres> sensor_width;            // with the files' focal length: a start and prior
+  std::vector<std::array<int, 4>> masks;         // x, y, width, height of what is no plain wall
+  std::vector<std::array<int, 4>> shadows;       // likewise, around shadows of a card near the lamp
+  std::optional<std::array<int, 3>> paint_srgb;  // the wall's paint, 1 to 255, as its maker prints
   std::optional<std::array<int, 4>> anchor_rect;  // where anchor_illuminance_lx was read
 };
 

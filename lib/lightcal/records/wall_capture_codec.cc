@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/records/wall_capture_codec.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -43,6 +44,19 @@ std::vector<std::array<int, 4>> ReadRectangles(FieldReader& reader, std::string_
   return out;
 }
 
+void ReadPaint(FieldReader& reader, WallDescription& wall) {
+  std::vector<int> codes;
+  reader.Integers("paint_srgb", codes);
+  if (!reader.Has("paint_srgb") || reader.Failed()) return;
+  const auto code = [](int v) { return v >= 1 && v <= 255; };
+  if (codes.size() != 3 || !std::ranges::all_of(codes, code)) {
+    reader.Fail("paint_srgb",
+                "paint_srgb = [red, green, blue], 1 to 255, as the paint's maker prints it");
+    return;
+  }
+  wall.paint_srgb = {codes[0], codes[1], codes[2]};
+}
+
 }  // namespace
 
 void ReadWall(FieldReader& reader, WallDescription& wall) {
@@ -59,6 +73,7 @@ void ReadWall(FieldReader& reader, WallDescription& wall) {
   reader.Number("sensor_width_m", wall.sensor_width, kPositive);
   wall.masks = ReadRectangles(reader, "masks");
   wall.shadows = ReadRectangles(reader, "shadows");
+  ReadPaint(reader, wall);
   const auto anchors = ReadRectangles(reader, "anchor_rect");
   if (!anchors.empty()) wall.anchor_rect = anchors.front();
   reader.Require({"square_m"});

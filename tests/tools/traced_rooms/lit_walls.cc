@@ -25,6 +25,7 @@ bool Carry(Random& random, LitWall* out) {
   const double side = random.Between(0.6, std::max(0.6, room.size[along] - 0.6));
   const double height = random.Between(0.8, 1.8);
   if (!Plain(room, wall) || room.size[across] < out->distance + 0.6) return false;
+  out->wall = wall;
   out->albedo = room.albedo[wall];
   lamp.towards = {0, 0, 0};
   lamp.towards[across] = far ? 1.0 : -1.0;

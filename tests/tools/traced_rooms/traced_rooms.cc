@@ -5,6 +5,7 @@
 //   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
 //   traced_rooms --colours ORDINARY UNSEEN  what painted walls give at eight wavelengths
 //   traced_rooms --lit_walls ORDINARY UNSEEN  what the room gives a wall that a lamp is turned to
+//   traced_rooms --lit_wall_colours ORDINARY UNSEEN  the same of painted rooms, by wavelength
 //   traced_rooms --describe N          ordinary room N as JSON: what stands where, how bright
 //   traced_rooms --check               the tracer against closed forms; ends with 1 where one fails
 //   traced_rooms --compare TABLE N     traces every Nth room of a table again, with other rays
@@ -214,6 +215,47 @@ int PrintLitWalls(int ordinary, int unseen) {
   return 0;
 }
 
+// A row a lit wall: its paint's reflectance, and what room and lamp give it in the mean of its
+// places, at each wavelength (the lamp: the same at all). The same rays at all wavelengths.
+int PrintLitWallColours(int ordinary, int unseen) {
+  std::printf("family,room,kind,direct");
+  for (const char* what : {"paint", "room"}) {
+    for (const int nm : kBands_nm) std::printf(",%s_%d", what, nm);
+  }
+  std::printf("\n");
+  const auto print = [](Family family, int number) {
+    const LitWall wall = LitWallOf(family, number);
+    if (wall.places.empty()) return;
+    const LitRoom& lit = wall.lit;
+    const RoomPaint paint = PaintOf(lit, family, number);
+    const auto places = static_cast<double>(wall.places.size());
+    std::vector<Meter> meters;
+    double direct = 0.0;
+    for (const WallPlace& place : wall.places) {
+      meters.push_back(place.meter);
+      direct += lit.lamp.DirectAt(place.meter.place, place.meter.normal) / places;
+    }
+    std::printf("%s,%d,%s,%.5g", std::string(NameOf(family)).c_str(), number,
+                std::string(NameOf(lit.lamp.kind)).c_str(), direct);
+    std::vector<Room> rooms;
+    for (const int nm : kBands_nm) rooms.push_back(RoomAt(lit.room, paint, nm));
+    const auto of_wall = static_cast<std::size_t>(wall.wall);
+    for (const Room& room : rooms) std::printf(",%.4g", room.albedo[of_wall]);
+    for (const Room& room : rooms) {
+      Random random(17000000ULL + 2 * number + (family == Family::kUnseen ? 1 : 0));
+      const TraceAnswer answer =
+          TraceLight(room, lit.lamp, meters, {0.02, 1 << 14, 1 << 16}, random);
+      double mean = 0.0;
+      for (const WallLight& light : answer.meters) mean += light.wall / places;
+      std::printf(",%.4g", mean);
+    }
+    std::printf("\n");
+  };
+  for (int i = 0; i < ordinary; ++i) print(Family::kOrdinary, i);
+  for (int i = 0; i < unseen; ++i) print(Family::kUnseen, i);
+  return 0;
+}
+
 int Compare(const char* path, int every) {
   std::ifstream table(path);
   std::string line;
@@ -265,6 +307,9 @@ int main(int argc, char** argv) {
   if (argc == 4 && std::strcmp(argv[1], "--lit_walls") == 0) {
     return traced_rooms::PrintLitWalls(std::atoi(argv[2]), std::atoi(argv[3]));
   }
+  if (argc == 4 && std::strcmp(argv[1], "--lit_wall_colours") == 0) {
+    return traced_rooms::PrintLitWallColours(std::atoi(argv[2]), std::atoi(argv[3]));
+  }
   if (argc == 4 && std::strcmp(argv[1], "--compare") == 0 && std::atoi(argv[3]) > 0) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
@@ -274,6 +319,7 @@ int main(int argc, char** argv) {
   std::fprintf(
       stderr,
       "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --colours ORDINARY "
-      "UNSEEN | --lit_walls ORDINARY UNSEEN | --describe N | --check | --compare TABLE EVERY\n");
+      "UNSEEN | --lit_walls ORDINARY UNSEEN | --lit_wall_colours ORDINARY UNSEEN | --describe N | "
+      "--check | --compare TABLE EVERY\n");
   return 2;
 }

@@ -12,6 +12,7 @@
 #include "lightcal/calibrate/captures/posed_wall.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
+#include "lightcal/fit/colour/other_light.h"
 #include "lightcal/fit/distribution/fit_distribution.h"
 #include "lightcal/fit/distribution/other_wall_light.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
@@ -76,31 +77,6 @@ double NearFieldPart(const LightDescription& light) {
   return 1.0 / AxialShapeFactor(shape, -(*light.position_m)[1]) - 1.0;
 }
 
-WallSelection SelectionOf(const CaptureDescription& capture, const WallPicture& picture) {
-  const Thinning& thinning = picture.thinning;
-  WallSelection selection;
-  const auto region = [&](const std::array<int, 4>& r) {
-    return ThinRegion({r[0], r[1], r[2], r[3]}, thinning);
-  };
-  if (capture.rect) selection.wall = region(*capture.rect);
-  // All that a mask touches: a block more on each side. A shadow's edge is soft.
-  const int block = thinning.n == 1 ? 0 : thinning.n * std::max(thinning.columns, thinning.rows);
-  const auto leave_out = [&](const std::array<int, 4>& mask, int more) {
-    const int x = std::max(0, mask[0] - more), y = std::max(0, mask[1] - more);
-    const int right =
-        std::min(std::max(picture.whole_width, mask[0] + mask[2]), mask[0] + mask[2] + more);
-    const int bottom =
-        std::min(std::max(picture.whole_height, mask[1] + mask[3]), mask[1] + mask[3] + more);
-    selection.masks.push_back(region({x, y, right - x, bottom - y}));
-  };
-  for (const auto& mask : capture.wall->masks) leave_out(mask, block);
-  for (const auto& shadow : capture.wall->shadows) {
-    leave_out(shadow, block + std::max(shadow[2], shadow[3]) / 5);
-  }
-  selection.board_hangs = capture.wall->board_frame.empty();
-  return selection;
-}
-
 Result<void> CheckLight(const LightDescription& light) {
   if (light.kind != LightKind::kPhotometric) {
     return Refused("wall_needs_photometric", light.name,
@@ -117,21 +93,6 @@ Result<void> CheckLight(const LightDescription& light) {
                        ", which is not in front of the wall: y points into it");
   }
   return {};
-}
-
-FittedColor ColorOf(const Session& session, const LightDescription& light,
-                    const CaptureDescription& capture, const WallPicture& picture,
-                    Warnings& warnings) {
-  Session with = session;
-  if (picture.xy) {
-    Reading reading;
-    reading.light = light.name;
-    reading.xy = picture.xy;
-    reading.color_source = ColorSource::kCamera;
-    reading.sigma_mired = GenericColorSigma(capture.lamp_class);
-    with.readings.push_back({std::move(reading), capture.where});
-  }
-  return fit::FitColor(with, light, nullptr, warnings).color;
 }
 
 FittedLight LightOf(const LightDescription& light, const PosedWall& wall,
@@ -244,16 +205,17 @@ struct Measured {
   FittedDistribution distribution;
   OtherLightFound other;
   double brightest_lx = 0.0;  // of the wall, other light in it
-  int saturated = 0;          // blocks left out
+  double mean_lx = 0.0, mean_other_lx = 0.0;
+  int saturated = 0;  // blocks left out
 };
 
 // What is left of the light on the wall when all that is not the lamp's own is taken off.
 Result<Measured> MeasureDistribution(const Session& session, const CaptureDescription& capture,
                                      const LightDescription& light, const PosedWall& wall) {
   WallModel model = ModelOf(light, capture, wall);
-  const auto blocks = BlocksOfWall(wall.picture.nits.view(), wall.picture.sigma_view(),
-                                   SelectionOf(capture, wall.picture), WallCamera(model.camera),
-                                   capture.wall->board);
+  const auto blocks =
+      BlocksOfWall(wall.picture.nits.view(), wall.picture.sigma_view(), wall.picture.selection,
+                   WallCamera(model.camera), capture.wall->board);
   if (!blocks) return AtCapture(capture, blocks.error());
   DistributionData data;
   data.light = light.name;
@@ -262,13 +224,15 @@ Result<Measured> MeasureDistribution(const Session& session, const CaptureDescri
   const std::vector<SeenPlace> lit = PlacesSeen(*blocks, model);
   const auto shadows = SeenInShadows(capture, wall.picture, model, lit);
   if (!shadows) return AtCapture(capture, shadows.error());
-  double mean_lx = 0.0;
-  for (const SeenPlace& place : lit) mean_lx += place.lux / static_cast<double>(lit.size());
+  const auto places = static_cast<double>(lit.size());
+  double mean_lx = 0.0, mean_other_lx = 0.0;
+  for (const SeenPlace& place : lit) mean_lx += place.lux / places;
   const OtherWallLight about{
       .foot_x_m = model.lamp_m[0], .foot_z_m = model.lamp_m[2], .distance_m = -model.lamp_m[1]};
   OtherLightFound other = FindOtherLight(PriorOfOtherLight(session, light, capture, mean_lx), seen,
                                          capture.reflectance, about, lit, *shadows);
   model.other = other.mean;
+  for (const SeenPlace& place : lit) mean_other_lx += other.mean.At(place.x_m, place.z_m) / places;
   data.samples = IntensitiesOf(*blocks, model);
   data.shifts = ShiftsOf(*capture.wall, wall, *blocks, model, other);
   const double near_field = NearFieldPart(light);
@@ -282,8 +246,38 @@ Result<Measured> MeasureDistribution(const Session& session, const CaptureDescri
   data.scale_sd = std::hypot(wall.picture.scale_sd, reflectance_sd);
   auto found = FitDistribution(data);
   if (!found) return AtCapture(capture, found.error());
-  return Measured{*std::move(found), std::move(other),
-                  std::ranges::max(lit, {}, &SeenPlace::lux).lux, blocks->saturated};
+  return Measured{
+      *std::move(found), std::move(other), std::ranges::max(lit, {}, &SeenPlace::lux).lux,
+      mean_lx,           mean_other_lx,    blocks->saturated};
+}
+
+// Shares of what the wall shows in the mean.
+fit::OtherShares SharesOf(const Measured& measured) {
+  const OtherLightFound& other = measured.other;
+  fit::OtherShares out;
+  if (!(other.mean.lux > 0.0)) return out;
+  const double share = std::min(1.0, measured.mean_other_lx / measured.mean_lx);
+  out.walls = share * other.of_room;
+  out.common = (1.0 - out.walls) * other.sd_lx / other.mean.lux;
+  out.ambient = share * other.of_ambient;
+  return out;
+}
+
+FittedColor ColorOf(const Session& session, const LightDescription& light,
+                    const CaptureDescription& capture, const WallPicture& picture,
+                    const fit::OtherShares& shares, const FittedLight& found, Warnings& warnings) {
+  const fit::OtherLight others(session, light, found);
+  if (!picture.color) return fit::FitColor(session, light, &others, warnings).color;
+  const auto& paint = capture.wall->paint_srgb;
+  const fit::ColorOffWall seen{XyFromXyz(*picture.color), GenericColorSigma(capture.lamp_class),
+                               fit::TintOfPaint(paint), shares};
+  if (!paint) {
+    warnings.push_back({"paint_unknown", capture.where,
+                        "a wall's paint tints the light it throws back: its colour is taken for "
+                        "what most walls' is, and the doubt is in the colour's interval; give "
+                        "wall.paint_srgb = [red, green, blue], as the paint's maker prints it"});
+  }
+  return fit::FitColor(session, light, &others, warnings, CctMethod::kExact, &seen).color;
 }
 
 // Said where light beside the lamp's own is most of an interval's variance.
@@ -337,12 +331,12 @@ Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription
   if (!measured) return Propagate(std::move(measured));
   WarnOf(light, capture, *wall, measured->saturated, measured->distribution, evidence.warnings);
   WarnOfOtherLight(capture, *measured, evidence.warnings);
-  FittedColor color = ColorOf(session, light, capture, wall->picture, evidence.warnings);
   EffectReport other = OtherLightReport(session, capture, *measured);
+  const fit::OtherShares shares = SharesOf(*measured);
   FittedLight out = LightOf(light, *wall, std::move(measured->distribution),
                             light.aim.value_or(Vec3{0.0, 1.0, 0.0}));
   out.effects = {std::move(other)};
-  out.color = std::move(color);
+  out.color = ColorOf(session, light, capture, wall->picture, shares, out, evidence.warnings);
   return out;
 }
 

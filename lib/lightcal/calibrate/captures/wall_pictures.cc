@@ -65,19 +65,85 @@ double StatedScaleSd(const FrameInfo& info) {
   return kPictureScaleSd;
 }
 
-Result<WallPicture> FromAbsolutePicture(const FrameInfo& info, const Sources& sources,
-                                        Evidence& evidence) {
+WallSelection SelectionOf(const CaptureDescription& capture, const FrameInfo& info,
+                          const Thinning& thinning) {
+  WallSelection selection;
+  const auto region = [&](const std::array<int, 4>& r) {
+    return ThinRegion({r[0], r[1], r[2], r[3]}, thinning);
+  };
+  if (capture.rect) selection.wall = region(*capture.rect);
+  // All that a mask touches: a block more on each side. A shadow's edge is soft.
+  const int block = thinning.n == 1 ? 0 : thinning.n * std::max(thinning.columns, thinning.rows);
+  const auto leave_out = [&](const std::array<int, 4>& mask, int more) {
+    const int x = std::max(0, mask[0] - more), y = std::max(0, mask[1] - more);
+    const int right = std::min(std::max(info.width, mask[0] + mask[2]), mask[0] + mask[2] + more);
+    const int bottom = std::min(std::max(info.height, mask[1] + mask[3]), mask[1] + mask[3] + more);
+    selection.masks.push_back(region({x, y, right - x, bottom - y}));
+  };
+  for (const auto& mask : capture.wall->masks) leave_out(mask, block);
+  for (const auto& shadow : capture.wall->shadows) {
+    leave_out(shadow, block + std::max(shadow[2], shadow[3]) / 5);
+  }
+  selection.board_hangs = capture.wall->board_frame.empty();
+  return selection;
+}
+
+// Mean of the channels of what shows the wall, the board included: paper and ink have no colour.
+Column3 MeanOfWall(View2d<const float> rgb, const WallSelection& selection) {
+  const auto holds = [](const Region& r, int x, int y) {
+    return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
+  };
+  const Region all = selection.wall.value_or(Region{0, 0, rgb.width(), rgb.height()});
+  Column3 sum{};
+  double count = 0.0;
+  for (int y = 0; y < rgb.height(); ++y) {
+    for (int x = 0; x < rgb.width(); ++x) {
+      const auto masked = [&](const Region& mask) { return holds(mask, x, y); };
+      if (!holds(all, x, y) || std::ranges::any_of(selection.masks, masked)) continue;
+      for (int c = 0; c < 3; ++c) {
+        sum[static_cast<std::size_t>(c)] += double{rgb(x, y, rgb.channels() == 3 ? c : 0)};
+      }
+      count += 1.0;
+    }
+  }
+  for (double& channel : sum) channel /= std::max(1.0, count);
+  return sum;
+}
+
+Xyz MeanColor(View2d<const float> rgb, const WallSelection& selection,
+              const Matrix3& xyz_from_rgb) {
+  const Column3 xyz = Times(xyz_from_rgb, MeanOfWall(rgb, selection));
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+// Of a linear picture; none where it has no colour.
+Result<std::optional<Xyz>> ColorOfFrame(const Frame& frame, const WallSelection& selection,
+                                        double nits_per_unit) {
+  const auto color = ColorOfPicture(frame.info);
+  if (!color) return tl::unexpected(color.error());
+  const auto* const samples = std::get_if<View2d<const float>>(&frame.samples);
+  if (!color->has_colour || samples == nullptr || samples->channels() != 3) return std::nullopt;
+  const Xyz mean = MeanColor(*samples, selection, color->xyz_from_rgb);
+  return Xyz{nits_per_unit * mean.X, nits_per_unit * mean.Y, nits_per_unit * mean.Z};
+}
+
+Result<WallPicture> FromAbsolutePicture(const CaptureDescription& capture, const FrameInfo& info,
+                                        const Sources& sources, Evidence& evidence) {
   const auto frame = sources.load_frame(info);
   if (!frame) return tl::unexpected(frame.error());
   auto luminance = LuminanceOfPicture(*frame);
   if (!luminance) return Propagate(std::move(luminance));
+  WallPicture out;
+  out.selection = SelectionOf(capture, info, out.thinning);
+  auto color = ColorOfFrame(*frame, out.selection, luminance->nits_per_unit);
+  if (!color) return tl::unexpected(color.error());
   evidence.AddWarnings(luminance->warnings);
   evidence.AddFile(info.file);
-  WallPicture out;
   out.nits = {luminance->width, luminance->height, std::move(luminance->nits), info.focal_length};
   out.whole_width = info.width;
   out.whole_height = info.height;
   out.scale_sd = StatedScaleSd(info);
+  out.color = *color;
   out.camera = info.camera;
   out.time = info.time;
   return out;
@@ -96,16 +162,11 @@ Result<void> ScaleByAnchor(const Session& session, const CaptureDescription& cap
     if (picture == nullptr) continue;
     for (float& value : picture->nits.values) value *= factor;
     for (float& sigma : picture->sigma) sigma *= factor;
+    if (auto& c = picture->color) c = Xyz{factor * c->X, factor * c->Y, factor * c->Z};
   }
   lit.scale_sd = AnchorSigma(session, capture);
   lit.scale_source = ScaleSource::kAnchor;
   return {};
-}
-
-double MeanOf(const std::vector<float>& values) {
-  double sum = 0.0;
-  for (const float value : values) sum += double{value};
-  return sum / static_cast<double>(values.size());
 }
 
 // What the lamp adds to what shines without it, in luminance and colour.
@@ -115,13 +176,10 @@ Result<void> Subtract(const WallPicture& off, const CaptureDescription& capture,
                    "the pictures with the lamp off and the frames differ in size; one camera must "
                    "take both, from one place");
   }
-  if (lit.xy && off.xy) {
-    const double whole = MeanOf(lit.nits.values) / lit.xy->y;
-    const double rest = MeanOf(off.nits.values) / off.xy->y;
-    const double y = whole * lit.xy->y - rest * off.xy->y;
-    if (y > 0.0 && whole > rest) {
-      lit.xy = Xy{(whole * lit.xy->x - rest * off.xy->x) / (whole - rest), y / (whole - rest)};
-    }
+  if (lit.color && off.color) {
+    const Xyz left = {lit.color->X - off.color->X, lit.color->Y - off.color->Y,
+                      lit.color->Z - off.color->Z};
+    if (std::min({left.X, left.Y, left.Z}) > 0.0) lit.color = left;
   }
   for (std::size_t i = 0; i < lit.nits.values.size(); ++i) {
     lit.nits.values[i] -= off.nits.values[i];
@@ -130,18 +188,6 @@ Result<void> Subtract(const WallPicture& off, const CaptureDescription& capture,
     }
   }
   return {};
-}
-
-// Mean of what the frames show, as the lamp's colour: the wall is taken to be neutral.
-Xyz MeanColor(const MergedBracket& merged) {
-  Xyz sum{};
-  const std::size_t pixels = merged.picture.size() / static_cast<std::size_t>(merged.channels);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const Xyz xyz = XyzFromLinearRgb(RgbAt(merged, i), RgbSpace::kSrgb);
-    sum = {sum.X + xyz.X, sum.Y + xyz.Y, sum.Z + xyz.Z};
-  }
-  const auto count = static_cast<double>(pixels);
-  return {sum.X / count, sum.Y / count, sum.Z / count};
 }
 
 Result<WallPicture> FromBracket(const Session& session, const CaptureDescription& capture,
@@ -162,15 +208,18 @@ Result<WallPicture> FromBracket(const Session& session, const CaptureDescription
   if (!picture) return Propagate(std::move(picture));
   MergedBracket& merged = picture->merged;
   evidence.AddWarnings(merged.warnings);
-  const Xyz seen = MeanColor(merged);
+  WallPicture out;
+  out.thinning = picture->thinning;
+  out.selection = SelectionOf(capture, picture->info, out.thinning);
+  const View2d<const float> rgb(merged.picture.data(), merged.width, merged.height,
+                                merged.channels);
+  const Xyz seen = MeanColor(rgb, out.selection, XyzFromRgbMatrix(RgbSpace::kSrgb));
   const auto lamp = LuminanceOfLamp(session, capture, *picture, seen, sources);
   if (!lamp) return tl::unexpected(lamp.error());
   AddCapture(session, capture, merged, evidence);
   const double factor = anchor ? 1.0 : lamp->nits / seen.Y;
   const FrameInfo& info = picture->info;
-  WallPicture out;
   out.nits = {merged.width, merged.height, LuminanceOf(merged, factor), info.focal_length};
-  out.thinning = picture->thinning;
   out.whole_width = info.width;
   out.whole_height = info.height;
   out.sigma = std::move(merged.sigma);
@@ -178,7 +227,11 @@ Result<WallPicture> FromBracket(const Session& session, const CaptureDescription
   out.scale_sd = std::hypot(merged.scale_u95_relative / kZ95, anchor ? 0.0 : lamp->sigma);
   out.scale_source = merged.scale_source;
   out.flat = merged.corrections.flat().has_value();
-  out.xy = lamp->xy;
+  if (lamp->xy) {
+    const Xyz unit = XyzFromXyAtUnitY(*lamp->xy);
+    const double nits = factor * seen.Y;
+    out.color = Xyz{nits * unit.X, nits, nits * unit.Z};
+  }
   out.camera = info.camera;
   out.time = info.time;
   return out;
@@ -195,7 +248,7 @@ Result<WallPicture> ReadPicture(const Session& session, const CaptureDescription
                         first.white_luminance.has_value();
   // In cd/m^2 already: how long it was exposed does not matter.
   if (!absolute) return FromBracket(session, capture, *bracket, sources, evidence);
-  auto picture = FromAbsolutePicture(first, sources, evidence);
+  auto picture = FromAbsolutePicture(capture, first, sources, evidence);
   if (!picture || !capture.anchor_illuminance) return picture;
   if (auto scaled = ScaleByAnchor(session, capture, *picture, nullptr); !scaled) {
     return Propagate(std::move(scaled));

@@ -12,6 +12,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/view2d.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/scene/wall_samples.h"
 #include "lightcal/records/scale_source.h"
 #include "lightcal/records/session.h"
 #include "lightcal/records/sources.h"
@@ -39,7 +40,8 @@ struct WallPicture {
   double scale_sd = 0.0;     // relative, common to all pixels, reflectance left out
   ScaleSource scale_source = ScaleSource::kPicture;
   bool flat = false;         // the camera's profile took the lens's falloff out
-  std::optional<Xy> xy;      // of the wall's light, by the camera
+  WallSelection selection;   // what of it shows the wall
+  std::optional<Xyz> color;  // mean of that, cd/m^2, by the camera
   std::string camera, time;  // "" = unknown
 
   [[nodiscard]] View2d<const float> sigma_view() const {

@@ -59,17 +59,40 @@ Estimate2 FromTemperature(const Reading& reading) {
   return out;
 }
 
+Estimate2 ByCamera(const Vector2& xy, double sigma_mired, CctMethod method) {
+  Vector2 mired_duv;
+  if (!MiredDuvOf(xy, method, mired_duv)) {
+    return {xy, kSigmaXyUnknown * kSigmaXyUnknown * Matrix2::Identity()};
+  }
+  const Matrix2 jacobian = XyByMiredDuv(mired_duv);
+  const Vector2 variances(sigma_mired * sigma_mired, kSigmaDuvCamera * kSigmaDuvCamera);
+  return {xy, jacobian * variances.asDiagonal() * jacobian.transpose()};
+}
+
 Estimate2 FromChromaticity(const Reading& reading, CctMethod method) {
   const Vector2 xy(reading.xy->x, reading.xy->y);
-  Vector2 mired_duv;
-  if (reading.color_source == ColorSource::kCamera && MiredDuvOf(xy, method, mired_duv)) {
-    const Matrix2 jacobian = XyByMiredDuv(mired_duv);
-    const Vector2 variances(SigmaMired(reading) * SigmaMired(reading),
-                            kSigmaDuvCamera * kSigmaDuvCamera);
-    return {xy, jacobian * variances.asDiagonal() * jacobian.transpose()};
+  if (reading.color_source == ColorSource::kCamera) {
+    return ByCamera(xy, SigmaMired(reading), method);
   }
   const double sigma = SigmaXy(reading.color_source);
   return {xy, sigma * sigma * Matrix2::Identity()};
+}
+
+ColorReading FromWall(const ColorOffWall& wall, CctMethod method) {
+  ColorReading out;
+  const double by_room = kRoomFollowsPaint * wall.others.walls;
+  SurfaceTint paint = wall.paint;
+  paint.ln_x += by_room * (wall.paint.ln_x - kTintOfPaint.ln_x);
+  paint.ln_z += by_room * (wall.paint.ln_z - kTintOfPaint.ln_z);
+  paint.sd_x *= 1.0 + by_room;
+  paint.sd_z *= 1.0 + by_room;
+  const Vector2 lamp = Tinted({wall.seen.x, wall.seen.y}, -paint.ln_x, -paint.ln_z);
+  const Matrix2 by_tint = XyByTint(lamp);
+  out.in_xy = ByCamera(lamp, wall.sigma.value(), method);
+  out.in_xy.covariance += by_tint * CovarianceOf(paint) * by_tint.transpose();
+  out.instrument = {"", ColorSource::kCamera};
+  out.others = wall.others;
+  return out;
 }
 
 // What makes a colour temperature none, "" where it is one.
@@ -150,6 +173,27 @@ Vector2 XyFromMiredDuv(const Vector2& mired_duv) {
   return {xy.x, xy.y};
 }
 
+Vector2 Tinted(const Vector2& xy, double ln_x, double ln_z) {
+  const double x = xy[0] / xy[1] * std::exp(ln_x);
+  const double z = std::max(0.0, (1.0 - xy[0] - xy[1]) / xy[1]) * std::exp(ln_z);
+  return Vector2(x, 1.0) / (x + 1.0 + z);
+}
+
+// With x = X/(X + Y + Z): d x = x (1 - x) d ln X - x z d ln Z, d y = -y (x d ln X + z d ln Z).
+Matrix2 XyByTint(const Vector2& xy) {
+  const double x = xy[0], y = xy[1], z = std::max(0.0, 1.0 - xy[0] - xy[1]);
+  Matrix2 out;
+  out << x * (1.0 - x), -x * z, -x * y, -z * y;
+  return out;
+}
+
+Matrix2 CovarianceOf(const SurfaceTint& tint) {
+  const double cross = tint.correlation * tint.sd_x * tint.sd_z;
+  Matrix2 out;
+  out << tint.sd_x * tint.sd_x, cross, cross, tint.sd_z * tint.sd_z;
+  return out;
+}
+
 // d(x, y)/d(mired, Duv), central differences: the locus is smooth on this scale.
 Matrix2 XyByMiredDuv(const Vector2& at) {
   const Vector2 mired_step(0.05, 0.0);
@@ -169,9 +213,10 @@ bool MiredDuvOf(const Vector2& xy, CctMethod method, Vector2& out) {
 }
 
 std::vector<ColorReading> CollectColors(const Session& session, const LightDescription& light,
-                                        const OtherLight* others, CctMethod method,
-                                        Warnings& warnings) {
+                                        const OtherLight* others, const ColorOffWall* off_wall,
+                                        CctMethod method, Warnings& warnings) {
   std::vector<ColorReading> out;
+  if (off_wall != nullptr) out.push_back(FromWall(*off_wall, method));
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
     const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;

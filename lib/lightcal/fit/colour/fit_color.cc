@@ -72,10 +72,10 @@ std::string NoteOfOthers(const std::vector<ColorReading>& readings, const ColorF
 }  // namespace
 
 ColorFit FitColor(const Session& session, const LightDescription& light, const OtherLight* others,
-                  Warnings& warnings, CctMethod method) {
+                  Warnings& warnings, CctMethod method, const ColorOffWall* off_wall) {
   ColorFit out;
   const std::vector<ColorReading> readings =
-      CollectColors(session, light, others, method, warnings);
+      CollectColors(session, light, others, off_wall, method, warnings);
   if (std::ranges::none_of(readings, [](const ColorReading& one) { return one.lit; })) return out;
   const SharedColor found = SolveSharedColor(readings, method);
   WarnOfDisagreement(found, light.name, warnings);

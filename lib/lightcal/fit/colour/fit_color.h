@@ -6,6 +6,7 @@
 
 #include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/core/result.h"
+#include "lightcal/fit/colour/off_wall.h"
 #include "lightcal/fit/colour/other_light.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
@@ -39,10 +40,12 @@ struct ColorFit {
 // and one kind of source share their error: more of them do not lower it, their scatter adds to it.
 // Walls and ambient light tint what a meter sees: `others` (null: nothing but the lamp shone) says
 // how much of each reading they are, and readings at several distances, behind the card or with the
-// lamp off tell how (shared_color.h). Where a chromaticity has no CCT that is withheld with the
-// warning cct_withheld. Empty when no reading of the lamp holds colour.
+// lamp off tell how (shared_color.h). `off_wall`: what a camera saw besides, on a wall. Where a
+// chromaticity has no CCT that is withheld with the warning cct_withheld. Empty when no reading of
+// the lamp holds colour.
 [[nodiscard]] ColorFit FitColor(const Session& session, const LightDescription& light,
                                 const OtherLight* others, Warnings& warnings,
-                                CctMethod method = CctMethod::kExact);
+                                CctMethod method = CctMethod::kExact,
+                                const ColorOffWall* off_wall = nullptr);
 
 }  // namespace lightcal::fit

@@ -110,25 +110,18 @@ bool TakeToMired(Bundles& bundles, CctMethod method) {
   return true;
 }
 
-// What walls do to a lamp of chromaticity xy.
+// What a room does to a lamp of chromaticity xy.
 struct TintAt {
   Vector2 mean;
   Matrix2 covariance, from_place;
 };
 TintAt TintOf(const Vector2& xy) {
-  const WallTint& tint = kWallTint;
-  const double x = xy[0] / xy[1] * std::exp(tint.ln_x);
-  const double z = std::max(0.0, (1.0 - xy[0] - xy[1]) / xy[1]) * std::exp(tint.ln_z);
-  const double sum = x + 1.0 + z;
-  Matrix2 by_ln;  // d(x, y)/d(ln X, ln Z)
-  by_ln << x / sum * (1.0 - x / sum), -x * z / (sum * sum), -x / (sum * sum), -z / (sum * sum);
-  Matrix2 prior;
-  const double cross = tint.correlation * tint.sd_x * tint.sd_z;
-  prior << tint.sd_x * tint.sd_x, cross, cross, tint.sd_z * tint.sd_z;
+  const Vector2 tinted = Tinted(xy, kTintOfRoom.ln_x, kTintOfRoom.ln_z);
+  const Matrix2 by_tint = XyByTint(tinted);
   const Matrix2 place =
-      Vector2(tint.place_x * tint.place_x, tint.place_z * tint.place_z).asDiagonal();
-  return {Vector2(x, 1.0) / sum - xy, by_ln * prior * by_ln.transpose(),
-          by_ln * place * by_ln.transpose()};
+      Vector2(kRoomTintPlaceX * kRoomTintPlaceX, kRoomTintPlaceZ * kRoomTintPlaceZ).asDiagonal();
+  return {tinted - xy, by_tint * CovarianceOf(kTintOfRoom) * by_tint.transpose(),
+          by_tint * place * by_tint.transpose()};
 }
 
 Matrix2 CovarianceOfWhites() {

@@ -23,6 +23,10 @@ namespace lightcal {
 namespace {
 
 using Vector4 = Eigen::Vector4d;  // lux, by_x, by_z, by_r2
+struct Drawn {
+  Vector4 other;
+  double room_lx = 0.0, ambient_lx = 0.0;  // of its lux
+};
 using Matrix4 = Eigen::Matrix4d;
 
 constexpr double kPi = std::numbers::pi;
@@ -67,32 +71,39 @@ class Draws {
   Draws(const OtherLightPrior& prior, const LampAsSeen& seen, double reflectance)
       : prior_(prior), seen_(seen), reflectance_(reflectance) {}
 
-  // E_other given that it is at most `most`.
-  double Lux(double most) {
+  // E_other = room + ambient + glare given that it is at most `most`.
+  struct Parts {
+    double room_lx = 0.0, ambient_lx = 0.0, glare_lx = 0.0;
+  };
+  Parts PartsBelow(double most) {
     const double glare = std::min(most, Between(prior_.least_glare_lx, prior_.most_glare_lx));
-    const double ambient = glare + Between(0.0, std::min(prior_.most_ambient_lx, most - glare));
-    const double beyond = std::exp(prior_.ln_beyond + prior_.sd_beyond * normal_(random_)) * kPi *
-                          std::cos(seen_.half_angle_rad);
-    const double share = Between(0.0, 1.0);
-    const double room_most = most - ambient;
-    if (!prior_.room || !(room_most > 0.0)) return ambient;
-    // E = k (loose - E loose_per_lx) + ambient, both of the lamp without that light.
-    const double loose = Loose(seen_.flux_lm, seen_.edge_cd, beyond);
-    const double per_lx = Loose(seen_.flux_lm_per_lx, seen_.edge_cd_per_lx, beyond);
-    const double left = std::max(0.0, loose - ambient * per_lx);
-    const double highest = left > room_most * per_lx
-                               ? std::log(room_most / (left - room_most * per_lx))
-                               : std::numeric_limits<double>::infinity();
-    const double z = (highest - prior_.room->ln_k) / prior_.room->sd;
-    const double drawn = std::min(z, StandardNormalBelow(share * ShareBelow(z)));
-    const double k = std::exp(prior_.room->ln_k + prior_.room->sd * drawn);
-    return ambient + k * left / (1.0 + k * per_lx);
+    const double ambient = Between(0.0, std::min(prior_.most_ambient_lx, most - glare));
+    return {Room(most, glare + ambient), ambient, glare};
   }
   double Normal() { return normal_(random_); }
 
  private:
   double Between(double low, double high) {
     return low + (high - low) * static_cast<double>(random_()) * 0x1p-64;
+  }
+  // Beside `others`.
+  double Room(double most, double others) {
+    const double beyond = std::exp(prior_.ln_beyond + prior_.sd_beyond * normal_(random_)) * kPi *
+                          std::cos(seen_.half_angle_rad);
+    const double share = Between(0.0, 1.0);
+    const double room_most = most - others;
+    if (!prior_.room || !(room_most > 0.0)) return 0.0;
+    // E = k (loose - E loose_per_lx) + others, both of the lamp without that light.
+    const double loose = Loose(seen_.flux_lm, seen_.edge_cd, beyond);
+    const double per_lx = Loose(seen_.flux_lm_per_lx, seen_.edge_cd_per_lx, beyond);
+    const double left = std::max(0.0, loose - others * per_lx);
+    const double highest = left > room_most * per_lx
+                               ? std::log(room_most / (left - room_most * per_lx))
+                               : std::numeric_limits<double>::infinity();
+    const double z = (highest - prior_.room->ln_k) / prior_.room->sd;
+    const double drawn = std::min(z, StandardNormalBelow(share * ShareBelow(z)));
+    const double k = std::exp(prior_.room->ln_k + prior_.room->sd * drawn);
+    return k * left / (1.0 + k * per_lx);
   }
   [[nodiscard]] double Loose(double flux, double edge, double beyond) const {
     return reflectance_ * flux + beyond * edge;
@@ -150,11 +161,11 @@ std::vector<SeenPlace> Darkest(const std::vector<SeenPlace>& lit) {
   return out;
 }
 
-std::vector<Vector4> Draw(const OtherLightPrior& prior, const LampAsSeen& seen, double reflectance,
-                          const OtherWallLight& about, const std::vector<SeenPlace>& lit) {
+std::vector<Drawn> Draw(const OtherLightPrior& prior, const LampAsSeen& seen, double reflectance,
+                        const OtherWallLight& about, const std::vector<SeenPlace>& lit) {
   const std::vector<SeenPlace> darkest = Darkest(lit);
   Draws draws(prior, seen, reflectance);
-  std::vector<Vector4> out;
+  std::vector<Drawn> out;
   out.reserve(kDraws);
   for (int i = 0; i < kDraws; ++i) {
     Vector4 one(1.0, kSlope * draws.Normal(), kSlope * draws.Normal(),
@@ -164,8 +175,9 @@ std::vector<Vector4> Draw(const OtherLightPrior& prior, const LampAsSeen& seen, 
     for (const SeenPlace& place : darkest) {
       most = std::min(most, place.lux / shape.At(place.x_m, place.z_m));
     }
-    one[0] = draws.Lux(most);
-    out.push_back(one);
+    const Draws::Parts parts = draws.PartsBelow(most);
+    one[0] = parts.glare_lx + parts.ambient_lx + parts.room_lx;
+    out.push_back({one, parts.room_lx, parts.ambient_lx});
   }
   return out;
 }
@@ -174,32 +186,33 @@ struct Moments {
   Vector4 mean = Vector4::Zero();
   Matrix4 covariance = Matrix4::Zero();
 };
-Moments MomentsOf(const std::vector<Vector4>& draws) {
+Moments MomentsOf(const std::vector<Drawn>& draws) {
   const auto n = static_cast<double>(draws.size());
   Moments out;
-  for (const Vector4& one : draws) out.mean += one / n;
-  for (const Vector4& one : draws) {
-    out.covariance += (one - out.mean) * (one - out.mean).transpose() / n;
+  for (const Drawn& one : draws) out.mean += one.other / n;
+  for (const Drawn& one : draws) {
+    const Vector4 off = one.other - out.mean;
+    out.covariance += off * off.transpose() / n;
   }
   return out;
 }
 
-OtherLightFound FromDraws(const OtherWallLight& about, const std::vector<Vector4>& draws) {
+OtherLightFound FromDraws(const OtherWallLight& about, const std::vector<Drawn>& draws) {
   const Moments moments = MomentsOf(draws);
   OtherLightFound out = FoundOf(about, moments.mean, moments.covariance);
   std::vector<double> lux;
   lux.reserve(draws.size());
-  for (const Vector4& one : draws) lux.push_back(one[0]);
+  for (const Drawn& one : draws) lux.push_back(one.other[0]);
   constexpr double kAbove = 0.975;
   out.most_lx = Quantile(lux, kAbove);
   return out;
 }
 
 // ln E of a shadow is linear in ln lux and the shape, whose draws are the prior of both.
-OtherLightFound FromShadows(const OtherWallLight& about, std::vector<Vector4> draws,
+OtherLightFound FromShadows(const OtherWallLight& about, std::vector<Drawn> draws,
                             const std::vector<SeenPlace>& shadows) {
   constexpr double kLeastLux = 1e-6, kLeastVariance = 1e-4, kConflict = 9.0;
-  for (Vector4& one : draws) one[0] = std::log(std::max(kLeastLux, one[0]));
+  for (Drawn& one : draws) one.other[0] = std::log(std::max(kLeastLux, one.other[0]));
   Moments prior = MomentsOf(draws);
   // What the session denies, a shadow may show all the same.
   double& variance = prior.covariance(0, 0);
@@ -299,8 +312,19 @@ OtherLightFound FindOtherLight(const OtherLightPrior& prior, const LampAsSeen& s
                                double reflectance, const OtherWallLight& about,
                                const std::vector<SeenPlace>& lit,
                                const std::vector<SeenPlace>& shadows) {
-  std::vector<Vector4> draws = Draw(prior, seen, reflectance, about, lit);
-  return shadows.empty() ? FromDraws(about, draws) : FromShadows(about, std::move(draws), shadows);
+  std::vector<Drawn> draws = Draw(prior, seen, reflectance, about, lit);
+  double all_lx = 0.0, room_lx = 0.0, ambient_lx = 0.0;
+  for (const Drawn& one : draws) {
+    all_lx += one.other[0];
+    room_lx += one.room_lx;
+    ambient_lx += one.ambient_lx;
+  }
+  OtherLightFound out =
+      shadows.empty() ? FromDraws(about, draws) : FromShadows(about, std::move(draws), shadows);
+  if (!(all_lx > 0.0)) return out;
+  out.of_room = room_lx / all_lx;
+  out.of_ambient = ambient_lx / all_lx;
+  return out;
 }
 
 }  // namespace lightcal

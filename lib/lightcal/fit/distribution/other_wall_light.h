@@ -50,6 +50,8 @@ struct OtherLightFound {
   OtherWallLight mean;
   std::vector<OtherWallLight> shifts;  // one standard deviation off, each independent of the others
   double sd_lx = 0.0;                  // of mean.lux
+  double of_room = 0.0;                // part of mean.lux that the room throws back,
+  double of_ambient = 0.0;             // and that others shine; the rest is the lens's glare
   double most_lx = 0.0;                // 97.5 % of it are below
 };
 

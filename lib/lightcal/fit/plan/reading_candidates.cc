@@ -8,6 +8,7 @@
 
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/light/models/receiver.h"
+#include "lightcal/light/scene.h"
 
 namespace lightcal::fit {
 namespace {

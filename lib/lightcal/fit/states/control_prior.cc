@@ -172,13 +172,13 @@ bool ControlPrior::HasOthers() const {
 
 std::vector<LevelForm> ControlPrior::Forms() const {
   if (target_ != CurveTarget::kLnLight || !HasLevels()) return {LevelForm{}};
-  constexpr double kStep = 0.2;
+  constexpr double kLnStep = 0.2;
   const double smallest = std::max(least_, 0.01);
   const double end = std::log(12.0 * smallest + 0.3);
   std::vector<LevelForm> forms;
-  for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kStep) {
+  for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kLnStep) {
     const double above = std::exp(ln);
-    LevelForm form{static_cast<int>(formed_), above - least_, 0.5 * kStep * above, 1.0, 0.02, 1.0};
+    LevelForm form{static_cast<int>(formed_), above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
     forms.push_back(form);
     form.power = 2.0;
     form.power_sd = 1.2;
