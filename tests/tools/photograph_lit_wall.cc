@@ -5,8 +5,8 @@
 // the lamp from the wall sets the scale of all: the board's squares are .03 of it. `place GAMMA
 // AZIMUTH LX` what the room throws onto a place of the wall as the lamp sees it; between places it
 // is interpolated. The lamp shines `candela` straight ahead, elsewhere as cos^`power`, or as a bulb
-// with a base (traced_rooms/lamp.h). With `lamp_red`, `_green`, `_blue` and `room_red` ... the picture
-// has these colours where the lamp, and where the room lights the wall.
+// with a base (traced_rooms/lamp.h). With `lamp_red`, `_green`, `_blue` and `room_red` ... the
+// picture has these colours where the lamp, and where the room lights the wall.
 #include <algorithm>
 #include <array>
 #include <cmath>

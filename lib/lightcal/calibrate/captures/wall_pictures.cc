@@ -116,6 +116,11 @@ Xyz MeanColor(View2d<const float> rgb, const WallSelection& selection,
   return {xyz[0], xyz[1], xyz[2]};
 }
 
+// What is no colour of light, of a wall that is dark or masked as a whole, is none.
+std::optional<Xyz> LightOrNone(const Xyz& color) {
+  return std::min({color.X, color.Y, color.Z}) > 0.0 ? std::optional(color) : std::nullopt;
+}
+
 // Of a linear picture; none where it has no colour.
 Result<std::optional<Xyz>> ColorOfFrame(const Frame& frame, const WallSelection& selection,
                                         double nits_per_unit) {
@@ -124,7 +129,7 @@ Result<std::optional<Xyz>> ColorOfFrame(const Frame& frame, const WallSelection&
   const auto* const samples = std::get_if<View2d<const float>>(&frame.samples);
   if (!color->has_colour || samples == nullptr || samples->channels() != 3) return std::nullopt;
   const Xyz mean = MeanColor(*samples, selection, color->xyz_from_rgb);
-  return Xyz{nits_per_unit * mean.X, nits_per_unit * mean.Y, nits_per_unit * mean.Z};
+  return LightOrNone({nits_per_unit * mean.X, nits_per_unit * mean.Y, nits_per_unit * mean.Z});
 }
 
 Result<WallPicture> FromAbsolutePicture(const CaptureDescription& capture, const FrameInfo& info,
@@ -177,9 +182,8 @@ Result<void> Subtract(const WallPicture& off, const CaptureDescription& capture,
                    "take both, from one place");
   }
   if (lit.color && off.color) {
-    const Xyz left = {lit.color->X - off.color->X, lit.color->Y - off.color->Y,
-                      lit.color->Z - off.color->Z};
-    if (std::min({left.X, left.Y, left.Z}) > 0.0) lit.color = left;
+    lit.color = LightOrNone(
+        {lit.color->X - off.color->X, lit.color->Y - off.color->Y, lit.color->Z - off.color->Z});
   }
   for (std::size_t i = 0; i < lit.nits.values.size(); ++i) {
     lit.nits.values[i] -= off.nits.values[i];
@@ -230,7 +234,7 @@ Result<WallPicture> FromBracket(const Session& session, const CaptureDescription
   if (lamp->xy) {
     const Xyz unit = XyzFromXyAtUnitY(*lamp->xy);
     const double nits = factor * seen.Y;
-    out.color = Xyz{nits * unit.X, nits, nits * unit.Z};
+    out.color = LightOrNone({nits * unit.X, nits, nits * unit.Z});
   }
   out.camera = info.camera;
   out.time = info.time;

@@ -178,7 +178,8 @@ std::vector<LevelForm> ControlPrior::Forms() const {
   std::vector<LevelForm> forms;
   for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kLnStep) {
     const double above = std::exp(ln);
-    LevelForm form{static_cast<int>(formed_), above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
+    LevelForm form{
+        static_cast<int>(formed_), above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
     forms.push_back(form);
     form.power = 2.0;
     form.power_sd = 1.2;
