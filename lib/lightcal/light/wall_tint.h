@@ -25,8 +25,7 @@ inline constexpr double kRoomTintPlaceX = 0.009, kRoomTintPlaceZ = 0.055;  // 1 
 // prints are of 8 bits, paint ages, and another lamp's spectrum sees it otherwise.
 inline constexpr SurfaceTint kTintOfPaint = {0.009, 0.032, -0.112, 0.13, -0.75};
 inline constexpr double kToldPaintSdX = 0.02, kToldPaintSdZ = 0.05;
-// The other walls have that paint too: what it is off its mean, in ln, the room is by this part of
-// it
+// The other walls have that paint too: what it is off its mean, in ln, the room is off by this part
 // (.57 and .71 of those rooms, .79 and .72 of unseen ones).
 inline constexpr double kRoomFollowsPaint = 0.7;
 

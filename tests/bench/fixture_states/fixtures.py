@@ -51,6 +51,16 @@ def cct_of(xyz):
     return 1e6 / (LOCUS_MIRED[i] + 0.5 * step * (a - c) / (a - 2 * b + c))
 
 
+def uv60(xyz):
+    return np.array([4 * xyz[0], 6 * xyz[1]]) / (xyz @ [1, 15, 3])
+
+
+def mired_duv(xyz):
+    kelvin = cct_of(xyz)
+    off = uv60(xyz) - uv60(planck(kelvin))
+    return 1e6 / kelvin, np.hypot(*off) * np.sign(off[1])
+
+
 def pieces(random, count, spread):
     at = np.concatenate([[0], np.sort(random.uniform(0.05, 0.95, count)), [1]])
     slopes = np.exp(random.normal(0, spread, count + 1))

@@ -26,7 +26,6 @@ bool Carry(Random& random, LitWall* out) {
   const double height = random.Between(0.8, 1.8);
   if (!Plain(room, wall) || room.size[across] < out->distance + 0.6) return false;
   out->wall = wall;
-  out->albedo = room.albedo[wall];
   lamp.towards = {0, 0, 0};
   lamp.towards[across] = far ? 1.0 : -1.0;
   lamp.place[across] = far ? room.size[across] - out->distance : out->distance;

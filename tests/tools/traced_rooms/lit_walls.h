@@ -20,7 +20,6 @@ struct LitWall {
   LitRoom lit;            // the lamp faces the wall, straight
   double distance = 0.0;  // m
   int wall = 0;           // room.albedo's number of it
-  double albedo = 0.0;    // of the wall
   std::vector<WallPlace> places;
 };
 

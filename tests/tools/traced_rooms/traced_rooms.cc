@@ -205,9 +205,10 @@ int PrintLitWalls(int ordinary, int unseen) {
                          lamp.slope)
            : std::printf(",,,,");
       std::printf(",%.3f,%.3f,%.3f,%.3f,%.3f,%.4g,%.4f,%g,%g,%.5g,%.4g\n", size[0], size[1],
-                  size[2], wall.lit.room.MeanAlbedo(), wall.albedo, lamp.FluxOverIntensity(),
-                  wall.distance, wall.places[k].gamma_deg, wall.places[k].azimuth_deg,
-                  lamp.DirectAt(meters[k].place, meters[k].normal), answer.meters[k].wall);
+                  size[2], wall.lit.room.MeanAlbedo(), wall.lit.room.albedo[wall.wall],
+                  lamp.FluxOverIntensity(), wall.distance, wall.places[k].gamma_deg,
+                  wall.places[k].azimuth_deg, lamp.DirectAt(meters[k].place, meters[k].normal),
+                  answer.meters[k].wall);
     }
   };
   for (int i = 0; i < ordinary; ++i) print(Family::kOrdinary, i);
