@@ -151,6 +151,18 @@ TEST_F(CaptureSession, TheKindOfLampChangesTheLuminanceByItsFactorAndTheInterval
   EXPECT_LT(RelativeU95(tungsten), RelativeU95(unknown));
 }
 
+TEST_F(CaptureSession, WhatTheLightOrAnotherCaptureSaysOfTheLampIsHeard) {
+  const std::string said = "lamp_class = \"tungsten\"\n";
+  const json unknown = Light(kHead + Capture());
+  const json of_capture = Light(kHead + Capture(said));
+  const json of_light = Light(kHead + said + Capture());
+  EXPECT_LT(double(of_capture["color"]["cct_K"]["u95"]), double(unknown["color"]["cct_K"]["u95"]));
+  EXPECT_EQ(of_light["intensity_cd"], of_capture["intensity_cd"]);
+  EXPECT_EQ(of_light["color"], of_capture["color"]);
+  EXPECT_EQ(Light(kHead + Capture() + Capture(said))["intensity_cd"],
+            Light(kHead + Capture(said) + Capture(said))["intensity_cd"]);
+}
+
 TEST_F(CaptureSession, MeasuredSensitivitiesAndASpectrumAreUsed) {
   const std::string camera =
       "camera = \"" + SampleData("camera_sensitivities/Canon_EOS_5D_380_780_5.json") + "\"\n";

@@ -160,6 +160,10 @@ std::vector<BadSession> BadSessions() {
        kLight + "[[capture]]\nlight = \"kay\"\nframes = \"*.dng\"\nuse = \"card\"\n" +
            "reflectance = 0.18\ndistance_m = 1\n",
        "unknown_light", 6, "\"key\""},
+      {"CaptureOfAnotherKindOfLamp",
+       kLight + "lamp_class = \"white_led\"\n[[capture]]\nlight = \"key\"\nframes = \"*.dng\"\n" +
+           "use = \"card\"\nreflectance = 0.18\ndistance_m = 1\nlamp_class = \"tungsten\"\n",
+       "lamp_class_conflict", 12, "\"white_led\""},
       {"CaptureByAStrangeMeter", kCard + "anchor_illuminance_lx = 9\nmeter = \"c80\"\n",
        "unknown_meter", 12, "c80"},
       {"MeterOfNoAnchor", kMeter + kCardAlone + "meter = \"c800\"\n", "bad_session", 13,

@@ -50,4 +50,17 @@ const LightDescription* FindLight(const Session& session, std::string_view name)
   return found == session.lights.end() ? nullptr : &*found;
 }
 
+LampClass ClassOfLamp(const Session& session, std::string_view light) {
+  const LightDescription* const described = FindLight(session, light);
+  if (described != nullptr && described->lamp_class != LampClass::kUnknown) {
+    return described->lamp_class;
+  }
+  for (const CaptureDescription& capture : session.captures) {
+    if (capture.light == light && capture.lamp_class != LampClass::kUnknown) {
+      return capture.lamp_class;
+    }
+  }
+  return LampClass::kUnknown;
+}
+
 }  // namespace lightcal

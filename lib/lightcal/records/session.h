@@ -178,4 +178,8 @@ void VisitReadings(SomeSession& session, const Visit& visit) {
 
 [[nodiscard]] const LightDescription* FindLight(const Session& session, std::string_view name);
 
+// How a lamp makes its light: what the light says, else the first of its captures that does.
+// kUnknown where nobody says it.
+[[nodiscard]] LampClass ClassOfLamp(const Session& session, std::string_view light);
+
 }  // namespace lightcal

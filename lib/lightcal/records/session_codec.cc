@@ -254,10 +254,7 @@ class SessionReader {
     capture.where = std::string(where_) + " " + reader.Place();
     ReadCapture(reader, capture);
     if (reader.Failed()) return;
-    Reading named;
-    named.light = capture.light;
-    named.meter = capture.meter;
-    if (const auto strange = FindStrangeName(out_.session, named)) {
+    if (const auto strange = FindStrangeName(out_.session, capture)) {
       reader.Fail(strange->code, strange->key, strange->message);
     }
   }
@@ -323,6 +320,24 @@ std::optional<StrangeName> FindStrangeName(const Session& session, const Reading
     if (auto light = StrangeLight(session, name, "distances_m")) return light;
   }
   return StrangeMeter(session, reading);
+}
+
+std::optional<StrangeName> FindStrangeName(const Session& session,
+                                           const CaptureDescription& capture) {
+  Reading named;
+  named.light = capture.light;
+  named.meter = capture.meter;
+  if (auto strange = FindStrangeName(session, named)) return strange;
+  const LampClass known = ClassOfLamp(session, capture.light);
+  const bool said = known != LampClass::kUnknown && capture.lamp_class != LampClass::kUnknown;
+  if (!said || known == capture.lamp_class) return std::nullopt;
+  const auto word = [](LampClass one) {
+    return Quoted(kLampClassWords[static_cast<std::size_t>(one)]);
+  };
+  return StrangeName{"lamp_class_conflict", "lamp_class",
+                     "lamp_class = " + word(capture.lamp_class) + ", but light " +
+                         Quoted(capture.light) + " is said to be " + word(known) +
+                         "; say it once, at the [[light]]"};
 }
 
 Result<LoadedSession> ParseSession(std::string_view text, std::string_view where) {

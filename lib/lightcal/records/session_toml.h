@@ -15,9 +15,9 @@ namespace lightcal::records {
 // As ParseSessionToml, with what was put right on the way (cone_order).
 [[nodiscard]] Result<LoadedSession> ParseSession(std::string_view text, std::string_view where);
 
-// Why a reading cannot belong to this session (unknown light or meter), with the nearest name.
+// Why a reading or a capture cannot belong to this session, with the nearest name.
 struct StrangeName {
-  std::string code;  // unknown_light, unknown_meter
+  std::string code;  // unknown_light, unknown_meter, lamp_class_conflict
   std::string key;
   std::string message;
 };
@@ -26,5 +26,8 @@ struct StrangeName {
 [[nodiscard]] std::optional<StrangeName> FindStrangeName(const Session& session,
                                                          const Reading& reading,
                                                          const LitKeys& keys);
+// Of a capture; also lamp_class_conflict: its light is said to be of another class.
+[[nodiscard]] std::optional<StrangeName> FindStrangeName(const Session& session,
+                                                         const CaptureDescription& capture);
 
 }  // namespace lightcal::records

@@ -63,9 +63,7 @@ Result<void> AddOne(const fs::path& record, const TextReader& read, LoadedSessio
                                "session.toml (use, and what that needs)"});
     return {};
   }
-  Reading named;
-  named.light = shoot->capture->light;
-  if (const auto strange = FindStrangeName(session, named)) {
+  if (const auto strange = FindStrangeName(session, *shoot->capture)) {
     return Refused(strange->code, where, strange->message);
   }
   session.captures.push_back(*std::move(shoot->capture));

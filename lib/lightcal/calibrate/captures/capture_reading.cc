@@ -203,7 +203,7 @@ CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription
   reading.illuminance = capture.anchor_illuminance.value_or(findings.illuminance);
   reading.xy = lamp.xy;
   reading.color_source = lamp.xy ? ColorSource::kCamera : ColorSource::kUnknown;
-  if (lamp.xy) reading.sigma_mired = GenericColorSigma(capture.lamp_class);
+  if (lamp.xy) reading.sigma_mired = GenericColorSigma(ClassOfLamp(session, capture.light));
   reading.quality = MeterQuality::kDerived;
   reading.device = (picture.merged.scale_source == ScaleSource::kCamera ? kCalibratedDevicePrefix
                                                                         : kCameraDevicePrefix) +

@@ -69,7 +69,7 @@ Result<CaptureReading> ReadDomeCapture(const Session& session, const CaptureDesc
   reading.xy = XyFromAbove(input.dome);
   if (reading.xy) {
     reading.color_source = ColorSource::kCamera;
-    reading.sigma_mired = GenericColorSigma(capture.lamp_class);
+    reading.sigma_mired = GenericColorSigma(ClassOfLamp(session, capture.light));
   }
   reading.quality = MeterQuality::kDerived;
   reading.device = "panorama";

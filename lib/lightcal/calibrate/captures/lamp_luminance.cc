@@ -24,7 +24,9 @@ Xyz Reinterpret(const Matrix3& xyz_from_raw, const PictureColor& color, const Xy
 template <class Camera>
 Result<MismatchFactor> FactorOf(const Session& session, const CaptureDescription& capture,
                                 const Camera& camera, const Sources& sources) {
-  if (capture.spectrum_file.empty()) return camera.FactorFor(capture.lamp_class);
+  if (capture.spectrum_file.empty()) {
+    return camera.FactorFor(ClassOfLamp(session, capture.light));
+  }
   const auto one = ReadTheOneSpectrum(sources, PathInSession(session, capture.spectrum_file),
                                       capture.spectrum_file);
   if (!one) return tl::unexpected(one.error());
@@ -76,7 +78,7 @@ Result<LampLuminance> LuminanceOfLamp(const Session& session, const CaptureDescr
     return Corrected(*factor, own, XyFromXyz(own));
   }
   if (!color.has_colour) return LampLuminance{seen.Y, kGreenOnlySigma, std::nullopt};
-  const MismatchFactor generic = GenericMismatch(capture.lamp_class);
+  const MismatchFactor generic = GenericMismatch(ClassOfLamp(session, capture.light));
   // ColorOfPicture's matrix of RAW frames is the one for daylight, which the factor belongs to.
   if (raw && info.matrices) return Corrected(generic, seen, XyFromXyz(seen));
   // A rendered picture: nobody knows by which matrix, so the mean stays an error.

@@ -269,7 +269,8 @@ FittedColor ColorOf(const Session& session, const LightDescription& light,
   const fit::OtherLight others(session, light, found);
   if (!picture.color) return fit::FitColor(session, light, &others, warnings).color;
   const auto& paint = capture.wall->paint_srgb;
-  const fit::ColorOffWall seen{XyFromXyz(*picture.color), GenericColorSigma(capture.lamp_class),
+  const fit::ColorOffWall seen{XyFromXyz(*picture.color),
+                               GenericColorSigma(ClassOfLamp(session, light.name)),
                                fit::TintOfPaint(paint), shares};
   if (!paint) {
     warnings.push_back({"paint_unknown", capture.where,

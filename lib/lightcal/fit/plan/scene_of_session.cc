@@ -89,10 +89,7 @@ std::optional<Fixture> FixtureOf(const LightDescription& light) {
 
 // Whether the lamp glows; absent where nobody says. A chip on a board and a panel do not.
 std::optional<bool> BurnsFilament(const Session& session, const LightDescription& light) {
-  LampClass lamp = light.lamp_class;
-  for (const CaptureDescription& capture : session.captures) {
-    if (lamp == LampClass::kUnknown && capture.light == light.name) lamp = capture.lamp_class;
-  }
+  const LampClass lamp = ClassOfLamp(session, light.name);
   if (lamp != LampClass::kUnknown) return lamp == LampClass::kTungsten;
   const std::optional<Fixture> fixture = FixtureOf(light);
   if (fixture == Fixture::kCobBare || fixture == Fixture::kPanel) return false;
