@@ -99,9 +99,10 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kPartWords = {
     {{"room_bounce", "walls"},
      {"meter_calibration", "meter"},
+     {kCameraScale, "the camera's scale"},
      {"readings", "reading by reading"},
      {"readings_and_place", "meter and place"},
      {"uneven_light", "how evenly it shines"},

@@ -134,6 +134,58 @@ TEST_F(CaptureSession, ASecondBracketByOneCameraDoesNotMakeItsScaleSurer) {
   EXPECT_NEAR(RelativeU95(three), RelativeU95(one), 0.01 * RelativeU95(one));
 }
 
+TEST_F(CaptureSession, OneMeterHeldToManyCardsIsNoSurerThanItsCalibration) {
+  const std::string meter =
+      "[[meter]]\nname = \"old\"\nsigma_relative = 0.05\ncalibration_relative = 0.05\n";
+  const std::string card = Capture("anchor_illuminance_lx = 468.75\nmeter = \"old\"\n");
+  const json one = Light(kHead + meter + card);
+  const json three = Light(kHead + meter + card + card + card);
+  EXPECT_EQ(three["fit"]["readings"], 3);
+  EXPECT_GT(RelativeU95(three), 1.96 * 0.05);
+  EXPECT_GT(RelativeU95(three), 0.97 * RelativeU95(one));
+  const std::string by_hand = LuxReading(468.75, 0.8) + "meter = \"old\"\n";
+  const json all = Light(kHead + meter + card + card + by_hand);
+  EXPECT_NEAR(RelativeU95(all), RelativeU95(three), 2e-3) << "one meter at each";
+  EXPECT_EQ(all["meter"]["name"], "old");
+}
+
+TEST_F(CaptureSession, TheCamerasScaleIsWhatTheIntervalOfCardsNames) {
+  const json cards = Light(kHead + Capture() + Capture());
+  const auto& warnings = document_["warnings"];
+  EXPECT_EQ(std::ranges::count(warnings, "scale_prior", [](const json& w) { return w["code"]; }), 1)
+      << "one warning a cause";
+  ASSERT_FALSE(cards["budget"].empty());
+  EXPECT_EQ(cards["budget"].at(0)["name"], "camera_scale");
+  EXPECT_FALSE(cards.contains("meter")) << "no meter read it";
+  const auto& effects = cards["effects"];
+  const auto scale =
+      std::ranges::find(effects, "camera_scale", [](const json& e) { return e["name"]; });
+  ASSERT_NE(scale, effects.end());
+  EXPECT_EQ((*scale)["key"], "capture.anchor_illuminance_lx");
+}
+
+// The same frames as of a darker or a lighter card, nearer or farther away.
+std::string CardAt(double distance) {
+  const double reflectance = 0.18 * std::pow(distance / 0.8, 2.0);
+  return "[[capture]]\nlight = \"lamp\"\nframes = \"" + Frames("grey_card_dng") +
+         "*.dng\"\nuse = \"card\"\nrect = [220, 120, 200, 160]\nreflectance = " +
+         std::to_string(reflectance) + "\ndistance_m = " + std::to_string(distance) + "\n";
+}
+
+TEST_F(CaptureSession, WhatCardsSayOfOneAnotherCountsBesideALuxReading) {
+  const std::string room = "lightcal = 1\n" + kHead.substr(kHead.find("[[light]]"));
+  const std::string cards = CardAt(0.4) + CardAt(0.8) + CardAt(1.6);
+  const json lux = Light(room + LuxReading(kLux, 0.8));
+  const json by_cards = Light(room + cards);
+  const json both = Light(room + LuxReading(kLux, 0.8) + cards);
+  EXPECT_LT(RelativeU95(both), 0.8 * RelativeU95(lux)) << "they tell the room and the offset";
+  EXPECT_LT(RelativeU95(both), 0.5 * RelativeU95(by_cards));
+  ExpectTheLamp(both);
+  EXPECT_THAT(both["fit"]["learned"].dump(), HasSubstr("instrument_scale"));
+  const json again = Light(room + LuxReading(kLux, 0.8) + cards + CardAt(0.8));
+  EXPECT_LT(RelativeU95(again), 1.02 * RelativeU95(both)) << "more never widens";
+}
+
 TEST_F(CaptureSession, ALuxReadingAtTheCardTakesTheCamerasScaleOut) {
   const json light = Light(kHead + Capture("anchor_illuminance_lx = 468.75\n"));
   EXPECT_FALSE(Warned("scale_prior"));
@@ -270,8 +322,9 @@ TEST_F(CaptureSession, WhatCannotBeReadIsRefusedByName) {
 
       {"bad_sensitivities", Capture("camera = \"session.toml\"\n")}};
   for (const Case& one : cases) {
-    const CliResult result = RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml), "--allow-outside",
-                                          "-o", folder_.path() + "/light.json", "--json"});
+    const CliResult result =
+        RunLightcal({"fit", folder_.Write("session.toml", kHead + one.toml), "--allow-outside",
+                     "-o", folder_.path() + "/light.json", "--json"});
     EXPECT_EQ(result.exit_code, 3) << one.code << result.err;
     const json answer = json::parse(result.out, nullptr, false);
     ASSERT_TRUE(answer.contains("error")) << one.code << result.out;

@@ -10,7 +10,7 @@
 namespace lightcal::fit {
 namespace {
 
-const Theta kTruth = {std::log(7.0), 0.05, 0.3, std::log(0.1), -0.8};
+const Theta kTruth = {std::log(7.0), 0.05, 0.3, std::log(0.1), -0.8, 0.3};
 
 ReadingRow RowAtTruth(ReadingRow::Form form, AxialShape shape = {}) {
   ReadingRow row;
@@ -60,6 +60,7 @@ TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
                                   AxialShape{AxialShape::Outline::kTube, 0.6, 0.0}}) {
     ReadingRow row = RowAtTruth(GetParam(), shape);
     row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
+    row.scale = 0.8;
     row.measured = 1.2 * RowIlluminance(row, kTruth.data());  // away from the censored cost's kink
     const RowDerivative at = DifferentiateRow(row, kTruth);
     for (int k = 0; k < kParameters; ++k) {
@@ -78,11 +79,13 @@ TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
 TEST_P(EachCost, HasTheSecondDerivativesOfItsFirst) {
   ReadingRow row = RowAtTruth(GetParam(), {AxialShape::Outline::kRect, 0.3, 0.5});
   row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
+  row.scale = 0.8;
   row.measured = 1.2 * RowIlluminance(row, kTruth.data());
   double residual = 0.0;
   std::array<double, kParameters> gradient{};
   std::array<double, kParameters * kParameters> bend{};
-  ASSERT_TRUE(RowResidual(row, kTruth.data(), &residual, gradient.data(), bend.data()));
+  ASSERT_TRUE(
+      RowResidual<kParameters>(row, kTruth.data(), &residual, gradient.data(), bend.data()));
   for (int k = 0; k < kParameters; ++k) {
     constexpr double kStep = 1e-5;
     Theta above = kTruth, below = kTruth;

@@ -222,7 +222,7 @@ void AddPriors(const Session& session, const std::vector<BallPlacement>& placed,
   if (ball != placed.end() && light.position_m == ball->position_m) {
     light.position_u95_m = ball->u95_m;
   }
-  if (RestsOnCameraScale(session, light.name)) light.fit.prior.emplace_back(kCameraScalePrior);
+  if (RestsOnCameraScale(session, light.name)) light.fit.prior.emplace_back(kCameraScale);
 }
 
 Result<FoundLights> FindLightsWithProvenance(MeasuredSession& measured, const Sources& sources,

@@ -106,7 +106,9 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   out.effects = ReportEffects(*plan, observations, *estimate);
   ReportCalibration(observations, out.effects);
   out.meter = MeterOf(session, light.name, observations);
-  if (!estimate->upper_limit) out.budget = BudgetOf(estimate->variance_parts);
+  if (!estimate->upper_limit) {
+    out.budget = BudgetWithScale(observations, estimate->variance_parts);
+  }
   AddDerivedQuantities(seen, out);
   TellFlux(*estimate, seen, out);
   if (distance_law) CheckDataSheet(light, ByReadings(*estimate, out), warnings);

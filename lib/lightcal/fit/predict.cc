@@ -69,7 +69,7 @@ struct AtDistance {
 };
 
 AtDistance Of(const LampInRoom& one, const fit::ReadingRow& bare, double distance_m) {
-  constexpr int n = fit::kParameters;
+  constexpr int n = LampInRoom::kCount;
   fit::ReadingRow row = bare;
   if (one.width_m > 0.0) {
     SourceSize size;
@@ -82,8 +82,8 @@ AtDistance Of(const LampInRoom& one, const fit::ReadingRow& bare, double distanc
   const fit::Theta theta = {one.ln_intensity, one.distance_offset_m, one.ambient_lx, one.ln_b,
                             one.slope};
   const fit::RowDerivative whole = fit::DifferentiateRow(row, theta);
-  const std::array<double, n> walls = {1.0, 0.0, 0.0, 1.0, x};
-  const auto variance = [&](const std::array<double, n>& gradient) {
+  const std::array<double, fit::kParameters> walls = {1.0, 0.0, 0.0, 1.0, x};
+  const auto variance = [&](const std::array<double, fit::kParameters>& gradient) {
     double sum = 0.0;
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) sum += gradient[i] * gradient[j] * one.covariance[i * n + j];

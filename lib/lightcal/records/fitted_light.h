@@ -24,6 +24,9 @@ struct FittedColor {
   std::optional<Xy> xy;
 };
 
+// Among priors, effects and causes: what a camera is off by in all its pictures.
+inline constexpr const char* kCameraScale = "camera_scale";
+
 struct FitDiagnostics {
   int readings = 0;                    // rows of this light in the session
   int used = 0;                        // rows that carried the estimate
@@ -81,7 +84,8 @@ struct LampInRoom {
   double ambient_lx = 0.0;         // E0
   double ln_b = 0.0, slope = 0.0, bend = 0.0, scatter = 0.0;
   double width_m = 0.0, height_m = 0.0;  // 0 = a point
-  std::array<double, 25> covariance{};   // of (ln I, d0, E0, ln b, slope)
+  static constexpr int kCount = 5;
+  std::array<double, std::size_t{kCount} * kCount> covariance{};  // of (ln I, d0, E0, ln b, slope)
 };
 
 // How a point may shine to its sides: ln I towards the unit vector u scatters about what is given

@@ -27,6 +27,12 @@ enum class MeterQuality {
   kDerived,      // computed from something else, as from a picture
 };
 
+// What all that one instrument says is off by together: 1 sigma of ln of its factor.
+struct SharedScale {
+  std::string instrument;  // "" = the meter that nobody names
+  double sigma = 0.0;
+};
+
 // A reading as the journal and session.toml hold it. Absent = not measured.
 struct Reading {
   std::string light;               // name of the [[light]]
@@ -55,6 +61,7 @@ struct Reading {
   MeterQuality quality = MeterQuality::kUnknown;
   std::optional<double> calibration_factor;  // already in illuminance: shown value times this
   FixtureState state{};                      // what the lamp's controls said, empty = it has none
+  std::optional<SharedScale> scale{};        // of a picture; absent: what its meter says
 };
 
 // Whether it is of the lamp's own light.

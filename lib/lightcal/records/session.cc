@@ -15,6 +15,7 @@ double SigmaRelative(const Session& session, const Reading& reading) {
 }
 
 double CalibrationRelative(const Session& session, const Reading& reading) {
+  if (reading.scale) return reading.scale->sigma;
   if (reading.meter == kDataSheetMeter || reading.quality == MeterQuality::kDerived) return 0.0;
   const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
   const bool described = meter != session.meters.end();
@@ -38,6 +39,7 @@ double RepeatabilityRelative(const Session& session, const Reading& reading) {
 }
 
 const std::string& InstrumentOf(const Reading& reading) {
+  if (reading.scale) return reading.scale->instrument;
   return reading.meter.empty() ? reading.device : reading.meter;
 }
 

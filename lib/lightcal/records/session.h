@@ -133,16 +133,16 @@ struct Session {
 // The sigma a reading carries: its own, its meter's, the data sheet's, or the unnamed meter's.
 [[nodiscard]] double SigmaRelative(const Session& session, const Reading& reading);
 // Of that, what every reading of the same meter has in common: its calibration, 1 sigma, relative.
-// The meter's own calibration_relative, else all of the sigma: a meter's accuracy is a statement on
-// its scale. 0 for the data sheet and for a sigma written on a reading of no named meter or device,
-// whose error is taken as its own.
+// Of a picture its scale's; else the meter's own calibration_relative, else all of the sigma: a
+// meter's accuracy is a statement on its scale. 0 for the data sheet and for a sigma written on a
+// reading of no named meter or device, whose error is taken as its own.
 [[nodiscard]] double CalibrationRelative(const Session& session, const Reading& reading);
 // What remains of sigma beside that calibration: sqrt(sigma^2 - calibration^2), but never less than
 // what two readings of one meter differ by: 1 %, or sigma where that is less.
 [[nodiscard]] double RepeatabilityBeside(double sigma, double calibration);
 [[nodiscard]] double RepeatabilityRelative(const Session& session, const Reading& reading);
-// The instrument a reading's calibration belongs to: its meter's name, else its device, "" =
-// unnamed.
+// The instrument a reading's calibration belongs to: of a picture its scale's, else its meter's
+// name, else its device, "" = unnamed.
 [[nodiscard]] const std::string& InstrumentOf(const Reading& reading);
 
 // Adds, for each lit reading and each light, a SessionReading with the lamp on or off, the other

@@ -17,10 +17,11 @@ constexpr int kRings = 30;
 constexpr int kDirections = 16;
 // Px of distance that avoiding a line under a label is worth, and a leader under or over another.
 constexpr double kCrossing = 20.0, kLeaderCrossing = 60.0;
-constexpr double kGap = 2.0;  // between boxes
+// Between boxes. Small type on a narrow page is hinted to whole pixels, which makes it wider.
+constexpr double kGap = 2.0, kGapAlong = 5.0;
 
-LabelBox Grown(const LabelBox& box, double by) {
-  return {box.left - by, box.top - by, box.right + by, box.bottom + by};
+LabelBox WithGap(const LabelBox& box) {
+  return {box.left - kGapAlong, box.top - kGap, box.right + kGapAlong, box.bottom + kGap};
 }
 
 bool Inside(const LabelBox& box, const LabelBox& area) {
@@ -88,7 +89,7 @@ class Placing {
 
  private:
   [[nodiscard]] bool IsFree(const LabelBox& box) const {
-    const LabelBox wide = Grown(box, kGap);
+    const LabelBox wide = WithGap(box);
     const auto on_it = [&](const LabelBox& other) { return Overlap(wide, other); };
     return Inside(box, ground_.area) && std::ranges::none_of(ground_.taken, on_it) &&
            std::ranges::none_of(boxes_, on_it);
@@ -96,14 +97,14 @@ class Placing {
 
   [[nodiscard]] std::ptrdiff_t OnLeaders(const LabelBox& box) const {
     return std::ranges::count_if(leaders_, [&](const auto& leader) {
-      return Crosses(leader.first, leader.second, Grown(box, kGap));
+      return Crosses(leader.first, leader.second, WithGap(box));
     });
   }
 
   // What a free place still spoils, in px of distance.
   [[nodiscard]] double Disturbance(const PagePoint& point, const PlacedLabel& label) const {
     std::ptrdiff_t lines = 0, leaders = OnLeaders(label.box);
-    const LabelBox wide = Grown(label.box, kGap);
+    const LabelBox wide = WithGap(label.box);
     for (const auto& line : ground_.lines) {
       for (std::size_t i = 1; i < line.size(); ++i) lines += Crosses(line[i - 1], line[i], wide);
     }

@@ -136,10 +136,12 @@ std::string PartsBar(const FittedLight& light) {
                                      {"part-offset", "where the light starts"},
                                      {"part-other", "other"}}};
   for (const BudgetPart& part : light.budget) {
-    const std::size_t at = part.name == "room_bounce" || part.name == "shadow_card"      ? 0
-                           : part.name == "readings" || part.name == "meter_calibration" ? 1
-                           : part.name == "distance_offset"                              ? 2
-                                                                                         : 3;
+    const bool of_meter =
+        part.name == "readings" || part.name == "meter_calibration" || part.name == kCameraScale;
+    const std::size_t at = part.name == "room_bounce" || part.name == "shadow_card" ? 0
+                           : of_meter                                               ? 1
+                           : part.name == "distance_offset"                         ? 2
+                                                                                    : 3;
     parts[at].share += part.share;
     parts[at].sd = std::hypot(parts[at].sd, part.sd_relative);
   }

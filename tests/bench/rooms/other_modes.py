@@ -7,7 +7,7 @@ import tempfile
 import numpy as np
 
 from sessions import HEAD, Lamp, binomial, fit_all, fit_session, knows_fixture, summary
-from traced_table import draw_of_205, draw_offset
+from traced_table import DISTANCES, draw_of_205, draw_offset, read_table
 
 DARK = {"dark": True}
 
@@ -106,6 +106,33 @@ def typed(lightcal, sessions):
         print(f"typed, narrowest half width {100 * min(halves):.1f} %")
 
 
+def meters(lightcal, sessions):
+    """A meter of 10 % (95 %) at .5, 1 and 2 m in traced rooms, twice each, alone and with one reading of
+    another of 4 % at 1 m; bulbs."""
+    rows = [row for row in read_table() if row["kind"] == "bulb"][-sessions:]
+    print(" " * 20 + HEAD)
+    for others in (0, 1, 3):
+        rng = np.random.default_rng(6)
+        lamps = []
+        for row in rows:
+            truth, offset = 10 ** rng.uniform(1.5, 3.5), draw_offset(rng, "bulb")
+            lamp = Lamp(truth=truth, keys={"kind": "point", "fixture": "bulb"}, meter={"sigma_relative": 0.05},
+                        other_meter={"sigma_relative": 0.02} if others else None)
+            gains = np.exp(rng.normal(0, (0.05, 0.02)))
+
+            def add(d, gain, **more):
+                at = DISTANCES.index(d)
+                lux = truth * gain * (row["direct"][at] + row["wall"][at]) * math.exp(rng.normal(0, 0.01))
+                lamp.readings.append({"distance_m": d - offset, "illuminance_lx": lux, **more})
+
+            for d in (0.5, 1.0, 2.0) * 2:
+                add(d, gains[0])
+            for d in (1.0, 0.5, 2.0)[:others]:
+                add(d, gains[1], meter="other")
+            lamps.append(lamp)
+        print(f"two meters, {others} by 2  {summary(lamps, fit_all(lightcal, lamps))}", flush=True)
+
+
 def bent(case, rng):
     """A session that a lamp of its model cannot have made."""
     truth = 10 ** rng.uniform(2, 3.5)
@@ -167,4 +194,4 @@ def misfit(lightcal, sessions):
         print(f"misfit: {case}: {told}", flush=True)
 
 
-MODES = {"dark": dark, "located": located, "typed": typed, "misfit": misfit}
+MODES = {"dark": dark, "located": located, "typed": typed, "meters": meters, "misfit": misfit}

@@ -18,6 +18,7 @@ class Lamp:
     readings: list = dataclasses.field(default_factory=list)
     keys: dict = dataclasses.field(default_factory=lambda: {"kind": "point"})  # of [[light]]
     meter: dict = dataclasses.field(default_factory=lambda: {"sigma_relative": 0.03})
+    other_meter: dict = None  # read what says "meter": "other"
     room: dict = None
     # What the grid posterior is told.
     exact_kind: str = "point"
@@ -28,6 +29,8 @@ class Lamp:
 def toml_value(value):
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
     if isinstance(value, str):
         return json.dumps(value)
     if isinstance(value, (list, tuple)):
@@ -46,8 +49,11 @@ def session_toml(lamps):
     for i, lamp in enumerate(lamps):
         text += table("[[light]]", {"name": f"l{i}", **lamp.keys})
         text += table("[[meter]]", {"name": f"m{i}", **lamp.meter})
+        if lamp.other_meter:
+            text += table("[[meter]]", {"name": f"o{i}", **lamp.other_meter})
         for reading in lamp.readings:
-            text += table("[[reading]]", {"light": f"l{i}", "meter": f"m{i}", **reading})
+            other = reading.get("meter") == "other"
+            text += table("[[reading]]", {**reading, "light": f"l{i}", "meter": f"{'o' if other else 'm'}{i}"})
     return text
 
 

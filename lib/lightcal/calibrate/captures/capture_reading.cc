@@ -147,6 +147,18 @@ bool IsMetered(const Session& session, const std::string& light) {
   });
 }
 
+// Whether an earlier capture told the same of this light by the same camera.
+bool FollowsItsLike(const Session& session, const CaptureDescription& capture) {
+  for (const CaptureDescription& earlier : session.captures) {
+    if (earlier.where == capture.where) return false;
+    if (earlier.light == capture.light && earlier.use == capture.use &&
+        earlier.camera == capture.camera && !earlier.anchor_illuminance) {
+      return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void AddCapture(const Session& session, const CaptureDescription& capture,
@@ -156,7 +168,7 @@ void AddCapture(const Session& session, const CaptureDescription& capture,
     if (!name.empty()) evidence.AddFile(PathInSession(session, name));
   }
   if (capture.anchor_illuminance || merged.scale_source == ScaleSource::kCamera) return;
-  if (IsMetered(session, capture.light)) return;
+  if (IsMetered(session, capture.light) || FollowsItsLike(session, capture)) return;
   evidence.warnings.push_back(
       {"scale_prior", capture.where,
        "its absolute scale is what the ISO speed promises, +-" +
@@ -191,7 +203,6 @@ CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription
                                 const PictureFindings& findings) {
   const FrameInfo& info = picture.info;
   CaptureReading out;
-  out.camera = info.camera;
   out.anchored = capture.anchor_illuminance.has_value();
   out.independent_sd = findings.independent_sd;
   out.shared_sd = out.anchored ? AnchorSigma(session, capture)

@@ -23,7 +23,6 @@ inline constexpr const char* kCalibratedDevicePrefix = "calibrated_camera:";
 
 struct CaptureReading {
   Reading reading;
-  std::string camera;           // "" = unknown
   bool anchored = false;        // a lux meter's reading gives the scale
   double independent_sd = 0.0;  // relative
   double shared_sd = 0.0;       // relative: with other captures of this light by this camera

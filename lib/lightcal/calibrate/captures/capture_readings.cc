@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,27 @@
 
 namespace lightcal {
 namespace {
+
+// 1 sigma, relative, between two pictures of one camera that saw the same light: an aperture closes
+// again within 5 %, f-numbers are rounded by up to 3.7 %, and cards lie here and there in the
+// picture.
+constexpr double kShotRepeatability = 0.03;
+
+// What each capture's reading is off by alone, and whose scale it shares: a lux meter's with all
+// that it read where one was held to the card, else its camera's with its other pictures.
+void ShareScale(const Session& session, const CaptureDescription& capture, CaptureReading& one) {
+  Reading& reading = one.reading;
+  if (one.anchored) {
+    Reading anchor;
+    anchor.meter = capture.meter;
+    reading.scale = SharedScale{capture.meter, CalibrationRelative(session, anchor)};
+    reading.sigma_relative = std::hypot(one.independent_sd, one.shared_sd);
+    return;
+  }
+  reading.scale = SharedScale{reading.device, one.shared_sd};
+  reading.sigma_relative =
+      std::min(0.99, std::hypot(one.independent_sd, kShotRepeatability, one.shared_sd));
+}
 
 // None where the pictures tell something else of the light than how bright it is.
 Result<std::optional<CaptureReading>> ReadCapture(const Session& session,
@@ -37,12 +57,6 @@ Result<std::optional<CaptureReading>> ReadCapture(const Session& session,
 
 Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sources,
                                      Evidence& evidence) {
-  struct Read {
-    CaptureReading one;
-    std::string where;
-  };
-  std::vector<Read> all;
-  std::map<std::pair<std::string, std::string>, int> sharing;  // captures by light and camera
   Session sized = session;
   CaptureReadings out;
   out.captures = session.captures;
@@ -56,16 +70,10 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
     if (one.sized) {
       *std::ranges::find(sized.lights, one.sized->name, &LightDescription::name) = *one.sized;
     }
-    if (!one.anchored) ++sharing[{one.reading.light, one.camera}];
-    all.push_back({std::move(one), capture.where});
+    ShareScale(session, capture, one);
+    out.readings.push_back({std::move(one.reading), capture.where});
   }
   out.lights = std::move(sized.lights);
-  for (auto& [one, where] : all) {
-    const int others = one.anchored ? 1 : sharing[{one.reading.light, one.camera}];
-    one.reading.sigma_relative =
-        std::min(0.99, std::hypot(one.independent_sd, std::sqrt(others) * one.shared_sd));
-    out.readings.push_back({std::move(one.reading), where});
-  }
   return out;
 }
 

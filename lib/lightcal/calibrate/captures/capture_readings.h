@@ -12,19 +12,15 @@
 
 namespace lightcal {
 
-// The name that fit.prior lists a scale from ISO speeds under.
-inline constexpr const char* kCameraScalePrior = "camera_scale";
-
 struct CaptureReadings {
   std::vector<SessionReading> readings;
   std::vector<LightDescription> lights;      // the session's, with sizes that pictures gave
   std::vector<CaptureDescription> captures;  // the session's, with what their pictures told
 };
 
-// One reading for each [[capture]] of use card, source or dome, as its use reads it. Its
-// sigma holds what the picture alone leaves open and, as errors that all captures of one light by
-// one camera share, its shared part: m such readings carry sqrt(m) times that each, so that their
-// mean is no surer than one camera is.
+// One reading for each [[capture]] of use card, source or dome, as its use reads it. Its sigma
+// holds what the picture alone leaves open and the scale that it shares: with a lux meter's other
+// readings where one was held to the card, else with the same camera's other captures of the light.
 // Refused: as ReadCard, ReadSource, ReadDomeCapture.
 [[nodiscard]] Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sources,
                                                    Evidence& evidence);

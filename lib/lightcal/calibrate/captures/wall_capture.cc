@@ -117,8 +117,7 @@ FittedLight LightOf(const LightDescription& light, const PosedWall& wall,
   out.fit.degrees_of_freedom = found.degrees_of_freedom;
   if (found.degrees_of_freedom > 0) out.fit.rms_relative = found.rms_relative;
   out.fit.learned = {"distribution"};
-  if (wall.picture.scale_source == ScaleSource::kIsoPrior)
-    out.fit.prior.emplace_back(kCameraScalePrior);
+  if (wall.picture.scale_source == ScaleSource::kIsoPrior) out.fit.prior.emplace_back(kCameraScale);
   return out;
 }
 

@@ -45,7 +45,7 @@ Result<std::optional<FittedLight>> FitProfile(const Session& session, const Ligh
   if (auto known = CheckKnown(found->estimate, light.name); !known) {
     return Propagate(std::move(known));
   }
-  WidenBeam(LargestCalibration(observations), *found);
+  WidenBeam(SharedCalibration(observations), *found);
   LightEstimate& estimate = found->estimate;
   if (SamplingOf(settings)) session_out.notes.push_back(SayOfSampling(estimate, light.name));
   FillParameters(estimate, true, out);
@@ -53,7 +53,7 @@ Result<std::optional<FittedLight>> FitProfile(const Session& session, const Ligh
   out.residuals = estimate.residuals;
   out.effects = ReportEffects(*plan, observations, estimate);
   ReportCalibration(observations, out.effects);
-  out.budget = BudgetOf(estimate.variance_parts);
+  out.budget = BudgetWithScale(observations, estimate.variance_parts);
   session_out.Warn(std::move(estimate.warnings));
   FillBeamLight(*std::move(found), out);
   CheckDataSheet(light, out.intensity_cd, session_out.warnings);

@@ -92,8 +92,8 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
     return Propagate(std::move(known));
   }
   session_out.Warn(std::move(location->estimate.warnings));
-  AddCalibration(LargestCalibration(seen), location->estimate);
-  AddCalibration(LargestCalibration(seen), location->known);
+  AddCalibration(SharedCalibration(seen), location->estimate);
+  AddCalibration(SharedCalibration(seen), location->known);
   if (SamplingOf(settings)) {
     session_out.notes.push_back(SayOfSampling(location->estimate, light.name));
   }

@@ -15,9 +15,10 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 30> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
+    {kCameraScale, "one lux reading of this light, or a calibrated camera"},
     {"readings_and_place", "four times as many readings, spread twice as wide"},
     {"uneven_light", "readings from all sides of the lamp, or a luminaire's own file"},
     {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
@@ -83,6 +84,7 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   estimation.rules[kLnWalls] = estimation.rules[kWallsSlope] = {};
   const double readings = IntensityVariance(some);
   for (ReadingRow& row : estimation.rows) row.calibration = 0.0;
+  estimation.rules[kLnScale] = {};
   const double repeated = IntensityVariance(some);
   const bool some_uneven =
       std::ranges::any_of(estimation.rows, [](const ReadingRow& row) { return row.uneven > 0.0; });
@@ -90,6 +92,7 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   if (some_uneven) SettleScatter(estimation, input.theta);
   const double even = some_uneven ? IntensityVariance(some) : repeated;
   estimation.rows = input.estimation->rows;
+  estimation.rules[kLnScale] = rules[kLnScale];
   estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
   const double with_offset = IntensityVariance(some);
   estimation.rules[kLnWalls] = rules[kLnWalls];

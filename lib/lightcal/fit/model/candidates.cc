@@ -313,6 +313,20 @@ WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candi
   return out;
 }
 
+namespace {
+
+std::array<double, std::size_t{LampInRoom::kCount} * LampInRoom::kCount> CovarianceInRoom(
+    const Covariance& whole) {
+  constexpr int n = LampInRoom::kCount;
+  std::array<double, std::size_t{n} * n> out{};
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) out[i * n + j] = whole[i * kParameters + j];
+  }
+  return out;
+}
+
+}  // namespace
+
 std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
                                const std::vector<double>& shares) {
   constexpr double kLeastShareTold = 0.01;
@@ -326,7 +340,7 @@ std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
     const WallHypothesis& walls = *one.hypothesis.walls;
     out.push_back({shares[i], theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient],
                    theta[kLnWalls], theta[kWallsSlope], walls.prior.bend, walls.prior.scatter,
-                   walls.width_m, walls.height_m, one.covariance});
+                   walls.width_m, walls.height_m, CovarianceInRoom(one.covariance)});
     whole += shares[i];
   }
   for (LampInRoom& one : out) one.weight /= whole;

@@ -19,7 +19,8 @@ bool MayMerge(const ReadingRow& row) {
 }
 
 auto KindOf(const ReadingRow& row) {
-  return std::tuple(row.walls.has_value(), row.direct_gain, row.bounce, row.ambient_gain);
+  return std::tuple(row.walls.has_value(), row.direct_gain, row.bounce, row.ambient_gain,
+                    row.scale);
 }
 
 double WeightOf(const ReadingRow& row) { return 1.0 / (row.own_sigma * row.own_sigma); }

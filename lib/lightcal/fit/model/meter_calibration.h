@@ -13,14 +13,18 @@
 
 namespace lightcal::fit {
 
-// The largest of the instruments that saw the lamp lit: 1 sigma of ln of a factor on all that one
-// read. 0: none has any.
-[[nodiscard]] double LargestCalibration(const Observations& observations);
+// 1 sigma of ln of a factor on all that the instruments read that saw the lamp lit: of several,
+// each by the weight of its readings. 0: none has any.
+[[nodiscard]] double SharedCalibration(const Observations& observations);
 
 // One factor on every reading: ln I shifts by it, E0 grows with it; a part of its variance.
 void AddCalibration(double calibration, LightEstimate& estimate);
 
-// The one instrument that took every reading, if one did: its factor cancels in the ratio of two
+// What makes the interval, with the scale called after what took the readings.
+[[nodiscard]] std::vector<BudgetPart> BudgetWithScale(const Observations& observations,
+                                                      std::vector<VariancePart> parts);
+
+// The one meter that took every reading, if one did: its factor cancels in the ratio of two
 // lamps.
 [[nodiscard]] std::optional<MeterShare> MeterOf(const Session& session, const std::string& light,
                                                 const Observations& observations);

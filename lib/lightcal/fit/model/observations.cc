@@ -54,6 +54,7 @@ class Collector {
     if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
     if (auto taken = SubtractShadows(); !taken) return Propagate(std::move(taken));
     FillSigmas();
+    out_.by_camera = instruments_.size() == 1 && !out_.rows.empty() && out_.rows[0].picture;
     std::sort(out_.rejected.begin(), out_.rejected.end());
     return std::move(out_);
   }
@@ -85,6 +86,7 @@ class Collector {
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
     observation.data_sheet = reading.meter == kDataSheetMeter;
+    observation.picture = reading.scale && reading.scale->instrument == reading.device;
     observation.sees_walls = HoldsWallLight(session_, light_, reading);
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;

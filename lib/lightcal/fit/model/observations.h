@@ -35,6 +35,7 @@ struct Observation {
   int instrument = 0;        // among this light's
   bool over_range = false;
   bool data_sheet = false;  // what the manufacturer prints
+  bool picture = false;     // what a camera read, by its own scale
   bool sees_walls = true;   // false: a manufacturer's figure, or from the lamp's own luminance
   double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
   bool measured_from_center = false;  // by positions, the lamp's known or to be found
@@ -56,6 +57,7 @@ struct Observations {
   int readings = 0;              // rows of this light, good or bad
   int off_readings = 0;
   int shadow_readings = 0;
+  bool by_camera = false;  // one camera's pictures, which share its scale, are all there is
   Warnings warnings;
 };
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "lightcal/fit/model/row_values.h"
 #include "lightcal/light/effects/detector_size.h"
@@ -63,6 +65,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.calibration = observation.calibration;
   row.instrument = observation.instrument;
   row.data_sheet = observation.data_sheet;
+  row.picture = observation.picture;
   if (!observation.lit) {
     row.direct_gain = 0.0;
     return row;
@@ -89,6 +92,8 @@ ReadingRow CardRowOf(const Observation& observation, const Scales& scales) {
   FillRowValues(BehindCard(observation), 0, ForwardModel{}, scales.length_m, scales.illuminance_lx,
                 row);
   row.own_sigma = row.sigma;
+  row.calibration = observation.calibration;
+  row.instrument = observation.instrument;
   row.direct_gain = 0.0;
   return row;
 }
@@ -128,6 +133,57 @@ void WidenBesideDataSheet(const Observations& observations, const ForwardModel& 
     }
     const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;
     row.sigma = row.own_sigma = std::hypot(row.sigma, std::sqrt(variance) * unit);
+  }
+}
+
+// 1 sigma of a row beside a relative part that has become a parameter, never under a hundredth.
+double BesideScale(double sigma, double shared, double unit) {
+  constexpr double kLeast = 0.01;
+  return std::sqrt(std::max(sigma * sigma - std::pow(shared * unit, 2.0),
+                            std::pow(std::min(sigma, kLeast * unit), 2.0)));
+}
+
+// What each of the instruments that saw the lamp lit is off by in all it read, and how often it
+// did.
+struct OneInstrument {
+  int readings = 0;
+  double calibration = 0.0;
+};
+
+std::vector<OneInstrument> InstrumentsOf(const Observations& observations) {
+  std::vector<OneInstrument> out;
+  for (const Observation& o : observations.rows) {
+    const auto at = static_cast<std::size_t>(o.instrument);
+    if (at >= out.size()) out.resize(at + 1);
+    if (!o.lit) continue;
+    ++out[at].readings;
+    out[at].calibration = std::max(out[at].calibration, o.calibration);
+  }
+  return out;
+}
+
+// Of several instruments, the one that read most finds its scale beside the others: its readings
+// keep what they say of one another. m readings of another carry sqrt(m) times its calibration
+// each, so that their mean is no surer than that.
+void FreeScale(const Observations& observations, Prepared& out) {
+  const std::vector<OneInstrument> instruments = InstrumentsOf(observations);
+  const auto read = [](const OneInstrument& one) { return one.readings > 0; };
+  if (std::ranges::count_if(instruments, read) < 2) return;
+  const auto most = std::ranges::max_element(instruments, {}, [](const OneInstrument& one) {
+    return std::pair(one.calibration > 0.0 ? one.readings : 0, one.calibration);
+  });
+  const bool scaled = most->calibration > 0.0 && most->readings > 1;
+  if (scaled) out.estimation.rules[kLnScale] = {true, 0.0, most->calibration};
+  for (ReadingRow& row : out.estimation.rows) {
+    if (!(row.calibration > 0.0)) continue;
+    const OneInstrument& own = instruments[static_cast<std::size_t>(row.instrument)];
+    const double unit = row.form == RowForm::kLinear ? std::abs(row.measured) : 1.0;
+    const double beside = BesideScale(row.own_sigma, row.calibration, unit);
+    const bool finds = scaled && &own == &*most;
+    if (finds) row.scale = row.calibration / most->calibration;
+    const double carried = finds ? 0.0 : std::sqrt(std::max(1, own.readings)) * row.calibration;
+    row.sigma = row.own_sigma = std::hypot(beside, carried * unit);
+    row.calibration = 0.0;
   }
 }
 
@@ -175,6 +231,7 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   WidenBesideDataSheet(observations, model, out);
   out.own_rows = static_cast<int>(out.estimation.rows.size());
   if (!model.walls.empty()) AddCardRows(observations, out);
+  FreeScale(observations, out);
   // Beside walls the lamp's share counts (SettleScatter).
   for (ReadingRow& row : out.estimation.rows) {
     const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;

@@ -13,16 +13,20 @@
 namespace lightcal::fit {
 
 // The parameters, in this order everywhere: natural logarithm of the axial intensity, the distance
-// offset, the ambient illuminance, and of the walls' light (light/wall_prior.h) ln b and the slope.
-// Units are those of the rows (the solver scales lengths and illuminances); b stays in 1/m^2.
+// offset, the ambient illuminance, of the walls' light (light/wall_prior.h) ln b and the slope, and
+// ln of the scale of one instrument among several. Units are those of the rows (the solver scales
+// lengths and illuminances); b stays in 1/m^2.
 enum Parameter : std::uint8_t {
   kLnIntensity = 0,
   kDistanceOffset = 1,
   kAmbient = 2,
   kLnWalls = 3,
   kWallsSlope = 4,
+  kLnScale = 5,
 };
-inline constexpr int kParameters = 5;
+inline constexpr int kParameters = 6;
+// All but the last, which one instrument does not have.
+inline constexpr int kWithoutScale = 5;
 
 // How a reading m of a meter that should see E counts, over its sigma.
 enum class RowForm : std::uint8_t {
@@ -74,8 +78,10 @@ struct ReadingRow {
   double own_sigma = 1.0;    // of it, what is not scatter of the walls' light, nor the lamp's own
   double uneven = 0.0;       // 1 sigma of ln I towards this meter (uneven_light.h)
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
+  double scale = 0.0;        // how much of ln of the scale is in it: 0 of another instrument
   int instrument = 0;
   bool data_sheet = false;  // what the manufacturer prints
+  bool picture = false;     // what a camera read
 };
 
 // Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off
@@ -103,14 +109,22 @@ template <class T>
   return exp(theta[kLnWalls] + theta[kWallsSlope] * row.walls->x + row.walls->constant);
 }
 
-// E = exp(ln I) (illuminance per candela + walls) + ambient. theta: kParameters of T, which is
-// double or an automatic-differentiation scalar.
+// What the instrument makes of all it sees: 1 where its scale is no parameter.
+template <class T>
+[[nodiscard]] T ScaleOfRow(const ReadingRow& row, const T* theta) {
+  using std::exp;
+  return row.scale > 0.0 ? exp(row.scale * theta[kLnScale]) : T(1.0);
+}
+
+// E = (exp(ln I) (illuminance per candela + walls) + ambient) scale. theta: kParameters of T, which
+// is double or an automatic-differentiation scalar.
 template <class T>
 [[nodiscard]] T RowIlluminance(const ReadingRow& row, const T* theta) {
   using std::exp;
   T per_candela = LampPerCandela(row, theta[kDistanceOffset]);
   if (row.walls) per_candela += WallsPerCandela(row, theta);
-  return exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
+  const T seen = exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
+  return row.scale > 0.0 ? ScaleOfRow(row, theta) * seen : seen;
 }
 
 // What a row adds to the least-squares problem (least_squares.h).
@@ -119,8 +133,9 @@ template <class T>
   return WhitenedResidual(row.form, row.measured, row.sigma, RowIlluminance(row, theta), residual);
 }
 
-// The same with its derivatives by every parameter, and where asked its second ones (`bend`,
-// kParameters^2 of them, the lower triangle written; 0 beforehand).
+// The same with its derivatives by the first N parameters (all, or kWithoutScale), and where asked
+// its second ones (`bend`, N^2 of them, the lower triangle written; 0 beforehand).
+template <int N>
 [[nodiscard]] bool RowResidual(const ReadingRow& row, const double* theta, double* residual,
                                double* gradient, double* bend = nullptr);
 

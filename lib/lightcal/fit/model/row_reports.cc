@@ -79,6 +79,7 @@ void NameLearned(const Estimation& estimation, const Covariance& covariance, boo
         .emplace_back("distance_offset");
   }
   (learned(kAmbient) ? diagnostics.learned : diagnostics.prior).emplace_back("ambient");
+  if (learned(kLnScale)) diagnostics.learned.emplace_back("instrument_scale");
   if (!estimation.rules[kLnWalls].free) return;
   (learned(kLnWalls) ? diagnostics.learned : diagnostics.prior).emplace_back("room_bounce");
 }
@@ -128,7 +129,7 @@ void FillResiduals(const RobustEstimate& estimate, const Estimation& all, const 
     if (row.walls) {
       residual.walls_lx = std::exp(estimate.theta[kLnIntensity]) *
                           WallsPerCandela(row, estimate.theta.data()) *
-                          prepared.scales.illuminance_lx;
+                          ScaleOfRow(row, estimate.theta.data()) * prepared.scales.illuminance_lx;
     }
     residual.relative = o.measured_lx / predicted - 1.0;
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;

@@ -3,6 +3,8 @@
 
 #include <ceres/jet.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lightcal/fit/model/least_squares.h"
@@ -20,9 +22,49 @@ struct OneRow {
   }
   [[nodiscard]] bool Differentiate(std::size_t /*i*/, const double* theta, double* residual,
                                    double* gradient) const {
-    return RowResidual(row, theta, residual, gradient);
+    return RowResidual<kCount>(row, theta, residual, gradient);
   }
 };
+
+// The estimation where no instrument's scale is free: most are, and quicker so.
+struct OfOneScale {
+  const Estimation& whole;
+  std::array<ParameterRule, kWithoutScale> rules;
+
+  static constexpr int kCount = kWithoutScale;
+  [[nodiscard]] std::size_t RowCount() const { return whole.RowCount(); }
+  [[nodiscard]] Bounds BoundsOf(int k) const { return whole.BoundsOf(k); }
+  template <class T>
+  [[nodiscard]] bool Residual(std::size_t i, const T* theta, T* residual) const {
+    return RowResidual(whole.rows[i], theta, residual);
+  }
+  [[nodiscard]] bool Differentiate(std::size_t i, const double* theta, double* residual,
+                                   double* gradient) const {
+    return RowResidual<kCount>(whole.rows[i], theta, residual, gradient);
+  }
+  [[nodiscard]] bool Bend(std::size_t i, const double* theta, double* residual, double* gradient,
+                          double* bend) const {
+    return RowResidual<kCount>(whole.rows[i], theta, residual, gradient, bend);
+  }
+};
+
+OfOneScale Smaller(const Estimation& estimation) {
+  OfOneScale out{estimation, {}};
+  std::copy_n(estimation.rules.begin(), kWithoutScale, out.rules.begin());
+  return out;
+}
+
+ValuesOf<OfOneScale> Smaller(const Theta& theta) {
+  ValuesOf<OfOneScale> out;
+  std::copy_n(theta.begin(), kWithoutScale, out.begin());
+  return out;
+}
+
+Theta Whole(const ValuesOf<OfOneScale>& values) {
+  Theta out{};
+  std::ranges::copy(values, out.begin());
+  return out;
+}
 
 // Illuminance per candela of the lamp alone by the distance offset. Off the axis by automatic
 // differentiation, its second derivative by differences of the first: Newton's steps need no more.
@@ -41,18 +83,27 @@ AxialFalloff DirectAt(const ReadingRow& row, double offset) {
   return {at.a, at.v[0], (beyond.v[0] - at.v[0]) / (more - offset)};
 }
 
+// E0 at its bound is held there.
+template <class P>
+std::optional<ValuesOf<P>> SolveWithin(const P& problem, const ValuesOf<P>& start,
+                                       double last_step) {
+  std::optional<ValuesOf<P>> theta = SolveNear(problem, start, {}, last_step);
+  if (!theta || AtBound(problem, *theta, kDistanceOffset)) return std::nullopt;
+  if (!problem.rules[kAmbient].free || (*theta)[kAmbient] >= 0.0) return theta;
+  (*theta)[kAmbient] = 0.0;
+  theta = SolveNear(problem, *theta, {false, false, true}, last_step);
+  if (!theta || AtBound(problem, *theta, kDistanceOffset)) return std::nullopt;
+  if (NormalEquationsAt(problem, *theta).gradient[kAmbient] < 0.0) return std::nullopt;
+  return theta;
+}
+
 }  // namespace
 
 std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start,
                                    double last_step) {
-  std::optional<Theta> theta = SolveNear(estimation, start, {}, last_step);
-  if (!theta || AtBound(estimation, *theta, kDistanceOffset)) return std::nullopt;
-  if (!estimation.rules[kAmbient].free || (*theta)[kAmbient] >= 0.0) return theta;
-  (*theta)[kAmbient] = 0.0;
-  theta = SolveNear(estimation, *theta, {false, false, true}, last_step);
-  if (!theta || AtBound(estimation, *theta, kDistanceOffset)) return std::nullopt;
-  if (NormalEquationsAt(estimation, *theta).gradient[kAmbient] < 0.0) return std::nullopt;
-  return theta;
+  if (estimation.rules[kLnScale].free) return SolveWithin(estimation, start, last_step);
+  const auto values = SolveWithin(Smaller(estimation), Smaller(start), last_step);
+  return values ? std::optional(Whole(*values)) : std::nullopt;
 }
 
 std::optional<Theta> SolveQuickly(const Estimation& estimation, const Theta& start) {
@@ -95,30 +146,36 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
 }
 
 // The chain rule written out.
+template <int N>
 bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient,
                  double* bend) {
   const AxialFalloff direct = DirectAt(row, theta[kDistanceOffset]);
   const double walls = WallsPerCandela(row, theta);
-  const double intensity = std::exp(theta[kLnIntensity]);
+  double scale = 1.0;
+  if constexpr (N > kLnScale) scale = ScaleOfRow(row, theta);
+  const double intensity = scale * std::exp(theta[kLnIntensity]);
+  const double ambient_gain = scale * row.ambient_gain;
   const double lamp = intensity * (direct.value + walls);
-  const double predicted = lamp + row.ambient_gain * theta[kAmbient];
+  const double predicted = lamp + ambient_gain * theta[kAmbient];
   if (!WhitenedResidual(row.form, row.measured, row.sigma, predicted, residual)) return false;
   const bool silent = row.form == RowForm::kCensored && !(*residual > 0.0);
   const double by_illuminance =
       silent ? 0.0 : -1.0 / (row.form == RowForm::kLinear ? row.sigma : row.sigma * predicted);
   gradient[kLnIntensity] = by_illuminance * lamp;
   gradient[kDistanceOffset] = by_illuminance * intensity * direct.slope;
-  gradient[kAmbient] = by_illuminance * row.ambient_gain;
+  gradient[kAmbient] = by_illuminance * ambient_gain;
   gradient[kLnWalls] = by_illuminance * intensity * walls;
   gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
+  if constexpr (N > kLnScale) gradient[kLnScale] = row.scale * by_illuminance * predicted;
   if (bend == nullptr || silent) return true;
   // Of ln E: -dE_i dE_j/E^2 + d2E_ij/E; of E the second alone, whose entries repeat the first ones.
-  const Eigen::Map<const Eigen::Matrix<double, kParameters, 1>> g(gradient);
-  Eigen::Map<Eigen::Matrix<double, kParameters, kParameters>> second(bend);
+  const Eigen::Map<const Eigen::Matrix<double, N, 1>> g(gradient);
+  Eigen::Map<Eigen::Matrix<double, N, N>> second(bend);
   if (row.form != RowForm::kLinear) second = row.sigma * g * g.transpose();
   second(kLnIntensity, kLnIntensity) += g[kLnIntensity];
   second(kDistanceOffset, kLnIntensity) += g[kDistanceOffset];
   second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * direct.bend;
+  if constexpr (N > kLnScale) second.row(kLnScale) += row.scale * g.transpose();
   if (!row.walls) return true;
   second(kLnWalls, kLnIntensity) += g[kLnWalls];
   second(kLnWalls, kLnWalls) += g[kLnWalls];
@@ -127,6 +184,10 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   second(kWallsSlope, kWallsSlope) += g[kWallsSlope] * row.walls->x;
   return true;
 }
+
+template bool RowResidual<kParameters>(const ReadingRow&, const double*, double*, double*, double*);
+template bool RowResidual<kWithoutScale>(const ReadingRow&, const double*, double*, double*,
+                                         double*);
 
 double RowResidual(const ReadingRow& row, const Theta& theta) {
   return ResidualAt(OneRow{row}, 0, theta.data());

@@ -35,11 +35,11 @@ struct Estimation {
   }
   [[nodiscard]] bool Differentiate(std::size_t i, const double* theta, double* residual,
                                    double* gradient) const {
-    return RowResidual(rows[i], theta, residual, gradient);
+    return RowResidual<kCount>(rows[i], theta, residual, gradient);
   }
   [[nodiscard]] bool Bend(std::size_t i, const double* theta, double* residual, double* gradient,
                           double* bend) const {
-    return RowResidual(rows[i], theta, residual, gradient, bend);
+    return RowResidual<kCount>(rows[i], theta, residual, gradient, bend);
   }
 };
 

@@ -29,12 +29,15 @@ struct Consider {
   // Light of other sources, the same everywhere: relative times the intensity, in lux. Distance
   // power 2; what a shadow card hides, or leaves, holds it too.
   bool constant = false;
+  bool of_pictures = false;  // what a meter read has none of it
 };
 
 // 1 sigma of what the influence does to ln E of a row, the lamp's intensity being what it is.
 [[nodiscard]] inline double InfluenceOn(const ReadingRow& row, const Consider& influence,
                                         double intensity) {
-  if (row.form == RowForm::kCensored || (influence.own_lamp && row.data_sheet)) return 0.0;
+  const bool spared =
+      (influence.own_lamp && row.data_sheet) || (influence.of_pictures && !row.picture);
+  if (row.form == RowForm::kCensored || spared) return 0.0;
   if (influence.constant) {
     return row.ambient_gain > 0.0 && row.measured > 0.0
                ? influence.relative * intensity / row.measured

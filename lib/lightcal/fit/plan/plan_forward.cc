@@ -27,8 +27,12 @@ EffectState StateOf(GateState state) {
 Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
   const double power = effect.finding.distance_power;
   const std::string_view part = effect.finding.part.empty() ? effect.name : effect.finding.part;
-  return {sd / std::pow(FarthestDistance(scene), power), power, std::string(part),
-          effect.finding.own_lamp, effect.name == "ambient"};
+  return {sd / std::pow(FarthestDistance(scene), power),
+          power,
+          std::string(part),
+          effect.finding.own_lamp,
+          effect.name == "ambient",
+          effect.finding.of_pictures};
 }
 
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {

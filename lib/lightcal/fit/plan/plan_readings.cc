@@ -28,7 +28,9 @@ Reading LikeTheLast(const Session& session) {
   if (!session.meters.empty()) like.meter = session.meters.front().name;
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
-    if (!reading.illuminance || reading.meter == kDataSheetMeter) continue;
+    const bool by_meter =
+        reading.meter != kDataSheetMeter && reading.quality != MeterQuality::kDerived;
+    if (!reading.illuminance || !by_meter) continue;
     like.meter = reading.meter;
     like.device = reading.device;
     like.sigma_relative = reading.sigma_relative;

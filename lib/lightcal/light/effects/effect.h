@@ -29,6 +29,7 @@ struct EffectFinding {
   std::optional<double> sd{};       // 1 sigma of one that widens; absent: half the bound
   bool own_lamp = false;            // widens a person's readings; a data sheet's lamp is warm, ...
   std::optional<double> cost_ns{};  // of what is done here, where that is not the declared price
+  bool of_pictures = false;         // widens what a camera read, not what a meter did
   std::string_view part{};          // of the interval, where what widens it goes by another name
 };
 

@@ -20,8 +20,10 @@ inline constexpr double kRowsDefault_s = 2e-3;
   }
   const double window = std::max(scene.picture->exposure_s.value_or(1.0 / 60.0),
                                  scene.picture->rows_s.value_or(kRowsDefault_s));
-  return {FlickerBound(scene.time, window), Treatment::kWidens, 0.0,
-          "bands of the flicker, averaged over the patch's rows"};
+  return {.bound = FlickerBound(scene.time, window),
+          .treatment = Treatment::kWidens,
+          .reason = "bands of the flicker, averaged over the patch's rows",
+          .of_pictures = true};
 }
 
 }  // namespace lightcal::effects

@@ -14,11 +14,12 @@ inline constexpr double kGlareDefault = 0.03;
   if (!scene.picture) return NotApplicable("no picture");
   const double bound =
       scene.picture->glare.value_or(kGlareDefault) * scene.picture->mean_over_patch.value_or(1.0);
-  if (scene.picture->glare) {
-    return {bound, Treatment::kWidens, 0.0, "the lens's stated glare"};
-  }
-  return {bound, Treatment::kWidens, 0.0,
-          "no glare of the lens is stated (0.5 to 3 %): keep bright things out of the picture"};
+  return {.bound = bound,
+          .treatment = Treatment::kWidens,
+          .reason = scene.picture->glare ? "the lens's stated glare"
+                                         : "no glare of the lens is stated (0.5 to 3 %): keep "
+                                           "bright things out of the picture",
+          .of_pictures = true};
 }
 
 }  // namespace lightcal::effects

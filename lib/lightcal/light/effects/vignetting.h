@@ -14,8 +14,10 @@ inline constexpr double kFieldDefault_rad = 0.2;
   if (!scene.picture) return NotApplicable("no picture");
   if (scene.picture->flat_field) return NotApplicable("the flat field takes it out");
   const double t = kFieldDefault_rad;
-  return {2.0 * t * t, Treatment::kWidens, 0.0,
-          "no flat field: a patch off the picture's middle reads low by up to this"};
+  return {.bound = 2.0 * t * t,
+          .treatment = Treatment::kWidens,
+          .reason = "no flat field: a patch off the picture's middle reads low by up to this",
+          .of_pictures = true};
 }
 
 }  // namespace lightcal::effects
