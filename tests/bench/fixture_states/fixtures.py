@@ -61,6 +61,14 @@ def mired_duv(xyz):
     return 1e6 / kelvin, np.hypot(*off) * np.sign(off[1])
 
 
+def of_mired_duv(mired, duv):
+    """X, Y, Z of Y = 1."""
+    here, there = uv60(planck(1e6 / mired)), uv60(planck(1e6 / (mired + 0.1)))
+    along = (there - here) / np.hypot(*(there - here))
+    u, v = here + duv * np.array([-along[1], along[0]]) * np.sign(along[0])
+    return np.array([1.5 * u / v, 1.0, (4 - u - 10 * v) / (2 * v)])
+
+
 def pieces(random, count, spread):
     at = np.concatenate([[0], np.sort(random.uniform(0.05, 0.95, count)), [1]])
     slopes = np.exp(random.normal(0, spread, count + 1))
