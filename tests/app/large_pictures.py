@@ -5,12 +5,16 @@ their published layouts, zeros left out of the disk.
   large_pictures.py LIGHTCAL"""
 import json
 import os
+import pathlib
 import resource
 import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from plain_tiff import directory, entry  # noqa: E402
 
 LIGHTCAL = sys.argv[1]
 LITTLE_SPACE = 900 << 20  # of addresses: the program with its libraries takes a part of it
@@ -56,39 +60,16 @@ def radiance(path, width, height, pixel):
 
 def dng(path, width, height, code):
     """One strip of 16 bit CFA samples, not compressed (Adobe DNG 1.4, TIFF 6.0)."""
-    tags = {254: ("I", [0]), 256: ("I", [width]), 257: ("I", [height]), 258: ("H", [16]), 259: ("H", [1]),
-            262: ("H", [32803]), 271: ("s", b"Test\0"), 272: ("s", b"Large\0"), 273: ("I", [0]),
-            277: ("H", [1]), 278: ("I", [height]), 279: ("I", [2 * width * height]),
-            33421: ("H", [2, 2]), 33422: ("B", bytes([0, 1, 1, 2])), 50706: ("B", bytes([1, 4, 0, 0])),
-            50708: ("s", b"Test Large\0"), 50714: ("H", [0]), 50717: ("I", [65535]),
-            50721: ("r", [1, 0, 0, 0, 1, 0, 0, 0, 1]), 50728: ("u", [1, 1, 1]), 50778: ("H", [21]),
-            33434: ("u", [0.01]), 33437: ("u", [4]), 34855: ("H", [100])}
-    kinds = {"B": (1, "B"), "s": (2, None), "H": (3, "H"), "I": (4, "I"), "u": (5, None), "r": (10, None)}
-    at = 8 + 2 + 12 * len(tags) + 4
-    entries, extra = b"", b""
-    rows = []
-    for tag in sorted(tags):
-        kind, values = tags[tag]
-        if kind in "sB":
-            body, count = bytes(values), len(values)
-        elif kind in "ur":
-            body = b"".join(struct.pack("<iI" if kind == "r" else "<II", round(v * 1000), 1000) for v in values)
-            count = len(values)
-        else:
-            body, count = struct.pack("<%d%s" % (len(values), kinds[kind][1]), *values), len(values)
-        rows.append((tag, kinds[kind][0], count, body))
-    first = at + sum((len(body) + 1) // 2 * 2 for _, _, _, body in rows if len(body) > 4)
-    for tag, kind, count, body in rows:
-        if tag == 273:
-            body = struct.pack("<I", first)
-        if len(body) > 4:
-            place = struct.pack("<I", at + len(extra))
-            extra += body + b"\0" * (len(body) % 2)
-        else:
-            place = body.ljust(4, b"\0")
-        entries += struct.pack("<HHI", tag, kind, count) + place
+    entries = [entry(254, "L", 0), entry(256, "L", width), entry(257, "L", height), entry(258, "S", 16),
+               entry(259, "S", 1), entry(262, "S", 32803), entry(271, "A", "Test"), entry(272, "A", "Large"),
+               entry(277, "S", 1), entry(278, "L", height), entry(279, "L", 2 * width * height),
+               entry(33421, "S", 2, 2), entry(33422, "B", 0, 1, 1, 2), entry(50706, "B", 1, 4, 0, 0),
+               entry(50708, "A", "Test Large"), entry(50714, "S", 0), entry(50717, "L", 65535),
+               entry(50721, "r", 1, 0, 0, 0, 1, 0, 0, 0, 1), entry(50728, "R", 1, 1, 1), entry(50778, "S", 21),
+               entry(33434, "R", 0.01), entry(33437, "R", 4), entry(34855, "S", 100)]
+    first = 8 + len(directory(entries + [entry(273, "L", 0)], 8))
     with open(path, "wb") as out:
-        out.write(b"II*\0" + struct.pack("<I", 8) + struct.pack("<H", len(rows)) + entries + b"\0" * 4 + extra)
+        out.write(b"II*\0" + struct.pack("<I", 8) + directory(entries + [entry(273, "L", first)], 8))
         out.write(code * (width * height))
         out.truncate(first + 2 * width * height)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from plain_tiff import directory, entry  # noqa: E402
 
 WIDTH, HEIGHT = 96, 72
 BLACK, WHITE = 512, 15871
@@ -70,34 +71,6 @@ def lossless_jpeg(picture):
             bytes([0, 0x11, 0, 1, 0x11, 0]) +
             b"\xff\xda" + struct.pack(">HB", 10, 2) + bytes([0, 0, 1, 0, 1, 0, 0]) + data +
             b"\xff\xd9")
-
-
-def entry(tag, kind, *values):
-    """kind: B byte, A text, S short, L long, R rational, r signed rational."""
-    if kind == "A":
-        data, count = values[0].encode() + b"\0", len(values[0]) + 1
-    elif kind in "Rr":
-        code = "i" if kind == "r" else "I"
-        data = b"".join(struct.pack("<2" + code, round(v * 1e6), 1000000) for v in values)
-        count = len(values)
-    else:
-        code = {"B": "B", "S": "H", "L": "I"}[kind]
-        data, count = struct.pack(f"<{len(values)}{code}", *values), len(values)
-    return tag, {"B": 1, "A": 2, "S": 3, "L": 4, "R": 5, "r": 10}[kind], count, data
-
-
-def directory(entries, at):
-    entries = sorted(entries)
-    head, tail = struct.pack("<H", len(entries)), b""
-    behind = at + 2 + 12 * len(entries) + 4
-    for tag, kind, count, data in entries:
-        if len(data) > 4:
-            place = struct.pack("<I", behind + len(tail))
-            tail += data + b"\0" * (len(data) % 2)
-        else:
-            place = data.ljust(4, b"\0")
-        head += struct.pack("<HHI", tag, kind, count) + place
-    return head + b"\0\0\0\0" + tail
 
 
 def strip(picture, bits):
