@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
-from plain_tiff import directory, entry  # noqa: E402
+from plain_tiff import entry, head  # noqa: E402
 
 LIGHTCAL = sys.argv[1]
 LITTLE_SPACE = 900 << 20  # of addresses: the program with its libraries takes a part of it
@@ -67,11 +67,10 @@ def dng(path, width, height, code):
                entry(50708, "A", "Test Large"), entry(50714, "S", 0), entry(50717, "L", 65535),
                entry(50721, "r", 1, 0, 0, 0, 1, 0, 0, 0, 1), entry(50728, "R", 1, 1, 1), entry(50778, "S", 21),
                entry(33434, "R", 0.01), entry(33437, "R", 4), entry(34855, "S", 100)]
-    first = 8 + len(directory(entries + [entry(273, "L", 0)], 8))
+    before = head(entries)
     with open(path, "wb") as out:
-        out.write(b"II*\0" + struct.pack("<I", 8) + directory(entries + [entry(273, "L", first)], 8))
-        out.write(code * (width * height))
-        out.truncate(first + 2 * width * height)
+        out.write(before + code * (width * height))
+        out.truncate(len(before) + 2 * width * height)
 
 
 class LargePictures(unittest.TestCase):

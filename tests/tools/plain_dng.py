@@ -2,11 +2,10 @@
 """A RAW picture as DNG, not compressed, of one RGGB mosaic of 16 bit: for worlds that include no header of
 lightcal. Source: Adobe, Digital Negative specification 1.4; TIFF 6.0; Exif 2.3."""
 import pathlib
-import struct
 
 import numpy as np
 
-from plain_tiff import directory, entry
+from plain_tiff import entry, head
 
 # IEC 61966-2-1: linear sRGB from XYZ. A camera that sees so has 1, 1, 1 of D65.
 RGB_FROM_XYZ = np.array([[3.2406, -1.5372, -0.4986], [-0.9689, 1.8758, 0.0415], [0.0557, -0.2040, 1.0570]])
@@ -31,6 +30,4 @@ def write_dng(path, samples, exposure_s, f_number, iso, neutral, model="Syntheti
                entry(50707, "B", 1, 1, 0, 0), entry(50708, "A", model), entry(50711, "S", 1),
                entry(50714, "L", BLACK), entry(50717, "L", WHITE), entry(50721, "r", *RGB_FROM_XYZ.ravel()),
                entry(50728, "R", *neutral), entry(50778, "S", 21)]
-    strip = 8 + len(directory(entries + [entry(273, "L", 0)], 8))
-    head = struct.pack("<2sHI", b"II", 42, 8) + directory(entries + [entry(273, "L", strip)], 8)
-    pathlib.Path(path).write_bytes(head + samples.tobytes())
+    pathlib.Path(path).write_bytes(head(entries) + samples.tobytes())

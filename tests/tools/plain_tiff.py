@@ -30,3 +30,9 @@ def directory(entries, at):
             place = data.ljust(4, b"\0")
         head += struct.pack("<HHI", tag, kind, count) + place
     return head + b"\0\0\0\0" + tail
+
+
+def head(entries):
+    """A file of one directory, up to its strip, which follows at once."""
+    begins = 8 + len(directory([*entries, entry(273, "L", 0)], 8))
+    return struct.pack("<2sHI", b"II", 42, 8) + directory([*entries, entry(273, "L", begins)], 8)

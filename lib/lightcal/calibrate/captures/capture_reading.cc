@@ -112,11 +112,24 @@ Nits AnchorLuminance(const CaptureDescription& capture) {
   return Nits(capture.anchor_illuminance->value() * capture.reflectance / std::numbers::pi);
 }
 
-double AnchorSigma(const Session& session, const CaptureDescription& capture) {
+namespace {
+
+// What that meter read, for what is known of it.
+Reading ReadByMeterOf(const CaptureDescription& capture) {
   Reading anchor;
   anchor.meter = capture.meter;
-  const double sigma = SigmaRelative(session, anchor);
-  const double calibration = CalibrationRelative(session, anchor);
+  return anchor;
+}
+
+}  // namespace
+
+SharedScale AnchorScale(const Session& session, const CaptureDescription& capture) {
+  return {capture.meter, CalibrationRelative(session, ReadByMeterOf(capture))};
+}
+
+double AnchorSigma(const Session& session, const CaptureDescription& capture) {
+  const double sigma = SigmaRelative(session, ReadByMeterOf(capture));
+  const double calibration = AnchorScale(session, capture).sigma;
   return std::hypot(calibration, RepeatabilityBeside(sigma, calibration));
 }
 

@@ -77,6 +77,8 @@ struct PictureFindings {
 // What a lux meter's reading of a capture says of the luminance of a place whose reflectance is
 // given: E rho/pi.
 [[nodiscard]] Nits AnchorLuminance(const CaptureDescription& capture);
+// What that reading shares with all others of the named meter.
+[[nodiscard]] SharedScale AnchorScale(const Session& session, const CaptureDescription& capture);
 // 1 sigma of anchor_illuminance_lx, relative: the named meter's.
 [[nodiscard]] double AnchorSigma(const Session& session, const CaptureDescription& capture);
 

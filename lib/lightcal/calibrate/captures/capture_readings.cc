@@ -24,9 +24,7 @@ constexpr double kShotRepeatability = 0.03;
 void ShareScale(const Session& session, const CaptureDescription& capture, CaptureReading& one) {
   Reading& reading = one.reading;
   if (one.anchored) {
-    Reading anchor;
-    anchor.meter = capture.meter;
-    reading.scale = SharedScale{capture.meter, CalibrationRelative(session, anchor)};
+    reading.scale = AnchorScale(session, capture);
     reading.sigma_relative = std::hypot(one.independent_sd, one.shared_sd);
     return;
   }

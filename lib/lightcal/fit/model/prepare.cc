@@ -32,6 +32,9 @@ Scales ScalesOf(const Observations& observations) {
   return {std::exp(ln_length / count), std::exp(ln_illuminance / count)};
 }
 
+// What a relative error of the reading is counted in, as its sigma is.
+double UnitOf(const ReadingRow& row) { return row.form == RowForm::kLinear ? row.measured : 1.0; }
+
 AxialShape Scaled(AxialShape shape, double length_m) {
   shape.first /= length_m;
   shape.second /= length_m;
@@ -131,16 +134,9 @@ void WidenBesideDataSheet(const Observations& observations, const ForwardModel& 
       const double sd = one.relative * std::pow(observation.distance_m, one.distance_power);
       variance += sd * sd;
     }
-    const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;
+    const double unit = UnitOf(row);
     row.sigma = row.own_sigma = std::hypot(row.sigma, std::sqrt(variance) * unit);
   }
-}
-
-// 1 sigma of a row beside a relative part that has become a parameter, never under a hundredth.
-double BesideScale(double sigma, double shared, double unit) {
-  constexpr double kLeast = 0.01;
-  return std::sqrt(std::max(sigma * sigma - std::pow(shared * unit, 2.0),
-                            std::pow(std::min(sigma, kLeast * unit), 2.0)));
 }
 
 // What each of the instruments that saw the lamp lit is off by in all it read, and how often it
@@ -177,8 +173,10 @@ void FreeScale(const Observations& observations, Prepared& out) {
   for (ReadingRow& row : out.estimation.rows) {
     if (!(row.calibration > 0.0)) continue;
     const OneInstrument& own = instruments[static_cast<std::size_t>(row.instrument)];
-    const double unit = row.form == RowForm::kLinear ? std::abs(row.measured) : 1.0;
-    const double beside = BesideScale(row.own_sigma, row.calibration, unit);
+    const double unit = std::abs(UnitOf(row));
+    const double beside = unit > 0.0
+                              ? unit * RepeatabilityBeside(row.own_sigma / unit, row.calibration)
+                              : row.own_sigma;
     const bool finds = scaled && &own == &*most;
     if (finds) row.scale = row.calibration / most->calibration;
     const double carried = finds ? 0.0 : std::sqrt(std::max(1, own.readings)) * row.calibration;
@@ -234,7 +232,7 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   FreeScale(observations, out);
   // Beside walls the lamp's share counts (SettleScatter).
   for (ReadingRow& row : out.estimation.rows) {
-    const double unit = row.form == RowForm::kLinear ? row.measured : 1.0;
+    const double unit = UnitOf(row);
     row.sigma = std::hypot(row.sigma, row.uneven * unit);
   }
   return out;

@@ -124,7 +124,7 @@ template <class T>
   T per_candela = LampPerCandela(row, theta[kDistanceOffset]);
   if (row.walls) per_candela += WallsPerCandela(row, theta);
   const T seen = exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
-  return row.scale > 0.0 ? ScaleOfRow(row, theta) * seen : seen;
+  return ScaleOfRow(row, theta) * seen;
 }
 
 // What a row adds to the least-squares problem (least_squares.h).
