@@ -128,3 +128,18 @@ def readings(beam, candela, offset_m, distance_m, angles, noise, rng):
         lux = candela * seen / (x * x + z * z) * (1 + noise * rng.normal())
         out.append((float(angle), distance_m, max(0.0, lux)))
     return out
+
+
+def readings_on_plane(beam, candela, offset_m, distance_m, angles, noise, rng):
+    """[(x, lux)] in a plane across the axis, to both sides in turn as far as 70 degrees; the meter faces
+    the lamp's place, its light starts behind."""
+    out = []
+    for i, angle in enumerate(angles):
+        x = (-1) ** i * distance_m * math.tan(math.radians(min(angle, 70.0)))
+        z = distance_m + offset_m
+        r = math.hypot(x, z)
+        facing = (x * x + z * distance_m) / (r * math.hypot(x, distance_m))
+        seen = np.interp(math.degrees(math.atan2(abs(x), z)), GAMMA, beam)
+        lux = candela * seen / (r * r) * facing * (1 + noise * rng.normal())
+        out.append((float(x), max(0.0, lux)))
+    return out

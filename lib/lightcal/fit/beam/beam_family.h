@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shapes that a beam may have about its axis: I(gamma) = I(0) f(gamma), f(0) = 1. They share one
 // struct, so that one problem (beam_problem.h) serves them all. Internal to this room.
+//
+// All but the even one take the angle and give the intensity that the readings seem to have, seen
+// from where the light starts by all else that is known. A lamp is no cos^n, and no curve has its
+// corners at nodes, to within what its readings would need to tell by that where it starts.
 #pragma once
 
 #include <algorithm>
@@ -58,12 +62,48 @@ template <class T>
   }
 }
 
+// Where the readings are, seen from `start` metres behind the lamp's place: a plane across the
+// axis, or all around at one distance. A point on it under an angle `a` from there is under gamma
+// from where the light starts, `offset` behind the lamp's place.
+struct ReadFrom {
+  double metres = 1.0;  // from there along the axis
+  bool plane = true;
+  double start = 0.0;
+  static constexpr double kMostForward = -0.95;
+
+  // How far behind that the light starts, of the distance.
+  template <class T>
+  [[nodiscard]] T Relative(const T& offset) const {
+    const T relative = (offset - start) / metres;
+    return relative > T(kMostForward) ? relative : T(kMostForward);
+  }
+  template <class T>
+  [[nodiscard]] T AngleFromStart(const T& gamma, const T& offset) const {
+    using std::asin;
+    using std::atan2;
+    using std::cos;
+    using std::sin;
+    const T q = Relative(offset);
+    if (plane) return atan2((1.0 + q) * sin(gamma), cos(gamma));
+    return gamma + asin(q * sin(gamma));
+  }
+  // Square of the distance from where the light starts, over that from there.
+  template <class T>
+  [[nodiscard]] T SquaresRatio(const T& a, const T& offset) const {
+    using std::cos;
+    using std::sin;
+    const T along = cos(a) + Relative(offset) * (plane ? T(cos(a)) : T(1.0));
+    return sin(a) * sin(a) + along * along;
+  }
+};
+
 struct BeamShape {
   static constexpr int kNodes = 20;  // of the smooth curve; other families use the first few
   static constexpr double kSoft = 0.08;
   // Of f on the axis: most lamps are brightest there, some have a hole.
   static constexpr ParameterRule kAxialPrior = {true, 0.8, 0.6};
   BeamFamily family = BeamFamily::kEven;
+  ReadFrom read_from{};
   double scale = 0.3, step = 0.1, bend = 0.1;  // of the smooth curve; scale in rad
   int kink = -1;  // node at which it may turn kKinkBends as much: a sharp peak; -1 none
   static constexpr double kKinkBends = 8.0;
@@ -73,6 +113,13 @@ struct BeamShape {
   // f, gamma in radians within 0 to pi.
   template <class T>
   [[nodiscard]] T Relative(const T& gamma, const T* p) const;
+  // I(gamma) of a lamp whose light starts `offset` behind its place, over I(0) as read.
+  template <class T>
+  [[nodiscard]] T Intensity(const T& gamma, const T& offset, const T* p) const {
+    if (family == BeamFamily::kEven) return T(1.0);
+    const T a = read_from.AngleFromStart(gamma, offset);
+    return read_from.SquaresRatio(a, offset) * Relative(a, p);
+  }
   // Rows about the smoothness of the curve.
   [[nodiscard]] std::size_t PriorRows() const { return family == BeamFamily::kSmooth ? kNodes : 0; }
   template <class T>

@@ -13,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_profile.h"
 #include "lightcal/fit/beam/beam_rows.h"
+#include "lightcal/fit/beam/rough_beam.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/misfit.h"
 
@@ -79,6 +80,30 @@ Result<IntensityTable> TableOfProfile(const BeamProfile& profile, const std::str
     grid.candela.push_back(std::max(0.0, profile.candela[i]));
   }
   return IntensityTable::Make(std::move(grid), light);
+}
+
+// Of the variance of ln I(0): what is left of it where those of profile.theta are known.
+double VarianceShare(const BeamProfile& profile, std::vector<Eigen::Index> known) {
+  const Eigen::Map<const Eigen::Matrix4d> whole(profile.covariance.data());
+  std::erase_if(known, [&](Eigen::Index k) { return !(whole(k, k) > 0.0); });
+  if (known.empty()) return 1.0;
+  const Eigen::MatrixXd among = whole(known, known);
+  const Eigen::VectorXd with = whole(known, 0);
+  const double told = with.dot(among.completeOrthogonalDecomposition().solve(with));
+  return std::clamp(1.0 - told / whole(0, 0), 0.0, 1.0);
+}
+
+// As VarianceParts of the other fits: what the variance gains as each is let in.
+void AddParts(const BeamProfile& profile, LightEstimate& out) {
+  constexpr Eigen::Index kOffset = 1;
+  constexpr Eigen::Index kWalls = 2;
+  constexpr Eigen::Index kSlope = 3;
+  const double whole = out.covariance[0];
+  const double with_offset = VarianceShare(profile, {kWalls, kSlope});
+  const double readings = std::min(with_offset, VarianceShare(profile, {kOffset, kWalls, kSlope}));
+  out.variance_parts.push_back({"readings", readings * whole});
+  out.variance_parts.push_back({"distance_offset", (with_offset - readings) * whole});
+  if (with_offset < 1.0) out.variance_parts.push_back({"room_bounce", (1.0 - with_offset) * whole});
 }
 
 void AddInfluences(const ForwardModel& model, const BeamRows& rows, LightEstimate& out) {
@@ -223,7 +248,7 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
              "are wider by that: check the aim, or the beam is not round"});
   }
   for (double& c : out.estimate.covariance) c *= factor * factor;
-  out.estimate.variance_parts.push_back({"readings", out.estimate.covariance[0]});
+  AddParts(profile, out.estimate);
   const double own = out.estimate.covariance[0];
   AddInfluences(model, rows, out.estimate);
   const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));

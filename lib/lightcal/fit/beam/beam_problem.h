@@ -76,7 +76,7 @@ struct BeamProblem {
   std::array<ParameterRule, kCount> rules;
   std::vector<BeamRow> rows;
   std::span<const SheetRow> sheet;
-  double least_offset = -0.1;                 // metres
+  double least_offset = -0.9;                 // metres: in front of the nearest reading
   static constexpr double kLeastSeen = 1e-4;  // of what was read
 
   [[nodiscard]] std::size_t RowCount() const {
@@ -90,7 +90,7 @@ struct BeamProblem {
     using std::exp;
     const BeamTowards<T> towards = TowardsOf(row, p);
     return exp(p[kBeamLnIntensity]) * towards.per_candela *
-           shape.Relative(towards.gamma, p + kBeamCommon);
+           shape.Intensity(towards.gamma, p[kBeamOffset], p + kBeamCommon);
   }
   template <class T>
   [[nodiscard]] static T Walls(const BeamRow& row, const T* p) {
@@ -115,8 +115,8 @@ struct BeamProblem {
     }
     i -= rows.size();
     if (i < sheet.size()) {
-      *residual =
-          (shape.Relative(T(sheet[i].gamma), p + kBeamCommon) - sheet[i].level) / sheet[i].sd;
+      const T a = shape.read_from.AngleFromStart(T(sheet[i].gamma), p[kBeamOffset]);
+      *residual = (shape.Relative(a, p + kBeamCommon) - sheet[i].level) / sheet[i].sd;
       return true;
     }
     *residual = shape.PriorRow(i - sheet.size(), p + kBeamCommon);

@@ -11,6 +11,7 @@
 
 #include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/fit/beam/rough_beam.h"
 #include "lightcal/fit/beam/solved_beams.h"
 #include "lightcal/fit/model/hypotheses.h"
 
@@ -87,7 +88,7 @@ std::vector<double> CurveOf(const SolvedBeam& beam, const Eigen::VectorXd& p,
   const double axial = std::exp(p[kBeamLnIntensity]);
   for (std::size_t i = 0; i < candela.size(); ++i) {
     const double gamma = gamma_deg[i] * kPi / 180.0;
-    candela[i] = axial * beam.shape.Relative(gamma, p.data() + kBeamCommon);
+    candela[i] = axial * beam.shape.Intensity(gamma, p[kBeamOffset], p.data() + kBeamCommon);
     // Beyond the last reading that saw light none comes up again.
     if (beam.smooth && i > 0 && gamma > beam.outermost)
       candela[i] = std::min(candela[i], candela[i - 1]);

@@ -63,7 +63,4 @@ struct BeamProfile {
 [[nodiscard]] Result<BeamProfile> FitBeamProfile(const BeamReadings& readings,
                                                  const std::string& light);
 
-// Half angle where a row's candela fall to half of the largest, by the readings as they stand.
-[[nodiscard]] double RoughHalfAngle(const std::vector<BeamRow>& rows);
-
 }  // namespace lightcal::fit

@@ -8,16 +8,23 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/fit/beam/rough_beam.h"
+#include "lightcal/light/fixture.h"
+
 namespace lightcal::fit {
 namespace {
 
 constexpr std::size_t kRefined = 3;   // of each family's starts
 constexpr int kRounds = 3;            // of settling what the walls scatter
-constexpr double kReach = 1.25;       // nodes beyond the outermost reading
 constexpr double kLeastShare = 3e-3;  // of the mixture
 constexpr int kFewestForCurve = 4;
-constexpr double kDark = 0.01;    // of the peak
-constexpr double kHollow = 1.15;  // peak over axis, of a lamp that is brighter beside it
+constexpr int kStarts = 4;               // until where the light starts is near enough
+constexpr double kNearEnough = 5e-3;     // of the distance
+constexpr double kOneSurface = 1.2;      // farthest over nearest reading of it
+constexpr double kLeastOffset = -0.9;    // of the nearest distance
+constexpr double kForemostStart = -0.8;  // of it
+constexpr double kAnyBend = 4.0;         // one of kBends
+constexpr double kDark = 0.01;           // of the peak
 // Standard deviations of the smooth curve's second derivative, over (half angle)^-1.5.
 constexpr std::array<double, 4> kBends = {0.6, 1.5, 4.0, 10.0};
 
@@ -46,6 +53,12 @@ std::optional<BeamValues> SolveBeam(BeamProblem& problem, BeamValues p) {
   return Polish(problem, p);
 }
 
+double NearestOf(const std::vector<BeamRow>& rows) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const BeamRow& row : rows) nearest = std::min(nearest, Length(row.from_lamp));
+  return nearest;
+}
+
 // ln I by weighted mean, all else held.
 void StartStrength(const BeamProblem& problem, BeamValues& p) {
   p[kBeamLnIntensity] = 0.0;
@@ -67,6 +80,7 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   problem.shape = shape;
   problem.rows = readings.rows;
   problem.sheet = readings.sheet;
+  problem.least_offset = kLeastOffset * NearestOf(problem.rows);
   const bool smooth = shape.family == BeamFamily::kSmooth;
   problem.rules[kBeamLnIntensity] = {!smooth, smooth ? ln_peak : 0.0, 0.0};
   if (offset != nullptr) problem.rules[kBeamOffset] = {true, offset->mean_m, offset->sd_m};
@@ -147,6 +161,14 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   out.ln_axial = out.theta[kBeamLnIntensity];
   out.axial = Eigen::VectorXd::Zero(BeamProblem::kCount);
   out.axial[kBeamLnIntensity] = 1.0;
+  double squares_ratio = 1.0;
+  const ReadFrom& from = shape.read_from;
+  if (shape.family != BeamFamily::kEven) {
+    const double q = from.Relative(out.theta[kBeamOffset]);
+    squares_ratio = (1.0 + q) * (1.0 + q);
+    out.ln_axial += std::log(squares_ratio);
+    out.axial[kBeamOffset] = 2.0 / ((1.0 + q) * from.metres);
+  }
   if (smooth) {
     const double f = shape.Relative(0.0, best->data() + kBeamCommon);
     out.ln_axial += std::log(f);
@@ -155,69 +177,12 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   for (std::size_t i = 0; smooth && i < problem.rows.size(); ++i) {
     const BeamRow& row = problem.rows[i];
     const double candela = row.measured / TowardsOf(row, best->data()).per_candela;
-    if (row.lit && candela > kDark * std::exp(ln_peak)) {
+    if (row.lit && candela > kDark * squares_ratio * std::exp(out.theta[kBeamLnIntensity])) {
       out.outermost = std::max(out.outermost, out.gamma_rad[i]);
     }
   }
   out.leave_one_out = lit > 0 ? std::sqrt(squares / lit) : 0.0;
   return out;
-}
-
-// ---- what the readings look like as they stand ----
-
-// Candela that a row asks for, and its angle; the axis as it was stated.
-struct RoughPoint {
-  double gamma = 0.0, candela = 0.0;
-};
-std::vector<RoughPoint> RoughCurve(const std::vector<BeamRow>& rows) {
-  const std::array<double, kBeamCommon> as_stated{};
-  std::vector<RoughPoint> curve;
-  for (const BeamRow& row : rows) {
-    if (!row.lit) continue;
-    const auto towards = TowardsOf(row, as_stated.data());
-    if (!(towards.per_candela > 0.0)) continue;
-    curve.push_back({towards.gamma, std::max(0.0, row.measured / towards.per_candela)});
-  }
-  std::ranges::sort(curve, {}, &RoughPoint::gamma);
-  return curve;
-}
-
-int DistinctAngles(const std::vector<RoughPoint>& curve) {
-  constexpr double kApart = 0.5 * std::numbers::pi / 180.0;
-  int count = 0;
-  double last = -1.0;
-  for (const RoughPoint& point : curve) {
-    if (point.gamma < last + kApart) continue;
-    last = point.gamma;
-    ++count;
-  }
-  return count;
-}
-
-double RoughAt(const std::vector<RoughPoint>& curve, double gamma) {
-  if (gamma <= curve.front().gamma) return curve.front().candela;
-  for (std::size_t i = 1; i < curve.size(); ++i) {
-    if (gamma > curve[i].gamma) continue;
-    const double span = curve[i].gamma - curve[i - 1].gamma;
-    const double t = span > 0.0 ? (gamma - curve[i - 1].gamma) / span : 1.0;
-    return curve[i - 1].candela + t * (curve[i].candela - curve[i - 1].candela);
-  }
-  return -1.0;
-}
-
-// Nodes where a curve may turn sharply: of a lamp that is brightest beside its axis (lenses that
-// throw light sideways) those between the readings on both sides of the peak, else the axis itself
-// (mirrors and lenses before a small source).
-std::vector<int> KinksOf(const std::vector<RoughPoint>& curve, const BeamShape& shape) {
-  const auto most = std::ranges::max_element(curve, {}, &RoughPoint::candela);
-  std::vector<int> nodes;
-  if (most + 1 == curve.end()) return nodes;
-  if (most->candela < kHollow * curve.front().candela) return {0};
-  for (int k = 2; k < BeamShape::kNodes - 1; ++k) {
-    const double gamma = shape.scale * std::sinh(k * shape.step);
-    if (gamma > (most - 1)->gamma && gamma < (most + 1)->gamma) nodes.push_back(k);
-  }
-  return nodes;
 }
 
 void ShareOut(std::vector<SolvedBeam>& beams) {
@@ -232,45 +197,70 @@ void ShareOut(std::vector<SolvedBeam>& beams) {
   std::ranges::stable_sort(beams, std::ranges::greater(), &SolvedBeam::share);
 }
 
-}  // namespace
-
-double RoughHalfAngle(const std::vector<BeamRow>& rows) {
-  const std::vector<RoughPoint> curve = RoughCurve(rows);
-  if (curve.empty()) return 0.35;
-  const auto most = std::ranges::max_element(curve, {}, &RoughPoint::candela);
-  for (auto i = most + 1; i < curve.end(); ++i) {
-    if (i->candela > 0.5 * most->candela) continue;
-    const double t = ((i - 1)->candela - 0.5 * most->candela) / ((i - 1)->candela - i->candela);
-    return std::max(0.005, (i - 1)->gamma + t * (i->gamma - (i - 1)->gamma));
-  }
-  // Nothing was seen to fall so far: as a Gaussian through the last.
-  const RoughPoint& last = curve.back();
-  const double fallen = std::log(most->candela / std::max(last.candela, 1e-300));
-  const double farther = std::sqrt(std::numbers::ln2 / std::max(fallen, 0.05));
-  return std::clamp(farther * last.gamma, 0.02, 1.3);
+double OutermostOf(const std::vector<SheetRow>& sheet) {
+  double out = 0.0;
+  for (const SheetRow& row : sheet) out = std::max(out, row.gamma);
+  return out;
 }
 
-std::vector<SolvedBeam> SolveBeams(const BeamReadings& readings) {
+// The same readings of a lamp whose place is where its light starts, but for what is left.
+BeamReadings SeenFrom(BeamReadings readings, double start) {
+  for (BeamRow& row : readings.rows) row.from_lamp[2] += start;
+  for (OffsetPart& part : readings.offsets) part.mean_m -= start;
+  return readings;
+}
+
+// Metres behind the lamp's place that a free curve, seen from `start`, leaves the light to start
+// at.
+std::optional<double> NextStart(const BeamReadings& stated, const OffsetPart& any, double start) {
+  const BeamReadings seen = SeenFrom(stated, start);
+  const std::vector<RoughPoint> rough = RoughCurve(seen.rows);
+  if (rough.empty()) return std::nullopt;
+  RoughSmooth smooth = SmoothThrough(rough, RoughHalfAngle(seen.rows), OutermostOf(seen.sheet),
+                                     SurfaceOf(seen.rows).from);
+  smooth.shape.bend = kAnyBend * std::pow(smooth.shape.step, 1.5);
+  const OffsetPart left{1.0, any.mean_m - start, any.sd_m};
+  const auto solved =
+      SolveFamily(seen, &left, 1.0, smooth.shape, std::log(smooth.peak_cd), {smooth.nodes});
+  if (!solved) return std::nullopt;
+  return start + solved->theta[kBeamOffset];
+}
+
+// Metres behind the lamp's place where its light starts, by the fixture and by distances, none of
+// it by the beam's shape.
+double StartOf(const BeamReadings& stated) {
+  if (stated.offsets.empty()) return 0.0;
+  const OffsetPart any = MatchedOffset(stated.offsets);
+  const double foremost = kForemostStart * NearestOf(stated.rows);
+  const double usual = std::max(foremost, any.mean_m);
+  const ReadingSurface surface = SurfaceOf(stated.rows);
+  if (surface.spread < kOneSurface) return usual;
+  std::vector<double> begun = {usual};
+  for (const OffsetPart& part : stated.offsets) begun.push_back(std::max(foremost, part.mean_m));
+  for (double start : begun) {
+    std::optional<double> next;
+    for (int i = 0; i < kStarts; ++i) {
+      next = NextStart(stated, any, start);
+      if (!next) break;
+      next = std::max(foremost, *next);
+      if (std::abs(*next - start) < kNearEnough * surface.from.metres) return *next;
+      start = *next;
+    }
+    if (next) return *next;
+  }
+  return usual;
+}
+
+}  // namespace
+
+std::vector<SolvedBeam> SolveBeams(const BeamReadings& stated) {
+  const double start = StartOf(stated);
+  const BeamReadings readings = SeenFrom(stated, start);
   const double half = RoughHalfAngle(readings.rows);
   const std::vector<RoughPoint> rough = RoughCurve(readings.rows);
-  double peak = 0.0;
-  double outermost = 0.0;
-  for (const RoughPoint& point : rough) {
-    peak = std::max(peak, point.candela);
-    outermost = std::max(outermost, point.gamma);
-  }
-  for (const SheetRow& row : readings.sheet) outermost = std::max(outermost, row.gamma);
-  BeamShape curve{BeamFamily::kSmooth};
-  curve.scale = half;
-  const double reach = std::clamp(std::max(kReach * outermost, 2.0 * half), 0.01, kQuarterTurn);
-  curve.step = std::asinh(reach / half) / (BeamShape::kNodes - 1);
-  std::vector<double> nodes;
-  for (int k = 0; k < BeamShape::kNodes; ++k) {
-    const double seen = RoughAt(rough, half * std::sinh(k * curve.step));
-    // Beyond the readings on down from the last.
-    nodes.push_back(seen >= 0.0 ? BeamShape::LatentOf(seen / peak)
-                                : nodes.back() - 0.2 * curve.step);
-  }
+  const ReadFrom from = SurfaceOf(readings.rows).from;
+  const RoughSmooth smooth = SmoothThrough(rough, half, OutermostOf(readings.sheet), from);
+  BeamShape curve = smooth.shape;
   const std::vector<int> kinks = rough.empty() ? std::vector<int>{} : KinksOf(rough, curve);
   std::vector<std::vector<double>> one, two, cones;
   for (const double factor : {0.7, 1.0, 1.4}) {
@@ -294,25 +284,29 @@ std::vector<SolvedBeam> SolveBeams(const BeamReadings& readings) {
   if (offsets.empty()) offsets.push_back(nullptr);
   for (const OffsetPart* offset : offsets) {
     if (readings.may_be_even) {
-      add(SolveFamily(readings, offset, 2.0, {BeamFamily::kEven}, 0.0, {{}}));
+      add(SolveFamily(readings, offset, 2.0, {BeamFamily::kEven, from}, 0.0, {{}}));
     }
-    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kCosinePower}, 0.0, one));
-    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kCosineGaussian}, 0.0, two));
-    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kPeakedOrFlat}, 0.0, powers));
-    add(SolveFamily(readings, offset, 0.5, {BeamFamily::kCone}, 0.0, cones));
-    add(SolveFamily(readings, offset, 0.5, {BeamFamily::kDomedCone}, 0.0, domes));
+    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kCosinePower, from}, 0.0, one));
+    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kCosineGaussian, from}, 0.0, two));
+    add(SolveFamily(readings, offset, 1.0, {BeamFamily::kPeakedOrFlat, from}, 0.0, powers));
+    add(SolveFamily(readings, offset, 0.5, {BeamFamily::kCone, from}, 0.0, cones));
+    add(SolveFamily(readings, offset, 0.5, {BeamFamily::kDomedCone, from}, 0.0, domes));
     // A free curve through three angles says nothing of what lies between.
     if (DistinctAngles(rough) < kFewestForCurve) continue;
     for (const double bend : kBends) {
       curve.bend = bend * std::pow(curve.step, 1.5);
       curve.kink = -1;
-      add(SolveFamily(readings, offset, 0.5, curve, std::log(peak), {nodes}));
+      add(SolveFamily(readings, offset, 0.5, curve, std::log(smooth.peak_cd), {smooth.nodes}));
       for (const int kink : kinks) {
         curve.kink = kink;
         const double weight = 0.5 / static_cast<double>(kinks.size());
-        add(SolveFamily(readings, offset, weight, curve, std::log(peak), {nodes}));
+        add(SolveFamily(readings, offset, weight, curve, std::log(smooth.peak_cd), {smooth.nodes}));
       }
     }
+  }
+  for (SolvedBeam& beam : out) {  // as stated again
+    beam.theta[kBeamOffset] += start;
+    beam.shape.read_from.start = start;
   }
   if (!out.empty()) ShareOut(out);
   return out;
