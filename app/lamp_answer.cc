@@ -128,11 +128,6 @@ std::string PartWord(const std::string& name) {
 std::string Parts(const FittedLight& light) {
   std::vector<std::pair<std::string, double>> parts;
   for (const BudgetPart& part : light.budget) parts.emplace_back(part.name, part.sd_relative);
-  if (parts.empty() && light.distribution) {
-    for (const auto& part : light.distribution->budget) parts.emplace_back(part.name, part.peak);
-    std::ranges::stable_sort(parts, std::ranges::greater(),
-                             &std::pair<std::string, double>::second);
-  }
   std::string text;
   for (std::size_t i = 0; i < std::min(kPartsShown, parts.size()); ++i) {
     const double stops = StopsOfSd(parts[i].second);

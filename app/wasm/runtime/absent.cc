@@ -47,7 +47,9 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& /*so
 bool RestsOnCameraScale(const Session& /*session*/, const std::string& /*light*/) { return false; }
 
 Result<std::vector<FittedLight>> MeasureWalls(const Session& /*session*/,
-                                              const Sources& /*sources*/, Evidence& /*evidence*/) {
+                                              const Sources& /*sources*/,
+                                              const FitSettings& /*settings*/,
+                                              Evidence& /*evidence*/) {
   return std::vector<FittedLight>{};
 }
 

@@ -162,7 +162,7 @@ struct FoundLights {
 
 Result<FoundLights> FindLights(const Session& session, const Sources& sources,
                                const CalibrationSettings& settings, Evidence& evidence) {
-  auto walls = MeasureWalls(session, sources, evidence);
+  auto walls = MeasureWalls(session, sources, FitSettingsOf(settings), evidence);
   Lap(settings, tradeoff::Stage::kPictures);
   if (!walls) return Propagate(std::move(walls));
   const auto by_wall = [&](const std::string& name) {

@@ -238,6 +238,13 @@ std::string Below(const std::string& table) {
   return table.empty() ? "" : "<div class=\"below\">" + table + "</div>\n";
 }
 
+// By its own budget; of a distribution measured on a wall, of its flux too.
+std::string WhereFrom(const FittedLight& light) {
+  const bool of_wall = light.distribution && light.distribution->budget.size() > 1;
+  return of_wall ? DistributionBudgetTable(light)
+                 : BudgetTable(light.budget) + DistributionBudgetTable(light);
+}
+
 }  // namespace
 
 Headline HeadlineOf(const FittedLight& light) {
@@ -271,10 +278,10 @@ std::string LightSection(const FittedLight& light, int index, bool alone,
   if (!figure.empty()) html += Cards(light);
   html += Figures(light, extras, id + "-");
   html += Below(CameraView(light, extras));
-  const std::string tables =
-      Below(ReadingTable(light.residuals)) + Below(ParityTable(light.name, extras.engines.parity)) +
-      Below(AroundTable(light.name, extras.engines.parity)) + Below(BudgetTable(light.budget)) +
-      Below(DistributionBudgetTable(light)) + Below(EffectTable(light.effects));
+  const std::string tables = Below(ReadingTable(light.residuals)) +
+                             Below(ParityTable(light.name, extras.engines.parity)) +
+                             Below(AroundTable(light.name, extras.engines.parity)) +
+                             Below(WhereFrom(light)) + Below(EffectTable(light.effects));
   if (!tables.empty()) {
     html +=
         "<details class=\"rest\"><summary>Every reading, every engine's lux, every effect"

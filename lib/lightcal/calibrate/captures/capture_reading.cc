@@ -189,17 +189,23 @@ void AddCapture(const Session& session, const CaptureDescription& capture,
            " %; one lux reading of this light, or anchor_illuminance_lx, makes it sure"});
 }
 
+std::optional<double> ShortestOf(const MergedBracket& merged) {
+  std::optional<double> shortest;
+  for (const MergedFrame& frame : merged.frames) {
+    const auto& time = frame.info.exposure.time;
+    if (!frame.used || !time) continue;
+    shortest = std::min(shortest.value_or(time->value()), time->value());
+  }
+  return shortest;
+}
+
 namespace {
 
 // `patch`: the patch's luminance in the merge's own unit; 0 = unknown.
 PictureFacts FactsOf(const MergedBracket& merged, double patch) {
   PictureFacts facts;
   facts.flat_field = merged.corrections.flat().has_value();
-  for (const MergedFrame& frame : merged.frames) {
-    const auto& time = frame.info.exposure.time;
-    if (!frame.used || !time) continue;
-    facts.shortest_s = std::min(facts.shortest_s.value_or(time->value()), time->value());
-  }
+  facts.shortest_s = ShortestOf(merged);
   if (patch > 0.0) {
     const std::vector<float> nits = LuminanceOf(merged, 1.0);
     double sum = 0.0;

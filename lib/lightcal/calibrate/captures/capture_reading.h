@@ -70,6 +70,9 @@ struct PictureFindings {
                                                   const std::optional<SpotReading>& anchor,
                                                   const Sources& sources);
 
+// Exposure in seconds of the shortest frame that the merge used.
+[[nodiscard]] std::optional<double> ShortestOf(const MergedBracket& merged);
+
 // capture.rect, else `otherwise`.  Refused: bad_region.
 [[nodiscard]] Result<Region> RegionOfCapture(const CaptureDescription& capture,
                                              const FrameInfo& info, const Region& otherwise);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "lightcal/fit/colour/other_light.h"
 #include "lightcal/fit/distribution/fit_distribution.h"
 #include "lightcal/fit/distribution/other_wall_light.h"
+#include "lightcal/fit/model/budget.h"
+#include "lightcal/fit/plan/plan_forward.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
 #include "lightcal/imaging/scene/board_camera.h"
 #include "lightcal/imaging/scene/wall_samples.h"
@@ -108,9 +111,12 @@ FittedLight LightOf(const LightDescription& light, const PosedWall& wall,
   if (light.width) out.width_m = light.width->value();
   if (light.height) out.height_m = light.height->value();
   MeasuredDistribution measured{std::move(found.table), found.interpolated_share};
+  std::vector<fit::VariancePart> of_peak;
   for (const auto& part : found.budget) {
     measured.budget.push_back({part.name, part.peak, part.flux});
+    of_peak.push_back({part.name, part.peak * part.peak});
   }
+  out.budget = fit::BudgetOf(of_peak);
   out.distribution = std::move(measured);
   out.fit.readings = found.samples;
   out.fit.used = found.samples - found.rejected;
@@ -321,8 +327,32 @@ EffectReport OtherLightReport(const Session& session, const CaptureDescription& 
   return out;
 }
 
+// What the lamp did while it was photographed: its effects, its parts of the budget.
+Result<std::vector<EffectReport>> WidenInTime(const Session& session,
+                                              const CaptureDescription& capture,
+                                              const LightDescription& light, const PosedWall& wall,
+                                              const FitSettings& settings,
+                                              FittedDistribution& found) {
+  ScenePicture picture;
+  picture.rows_s = capture.rows_s;
+  picture.exposure_s = wall.picture.shortest_s;
+  if (!capture.exposure_s.empty()) picture.exposure_s = std::ranges::min(capture.exposure_s);
+  const double way_m =
+      Length(*light.position_m) + Length(WallCamera(wall.camera.parameters).position_m());
+  auto lamp = fit::FindLampInPictures(session, light, picture, way_m,
+                                      capture.anchor_illuminance.has_value(), settings);
+  if (!lamp) return Propagate(std::move(lamp));
+  for (const auto& part : lamp->parts) {
+    WidenInLn(found.peak_cd, 1.0, part.sd);
+    WidenInLn(found.flux_lm, 1.0, part.sd);
+    found.budget.push_back({part.name, part.sd, part.sd});
+  }
+  return std::move(lamp->effects);
+}
+
 Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription& capture,
-                                const Sources& sources, Evidence& evidence) {
+                                const Sources& sources, const FitSettings& settings,
+                                Evidence& evidence) {
   const LightDescription& light = *FindLight(session, capture.light);
   if (auto good = CheckLight(light); !good) return Propagate(std::move(good));
   const auto wall = ReadPosedWall(session, capture, sources, evidence);
@@ -330,12 +360,15 @@ Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription
   auto measured = MeasureDistribution(session, capture, light, *wall);
   if (!measured) return Propagate(std::move(measured));
   WarnOf(light, capture, *wall, measured->saturated, measured->distribution, evidence.warnings);
+  auto in_time = WidenInTime(session, capture, light, *wall, settings, measured->distribution);
+  if (!in_time) return Propagate(std::move(in_time));
   WarnOfOtherLight(capture, *measured, evidence.warnings);
   EffectReport other = OtherLightReport(session, capture, *measured);
   const fit::OtherShares shares = SharesOf(*measured);
   FittedLight out = LightOf(light, *wall, std::move(measured->distribution),
                             light.aim.value_or(Vec3{0.0, 1.0, 0.0}));
   out.effects = {std::move(other)};
+  std::ranges::move(*in_time, std::back_inserter(out.effects));
   out.color = ColorOf(session, light, capture, wall->picture, shares, out, evidence.warnings);
   return out;
 }
@@ -343,11 +376,11 @@ Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription
 }  // namespace
 
 Result<std::vector<FittedLight>> MeasureWalls(const Session& session, const Sources& sources,
-                                              Evidence& evidence) {
+                                              const FitSettings& settings, Evidence& evidence) {
   std::vector<FittedLight> lights;
   for (const CaptureDescription& capture : session.captures) {
     if (capture.use != CaptureUse::kWall) continue;
-    auto light = MeasureWall(session, capture, sources, evidence);
+    auto light = MeasureWall(session, capture, sources, settings, evidence);
     if (!light) return Propagate(std::move(light));
     const bool again = std::ranges::find(lights, light->name, &FittedLight::name) != lights.end();
     if (again) {

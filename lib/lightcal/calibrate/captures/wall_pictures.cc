@@ -231,6 +231,7 @@ Result<WallPicture> FromBracket(const Session& session, const CaptureDescription
   out.scale_sd = std::hypot(merged.scale_u95_relative / kZ95, anchor ? 0.0 : lamp->sigma);
   out.scale_source = merged.scale_source;
   out.flat = merged.corrections.flat().has_value();
+  out.shortest_s = ShortestOf(merged);
   if (lamp->xy) {
     const Xyz unit = XyzFromXyAtUnitY(*lamp->xy);
     const double nits = factor * seen.Y;

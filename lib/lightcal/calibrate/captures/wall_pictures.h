@@ -39,10 +39,11 @@ struct WallPicture {
   std::vector<float> sigma;  // 1 standard deviation of each pixel; empty where the file has none
   double scale_sd = 0.0;     // relative, common to all pixels, reflectance left out
   ScaleSource scale_source = ScaleSource::kPicture;
-  bool flat = false;         // the camera's profile took the lens's falloff out
-  WallSelection selection;   // what of it shows the wall
-  std::optional<Xyz> color;  // mean of that, cd/m^2, by the camera
-  std::string camera, time;  // "" = unknown
+  bool flat = false;                 // the camera's profile took the lens's falloff out
+  std::optional<double> shortest_s;  // exposure of its shortest frame; absent = unknown
+  WallSelection selection;           // what of it shows the wall
+  std::optional<Xyz> color;          // mean of that, cd/m^2, by the camera
+  std::string camera, time;          // "" = unknown
 
   [[nodiscard]] View2d<const float> sigma_view() const {
     return sigma.empty() ? View2d<const float>()

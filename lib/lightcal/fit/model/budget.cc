@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 38> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {kCameraScale, "one lux reading of this light, or a calibrated camera"},
@@ -40,12 +40,19 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 31> kCures =
     {"narrow_beam", "stand 1.4 times as far away, or state diameter_m"},
     {"mains", "state lamp_class; of a filament, a regulated supply"},
     {"flicker", "readings that gather light for twice as long"},
-    {"rolling_shutter", "an exposure twice as long"},
+    {"rolling_shutter", "an exposure twice as long, or state flicker_depth"},
     {"warm_up", "state minutes_on, or let the lamp warm up ten minutes longer"},
     {"table_interpolation", "a table with nodes 0.7 times as far apart"},
     {"vignetting", "move the patch 0.7 times as far from the picture's middle, or a flat field"},
     {"veiling_glare", "a darker surround, or a shade on the lens"},
     {"noise", "a patch of four times the pixels"},
+    {"scale", "a meter held to the wall: anchor_illuminance_lx, and wall.anchor_rect around it"},
+    {"lamp_position", "the lamp's place measured twice as well, and position_sigma_m that says so"},
+    {"camera", "the board photographed from near, from more sides"},
+    {"not_matt", "a matt wall, seen and lit from straight before it"},
+    {"board_size", "the board's squares measured on the print"},
+    {"other_light", "a card's shadow in the frames, a picture with the lamp off, or a darker room"},
+    {"misfit", "a wall without things on it, and frames without noise"},
     {"shape_off_axis", "readings 1.4 times as far away"},
 }};
 

@@ -35,6 +35,31 @@ Consider Widening(const Scene& scene, const GatedEffect& effect, double sd) {
           effect.finding.of_pictures};
 }
 
+// Relative, 1 sigma. What is left off: a rectangular distribution of half width `bound`, unless
+// more is known.
+double WidensBy(const GatedEffect& effect) {
+  const double bound = effect.finding.bound;
+  if (effect.state == GateState::kOff) {
+    if (!effect.ignored || !(bound > 0.0)) return 0.0;
+    const double most = bound / std::numbers::sqrt3;
+    return std::min(most, effect.finding.sd.value_or(most));
+  }
+  if (effect.finding.treatment != Treatment::kWidens) return 0.0;
+  return effect.finding.sd.value_or(0.5 * bound);
+}
+
+EffectReport ReportOf(const GatedEffect& effect, const Scene& scene, const FitSettings& settings) {
+  const double cost_ns =
+      settings.time_effects ? MeasuredCost_ns(effect.name, scene) : effect.cost_ns;
+  return {std::string(effect.name),
+          StateOf(effect.state),
+          effect.finding.bound,
+          std::nullopt,
+          cost_ns,
+          effect.reason,
+          std::string(effect.key)};
+}
+
 void ModelBounce(const Scene& scene, const Observations& observations, ForwardModel& model) {
   double mean = 0.0;
   bool even = true;
@@ -81,18 +106,10 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
     model.walls = scene.walls;
   }
   if (effect.name == "ambient" && effect.state == GateState::kOff) model.fit_ambient = false;
-  if (effect.state == GateState::kOff) {
-    // A rectangular distribution of half width `bound`, unless more is known.
-    if (effect.ignored && bound > 0.0) {
-      const double most = bound / std::numbers::sqrt3;
-      model.considered.push_back(
-          Widening(scene, effect, std::min(most, effect.finding.sd.value_or(most))));
-    }
-    return;
+  if (const double sd = WidensBy(effect); sd > 0.0) {
+    model.considered.push_back(Widening(scene, effect, sd));
   }
-  if (treatment == Treatment::kWidens) {
-    model.considered.push_back(Widening(scene, effect, effect.finding.sd.value_or(0.5 * bound)));
-  }
+  if (effect.state == GateState::kOff) return;
   if (treatment == Treatment::kModelled && bound > 0.0) {
     ModelEffect(scene, light, observations, effect.name, model);
   }
@@ -177,11 +194,7 @@ void Follow(const LightDescription& light, const Observations& observations,
       plan.model.offsets = {
           {1.0, plan.scene.offsets.front().mean_m, plan.scene.offsets.front().sd_m}};
     }
-    if (!effect.finding.applies) continue;
-    const double cost_ns =
-        settings.time_effects ? MeasuredCost_ns(effect.name, plan.scene) : effect.cost_ns;
-    plan.effects.push_back({std::string(effect.name), StateOf(effect.state), effect.finding.bound,
-                            std::nullopt, cost_ns, effect.reason, std::string(effect.key)});
+    if (effect.finding.applies) plan.effects.push_back(ReportOf(effect, plan.scene, settings));
   }
 }
 
@@ -200,6 +213,33 @@ Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& 
   plan.gated = *std::move(effects);
   Follow(light, observations, settings, plan);
   return plan;
+}
+
+Result<LampInPictures> FindLampInPictures(const Session& session, const LightDescription& light,
+                                          const ScenePicture& picture, double way_m,
+                                          bool level_by_meter, const FitSettings& settings) {
+  Scene scene;
+  scene.kind = light.kind;
+  scene.time = TimeOfLamp(session, light);
+  scene.picture = picture;
+  scene.no_walls = scene.dark = true;  // what they do to the wall is known otherwise
+  scene.poses.resize(1);
+  scene.poses.front().distance_m = way_m;
+  const Result<std::vector<GatedEffect>> gated =
+      GateEffects(scene, settings.tolerance_relative, settings.effects);
+  if (!gated) return tl::unexpected(gated.error());
+  LampInPictures out;
+  for (const GatedEffect& effect : *gated) {
+    const bool of_shutter = effect.name == "flicker" || effect.name == "rolling_shutter";
+    const bool of_lamp =
+        effect.name == "mains" || effect.name == "warm_up" || effect.name == "haze";
+    if (!effect.finding.applies || !(of_lamp || (of_shutter && !level_by_meter))) continue;
+    out.effects.push_back(ReportOf(effect, scene, settings));
+    if (const double sd = WidensBy(effect); sd > 0.0) {
+      out.parts.push_back({std::string(effect.name), sd});
+    }
+  }
+  return out;
 }
 
 Result<std::optional<ForwardPlan>> PlanAfterFit(const ForwardPlan& plan,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -25,6 +26,24 @@ struct ForwardPlan {
 [[nodiscard]] Result<ForwardPlan> PlanForward(const Session& session, const LightDescription& light,
                                               const Observations& observations,
                                               const FitSettings& settings);
+
+// What a lamp does in time while a wall that it lights is photographed, and the air on the way.
+struct LampInPictures {
+  struct Part {
+    std::string name;
+    double sd = 0.0;  // relative
+  };
+  std::vector<Part> parts;
+  std::vector<EffectReport> effects;
+};
+
+// `way_m`: from the lamp over the wall to the camera. `level_by_meter`: a meter told the level, so
+// that no shutter's moment matters.   Fails: as GateEffects.
+[[nodiscard]] Result<LampInPictures> FindLampInPictures(const Session& session,
+                                                        const LightDescription& light,
+                                                        const ScenePicture& picture, double way_m,
+                                                        bool level_by_meter,
+                                                        const FitSettings& settings);
 
 // The plan anew with the distance offset found, where an effect that was left off has outgrown its
 // share by it; absent where none has. The reasons of such effects say so.

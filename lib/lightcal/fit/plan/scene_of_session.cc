@@ -121,13 +121,10 @@ void AddPicture(const CaptureDescription& capture, std::optional<ScenePicture>& 
 
 // Who read, with what: a person's meter, a manufacturer, a camera.
 void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
+  const std::optional<double> window_s = scene.time.window_s;
+  scene.time = TimeOfLamp(session, light);
+  scene.time.window_s = window_s;
   scene.time.own_lamp = false;
-  scene.time.filament = BurnsFilament(session, light);
-  if (light.in_time.minutes_on) scene.time.on_for_s = 60.0 * *light.in_time.minutes_on;
-  scene.time.flicker_hz = light.in_time.flicker_hz;
-  scene.time.ripple = light.in_time.flicker_depth;
-  scene.time.duty = light.in_time.pwm_duty;
-  scene.time.haze_per_metre = session.haze_per_metre;
   bool pictures = false;
   for (const SessionReading& row : session.readings) {
     if (row.reading.light != light.name || !row.reading.illuminance) continue;
@@ -175,6 +172,17 @@ void AddPriors(const Session& session, const LightDescription& light,
 }
 
 }  // namespace
+
+SceneTime TimeOfLamp(const Session& session, const LightDescription& light) {
+  SceneTime time;
+  time.filament = BurnsFilament(session, light);
+  if (light.in_time.minutes_on) time.on_for_s = 60.0 * *light.in_time.minutes_on;
+  time.flicker_hz = light.in_time.flicker_hz;
+  time.ripple = light.in_time.flicker_depth;
+  time.duty = light.in_time.pwm_duty;
+  time.haze_per_metre = session.haze_per_metre;
+  return time;
+}
 
 std::optional<StatedRoom> StatedRoomOf(const Session& session) {
   if (!session.room) return std::nullopt;

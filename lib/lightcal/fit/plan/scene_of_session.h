@@ -21,6 +21,9 @@ namespace lightcal::fit {
 [[nodiscard]] std::vector<WallHypothesis> WallPriorsOf(const Session& session,
                                                        const LightDescription& light);
 
+// The lamp in time, as the session says it; its readings are its own.
+[[nodiscard]] SceneTime TimeOfLamp(const Session& session, const LightDescription& light);
+
 // Poses of the lit readings, the worst of the meters and pictures that took them, and the priors of
 // walls (light/wall_prior.h) and distance offset (light/fixture.h). `patches`: along each side of a
 // stated room's walls. No poses: nothing lit was read.
