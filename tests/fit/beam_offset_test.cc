@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "lightcal/fit/fit_light.h"
@@ -83,6 +84,22 @@ TEST(BeamOffset, IsNotToldByTheShapeAllAround) {
     places.push_back({2.0 * std::sin(a), 2.0 * std::cos(a)});
   }
   HoldsAtEveryOffset(places);
+}
+
+TEST(StatedCone, ThatTheReadingsAreNotOnIsRefusedWithWhatTheyShow) {
+  const std::vector<Place> places = {{0.0}, {0.2}, {0.4}, {0.6}, {0.8}, {1.0}, {1.3}, {1.6}};
+  for (const Surroundings around : {Surroundings::kDark, Surroundings::kIndoors}) {
+    for (const bool inner_too : {true, false}) {
+      Session session = BeamSession(0.0, places);
+      session.surroundings = around;
+      session.lights.front().outer = RadiansFromDegrees(inner_too ? 35.0 : 40.0);
+      if (inner_too) session.lights.front().inner = RadiansFromDegrees(8.0);
+      const auto fitted = FitSession(session, {});
+      ASSERT_FALSE(fitted.has_value());
+      EXPECT_EQ(fitted.error().code, "cone_unlike");
+      EXPECT_NE(fitted.error().message.find("beam_deg"), std::string::npos);
+    }
+  }
 }
 
 TEST(BeamOffset, IsToldByDistances) {

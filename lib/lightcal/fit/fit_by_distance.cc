@@ -88,11 +88,11 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
     estimate = estimate_by(plan->model);
     if (!estimate) return Propagate(std::move(estimate));
   }
+  if (beam) WidenByCone(beam->ln_intensity_extra_variance, *estimate);
   if (auto known = CheckKnown(*estimate, light.name); !known) return Propagate(std::move(known));
   if (sampling) session_out.notes.push_back(SayOfSampling(*estimate, light.name));
   session_out.Warn(std::move(estimate->warnings));
   if (beam) {
-    WidenByCone(beam->ln_intensity_extra_variance, *estimate);
     estimate->diagnostics.used += beyond;
     estimate->diagnostics.learned.emplace_back("cone");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/fit_light.h"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,6 +44,13 @@ Result<FittedLight> FitUnread(const LightDescription& light, const fit::Observat
                            observations.warnings.front().message);
 }
 
+// No reading thrown out, and the others as near as they scatter.
+bool SuitsReadings(const FittedLight& fitted) {
+  constexpr double kChiSquared = 3.0;  // a degree of freedom
+  return std::ranges::all_of(fitted.residuals, &ResidualRow::used) &&
+         fitted.fit.chi2_dof.value_or(1.0) < kChiSquared;
+}
+
 Result<FittedLight> FitStrength(const Session& session, const LightDescription& light,
                                 const FitSettings& settings, FittedSession& session_out) {
   Warnings& warnings = session_out.warnings;
@@ -68,8 +76,13 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
       return **std::move(shaped);
     }
   }
-  return fit::FitByDistance(session, light, *std::move(observations), settings, std::move(out),
-                            session_out);
+  Result<FittedLight> fitted =
+      fit::FitByDistance(session, light, *observations, settings, std::move(out), session_out);
+  if (fitted && SuitsReadings(*fitted)) return fitted;
+  if (auto cone = fit::CheckStatedCone(session, light, *observations, settings); !cone) {
+    return Propagate(std::move(cone));
+  }
+  return fitted;
 }
 
 // Its colour last: how much of the light in a reading was the lamp's own is what the fit found.

@@ -2,8 +2,11 @@
 #include "lightcal/fit/beam/fit_profile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/asked_sampling.h"
@@ -12,6 +15,8 @@
 #include "lightcal/fit/model/meter_calibration.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/plan/plan_forward.h"
+#include "lightcal/photometry/spot_cone.h"
+#include "lightcal/photometry/spot_profile.h"
 
 namespace lightcal::fit {
 namespace {
@@ -23,17 +28,100 @@ void WidenBeam(double calibration, BeamLight& found) {
   WidenInLn(*found.beam.axial, 1.0, calibration);
 }
 
+Result<BeamLight> ShapeOfReadings(const Session& session, const LightDescription& light,
+                                  const Observations& observations, const FitSettings& settings,
+                                  ForwardPlan& plan) {
+  LightDescription seen = light;
+  seen.beam = RoughBeam(observations, light);
+  Result<ForwardPlan> planned = PlanForward(session, seen, observations, settings);
+  if (!planned) return Propagate(std::move(planned));
+  plan = *std::move(planned);
+  return FitBeamLight(observations, light, plan.model);
+}
+
+// Relative intensity by the cone at gamma, and where it is farthest from what was read.
+struct OffCone {
+  double inner = 0.0, gamma = 0.0, read = 1.0, stated = 1.0;
+  [[nodiscard]] double Part() const { return std::abs(read - stated); }
+};
+
+std::vector<double> AnglesRead(const Observations& observations, const LightDescription& light,
+                               const BeamLight& found) {
+  const std::optional<Vec3>& aim = found.aim ? found.aim : light.aim;
+  std::vector<double> out;
+  for (const Observation& row : observations.rows) {
+    if (!row.lit) continue;
+    if (row.off_axis_rad != 0.0) out.push_back(std::abs(row.off_axis_rad));
+    if (!LitAndPlaced(row) || !light.position_m || !aim) continue;
+    out.push_back(AngleFromAim(*aim, *row.position_m - *light.position_m).value());
+  }
+  return out;
+}
+
+// `wider`: than the shape found, within its interval.
+OffCone FarthestOff(const std::vector<double>& angles, const BeamLight& found, double wider,
+                    double inner, double outer) {
+  OffCone most{inner};
+  const double axis = found.table.At(Radians(0.0), Radians(0.0)).value();
+  for (const double gamma : angles) {
+    const double read = found.table.At(Radians(0.0), Radians(gamma / wider)).value() / axis;
+    const double stated = SpotProfile(HalfVersine(gamma), HalfVersine(inner), HalfVersine(outer),
+                                      SpotFalloff::kSquaredLinear);
+    const OffCone one{inner, gamma, read, stated};
+    if (one.Part() > most.Part()) most = one;
+  }
+  return most;
+}
+
+// By the cone and the width, within what is known of both, that suit each other best.
+OffCone LeastOff(const std::vector<double>& angles, const BeamLight& found,
+                 const LightDescription& light) {
+  constexpr int kSteps = 10;
+  const Uncertain& beam = *found.beam.beam_deg;
+  const double outer = light.outer->value();
+  OffCone best;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double wider = (*beam.low + (*beam.high - *beam.low) * i / kSteps) / beam.value;
+    for (int k = 0; k < (light.inner ? 1 : kSteps); ++k) {
+      const double inner = light.inner ? light.inner->value() : outer * k / kSteps;
+      const OffCone off = FarthestOff(angles, found, wider, inner, outer);
+      if ((i == 0 && k == 0) || off.Part() < best.Part()) best = off;
+    }
+  }
+  return best;
+}
+
 }  // namespace
+
+Result<void> CheckStatedCone(const Session& session, const LightDescription& light,
+                             const Observations& observations, const FitSettings& settings) {
+  // Of the peak: of a beam that may be some cone, and of one that is none.
+  constexpr double kUnlikeThis = 0.15, kUnlikeAny = 0.04;
+  LightDescription open = light;
+  open.inner.reset();
+  open.outer.reset();
+  if (!light.outer || !NeedsProfile(observations, open)) return {};
+  ForwardPlan plan;
+  const auto found = ShapeOfReadings(session, open, observations, settings, plan);
+  if (!found || found->even || !found->beam.beam_deg) return {};
+  const std::vector<double> angles = AnglesRead(observations, light, *found);
+  const OffCone best = LeastOff(angles, *found, light);
+  if (best.Part() < (found->flat_cone ? kUnlikeThis : kUnlikeAny)) return {};
+  const OffCone shown = FarthestOff(angles, *found, 1.0, best.inner, light.outer->value());
+  return Refused("cone_unlike", light.name,
+                 "at " + RoundedText(DegreesFromRadians(Radians(shown.gamma)), 2) +
+                     " degrees off the axis the readings show " + PercentText(shown.read) +
+                     " of the middle, the stated cone " + PercentText(shown.stated) +
+                     ": leave outer_deg and inner_deg out, and the beam's own shape is found; "
+                     "what a data sheet prints are beam_deg and field_deg");
+}
 
 Result<std::optional<FittedLight>> FitProfile(const Session& session, const LightDescription& light,
                                               const Observations& observations,
                                               const FitSettings& settings, FittedLight out,
                                               FittedSession& session_out) {
-  LightDescription seen = light;
-  seen.beam = RoughBeam(observations, light);
-  Result<ForwardPlan> plan = PlanForward(session, seen, observations, settings);
-  if (!plan) return Propagate(std::move(plan));
-  Result<BeamLight> found = FitBeamLight(observations, light, plan->model);
+  ForwardPlan plan;
+  Result<BeamLight> found = ShapeOfReadings(session, light, observations, settings, plan);
   // A cone and a bulb have fits of their own, which may still answer.
   const bool stated = std::ranges::any_of(
       observations.rows, [](const Observation& o) { return o.off_axis_rad != 0.0; });
@@ -51,7 +139,7 @@ Result<std::optional<FittedLight>> FitProfile(const Session& session, const Ligh
   FillParameters(estimate, true, out);
   out.fit = estimate.diagnostics;
   out.residuals = estimate.residuals;
-  out.effects = ReportEffects(*plan, observations, estimate);
+  out.effects = ReportEffects(plan, observations, estimate);
   ReportCalibration(observations, out.effects);
   out.budget = BudgetWithScale(observations, estimate.variance_parts);
   session_out.Warn(std::move(estimate.warnings));

@@ -19,4 +19,12 @@ namespace lightcal::fit {
     const Session& session, const LightDescription& light, const Observations& observations,
     const FitSettings& settings, FittedLight out, FittedSession& session_out);
 
+// Whether readings off the axis lie on the cone that the session states (outer_deg, with or without
+// inner_deg; f of photometry/spot_profile.h). Refused: cone_unlike, where the shape that they show
+// by themselves, as wide as it may be, differs from it by more than 15 % of the peak where one of
+// them was taken; 4 % where no cone is likely. Where they show none nothing is said.
+[[nodiscard]] Result<void> CheckStatedCone(const Session& session, const LightDescription& light,
+                                           const Observations& observations,
+                                           const FitSettings& settings);
+
 }  // namespace lightcal::fit
