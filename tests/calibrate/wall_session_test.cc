@@ -135,12 +135,15 @@ class WallInARoom : public testing::Test {
                           of_wall);
     return LightcalJson("fit", {session, "-o", folder_.path() + "/light.json", "--force"});
   }
-  // 1 sigma of the flux that a cause leaves open.
-  static double PartOf(const json& light, const char* cause) {
+  // 1 sigma of the flux, or the peak, that a cause leaves open.
+  static double PartOf(const json& light, const char* cause, const char* of = "flux_sd_relative") {
     for (const json& part : light["distribution"]["budget"]) {
-      if (part["name"] == cause) return double(part["flux_sd_relative"]);
+      if (part["name"] == cause) return double(part[of]);
     }
     return 0.0;
+  }
+  static double PeakPartOf(const json& light, const char* cause) {
+    return PartOf(light, cause, "peak_sd_relative");
   }
   static double FoundOverTrue(const json& light, const char* what) {
     const double seen_deg = light["distribution"]["vertical_deg"].back();
@@ -170,14 +173,6 @@ TEST_F(WallInARoom, WhatTheRoomThrowsBackIsInTheIntervalAndACardsShadowMeasuresI
   EXPECT_LT(PartOf(light, "other_light"), PartOf(guessed, "other_light"));
   // The room's 25 lx and the other lamp's 9 at the middle, 38 in the shadow; the slope is not told.
   EXPECT_NEAR(double(light["effects"][0]["contribution"]) * 934.0, 36.0, 2.5);
-}
-
-// 1 sigma of the peak.
-double PeakPartOf(const json& light, const char* cause) {
-  for (const json& part : light["distribution"]["budget"]) {
-    if (part["name"] == cause) return double(part["peak_sd_relative"]);
-  }
-  return 0.0;
 }
 
 double WidthOf(const json& value) {

@@ -76,6 +76,10 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
       return **std::move(shaped);
     }
   }
+  if (!light.outer) {
+    return fit::FitByDistance(session, light, *std::move(observations), settings, std::move(out),
+                              session_out);
+  }
   Result<FittedLight> fitted =
       fit::FitByDistance(session, light, *observations, settings, std::move(out), session_out);
   if (fitted && SuitsReadings(*fitted)) return fitted;

@@ -342,10 +342,11 @@ Result<std::vector<EffectReport>> WidenInTime(const Session& session,
   auto lamp = fit::FindLampInPictures(session, light, picture, way_m,
                                       capture.anchor_illuminance.has_value(), settings);
   if (!lamp) return Propagate(std::move(lamp));
-  for (const auto& part : lamp->parts) {
-    WidenInLn(found.peak_cd, 1.0, part.sd);
-    WidenInLn(found.flux_lm, 1.0, part.sd);
-    found.budget.push_back({part.name, part.sd, part.sd});
+  for (const fit::VariancePart& part : lamp->parts) {
+    const double sd = std::sqrt(part.variance);
+    WidenInLn(found.peak_cd, 1.0, sd);
+    WidenInLn(found.flux_lm, 1.0, sd);
+    found.budget.push_back({part.name, sd, sd});
   }
   return std::move(lamp->effects);
 }

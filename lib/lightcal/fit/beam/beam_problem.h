@@ -76,7 +76,7 @@ struct BeamProblem {
   std::array<ParameterRule, kCount> rules;
   std::vector<BeamRow> rows;
   std::span<const SheetRow> sheet;
-  double least_offset = -0.9;                 // metres: in front of the nearest reading
+  double least_offset = 0.0;                  // metres
   static constexpr double kLeastSeen = 1e-4;  // of what was read
 
   [[nodiscard]] std::size_t RowCount() const {

@@ -21,8 +21,7 @@ constexpr int kFewestForCurve = 4;
 constexpr int kStarts = 4;               // until where the light starts is near enough
 constexpr double kNearEnough = 5e-3;     // of the distance
 constexpr double kOneSurface = 1.2;      // farthest over nearest reading of it
-constexpr double kLeastOffset = -0.9;    // of the nearest distance
-constexpr double kForemostStart = -0.8;  // of it
+constexpr double kForemostStart = -0.8;  // of the nearest distance
 constexpr double kAnyBend = 4.0;         // one of kBends
 constexpr double kDark = 0.01;           // of the peak
 // Standard deviations of the smooth curve's second derivative, over (half angle)^-1.5.
@@ -164,10 +163,9 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   double squares_ratio = 1.0;
   const ReadFrom& from = shape.read_from;
   if (shape.family != BeamFamily::kEven) {
-    const double q = from.Relative(out.theta[kBeamOffset]);
-    squares_ratio = (1.0 + q) * (1.0 + q);
+    squares_ratio = from.SquaresRatio(0.0, out.theta[kBeamOffset]);
     out.ln_axial += std::log(squares_ratio);
-    out.axial[kBeamOffset] = 2.0 / ((1.0 + q) * from.metres);
+    out.axial[kBeamOffset] = 2.0 / (std::sqrt(squares_ratio) * from.metres);
   }
   if (smooth) {
     const double f = shape.Relative(0.0, best->data() + kBeamCommon);

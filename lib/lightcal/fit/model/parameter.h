@@ -18,6 +18,9 @@ struct ParameterRule {
 // its prior's.
 inline constexpr double kLearnedShare = 0.8;
 
+// The foremost that light may start before its lamp's place, of the nearest reading's distance.
+inline constexpr double kLeastOffset = -0.9;
+
 // Where a free parameter must stay.
 struct Bounds {
   double low = -std::numeric_limits<double>::infinity();

@@ -15,7 +15,6 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr double kLeastOffset = -0.9;  // of the shortest distance
 constexpr int kDistancesForAmbient = 4;
 
 Scales ScalesOf(const Observations& observations) {

@@ -158,12 +158,12 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
   if (auto angle = AboutBeam(session, light); wanted(angle)) return *std::move(angle);
   if (auto place = AboutPlace(session, light); wanted(place)) return *std::move(place);
   const Taken taken = TakenOf(session, light);
-  if (taken.distances_m.empty() && light.fit.used > 0 && !light.budget.empty()) {
-    const BudgetPart& most = light.budget.front();
-    return Say("of its uncertainty " + PercentText(most.share) + " is " + most.name + ": " +
-               most.halve);
-  }
   if (taken.distances_m.empty()) {
+    if (light.fit.used > 0 && !light.budget.empty()) {  // a wall told it
+      const BudgetPart& most = light.budget.front();
+      return Say("of its uncertainty " + PercentText(most.share) + " is " + most.name + ": " +
+                 most.halve);
+    }
     return Say(
         "measure the illuminance facing the lamp, about ten times its size away: so far only its "
         "data sheet speaks");

@@ -236,7 +236,7 @@ Result<LampInPictures> FindLampInPictures(const Session& session, const LightDes
     if (!effect.finding.applies || !(of_lamp || (of_shutter && !level_by_meter))) continue;
     out.effects.push_back(ReportOf(effect, scene, settings));
     if (const double sd = WidensBy(effect); sd > 0.0) {
-      out.parts.push_back({std::string(effect.name), sd});
+      out.parts.push_back({std::string(effect.name), sd * sd});
     }
   }
   return out;

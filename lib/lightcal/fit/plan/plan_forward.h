@@ -3,12 +3,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/model/budget.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/light/gate.h"
 
@@ -29,11 +29,7 @@ struct ForwardPlan {
 
 // What a lamp does in time while a wall that it lights is photographed, and the air on the way.
 struct LampInPictures {
-  struct Part {
-    std::string name;
-    double sd = 0.0;  // relative
-  };
-  std::vector<Part> parts;
+  std::vector<VariancePart> parts;
   std::vector<EffectReport> effects;
 };
 

@@ -121,9 +121,7 @@ void AddPicture(const CaptureDescription& capture, std::optional<ScenePicture>& 
 
 // Who read, with what: a person's meter, a manufacturer, a camera.
 void AddTime(const Session& session, const LightDescription& light, Scene& scene) {
-  const std::optional<double> window_s = scene.time.window_s;
   scene.time = TimeOfLamp(session, light);
-  scene.time.window_s = window_s;
   scene.time.own_lamp = false;
   bool pictures = false;
   for (const SessionReading& row : session.readings) {
@@ -223,8 +221,8 @@ Scene SceneOfSession(const Session& session, const LightDescription& light,
   }
   scene.dark = session.surroundings == Surroundings::kDark;
   AddPriors(session, light, observations, scene);
-  AddMeters(session, light, scene);
   AddTime(session, light, scene);
+  AddMeters(session, light, scene);
   return scene;
 }
 
