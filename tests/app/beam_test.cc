@@ -121,8 +121,10 @@ TEST(Beam, ABatwingsAngleIsOfItsAxisAndItsPeakIsSeenBetweenReadings) {
     return (1.0 + std::exp(-20.0)) / (1.0 + std::exp((degrees - 60.0) / 3.0)) / std::pow(cosine, 3);
   };
   const TempDir folder;
-  const std::string session = folder.Write(
-      "session.toml", SessionOf(batwing, {0, 13.4, 26.9, 40.3, 50.4, 59.1, 67.2, 71.6, 77.9}));
+  const std::string session =
+      folder.Write("session.toml",
+                   SessionOf(batwing, {0, 13.4, 26.9, 40.3, 50.4, 59.1, 67.2, 71.6, 77.9},
+                             "kind = \"spot\"\nfixture = \"luminaire\"\noff_axis_sigma_deg = 0\n"));
   const json light = LightcalJson("fit", {session})["lights"][0];
   EXPECT_TRUE(Holds(light["beam"]["axial_cd"], 1000.0)) << light["beam"];
   double half = 60.0;

@@ -51,6 +51,20 @@ TEST(Quick, TheTableForPeopleSaysTheSameAndOneNextStep) {
   EXPECT_NE(verbose.out.find("prior"), std::string::npos) << verbose.out;
 }
 
+// A panel's 125 lx at 2 m and 60 degrees are 250 before it; what may be a bulb or a beam has to be
+// read there.
+TEST(Quick, OneReadingOffTheAxisNeedsTheKind) {
+  const std::vector<std::string> reading = {"125lx@2m,60deg", "--room", "dark"};
+  std::vector<std::string> panel = reading;
+  panel.insert(panel.end(), {"--kind", "rect", "--size", "0.3x0.3"});
+  EXPECT_NEAR(QuickJson(panel)["lights"][0]["intensity_cd"]["value"], 1000.0, 10.0);
+  std::vector<std::string> unknown = {"quick"};
+  unknown.insert(unknown.end(), reading.begin(), reading.end());
+  const CliResult refused = RunLightcal(unknown);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("read at 0 degrees too"), std::string::npos) << refused.err;
+}
+
 struct Row {
   double distance_m;
   double illuminance_lx;

@@ -65,7 +65,7 @@ double Attribute(const std::string& archive, const std::string& name) {
 
 TEST(StateGeometry, EachZoomExportsTheBeamThatItsOwnReadingsTold) {
   const TempDir folder;
-  folder.Write("lamp/session.toml", DarkSession("kind = \"spot\"\n") +
+  folder.Write("lamp/session.toml", DarkSession("kind = \"spot\"\noff_axis_sigma_deg = 0\n") +
                                         Zoom(15.0, 40000.0, 16.0, 0.15) +
                                         Zoom(40.0, 8000.0, 38.0, 0.03));
   LightcalJson("fit", {folder.path() + "/lamp", "-o", folder.path() + "/key.json"});

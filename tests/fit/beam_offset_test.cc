@@ -102,6 +102,35 @@ TEST(StatedCone, ThatTheReadingsAreNotOnIsRefusedWithWhatTheyShow) {
   }
 }
 
+// 33 degrees are read; the offset could take up 60 as well, and with it 38 % of the intensity.
+TEST(PrintedAngle, ThatTheReadingsContradictIsLeftOutByName) {
+  const std::vector<Place> places = {{0.0}, {0.2}, {0.4}, {0.6}, {0.8}, {1.0}, {1.3}, {1.6}};
+  Session session = BeamSession(0.0, places);
+  const auto alone = FitSession(session, {});
+  ASSERT_TRUE(alone.has_value()) << alone.error().message;
+  const auto told = [](const FittedSession& fitted) {
+    return std::ranges::any_of(fitted.warnings, [](const Warning& warning) {
+      return warning.code == "data_sheet_disagrees" &&
+             warning.message.find("_deg is") != std::string::npos;
+    });
+  };
+  session.lights.front().beam = RadiansFromDegrees(60.0);
+  const auto contradicted = FitSession(session, {});
+  ASSERT_TRUE(contradicted.has_value()) << contradicted.error().message;
+  EXPECT_TRUE(told(*contradicted));
+  EXPECT_EQ(contradicted->lights.lights.front().intensity_cd->value,
+            alone->lights.lights.front().intensity_cd->value);
+  session.lights.front().beam = RadiansFromDegrees(33.5);
+  const auto agrees = FitSession(session, {});
+  ASSERT_TRUE(agrees.has_value()) << agrees.error().message;
+  EXPECT_FALSE(told(*agrees));
+  const auto width = [](const FittedSession& fitted) {
+    const Uncertain& found = *fitted.lights.lights.front().intensity_cd;
+    return *found.high / *found.low;
+  };
+  EXPECT_LT(width(*agrees), width(*alone));
+}
+
 TEST(BeamOffset, IsToldByDistances) {
   for (const double offset : kOffsets) {
     SCOPED_TRACE(offset);

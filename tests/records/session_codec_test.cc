@@ -27,6 +27,7 @@ electrical_W = 9
 flux_lm = 806
 beam_deg = 36
 field_deg = 60
+off_axis_sigma_deg = 0.5
 [[light]]
 name = "panel"
 kind = "rect"

@@ -118,28 +118,31 @@ def nine_angles(beam):
                  edge + (85 - edge) * np.array([0.25, 0.6])]
 
 
-def readings(beam, candela, offset_m, distance_m, angles, noise, rng):
-    """[(angle, distance, lux)]: the meter faces the lamp, whose light starts behind its place."""
+def readings(beam, candela, offset_m, distance_m, angles, noise, rng, set_deg=0.0, axis_deg=0.0):
+    """[(angle, distance, lux)]: the meter faces the lamp, whose light starts behind its place. set_deg: 1 sigma of
+    where each really stood, 0 on the axis; axis_deg: how far from the true axis angles are counted."""
     out = []
     for angle in angles:
-        x = distance_m * math.sin(math.radians(angle))
-        z = distance_m * math.cos(math.radians(angle)) + offset_m
-        seen = np.interp(math.degrees(math.atan2(x, z)), GAMMA, beam)
+        stood = angle + axis_deg + (set_deg * rng.normal() if set_deg else 0.0)
+        x = distance_m * math.sin(math.radians(stood))
+        z = distance_m * math.cos(math.radians(stood)) + offset_m
+        seen = np.interp(math.degrees(math.atan2(abs(x), z)), GAMMA, beam)
         lux = candela * seen / (x * x + z * z) * (1 + noise * rng.normal())
         out.append((float(angle), distance_m, max(0.0, lux)))
     return out
 
 
-def readings_on_plane(beam, candela, offset_m, distance_m, angles, noise, rng):
+def readings_on_plane(beam, candela, offset_m, distance_m, angles, noise, rng, set_m=0.0):
     """[(x, lux)] in a plane across the axis, to both sides in turn as far as 70 degrees; the meter faces
-    the lamp's place, its light starts behind."""
+    the lamp's place, its light starts behind. set_m: 1 sigma of how far from x each really stood."""
     out = []
     for i, angle in enumerate(angles):
-        x = (-1) ** i * distance_m * math.tan(math.radians(min(angle, 70.0)))
+        said = (-1) ** i * distance_m * math.tan(math.radians(min(angle, 70.0)))
+        x = said + (set_m * rng.normal() if set_m else 0.0)
         z = distance_m + offset_m
         r = math.hypot(x, z)
         facing = (x * x + z * distance_m) / (r * math.hypot(x, distance_m))
         seen = np.interp(math.degrees(math.atan2(abs(x), z)), GAMMA, beam)
         lux = candela * seen / (r * r) * facing * (1 + noise * rng.normal())
-        out.append((float(x), max(0.0, lux)))
+        out.append((float(said), max(0.0, lux)))
     return out

@@ -83,7 +83,8 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
   Result<FittedLight> fitted =
       fit::FitByDistance(session, light, *observations, settings, std::move(out), session_out);
   if (fitted && SuitsReadings(*fitted)) return fitted;
-  if (auto cone = fit::CheckStatedCone(session, light, *observations, settings); !cone) {
+  if (auto cone = fit::CheckStatedCone(session, light, *observations, settings, fitted.has_value());
+      !cone) {
     return Propagate(std::move(cone));
   }
   return fitted;

@@ -100,6 +100,9 @@ std::optional<ReadingFault> FaultOfPlace(const Reading& reading) {
     return ReadingFault{"off_axis_deg",
                         "position_m says already how far off the axis the meter stood"};
   }
+  if (reading.normal && reading.tilt.value() != 0.0) {
+    return ReadingFault{"tilt_deg", "normal says already how the meter was turned"};
+  }
   if (reading.normal && Length(*reading.normal) == 0.0) {
     return ReadingFault{"normal", "normal = [0, 0, 0] is no direction"};
   }

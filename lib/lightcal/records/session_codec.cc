@@ -145,6 +145,7 @@ class SessionReader {
     reader.Number("flux_lm", light.flux, kPositive);
     reader.Degrees("beam_deg", light.beam, kFullAngleRule);
     reader.Degrees("field_deg", light.field, kFullAngleRule);
+    reader.Degrees("off_axis_sigma_deg", light.angle_sigma, kHalfAngleRule);
     reader.Text("distribution", light.distribution_file);
     reader.List("at", light.at, &ReadAtState);
     reader.Require({"name", "kind"});

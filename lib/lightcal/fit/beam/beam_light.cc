@@ -23,6 +23,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLeastSpan = 5.0 * kDegree;
 constexpr double kNearAxis = 1.0;  // half angles
+constexpr double kFarFromAxis = 10.0 * kDegree;
 constexpr double kOpenBeam = 2.5;  // ends of its interval
 constexpr double kDarkEnd = 1e-3;  // of the peak: where a table ends
 constexpr double kUnlikely = 1e-5;
@@ -44,6 +45,35 @@ double MissingAngle(const BeamProfile& profile) {
   return SetAngle(std::min(80.0, profile.gamma_deg[at]));
 }
 
+tl::unexpected<Error> NothingNearAxis(double nearest_rad, std::optional<double> wide_deg,
+                                      const std::string& light) {
+  return Refused("beam_unknown", light,
+                 "nothing was read nearer than " + RoundedText(nearest_rad / kDegree, 2) +
+                     " degrees to the axis" +
+                     (wide_deg ? " of a beam " + RoundedText(*wide_deg, 2) + " degrees wide" : "") +
+                     ": read at 0 degrees too, straight before the lamp");
+}
+
+double NearestToAxis(const std::vector<BeamRow>& rows) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const BeamRow& row : rows) {
+    const double off = std::atan2(std::hypot(row.from_lamp[0], row.from_lamp[1]), row.from_lamp[2]);
+    if (row.lit) nearest = std::min(nearest, off);
+  }
+  return nearest;
+}
+
+// What a person can do about angles that are a good part of the beam.
+std::string CureOfAngles(const BeamRows& rows, double half_deg) {
+  constexpr double kGoodPart = 0.08;
+  double most = 0.0;
+  for (const BeamRow& row : rows.readings.rows) most = std::max(most, row.angle_sd / kDegree);
+  if (rows.placed || most < kGoodPart * half_deg) return {};
+  return "; its angles are good to " + RoundedText(most, 2) +
+         " degrees: read along a straight line across the beam and give places, or set the angles "
+         "more exactly and say so by {light.off_axis_sigma}";
+}
+
 Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
                             const std::string& light) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -52,10 +82,7 @@ Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
   }
   const double half = 0.5 * profile.beam_deg.value;
   if (nearest > std::max(2.0, kNearAxis * half)) {
-    return Refused("beam_unknown", light,
-                   "nothing was read nearer than " + RoundedText(nearest, 2) +
-                       " degrees to the axis of a beam " + RoundedText(2.0 * half, 2) +
-                       " degrees wide: read at 0 degrees too, straight before the lamp");
+    return NothingNearAxis(nearest * kDegree, 2.0 * half, light);
   }
   const Uncertain& beam = profile.beam_deg;
   if (profile.family == "even" || *beam.high <= kOpenBeam * *beam.low) return {};
@@ -63,7 +90,8 @@ Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
                  "the readings leave the beam angle open from " + RoundedText(*beam.low, 2) +
                      " to " + RoundedText(*beam.high, 2) + " degrees: read at " +
                      RoundedText(MissingAngle(profile), 3) +
-                     " degrees off the axis too, or give the data sheet's {light.beam}");
+                     " degrees off the axis too, or give the data sheet's {light.beam}" +
+                     CureOfAngles(rows, half));
 }
 
 // ---- what the rest of the room takes ----
@@ -211,14 +239,18 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
                                const ForwardModel& model) {
   BeamRows rows = RowsOfBeam(observations, light, &model);
   Result<BeamProfile> fitted = FitBeamProfile(rows.readings, light.name);
-  if (!fitted) return Propagate(std::move(fitted));
+  if (!fitted) {
+    const double nearest = NearestToAxis(rows.readings.rows);
+    if (nearest > kFarFromAxis) return NothingNearAxis(nearest, std::nullopt, light.name);
+    return Propagate(std::move(fitted));
+  }
   BeamProfile& profile = *fitted;
   if (auto known = CheckKnownBeam(rows, profile, light.name); !known) {
     return Propagate(std::move(known));
   }
   auto table = TableOfProfile(profile, light.name);
   if (!table) return Propagate(std::move(table));
-  BeamLight out{*std::move(table), {}, {}, {}, {}, Radians(0.0), false, false, false};
+  BeamLight out{*std::move(table), {}, {}, {}, {}, Radians(0.0), false, false, false, {}, {}};
   out.even = profile.family == "even";
   double even = 0.0;
   for (const BeamFamilyShare& one : profile.families) {
@@ -248,6 +280,8 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
              "are wider by that: check the aim, or the beam is not round"});
   }
   for (double& c : out.estimate.covariance) c *= factor * factor;
+  out.gamma_deg = profile.gamma_deg;
+  for (const double sd : profile.part_sd) out.part_sd.push_back(factor * sd);
   AddParts(profile, out.estimate);
   const double own = out.estimate.covariance[0];
   AddInfluences(model, rows, out.estimate);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/estimate_light.h"
@@ -29,6 +30,8 @@ struct BeamLight {
   bool even = false;           // it shines alike in all directions
   bool surely_a_beam = false;  // no blunder in a bulb's readings would look like it
   bool flat_cone = false;      // the readings are not against the spot of spot_beam.h
+  // 1 sigma of the intensity at an angle over the axis's.
+  std::vector<double> gamma_deg{}, part_sd{};
 };
 
 // m = I(gamma) cr/r^2 + walls + E0, I(gamma) by families compared by evidence (beam_profile.h), r

@@ -37,6 +37,7 @@ struct BeamRow {
   Vec3 from_lamp{};            // metres, in the start's frame
   std::optional<Vec3> normal;  // of the meter; without one it faces the lamp
   double gain = 1.0;           // cosine of a stated tilt
+  double angle_sd = 0.0;       // radians: how far the meter may stand from where it says
   std::optional<WallsOfRow> walls;
 };
 
@@ -68,6 +69,18 @@ template <class T>
     if (!(facing > T(0.0))) facing = T(0.0);
   }
   return {atan2(sine, Dot(v, aim)), facing / r2};
+}
+
+// The same meter, turned about the lamp by so much more off the start's axis.
+[[nodiscard]] inline BeamRow TurnedAway(BeamRow row, double radians) {
+  const Vec3& v = row.from_lamp;
+  const double off = std::hypot(v[0], v[1]);
+  const Vec3 out = off > 0.0 ? Vec3{v[0] / off, v[1] / off, 0.0} : Vec3{1.0, 0.0, 0.0};
+  const double c = std::cos(radians);
+  const double s = std::sin(radians);
+  const double away = c * off + s * v[2];
+  row.from_lamp = {out[0] * away, out[1] * away, c * v[2] - s * off};
+  return row;
 }
 
 struct BeamProblem {

@@ -160,6 +160,19 @@ Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::*what)
   return {at(0.5), 0.5 * (high - low), low, high};
 }
 
+// 1 sigma of the draws' intensity at that angle over their own on the axis.
+double PartSd(const std::vector<BeamDraw>& draws, std::size_t angle) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const BeamDraw& draw : draws) {
+    const double part = draw.candela[angle] / std::max(draw.candela.front(), 1e-300);
+    sum += part;
+    squares += part * part;
+  }
+  const auto n = static_cast<double>(draws.size());
+  return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)));
+}
+
 }  // namespace
 
 Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::string& light) {
@@ -207,6 +220,7 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
     for (const BeamDraw& draw : draws) squares += std::pow(draw.candela[i] - mean, 2.0);
     out.candela.push_back(mean);
     out.candela_sd.push_back(std::sqrt(squares / static_cast<double>(draws.size())));
+    out.part_sd.push_back(PartSd(draws, i));
   }
   std::vector<NormalPart> ln;
   for (const SolvedBeam& one : beams) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lightcal/fit/beam/spot_beam.h"
+#include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/row_values.h"
 
 namespace lightcal::fit {
@@ -16,10 +17,26 @@ namespace {
 constexpr double kRadiansADegree = std::numbers::pi / 180.0;
 constexpr double kDarkOfPeak = 2e-4;     // what a meter still sees in the dark, of the beam's peak
 constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
-constexpr double kAngleSigmaDegrees = 1.0;
-constexpr double kAnyAim = 0.4;      // 1 sigma of the tilts of an aim that nobody stated
-constexpr double kSheetAngle = 0.1;  // 1 sigma, relative, of an angle on a data sheet
+constexpr double kPlaceSigma_m = 0.01;   // 1 sigma of where a meter stood
+constexpr double kAnyAim = 0.4;          // 1 sigma of the tilts of an aim that nobody stated
 constexpr double kEvenSpan = 45.0 * kRadiansADegree;  // over which an even lamp has to be seen
+
+// Whether it may shine alike in all directions: by places; by angles where it was read over a span
+// of them, or is said to be a bulb.
+bool MayBeEven(const LightDescription& light, bool placed, double angles_read_rad) {
+  if (light.kind != LightKind::kPoint || light.beam || light.field) return false;
+  if (placed) return true;
+  if (!light.fixture) return angles_read_rad >= kEvenSpan;
+  switch (*light.fixture) {
+    case Fixture::kBulb:
+      return true;
+    case Fixture::kSoftbox:
+    case Fixture::kLuminaire:
+      return angles_read_rad >= kEvenSpan;
+    default:
+      return false;
+  }
+}
 
 // The aim as stated, or towards the brightest.
 Vec3 FirstAim(const Observations& observations, const LightDescription& light) {
@@ -42,9 +59,11 @@ BeamRow RowOfObservation(const Observation& o, const LightDescription& light,
   if (LitAndPlaced(o) && light.position_m) {
     row.from_lamp = frame.Of(*o.position_m - *light.position_m);
     if (o.normal) row.normal = frame.Of(*o.normal);
+    row.angle_sd = kPlaceSigma_m / Length(row.from_lamp);
   } else {
     row.from_lamp = {o.distance_m * std::sin(o.off_axis_rad), 0.0,
                      o.distance_m * std::cos(o.off_axis_rad)};
+    row.angle_sd = AngleSigma(light).value();
   }
   if (!row.normal) row.gain = std::cos(o.tilt_rad);
   row.measured = o.measured_lx - (o.differenced || o.ambient_subtracted ? 0.0 : ambient);
@@ -101,6 +120,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
   double peak = 0.0;
   double shortest = std::numeric_limits<double>::infinity();
   double widest = 0.0;
+  double nearest = std::numeric_limits<double>::infinity();  // to the axis
   bool left = false;
   bool right = false;
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
@@ -114,6 +134,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     shortest = std::min(shortest, std::sqrt(r2));
     out.placed = out.placed || LitAndPlaced(o);
     widest = std::max(widest, std::abs(o.off_axis_rad));
+    nearest = std::min(nearest, std::abs(o.off_axis_rad));
     left = left || o.off_axis_rad < 0.0;
     right = right || o.off_axis_rad > 0.0;
   }
@@ -125,12 +146,11 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
   if (out.placed) {
     const double sd = light.aim ? std::tan(kAimSigmaDegrees * kRadiansADegree) : kAnyAim;
     out.readings.aim = {ParameterRule{true, 0.0, sd}, ParameterRule{true, 0.0, sd}};
-  } else if (left && right) {
-    out.readings.aim[0] = {true, 0.0, std::tan(kAngleSigmaDegrees * kRadiansADegree)};
+  } else if (const double sd = std::tan(AngleSigma(light).value()); sd > 0.0 && (left || right)) {
+    out.readings.aim[0] = {true, 0.0, sd};
   }
   AddSheet(light, out.readings.sheet);
-  const bool wide = out.placed || widest >= kEvenSpan;
-  out.readings.may_be_even = light.kind == LightKind::kPoint && !light.beam && !light.field && wide;
+  out.readings.may_be_even = MayBeEven(light, out.placed, widest - nearest);
   if (model == nullptr) return out;
   if (model->fit_offset && model->distance_law) {
     out.readings.offsets = model->offsets;

@@ -20,6 +20,9 @@ struct BeamRows {
   bool placed = false;
 };
 
+// 1 sigma, relative, of an angle on a data sheet.
+inline constexpr double kSheetAngle = 0.1;
+
 // Mean of what was read with the lamp off, lux; 0 without.
 [[nodiscard]] double AmbientOfOff(const Observations& observations);
 

@@ -8,6 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_light.h"
+#include "lightcal/fit/beam/beam_rows.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/asked_sampling.h"
 #include "lightcal/fit/model/data_sheet.h"
@@ -28,9 +29,9 @@ void WidenBeam(double calibration, BeamLight& found) {
   WidenInLn(*found.beam.axial, 1.0, calibration);
 }
 
-Result<BeamLight> ShapeOfReadings(const Session& session, const LightDescription& light,
-                                  const Observations& observations, const FitSettings& settings,
-                                  ForwardPlan& plan) {
+Result<BeamLight> ShapeByAll(const Session& session, const LightDescription& light,
+                             const Observations& observations, const FitSettings& settings,
+                             ForwardPlan& plan) {
   LightDescription seen = light;
   seen.beam = RoughBeam(observations, light);
   Result<ForwardPlan> planned = PlanForward(session, seen, observations, settings);
@@ -39,10 +40,51 @@ Result<BeamLight> ShapeOfReadings(const Session& session, const LightDescription
   return FitBeamLight(observations, light, plan.model);
 }
 
+// Full angles; their 1 sigma is of ln.
+bool Differs(double printed_deg, const Uncertain& read) {
+  constexpr double kConflict = 2.0;  // standard deviations of both
+  if (!(*read.low > 0.0)) return false;
+  const double sd = std::log(*read.high / *read.low) / (2.0 * kZ95);
+  const double middle = std::sqrt(*read.high * *read.low);
+  return std::abs(std::log(printed_deg / middle)) > kConflict * std::hypot(sd, kSheetAngle);
+}
+
+void CompareAngle(const std::string& light, const char* key, const std::optional<Radians>& printed,
+                  const std::optional<Uncertain>& read, Warnings& warnings) {
+  if (!printed || !read || !Differs(DegreesFromRadians(*printed), *read)) return;
+  warnings.push_back({"data_sheet_disagrees", light,
+                      "the readings say " + std::string(key) + " is " + RoundedText(*read->low, 2) +
+                          " to " + RoundedText(*read->high, 2) + ", the data sheet " +
+                          RoundedText(DegreesFromRadians(*printed), 3) +
+                          ": the readings alone are believed; check that it is a full angle and "
+                          "of this zoom"});
+}
+
+// By the readings and a data sheet's angles; by the readings alone where they know better.
+Result<BeamLight> ShapeOfReadings(const Session& session, const LightDescription& light,
+                                  const Observations& observations, const FitSettings& settings,
+                                  ForwardPlan& plan) {
+  if (light.beam || light.field) {
+    LightDescription unprinted = light;
+    unprinted.beam.reset();
+    unprinted.field.reset();
+    Result<BeamLight> read = ShapeByAll(session, unprinted, observations, settings, plan);
+    if (read && !read->even) {
+      Warnings& warnings = read->estimate.warnings;
+      const std::size_t before = warnings.size();
+      CompareAngle(light.name, "beam_deg", light.beam, read->beam.beam_deg, warnings);
+      CompareAngle(light.name, "field_deg", light.field, read->beam.field_deg, warnings);
+      if (warnings.size() > before) return read;
+    }
+  }
+  return ShapeByAll(session, light, observations, settings, plan);
+}
+
 // Relative intensity by the cone at gamma, and where it is farthest from what was read.
 struct OffCone {
   double inner = 0.0, gamma = 0.0, read = 1.0, stated = 1.0;
-  [[nodiscard]] double Part() const { return std::abs(read - stated); }
+  double within = 0.0;  // of what was read there
+  [[nodiscard]] double Part() const { return std::max(0.0, std::abs(read - stated) - within); }
 };
 
 std::vector<double> AnglesRead(const Observations& observations, const LightDescription& light,
@@ -58,6 +100,13 @@ std::vector<double> AnglesRead(const Observations& observations, const LightDesc
   return out;
 }
 
+double PartSdAt(const BeamLight& found, double gamma) {
+  const double degrees = DegreesFromRadians(Radians(gamma));
+  const auto above = std::ranges::lower_bound(found.gamma_deg, degrees);
+  if (above == found.gamma_deg.end()) return found.part_sd.back();
+  return found.part_sd[static_cast<std::size_t>(above - found.gamma_deg.begin())];
+}
+
 // `wider`: than the shape found, within its interval.
 OffCone FarthestOff(const std::vector<double>& angles, const BeamLight& found, double wider,
                     double inner, double outer) {
@@ -67,7 +116,7 @@ OffCone FarthestOff(const std::vector<double>& angles, const BeamLight& found, d
     const double read = found.table.At(Radians(0.0), Radians(gamma / wider)).value() / axis;
     const double stated = SpotProfile(HalfVersine(gamma), HalfVersine(inner), HalfVersine(outer),
                                       SpotFalloff::kSquaredLinear);
-    const OffCone one{inner, gamma, read, stated};
+    const OffCone one{inner, gamma, read, stated, PartSdAt(found, gamma)};
     if (one.Part() > most.Part()) most = one;
   }
   return most;
@@ -94,7 +143,8 @@ OffCone LeastOff(const std::vector<double>& angles, const BeamLight& found,
 }  // namespace
 
 Result<void> CheckStatedCone(const Session& session, const LightDescription& light,
-                             const Observations& observations, const FitSettings& settings) {
+                             const Observations& observations, const FitSettings& settings,
+                             bool answered) {
   // Of the peak: of a beam that may be some cone, and of one that is none.
   constexpr double kUnlikeThis = 0.15, kUnlikeAny = 0.04;
   LightDescription open = light;
@@ -106,7 +156,16 @@ Result<void> CheckStatedCone(const Session& session, const LightDescription& lig
   if (!found || found->even || !found->beam.beam_deg) return {};
   const std::vector<double> angles = AnglesRead(observations, light, *found);
   const OffCone best = LeastOff(angles, *found, light);
-  if (best.Part() < (found->flat_cone ? kUnlikeThis : kUnlikeAny)) return {};
+  if (best.Part() < (found->flat_cone ? kUnlikeThis : kUnlikeAny)) {
+    if (answered) return {};
+    const Uncertain& beam = *found->beam.beam_deg;
+    return Refused("cone_unlike", light.name,
+                   "with the stated cone the readings leave its strength open; by themselves they "
+                   "show a beam " +
+                       RoundedText(*beam.low, 2) + " to " + RoundedText(*beam.high, 2) +
+                       " degrees wide: leave outer_deg and inner_deg out; what a data sheet prints "
+                       "are beam_deg and field_deg");
+  }
   const OffCone shown = FarthestOff(angles, *found, 1.0, best.inner, light.outer->value());
   return Refused("cone_unlike", light.name,
                  "at " + RoundedText(DegreesFromRadians(Radians(shown.gamma)), 2) +

@@ -31,13 +31,34 @@ using BeamValues = ValuesOf<BeamProblem>;
 
 // ---- one family under one offset ----
 
+// 1 sigma, lux, of what an angle or a place that is not quite what it says does to a row: from both
+// sides of it, so that an edge and a peak count as well as a slope.
+double ByAngle(const BeamProblem& problem, const BeamRow& row, double seen, const double* p) {
+  if (!row.lit || !(row.angle_sd > 0.0)) return 0.0;
+  const double more = problem.Illuminance(TurnedAway(row, row.angle_sd), p) - seen;
+  const double less = problem.Illuminance(TurnedAway(row, -row.angle_sd), p) - seen;
+  return std::sqrt(0.5 * (more * more + less * less));
+}
+
+// What the rows' sigmas are by the lamp as it stands: with the scatter of the walls' light and of
+// where the meter stood.
 void SettleBeam(BeamProblem& problem, const double* p) {
   for (BeamRow& row : problem.rows) {
-    if (!row.walls) continue;
-    const double scatter = row.walls->scatter * problem.Walls(row, p);
-    const double whole = row.form == RowForm::kLinear ? 1.0 : problem.Illuminance(row, p);
-    if (whole > 0.0) row.sigma = std::hypot(row.own_sigma, scatter / whole);
+    if (!row.walls && !(row.angle_sd > 0.0)) continue;
+    const double seen = problem.Illuminance(row, p);
+    const double whole = row.form == RowForm::kLinear ? 1.0 : seen;
+    if (!(whole > 0.0)) continue;
+    const double scatter = row.walls ? row.walls->scatter * problem.Walls(row, p) : 0.0;
+    row.sigma =
+        std::hypot(row.own_sigma, std::hypot(scatter, ByAngle(problem, row, seen, p)) / whole);
   }
+}
+
+// But for what is the same of all.
+double MinusLnPosterior(const BeamProblem& problem, const BeamValues& p) {
+  double out = HalfChiSquaredOf(problem, p);
+  for (const BeamRow& row : problem.rows) out += std::log(row.sigma);
+  return out;
 }
 
 std::optional<BeamValues> SolveBeam(BeamProblem& problem, BeamValues p) {
@@ -47,7 +68,7 @@ std::optional<BeamValues> SolveBeam(BeamProblem& problem, BeamValues p) {
     if (!found) return std::nullopt;
     const bool same = i > 0 && std::abs((*found)[kBeamLnIntensity] - p[kBeamLnIntensity]) < 1e-3;
     p = *found;
-    if (same || !problem.rules[kBeamLnWalls].free) break;
+    if (same) break;
   }
   return Polish(problem, p);
 }
@@ -98,7 +119,8 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
     for (int k = 0; k < kBeamCommon; ++k) start[k] = problem.rules[k].prior_mean;
     std::copy(of_shape.begin(), of_shape.end(), start.begin() + kBeamCommon);
     if (!smooth) StartStrength(problem, start);
-    tried.emplace_back(HalfChiSquaredOf(problem, start), start);
+    SettleBeam(problem, start.data());
+    tried.emplace_back(MinusLnPosterior(problem, start), start);
   }
   std::ranges::sort(tried, {}, &std::pair<double, BeamValues>::first);
   tried.resize(std::min(tried.size(), kRefined));
@@ -107,9 +129,10 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   for (const auto& [rough, start] : tried) {
     const auto found = SolveBeam(problem, start);
     if (!found) continue;
-    const double half = HalfChiSquaredOf(problem, *found);
-    if (!(half < least)) continue;
-    least = half;
+    SettleBeam(problem, found->data());
+    const double at = MinusLnPosterior(problem, *found);
+    if (!(at < least)) continue;
+    least = at;
     best = found;
   }
   if (!best) return std::nullopt;
@@ -127,10 +150,7 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(out.covariance);
   out.root = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   out.ln_probability = std::log(weight * (offset != nullptr ? offset->weight : 1.0)) -
-                       HalfChiSquaredOf(problem, *best) - shape.LnPriorScale();
-  for (const BeamRow& row : problem.rows) {
-    out.ln_probability -= std::log(row.sigma);
-  }
+                       MinusLnPosterior(problem, *best) - shape.LnPriorScale();
   const auto triangle = FreeTriangle(problem, at);
   for (int k = 0; k < BeamProblem::kCount; ++k) {
     if (!problem.rules[k].free) continue;

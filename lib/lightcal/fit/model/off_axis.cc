@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "lightcal/fit/model/reading_geometry.h"
 
 namespace lightcal::fit {
 namespace {
@@ -11,14 +14,8 @@ namespace {
 // Of a spot's axis: below it the cone's edge decides all.
 constexpr double kDarkShare = 0.05;
 
-std::optional<SourceModel> ModelOf(const LightDescription& light) {
-  if (light.kind == LightKind::kSphere && light.diameter) {
-    return SphereSource{0.5 * light.diameter->value()};
-  }
-  if (light.kind == LightKind::kTube && light.length && (light.aim || light.axis)) {
-    return TubeSource{0.5 * light.length->value(), light.radius.value_or(Metres(0.0)).value()};
-  }
-  if (!light.aim) return std::nullopt;
+// What shines to one side, about an axis.
+std::optional<SourceModel> AimedSourceOf(const LightDescription& light) {
   if (light.kind == LightKind::kDisk && light.diameter) {
     return DiskSource{0.5 * light.diameter->value()};
   }
@@ -31,12 +28,72 @@ std::optional<SourceModel> ModelOf(const LightDescription& light) {
   return std::nullopt;
 }
 
+std::optional<SourceModel> ModelOf(const LightDescription& light) {
+  if (light.kind == LightKind::kSphere && light.diameter) {
+    return SphereSource{0.5 * light.diameter->value()};
+  }
+  if (light.kind == LightKind::kTube && light.length && (light.aim || light.axis)) {
+    return TubeSource{0.5 * light.length->value(), light.radius.value_or(Metres(0.0)).value()};
+  }
+  return light.aim ? AimedSourceOf(light) : std::nullopt;
+}
+
 OffsetWay WayOf(LightKind kind) {
   if (kind == LightKind::kSphere) return OffsetWay::kAway;
   return kind == LightKind::kTube ? OffsetWay::kAwayFromAxis : OffsetWay::kAgainstAim;
 }
 
+bool ByAngle(const Observation& row) { return row.lit && row.off_axis_rad != 0.0; }
+
+// Facing the lamp from where the two angles say, in its frame.
+OffAxisPose PoseAt(const SourceModel& source, double distance_m, double off_axis_rad,
+                   double round_rad) {
+  const double s = std::sin(off_axis_rad);
+  const Vec3 way = {s * std::cos(round_rad), s * std::sin(round_rad), std::cos(off_axis_rad)};
+  return {source, {way * distance_m, way * -1.0}, OffsetWay::kAgainstAim};
+}
+
+OffAxisPose PoseOf(const PlacedSource& source, OffsetWay way, const Observation& row) {
+  const Vec3 from_lamp = *row.position_m - source.position_m;
+  const Vec3 facing = from_lamp * (-1.0 / Length(from_lamp));
+  return {source.model,
+          {source.frame.Of(from_lamp), source.frame.Of(row.normal.value_or(facing))},
+          way};
+}
+
+// Each angle is as far off as the axis that all count from, and on which side of the lamp the meter
+// went nobody says. The last two are one error of all such readings: no number of them brings the
+// interval under it.
+void WidenByAngle(const LightDescription& light, Observations& observations) {
+  const double sigma = AngleSigma(light).value();
+  const auto count = static_cast<double>(std::ranges::count_if(observations.rows, ByAngle));
+  const std::optional<SourceModel> source = AimedSourceOf(light);
+  if (count == 0.0 || (!source && !light.distribution)) return;
+  for (Observation& row : observations.rows) {
+    if (!ByAngle(row)) continue;
+    const auto part = [&](double off_axis_rad) {
+      return MeanRound([&](double round_rad) {
+        if (!source)
+          return light.distribution->At(Radians(round_rad), Radians(off_axis_rad)).value();
+        return LuxPerCandela(PoseAt(*source, row.distance_m, off_axis_rad, round_rad), 0.0);
+      });
+    };
+    const double angle = std::abs(row.off_axis_rad);
+    const PartRound here = part(angle);
+    if (!(here.mean > 0.0)) continue;
+    const double steep = std::max(std::abs(part(angle + sigma).mean / here.mean - 1.0),
+                                  std::abs(part(angle - sigma).mean / here.mean - 1.0));
+    const double relative =
+        std::sqrt((1.0 + count) * steep * steep + count * here.sd_relative * here.sd_relative);
+    row.sigma_lx = std::hypot(row.sigma_lx, relative * row.measured_lx);
+  }
+}
+
 }  // namespace
+
+Radians AngleSigma(const LightDescription& light) {
+  return light.angle_sigma.value_or(Radians(std::numbers::pi / 180.0));
+}
 
 std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
   std::optional<SourceModel> model = ModelOf(light);
@@ -48,32 +105,40 @@ std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
 }
 
 int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& observations) {
-  const std::optional<PlacedSource> source = PlacedSourceOf(light);
-  if (!source) return 0;
+  // Half way between the two sides of a rect, for which a reading by its angle stands.
+  constexpr double kBetweenSides = 0.25 * std::numbers::pi;
+  WidenByAngle(light, observations);
+  const std::optional<PlacedSource> placed = PlacedSourceOf(light);
+  const std::optional<SourceModel> aimed = AimedSourceOf(light);
+  if (!placed && !aimed) return 0;
   const bool spot = light.kind == LightKind::kSpot;
   int dark = 0;
   std::vector<Observation> kept;
   for (Observation& row : observations.rows) {
-    if (!row.lit || !row.position_m || !row.measured_from_center) {
+    std::optional<OffAxisPose> pose;
+    if (placed && row.lit && row.position_m && row.measured_from_center) {
+      pose = PoseOf(*placed, WayOf(light.kind), row);
+    } else if (aimed && ByAngle(row)) {
+      pose = PoseAt(*aimed, row.distance_m, row.off_axis_rad, kBetweenSides);
+    }
+    if (!pose) {
       kept.push_back(std::move(row));
       continue;
     }
-    const Vec3 from_lamp = *row.position_m - source->position_m;
-    const double distance = Length(from_lamp);
-    const Vec3 facing = from_lamp * (-1.0 / distance);
-    OffAxisPose pose{source->model,
-                     {source->frame.Of(from_lamp), source->frame.Of(row.normal.value_or(facing))},
-                     WayOf(light.kind)};
-    const double even = std::cos(row.normal ? row.tilt_rad : 0.0) / (distance * distance);
-    row.emission = LuxPerCandela(pose, 0.0) / even;
+    const double even =
+        std::cos(row.normal ? row.tilt_rad : 0.0) / (row.distance_m * row.distance_m);
+    row.emission = LuxPerCandela(*pose, 0.0) / even;
     if (!(row.emission > (spot ? kDarkShare : 0.0))) {
       ++dark;
       if (cone_found) continue;
       observations.rejected.push_back(row.index);
-      observations.warnings.push_back({"row_rejected",
-                                       light.name + ", reading " + std::to_string(row.index),
-                                       "the lamp does not shine there by its position_m, aim and "
-                                       "size or cone; check them and the reading's position_m"});
+      observations.warnings.push_back(
+          {"row_rejected", light.name + ", reading " + std::to_string(row.index),
+           ByAngle(row) ? "the lamp does not shine there by its size or cone; "
+                          "check them and the reading's off_axis_deg"
+                        : "the lamp does not shine there by its "
+                          "position_m, aim and size or cone; check them "
+                          "and the reading's position_m"});
       continue;
     }
     row.off_axis = pose;

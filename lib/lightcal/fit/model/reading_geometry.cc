@@ -24,6 +24,20 @@ ReadingGeometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& n
   return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
 }
 
+// Absent where the angle off it says enough.
+std::optional<std::string> WithoutAxis(LightKind kind) {
+  if (kind == LightKind::kTube) {
+    return "a tube shines otherwise along itself than across: give position_m and normal, and the "
+           "lamp's position_m and axis, instead of off_axis_deg";
+  }
+  if (!HasDistanceLaw(kind)) {
+    return "a " + std::string(LightKindName(kind)) +
+           " light has no axis to stand off; leave off_axis_deg away, or give the lamp the kind it "
+           "has";
+  }
+  return std::nullopt;
+}
+
 // The radius around the reference point inside which no meter can stand.
 double InnerRadius(const LightDescription& light) {
   if (light.kind == LightKind::kTube && light.radius) return light.radius->value();
@@ -36,6 +50,11 @@ double InnerRadius(const LightDescription& light) {
 double TablePartTowards(const LightDescription& light, const Reading& reading) {
   if (!light.distribution) return 1.0;
   const IntensityTable& table = *light.distribution;
+  if (const double off = reading.off_axis.value(); off != 0.0) {
+    const PartRound part = MeanRound(
+        [&](double about) { return table.At(Radians(about), Radians(std::abs(off))).value(); });
+    return part.mean / table.peak().intensity.value();
+  }
   Vec3 towards{0.0, 0.0, -1.0};
   if (reading.position_m && light.position_m) {
     const LampAxes axes = AxesOfAim(light.aim.value_or(Vec3{0.0, 0.0, -1.0}));
@@ -49,6 +68,9 @@ Result<ReadingGeometry> GeometryOfReading(const LightDescription& light, const R
                                           const std::string& name, bool lit) {
   if (reading.distance && reading.distance->value() < 0.0) {
     return Refused("negative_distance", name, "a distance below 0 m has no meaning; correct it");
+  }
+  if (lit && reading.off_axis.value() != 0.0) {
+    if (auto fault = WithoutAxis(light.kind)) return Refused("no_axis", name, *std::move(fault));
   }
   if (!HasDistanceLaw(light.kind)) return ReadingGeometry{1.0, reading.tilt.value(), true};
   if (reading.distance)

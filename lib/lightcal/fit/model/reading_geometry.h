@@ -2,6 +2,9 @@
 // Where a meter stood before the lamp, from what a reading says of it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include "lightcal/core/result.h"
@@ -17,13 +20,36 @@ struct ReadingGeometry {
 
 // From the reading's distance and tilt, or from its position, its normal and the lamp's place.
 // `name` is the row's in errors. Refused: negative_distance, no_distance (lit, and neither distance
-// nor position).
+// nor position), no_axis (lit, an angle off the axis of a light that has none or, a tube, two).
 [[nodiscard]] Result<ReadingGeometry> GeometryOfReading(const LightDescription& light,
                                                         const Reading& reading,
                                                         const std::string& name, bool lit);
 
-// Intensity towards the meter over the peak's, by the lamp's table; 1 without one. Readings without
-// positions stand on the lamp's aim; a lamp without an aim shines down.
+// What holds at an angle off an axis, whichever side that is on.
+struct PartRound {
+  double mean = 0.0;
+  double sd_relative = 0.0;  // of one side, all alike likely
+};
+
+// `part_of`(radians about the axis), of a full turn.
+template <class PartOf>
+[[nodiscard]] PartRound MeanRound(const PartOf& part_of) {
+  constexpr int kSides = 16;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < kSides; ++i) {
+    const double part = part_of(2.0 * std::numbers::pi * i / kSides);
+    sum += part;
+    squares += part * part;
+  }
+  const double mean = sum / kSides;
+  if (!(mean > 0.0)) return {};
+  return {mean, std::sqrt(std::max(0.0, squares / kSides - mean * mean)) / mean};
+}
+
+// Intensity towards the meter over the peak's, by the lamp's table; 1 without one. A reading by its
+// angle has the mean of all sides; one that says neither angle nor position stands on the lamp's
+// aim, and a lamp without an aim shines down.
 [[nodiscard]] double TablePartTowards(const LightDescription& light, const Reading& reading);
 
 // Why no law of light can hold for a reading (which has an illuminance) there; "" = one can.

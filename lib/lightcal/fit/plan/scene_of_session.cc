@@ -55,7 +55,7 @@ std::optional<double> AmbientRatio(const Observations& observations) {
   return off / count / dimmest;
 }
 
-// Between the source's axis and the meter; 0 where nobody placed both.
+// Between the source's axis and the meter; 0 where nobody says it.
 double EmissionOf(const LightDescription& light, const Observation& row) {
   if (row.off_axis) {
     const Vec3& p = row.off_axis->at.position;
@@ -63,9 +63,9 @@ double EmissionOf(const LightDescription& light, const Observation& row) {
     return tube ? std::atan2(std::abs(p[0]), std::hypot(p[1], p[2]))
                 : std::atan2(std::hypot(p[0], p[1]), p[2]);
   }
-  if (light.kind != LightKind::kPhotometric || !light.aim || !light.position_m || !row.position_m) {
-    return 0.0;
-  }
+  if (light.kind != LightKind::kPhotometric) return 0.0;
+  if (row.off_axis_rad != 0.0) return std::abs(row.off_axis_rad);
+  if (!light.aim || !light.position_m || !row.position_m) return 0.0;
   const Vec3 away = *row.position_m - *light.position_m;
   return std::atan2(Length(Cross(*light.aim, away)), Dot(*light.aim, away));
 }
