@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dome_pictures.h"
@@ -91,6 +93,10 @@ class SourceSession : public testing::Test {
            "distance_m = 1.0\nfov_deg = 40\nf_number = 8\niso = 100\nexposure_s = [" +
            times_ + "]\n" + more;
   }
+  static std::string InTheDark(const std::string& toml) {
+    constexpr std::string_view kFirst = "lightcal = 1\n";
+    return std::string(kFirst) + "[room]\ndark = true\n" + toml.substr(kFirst.size());
+  }
   json Run(const std::string& toml) {
     document_ = LightcalJson(
         "run", {folder_.Write("session.toml", toml), "-o", folder_.path() + "/out", "--force"});
@@ -158,9 +164,46 @@ TEST_F(SourceSession, ALuxReadingAtTheCameraTakesItsScaleOut) {
   Shoot(lamp, {1.0 / 200.0, 1.0 / 100.0});
   // E = pi L sin^2 of the disk's half angle: 0.1 m at 1 m.
   const double lux = pi * 4000.0 * 0.01 / 1.01;
-  const json light = Run(Toml("kind = \"disk\"\n", "anchor_illuminance_lx = " + Text(lux) + "\n"));
+  const json light =
+      Run(InTheDark(Toml("kind = \"disk\"\n", "anchor_illuminance_lx = " + Text(lux) + "\n")));
   EXPECT_NEAR(Value(light["luminance_nits"]) / 4000.0, 1.0, 0.01);
   EXPECT_FALSE(dome::Warns(document_, "scale_prior"));
+}
+
+// A meter at the camera reads what the walls throw back, a picture of the lamp does not: of an
+// anchored one a fifth too much would be the lamp's.
+TEST_F(SourceSession, AnAnchorHoldsWhatTheWallsThrowBack) {
+  FlatLamp lamp;
+  lamp.shines = [](double r, double u) { return std::hypot(r, u) < 0.1; };
+  Shoot(lamp, {1.0 / 200.0, 1.0 / 100.0});
+  const double lux = pi * 4000.0 * 0.01 / 1.01;
+  const double candela = 4000.0 * pi * 0.01;
+  const std::string anchor = "anchor_illuminance_lx = " + Text(1.2 * lux) + "\n";
+  const json room = Run(Toml("kind = \"disk\"\n", anchor))["intensity_cd"];
+  EXPECT_LT(Value(room), 1.16 * candela);
+  EXPECT_LE(double(room["low95"]), candela);
+  EXPECT_GE(double(room["high95"]), candela);
+  const json dark = Run(InTheDark(Toml("kind = \"disk\"\n", anchor)))["intensity_cd"];
+  EXPECT_NEAR(Value(dark) / (1.2 * candela), 1.0, 0.01);
+  EXPECT_GT(double(dark["low95"]), candela);
+}
+
+TEST_F(SourceSession, ALampsOwnPictureHasTheLensAndTheShutterButNoOtherLight) {
+  FlatLamp lamp;
+  lamp.shines = [](double r, double u) { return std::hypot(r, u) < 0.1; };
+  Shoot(lamp, {1.0 / 800.0, 1.0 / 200.0, 1.0 / 100.0});
+  std::map<std::string, double> bounds;
+  const json light = Run(Toml("kind = \"disk\"\n"));
+  for (const json& one : light["effects"]) {
+    if (one["state"] != "off") bounds[one["name"]] = one["bound"];
+  }
+  EXPECT_FALSE(bounds.contains("room_bounce"));
+  EXPECT_FALSE(bounds.contains("ambient"));
+  // Half the light rippling at 100 Hz, in the longest frame that is not clipped: 1/100 s.
+  EXPECT_NEAR(bounds["rolling_shutter"], 0.5 / pi, 1e-3);
+  EXPECT_NEAR(bounds["veiling_glare"], 0.03, 1e-9);
+  // cos^4 at where the lamp hangs in its picture.
+  EXPECT_NEAR(bounds["vignetting"], 2.0 * (0.06 * 0.06 + 0.04 * 0.04), 1e-4);
 }
 
 TEST_F(SourceSession, WhatCannotBeMeasuredIsNamed) {

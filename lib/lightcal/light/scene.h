@@ -42,6 +42,7 @@ struct ScenePose {
   // Between the source's axis and the meter, where lamp, aim and meter are placed (a tube: out of
   // the plane square to it); 0 on the axis.
   double emission_rad = 0.0;
+  bool of_luminance = false;  // from a picture of the lamp itself: nothing else shines in it
 };
 
 // The lamp in time, and how long one reading gathers its light.
@@ -63,6 +64,7 @@ struct ScenePicture {
   bool flat_field = false;       // divided by the lens's own map
   std::optional<double> glare;   // of the lens: part of the picture's mean on every pixel
   std::optional<double> mean_over_patch;  // the picture's mean luminance over the patch's
+  std::optional<double> off_middle_rad;   // of what was read, from the lens's axis
 };
 
 // A distribution as a table of directions.

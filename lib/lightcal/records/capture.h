@@ -41,8 +41,9 @@ inline constexpr double kSigmaReflectance = 0.03;
 // What opening a capture's pictures told of them.
 struct PictureFacts {
   bool flat_field = false;                // the lens's own map was divided out
-  std::optional<double> shortest_s;       // exposure of the shortest frame used
+  std::optional<double> exposure_s;       // of the longest frame that shows it unclipped
   std::optional<double> mean_over_patch;  // the picture's mean luminance over the patch's
+  std::optional<double> off_middle_rad;   // of what was read, from the lens's axis
 };
 
 // card: a matt card of known reflectance that faces the lamp (or is tilted from it), photographed

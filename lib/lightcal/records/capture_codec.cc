@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/records/capture_codec.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/records/wall_capture_codec.h"
@@ -62,6 +64,34 @@ void RequireForUse(FieldReader& reader, CaptureUse use) {
   }
 }
 
+// What changes nothing is no part of a capture: whoever writes it thinks that it does.
+void RefuseUnheard(FieldReader& reader, CaptureUse use) {
+  using Use = CaptureUse;
+  struct HeardBy {
+    std::string_view key;
+    std::vector<Use> uses;
+  };
+  static const std::array<HeardBy, 10> kHeard = {{
+      {"reflectance", {Use::kCard, Use::kWall}},
+      {"reflectance_sigma_relative", {Use::kCard, Use::kWall}},
+      {"tilt_deg", {Use::kCard}},
+      {"distance_m", {Use::kCard, Use::kSource, Use::kBall}},
+      {"rect", {Use::kCard, Use::kSource, Use::kWall}},
+      {"rows_s", {Use::kCard, Use::kSource, Use::kWall}},
+      {"lens_glare", {Use::kCard, Use::kSource, Use::kWall}},
+      {"projection", {Use::kSource, Use::kDome, Use::kBall}},
+      {"fov_deg", {Use::kSource, Use::kDome, Use::kBall}},
+      {"anchor_illuminance_lx", {Use::kCard, Use::kSource, Use::kWall, Use::kDome}},
+  }};
+  for (const HeardBy& one : kHeard) {
+    if (!reader.Has(one.key) || std::ranges::find(one.uses, use) != one.uses.end()) continue;
+    const std::string key(one.key);
+    reader.Fail(key, key + " tells nothing where use = \"" +
+                         std::string(kCaptureUseWords[static_cast<std::size_t>(use)]) +
+                         "\"; leave it out");
+  }
+}
+
 void CheckCompanions(FieldReader& reader, const CaptureDescription& capture) {
   if (!capture.spectrum_file.empty() && capture.camera.empty()) {
     reader.Fail("spectrum",
@@ -117,6 +147,7 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Require({"light", "frames", "use"});
   if (!reader.Failed()) RequireForUse(reader, capture.use);
   reader.Finish();
+  if (!reader.Failed()) RefuseUnheard(reader, capture.use);
   if (!reader.Failed()) CheckCompanions(reader, capture);
 }
 

@@ -62,7 +62,13 @@ struct Reading {
   std::optional<double> calibration_factor;  // already in illuminance: shown value times this
   FixtureState state{};                      // what the lamp's controls said, empty = it has none
   std::optional<SharedScale> scale{};        // of a picture; absent: what its meter says
+  bool of_luminance = false;                 // of a picture of the lamp itself
 };
+
+// Whether a picture tells it by the camera's scale, not by a meter's.
+[[nodiscard]] inline bool ByOwnScale(const Reading& reading) {
+  return reading.scale && reading.scale->instrument == reading.device;
+}
 
 // Whether it is of the lamp's own light.
 [[nodiscard]] inline bool IsLit(const Reading& reading) {

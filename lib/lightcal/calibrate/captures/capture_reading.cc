@@ -201,12 +201,29 @@ std::optional<double> ShortestOf(const MergedBracket& merged) {
 
 namespace {
 
-// `patch`: the patch's luminance in the merge's own unit; 0 = unknown.
-PictureFacts FactsOf(const MergedBracket& merged, double patch) {
+// Exposure of the longest frame whose scale holds so much luminance, in the merge's own unit: most
+// of what is read of it is that frame's. The shortest's where none does.
+std::optional<double> LongestUnclipped(const MergedBracket& merged, double luminance) {
+  constexpr double kUneven = 1.5;  // brightest over mean
+  std::optional<double> longest = ShortestOf(merged);
+  if (!(luminance > 0.0) || !(merged.nits_per_unit > 0.0)) return longest;
+  for (const MergedFrame& frame : merged.frames) {
+    const auto& time = frame.info.exposure.time;
+    if (!frame.used || !time || !frame.ratio_ev) continue;
+    const double part = kUneven * luminance / merged.nits_per_unit * std::exp2(*frame.ratio_ev);
+    if (part < 1.0) longest = std::max(longest.value_or(0.0), time->value());
+  }
+  return longest;
+}
+
+PictureFacts FactsOf(const MergedBracket& merged, const PictureFindings& findings) {
   PictureFacts facts;
   facts.flat_field = merged.corrections.flat().has_value();
-  facts.shortest_s = ShortestOf(merged);
-  if (patch > 0.0) {
+  const double patch = findings.patch_unit;
+  facts.exposure_s = LongestUnclipped(merged, patch);
+  facts.off_middle_rad = findings.off_middle_rad;
+  // Of a lamp's own light the lens takes its part from the lamp's own picture.
+  if (patch > 0.0 && !findings.of_luminance) {
     const std::vector<float> nits = LuminanceOf(merged, 1.0);
     double sum = 0.0;
     for (const float one : nits) sum += double{one};
@@ -239,7 +256,8 @@ CaptureReading ReadingOfPicture(const Session& session, const CaptureDescription
                                                                         : kCameraDevicePrefix) +
                    (info.camera.empty() ? info.format : info.camera);
   reading.time = info.time;
-  out.found = FactsOf(picture.merged, findings.patch_unit);
+  reading.of_luminance = findings.of_luminance;
+  out.found = FactsOf(picture.merged, findings);
   return out;
 }
 

@@ -52,7 +52,9 @@ struct PictureFindings {
   Lux illuminance;              // as the camera has it
   double independent_sd = 0.0;  // relative
   double method_sd = 0.0;       // relative, beside scale and colour: shared by all its captures
-  double patch_unit = 0.0;      // the patch's luminance in the merge's unit; 0 = unknown
+  double patch_unit = 0.0;      // luminance of what was read, in the merge's unit; 0 = unknown
+  std::optional<double> off_middle_rad{};  // of what was read, from the lens's axis
+  bool of_luminance = false;               // the lamp itself is in the picture
 };
 
 // The same error, saying which capture it is of, and what a person can add there.

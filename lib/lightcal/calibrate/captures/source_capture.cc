@@ -141,7 +141,10 @@ Result<CaptureReading> ReadSource(const Session& session, const CaptureDescripti
       session, capture, *picture, *lamp,
       {.illuminance = source->illuminance * (lamp->nits / seen.Y),
        .independent_sd = anchored ? 0.0 : kInterpolatedNoise * source->noise_sd_relative,
-       .method_sd = 2.0 * kFieldOfViewSd});
+       .method_sd = 2.0 * kFieldOfViewSd,
+       .patch_unit = source->luminance.value(),
+       .off_middle_rad = std::acos(std::clamp(source->direction[1], -1.0, 1.0)),
+       .of_luminance = true});
   if (const LightDescription* const light = FindLight(session, capture.light)) {
     out.sized = Sized(*source, capture, *light, evidence.warnings);
   }

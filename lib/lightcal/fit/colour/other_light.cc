@@ -161,7 +161,7 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   const Reading& reading = row.reading;
   if (!MeasuresColor(reading) || !row.others_lit.empty()) return {};
   if (reading.meter == kDataSheetMeter) return {};
-  const bool walls_shine = HoldsWallLight(session_, description_, reading);
+  const bool walls_shine = !reading.of_luminance && HoldsWallLight(session_, description_, reading);
   if (!walls_shine && !(ambient_lx_ > 0.0)) return {};
   if (reading.lamp == LampState::kOff || reading.shadow_card) return Unlit(reading);
   OtherShares out;

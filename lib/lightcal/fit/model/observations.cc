@@ -86,8 +86,9 @@ class Collector {
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
     observation.data_sheet = reading.meter == kDataSheetMeter;
-    observation.picture = reading.scale && reading.scale->instrument == reading.device;
+    observation.picture = ByOwnScale(reading);
     observation.sees_walls = HoldsWallLight(session_, light_, reading);
+    observation.of_luminance = reading.of_luminance && observation.picture;
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
     observation.table_part = TablePartTowards(light_, reading);
@@ -339,11 +340,7 @@ bool HoldsWallLight(const Session& session, const LightDescription& light, const
       !HasDistanceLaw(light.kind)) {
     return false;
   }
-  const auto of_its_luminance = [&](const CaptureDescription& capture) {
-    return capture.light == light.name && capture.use == CaptureUse::kSource;
-  };
-  return reading.quality != MeterQuality::kDerived ||
-         std::ranges::none_of(session.captures, of_its_luminance);
+  return !(reading.of_luminance && ByOwnScale(reading));
 }
 
 Result<Observations> CollectObservations(const Session& session, const LightDescription& light) {

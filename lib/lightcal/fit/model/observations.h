@@ -34,10 +34,11 @@ struct Observation {
   double calibration = 0.0;  // 1 sigma, relative: of every reading of this instrument alike
   int instrument = 0;        // among this light's
   bool over_range = false;
-  bool data_sheet = false;  // what the manufacturer prints
-  bool picture = false;     // what a camera read, by its own scale
-  bool sees_walls = true;   // false: a manufacturer's figure, or from the lamp's own luminance
-  double table_part = 1.0;  // of the peak intensity, towards the meter (photometric lamps)
+  bool data_sheet = false;    // what the manufacturer prints
+  bool picture = false;       // what a camera read, by its own scale
+  bool sees_walls = true;     // false: a manufacturer's figure, or from the lamp's own luminance
+  bool of_luminance = false;  // from a picture of the lamp itself, by the camera's scale
+  double table_part = 1.0;    // of the peak intensity, towards the meter (photometric lamps)
   bool measured_from_center = false;  // by positions, the lamp's known or to be found
   std::optional<Vec3> position_m;
   std::optional<Vec3> normal;           // unit, where the reading gives one

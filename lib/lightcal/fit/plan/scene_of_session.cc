@@ -103,20 +103,34 @@ void AddPicture(const CaptureDescription& capture, std::optional<ScenePicture>& 
   one.glare = capture.lens_glare;
   one.flat_field = capture.found.flat_field;
   one.mean_over_patch = capture.found.mean_over_patch;
-  one.exposure_s = capture.found.shortest_s;
-  if (!capture.exposure_s.empty()) one.exposure_s = std::ranges::min(capture.exposure_s);
+  one.off_middle_rad = capture.found.off_middle_rad;
+  one.exposure_s = capture.found.exposure_s;
+  if (!one.exposure_s && !capture.exposure_s.empty()) {
+    one.exposure_s = std::ranges::min(capture.exposure_s);
+  }
   if (!kept) {
     kept = one;
     return;
   }
   KeepLargest(kept->mean_over_patch, one.mean_over_patch);
   KeepLargest(kept->glare, one.glare);
+  // Where one of them is not known the worst is that default.
+  if (!kept->off_middle_rad || !one.off_middle_rad) {
+    kept->off_middle_rad.reset();
+  } else {
+    KeepLargest(kept->off_middle_rad, one.off_middle_rad);
+  }
   kept->flat_field = kept->flat_field && one.flat_field;
   const auto keep_least = [](std::optional<double>& least, const std::optional<double>& next) {
     if (next && (!least || *next < *least)) least = next;
   };
   keep_least(kept->exposure_s, one.exposure_s);
   keep_least(kept->rows_s, one.rows_s);
+}
+
+// Whether such pictures become readings of illuminance.
+bool ReadsTheLight(CaptureUse use) {
+  return use == CaptureUse::kCard || use == CaptureUse::kSource;
 }
 
 // Who read, with what: a person's meter, a manufacturer, a camera.
@@ -131,7 +145,7 @@ void AddTime(const Session& session, const LightDescription& light, Scene& scene
   }
   if (!pictures) return;
   for (const CaptureDescription& capture : session.captures) {
-    if (capture.light != light.name || capture.use != CaptureUse::kCard) continue;
+    if (capture.light != light.name || !ReadsTheLight(capture.use)) continue;
     if (capture.anchor_illuminance) continue;  // a meter gives the level, the picture the colour
     AddPicture(capture, scene.picture);
   }
@@ -209,7 +223,7 @@ Scene SceneOfSession(const Session& session, const LightDescription& light,
   for (const Observation& row : observations.rows) {
     if (!row.lit) continue;
     scene.poses.push_back({row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced,
-                           row.position_m, EmissionOf(light, row)});
+                           row.position_m, EmissionOf(light, row), row.of_luminance});
     least_part = std::min(least_part, row.table_part);
   }
   scene.distances = CountDistinctDistances(observations.rows);

@@ -19,6 +19,9 @@ inline constexpr double kAmbientDefault = 0.05;
   if (differenced) {
     return {0.0, Treatment::kFitted, 0.0, "the shadow-card readings subtract it"};
   }
+  if (std::ranges::all_of(scene.poses, &ScenePose::of_luminance)) {
+    return NotApplicable("a picture of the lamp itself holds no other light");
+  }
   if (scene.ambient_ratio) {
     return {std::max(0.0, *scene.ambient_ratio), Treatment::kFitted, 0.0,
             "measured by lamp-off readings"};

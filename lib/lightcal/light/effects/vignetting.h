@@ -13,7 +13,7 @@ inline constexpr double kFieldDefault_rad = 0.2;
 [[nodiscard]] inline EffectFinding FindVignetting(const Scene& scene) {
   if (!scene.picture) return NotApplicable("no picture");
   if (scene.picture->flat_field) return NotApplicable("the flat field takes it out");
-  const double t = kFieldDefault_rad;
+  const double t = scene.picture->off_middle_rad.value_or(kFieldDefault_rad);
   return {.bound = 2.0 * t * t,
           .treatment = Treatment::kWidens,
           .reason = "no flat field: a patch off the picture's middle reads low by up to this",
