@@ -166,6 +166,12 @@ std::string MinutesBetter(double count) {
   return ShortestText(count) + (count == 1.0 ? " minute better" : " minutes better");
 }
 
+// Of a beam's angle where that is what it tells.
+std::string WhatItBuys(const PlannedReading& reading) {
+  if (!reading.off_axis || !reading.beam_u95_deg) return StopsText(reading.u95_stops);
+  return "beam angle ± " + RoundedText(*reading.beam_u95_deg, 2) + "°";
+}
+
 struct LabelAndText {
   std::string label, text;
 };
@@ -174,7 +180,7 @@ LabelAndText NextWords(const LampAnswer& answer) {
   switch (next.kind) {
     case NextStepAdvice::Kind::kReading:
       return {MinutesBetter(next.minutes),
-              answer.better + ": " + StopsText(next.reading->u95_stops)};
+              answer.better + ": " + WhatItBuys(*next.reading)};
     case NextStepAdvice::Kind::kSay:
       return {"next", next.say};
     case NextStepAdvice::Kind::kMeter:

@@ -100,6 +100,17 @@ TEST(Beam, TwoTypedReadingsAnswerABeamAndNameTheNextAngle) {
   EXPECT_NE(next.find("beam angle ±"), std::string::npos) << next;
 }
 
+// What is left of this strength is where the light starts, which no angle tells.
+TEST(Beam, WhoseStartIsOpenIsToldByAnotherDistance) {
+  const json document =
+      LightcalJson("quick", {"9000lx@2m", "4500lx@2m,10deg", "600lx@2m,20deg", "--room", "dark",
+                             "--fixture", "fresnel"});
+  EXPECT_EQ(document["lights"][0]["budget"][0]["name"], "distance_offset");
+  const std::string next = document["next_step"];
+  EXPECT_EQ(next.find("off the axis"), std::string::npos) << next;
+  EXPECT_NE(next.find("m, facing the lamp: ±"), std::string::npos) << next;
+}
+
 TEST(Beam, TooFewAnglesAreRefusedWithTheAngleThatIsMissing) {
   const CliResult narrow = RunLightcal(
       {"quick", "900lx@1m", "880lx@1m,4deg", "--room", "dark", "--fixture", "luminaire", "--json"});

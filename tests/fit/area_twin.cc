@@ -111,6 +111,31 @@ Vec3 LightStart(const AreaTwin& t, const Vec3& meter) {
 
 }  // namespace
 
+AreaTwin LampOfKind(LightKind kind) {
+  AreaTwin twin;
+  twin.light.name = "lamp";
+  twin.light.kind = kind;
+  twin.light.position_m = Vec3{0.0, 0.0, 0.0};
+  twin.light.aim = Vec3{0.0, 1.0, 0.0};
+  if (kind == LightKind::kSphere) twin.light.diameter = Metres(0.4);
+  if (kind == LightKind::kDisk) twin.light.diameter = Metres(0.6);
+  if (kind == LightKind::kRect) {
+    twin.light.width = Metres(0.8);
+    twin.light.height = Metres(0.4);
+  }
+  if (kind == LightKind::kTube) {
+    twin.light.length = Metres(1.2);
+    twin.light.radius = Metres(0.03);
+  }
+  if (kind == LightKind::kSpot) {
+    twin.inner_rad = 0.3;
+    twin.outer_rad = 0.7;
+    twin.light.inner = Radians(twin.inner_rad);
+    twin.light.outer = Radians(twin.outer_rad);
+  }
+  return twin;
+}
+
 double TrueLux(const AreaTwin& twin, const Vec3& meter, const Vec3& normal) {
   const Vec3 center = LightStart(twin, meter);
   switch (twin.light.kind) {

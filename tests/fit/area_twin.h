@@ -19,6 +19,9 @@ struct AreaTwin {
   double inner_rad = 0.0, outer_rad = 3.2;  // of a spot, the truth
 };
 
+// One of that kind at the origin, as large as such lamps are, its aim along y.
+[[nodiscard]] AreaTwin LampOfKind(LightKind kind);
+
 // Illuminance on a meter of unit normal.
 [[nodiscard]] double TrueLux(const AreaTwin& twin, const Vec3& meter, const Vec3& normal);
 

@@ -16,33 +16,9 @@ namespace lightcal {
 namespace {
 
 using test::AreaTwin;
+using test::LampOfKind;
 using test::PosesAround;
 using test::TrialsOf;
-
-AreaTwin TwinOf(LightKind kind) {
-  AreaTwin twin;
-  twin.light.name = "lamp";
-  twin.light.kind = kind;
-  twin.light.position_m = Vec3{0.0, 0.0, 0.0};
-  twin.light.aim = Vec3{0.0, 1.0, 0.0};
-  if (kind == LightKind::kSphere) twin.light.diameter = Metres(0.4);
-  if (kind == LightKind::kDisk) twin.light.diameter = Metres(0.6);
-  if (kind == LightKind::kRect) {
-    twin.light.width = Metres(0.8);
-    twin.light.height = Metres(0.4);
-  }
-  if (kind == LightKind::kTube) {
-    twin.light.length = Metres(1.2);
-    twin.light.radius = Metres(0.03);
-  }
-  if (kind == LightKind::kSpot) {
-    twin.inner_rad = 0.3;
-    twin.outer_rad = 0.7;
-    twin.light.inner = Radians(twin.inner_rad);
-    twin.light.outer = Radians(twin.outer_rad);
-  }
-  return twin;
-}
 
 class OffAxis : public testing::TestWithParam<LightKind> {};
 
@@ -51,7 +27,7 @@ class OffAxis : public testing::TestWithParam<LightKind> {};
 double WidestPose(LightKind kind) { return kind == LightKind::kSpot ? 0.25 : 1.05; }
 
 TEST_P(OffAxis, AnyPlaceAndTurnGivesTheSameLamp) {
-  AreaTwin twin = TwinOf(GetParam());
+  AreaTwin twin = LampOfKind(GetParam());
   twin.intensity_cd = 700.0;
   std::mt19937_64 random(3);
   const auto poses =
@@ -73,7 +49,7 @@ TEST_P(OffAxis, NinetyFiveOfAHundredIntervalsHoldTheTruth) {
   int covered = 0;
   double z_squared = 0.0;
   for (int i = 0; i < kTwins; ++i) {
-    AreaTwin twin = TwinOf(GetParam());
+    AreaTwin twin = LampOfKind(GetParam());
     twin.intensity_cd = std::exp(5.0 + 2.0 * normal(random));
     const auto poses =
         PosesAround(*twin.light.aim, 6, 0.8, 3.5, WidestPose(GetParam()), 0.5, random);
@@ -109,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OffAxis,
                          [](const auto& kind) { return std::string(LightKindName(kind.param)); });
 
 TEST(OffAxis, ARectKnowsItsWidthFromItsHeight) {
-  AreaTwin twin = TwinOf(LightKind::kRect);
+  AreaTwin twin = LampOfKind(LightKind::kRect);
   twin.intensity_cd = 100.0;
   twin.width_axis = {0.0, 0.0, 1.0};
   twin.light.axis = twin.width_axis;
@@ -127,7 +103,7 @@ TEST(OffAxis, ARectKnowsItsWidthFromItsHeight) {
 }
 
 TEST(OffAxis, ReadingsBehindAPanelAreSetAsideByName) {
-  AreaTwin twin = TwinOf(LightKind::kRect);
+  AreaTwin twin = LampOfKind(LightKind::kRect);
   twin.intensity_cd = 100.0;
   std::mt19937_64 random(6);
   auto poses = PosesAround(*twin.light.aim, 4, 0.8, 3.0, 0.5, 0.1, random);

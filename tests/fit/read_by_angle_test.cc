@@ -18,26 +18,17 @@ namespace lightcal {
 namespace {
 
 using test::AreaTwin;
+using test::LampOfKind;
 using test::TrialsOf;
 
 constexpr double kRadiansOfDegree = std::numbers::pi / 180.0;
 
+// A rect four times as wide as high: which side the meter went counts most of it.
 AreaTwin AimedTwin(LightKind kind) {
-  AreaTwin twin;
-  twin.light.name = "lamp";
-  twin.light.kind = kind;
-  twin.light.aim = Vec3{0.0, 0.0, -1.0};
-  twin.light.position_m = Vec3{};
-  if (kind == LightKind::kDisk) twin.light.diameter = Metres(0.6);
+  AreaTwin twin = LampOfKind(kind);
   if (kind == LightKind::kRect) {
     twin.light.width = Metres(1.2);
     twin.light.height = Metres(0.3);
-  }
-  if (kind == LightKind::kSpot) {
-    twin.inner_rad = 0.3;
-    twin.outer_rad = 0.7;
-    twin.light.inner = Radians(twin.inner_rad);
-    twin.light.outer = Radians(twin.outer_rad);
   }
   return twin;
 }
@@ -64,8 +55,8 @@ SessionReading ReadingAt(double distance_m, double off_axis_deg, double lux) {
 
 // Facing the lamp, `angle_rad` off its axis and `round_rad` about it.
 double LuxAt(const AreaTwin& twin, double distance_m, double angle_rad, double round_rad) {
-  const Vec3 way{std::sin(angle_rad) * std::cos(round_rad),
-                 std::sin(angle_rad) * std::sin(round_rad), -std::cos(angle_rad)};
+  const Vec3 way{std::sin(angle_rad) * std::cos(round_rad), std::cos(angle_rad),
+                 std::sin(angle_rad) * std::sin(round_rad)};
   return TrueLux(twin, way * distance_m, way * -1.0);
 }
 
@@ -105,7 +96,8 @@ TEST_P(ReadByAngle, NinetyFiveOfAHundredIntervalsHoldTheTruth) {
       const double said_deg = std::round(5.0 + (widest_deg - 5.0) * uniform(random));
       const double true_deg = said_deg + axis_deg + normal(random);
       const double lux = LuxAt(twin, distance, true_deg * kRadiansOfDegree, round_rad);
-      session.readings.push_back(ReadingAt(distance, said_deg, lux * std::exp(0.01 * normal(random))));
+      session.readings.push_back(
+          ReadingAt(distance, said_deg, lux * std::exp(0.01 * normal(random))));
     }
     const auto fitted = FitSession(session, {});
     ASSERT_TRUE(fitted.has_value()) << fitted.error().message;

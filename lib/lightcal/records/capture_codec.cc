@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/records/capture_codec.h"
 
-#include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,27 +64,35 @@ void RequireForUse(FieldReader& reader, CaptureUse use) {
   }
 }
 
+// The uses that hear a key.
+constexpr unsigned Uses(std::initializer_list<CaptureUse> uses) {
+  unsigned bits = 0;
+  for (const CaptureUse use : uses) bits |= 1U << static_cast<unsigned>(use);
+  return bits;
+}
+struct HeardBy {
+  std::string_view key;
+  unsigned uses;
+};
+constexpr unsigned kPatches = Uses({CaptureUse::kCard, CaptureUse::kSource, CaptureUse::kWall});
+constexpr unsigned kLenses = Uses({CaptureUse::kSource, CaptureUse::kDome, CaptureUse::kBall});
+constexpr std::array<HeardBy, 10> kHeard = {{
+    {"reflectance", Uses({CaptureUse::kCard, CaptureUse::kWall})},
+    {"reflectance_sigma_relative", Uses({CaptureUse::kCard, CaptureUse::kWall})},
+    {"tilt_deg", Uses({CaptureUse::kCard})},
+    {"distance_m", Uses({CaptureUse::kCard, CaptureUse::kSource, CaptureUse::kBall})},
+    {"rect", kPatches},
+    {"rows_s", kPatches},
+    {"lens_glare", kPatches},
+    {"projection", kLenses},
+    {"fov_deg", kLenses},
+    {"anchor_illuminance_lx", kPatches | Uses({CaptureUse::kDome})},
+}};
+
 // What changes nothing is no part of a capture: whoever writes it thinks that it does.
 void RefuseUnheard(FieldReader& reader, CaptureUse use) {
-  using Use = CaptureUse;
-  struct HeardBy {
-    std::string_view key;
-    std::vector<Use> uses;
-  };
-  static const std::array<HeardBy, 10> kHeard = {{
-      {"reflectance", {Use::kCard, Use::kWall}},
-      {"reflectance_sigma_relative", {Use::kCard, Use::kWall}},
-      {"tilt_deg", {Use::kCard}},
-      {"distance_m", {Use::kCard, Use::kSource, Use::kBall}},
-      {"rect", {Use::kCard, Use::kSource, Use::kWall}},
-      {"rows_s", {Use::kCard, Use::kSource, Use::kWall}},
-      {"lens_glare", {Use::kCard, Use::kSource, Use::kWall}},
-      {"projection", {Use::kSource, Use::kDome, Use::kBall}},
-      {"fov_deg", {Use::kSource, Use::kDome, Use::kBall}},
-      {"anchor_illuminance_lx", {Use::kCard, Use::kSource, Use::kWall, Use::kDome}},
-  }};
   for (const HeardBy& one : kHeard) {
-    if (!reader.Has(one.key) || std::ranges::find(one.uses, use) != one.uses.end()) continue;
+    if ((one.uses & Uses({use})) != 0 || !reader.Has(one.key)) continue;
     const std::string key(one.key);
     reader.Fail(key, key + " tells nothing where use = \"" +
                          std::string(kCaptureUseWords[static_cast<std::size_t>(use)]) +

@@ -16,9 +16,9 @@ struct PosedWall {
   SolvedCamera camera;  // of `picture`'s pixels
 };
 
-// Its camera by the board in the frames, else in wall.board_frame, and by wall.board_views, of
-// which one where no board is found is left out and named. Refused: mixed_size, and as
-// ReadWallPicture, Sources::find_board, SolveCamera.
+// Its camera by the board in the frames, else in wall.board_frame, and by wall.board_views, of which
+// one where no board is found is left out and named. Refused: mixed_size, and as ReadWallPicture,
+// Sources::find_board, SolveCamera.
 [[nodiscard]] Result<PosedWall> ReadPosedWall(const Session& session,
                                               const CaptureDescription& capture,
                                               const Sources& sources, Evidence& evidence);

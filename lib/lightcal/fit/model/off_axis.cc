@@ -72,10 +72,10 @@ void WidenByAngle(const LightDescription& light, Observations& observations) {
   for (Observation& row : observations.rows) {
     if (!ByAngle(row)) continue;
     const auto part = [&](double off_axis_rad) {
+      const double off = std::abs(off_axis_rad);
       return MeanRound([&](double round_rad) {
-        if (!source)
-          return light.distribution->At(Radians(round_rad), Radians(off_axis_rad)).value();
-        return LuxPerCandela(PoseAt(*source, row.distance_m, off_axis_rad, round_rad), 0.0);
+        if (!source) return light.distribution->At(Radians(round_rad), Radians(off)).value();
+        return LuxPerCandela(PoseAt(*source, row.distance_m, off, round_rad), 0.0);
       });
     };
     const double angle = std::abs(row.off_axis_rad);
@@ -134,11 +134,10 @@ int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& 
       observations.rejected.push_back(row.index);
       observations.warnings.push_back(
           {"row_rejected", light.name + ", reading " + std::to_string(row.index),
-           ByAngle(row) ? "the lamp does not shine there by its size or cone; "
-                          "check them and the reading's off_axis_deg"
-                        : "the lamp does not shine there by its "
-                          "position_m, aim and size or cone; check them "
-                          "and the reading's position_m"});
+           ByAngle(row) ? "the lamp does not shine there by its size or cone; check them and the "
+                          "reading's off_axis_deg"
+                        : "the lamp does not shine there by its position_m, aim and size or cone; "
+                          "check them and the reading's position_m"});
       continue;
     }
     row.off_axis = pose;

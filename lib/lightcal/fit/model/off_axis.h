@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Readings whose place and turn are known against a lamp whose place and aim are, or that say how far
-// off its axis they were taken: its exact form there, instead of the law on its axis.
+// Readings whose place and turn are known against a lamp whose place and aim are, or that say how
+// far off its axis they were taken: its exact form there, instead of the law on its axis.
 #pragma once
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace lightcal::fit {
 
-// 1 sigma of an angle off the axis as it was set, and of the axis it is counted from: as stated, else
-// a degree.
+// 1 sigma of an angle off the axis as it was set, and of the axis it is counted from: as stated,
+// else a degree.
 [[nodiscard]] Radians AngleSigma(const LightDescription& light);
 
 // The lamp as a source with size and aim. Absent where the session does not say enough: no
@@ -23,9 +23,9 @@ namespace lightcal::fit {
 // Gives every lit row that is placed, or read by its angle off the axis of a disk, rect or spot
 // with outer_deg, its pose before the source and how strongly the source shines there
 // (Observation::emission). What is not known of such an angle, AngleSigma and the side of the lamp,
-// widens the row (of a photometric lamp's too, whose table_part holds the mean round about). Rows the lamp does not reach (behind it, beyond its cone) are rejected
-// with the warning row_rejected; where the cone was found from them they are left out silently.
-// Returns how many.
+// widens the row (of a photometric lamp's too, whose table_part holds the mean round about). Rows
+// the lamp does not reach (behind it, beyond its cone) are rejected with the warning row_rejected;
+// where the cone was found from them they are left out silently. Returns how many.
 int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& observations);
 
 }  // namespace lightcal::fit

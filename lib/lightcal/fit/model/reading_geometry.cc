@@ -47,6 +47,20 @@ double InnerRadius(const LightDescription& light) {
 
 }  // namespace
 
+PartRound MeanRound(const std::function<double(double)>& part_of) {
+  constexpr int kSides = 16;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < kSides; ++i) {
+    const double part = part_of(2.0 * std::numbers::pi * i / kSides);
+    sum += part;
+    squares += part * part;
+  }
+  const double mean = sum / kSides;
+  if (!(mean > 0.0)) return {};
+  return {mean, std::sqrt(std::max(0.0, squares / kSides - mean * mean)) / mean};
+}
+
 double TablePartTowards(const LightDescription& light, const Reading& reading) {
   if (!light.distribution) return 1.0;
   const IntensityTable& table = *light.distribution;

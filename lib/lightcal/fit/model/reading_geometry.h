@@ -2,9 +2,7 @@
 // Where a meter stood before the lamp, from what a reading says of it.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <functional>
 #include <string>
 
 #include "lightcal/core/result.h"
@@ -32,20 +30,7 @@ struct PartRound {
 };
 
 // `part_of`(radians about the axis), of a full turn.
-template <class PartOf>
-[[nodiscard]] PartRound MeanRound(const PartOf& part_of) {
-  constexpr int kSides = 16;
-  double sum = 0.0;
-  double squares = 0.0;
-  for (int i = 0; i < kSides; ++i) {
-    const double part = part_of(2.0 * std::numbers::pi * i / kSides);
-    sum += part;
-    squares += part * part;
-  }
-  const double mean = sum / kSides;
-  if (!(mean > 0.0)) return {};
-  return {mean, std::sqrt(std::max(0.0, squares / kSides - mean * mean)) / mean};
-}
+[[nodiscard]] PartRound MeanRound(const std::function<double(double)>& part_of);
 
 // Intensity towards the meter over the peak's, by the lamp's table; 1 without one. A reading by its
 // angle has the mean of all sides; one that says neither angle nor position stands on the lamp's

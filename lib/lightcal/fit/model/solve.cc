@@ -13,7 +13,7 @@ namespace lightcal::fit {
 namespace {
 
 // A problem of one row, to differentiate it.
-struct OneRow {
+struct RowProblem {
   static constexpr int kCount = kParameters;
   const ReadingRow& row;
   template <class T>
@@ -190,12 +190,12 @@ template bool RowResidual<kWithoutScale>(const ReadingRow&, const double*, doubl
                                          double*);
 
 double RowResidual(const ReadingRow& row, const Theta& theta) {
-  return ResidualAt(OneRow{row}, 0, theta.data());
+  return ResidualAt(RowProblem{row}, 0, theta.data());
 }
 
 RowDerivative DifferentiateRow(const ReadingRow& row, const Theta& theta) {
   RowDerivative out;
-  out.residual = DifferentiateAt(OneRow{row}, 0, theta.data(), out.gradient.data());
+  out.residual = DifferentiateAt(RowProblem{row}, 0, theta.data(), out.gradient.data());
   return out;
 }
 

@@ -87,8 +87,12 @@ std::optional<NextStepAdvice> AboutPlace(const Session& session, const FittedLig
   return Take(std::move(plan->steps.front()), minutes.move + minutes.reading, plan->u95_relative);
 }
 
-// A beam is told best at another angle.
-std::optional<NextStepAdvice> AboutBeam(const Session& session, const FittedLight& light) {
+// A beam is told at another angle.
+struct AngleAdvice {
+  NextStepAdvice advice;
+  double gain = 0.0;  // of ln of the beam angle's interval
+};
+std::optional<AngleAdvice> AboutBeam(const Session& session, const FittedLight& light) {
   if (!light.beam || !light.beam->beam_deg) return std::nullopt;
   auto plan = PlanAngle(session, light.name, {});
   if (!plan || plan->steps.empty() || !plan->beam_u95_deg) return std::nullopt;
@@ -98,10 +102,18 @@ std::optional<NextStepAdvice> AboutBeam(const Session& session, const FittedLigh
   const std::string beam = ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
                            degrees(*step.beam_u95_deg) + ", intensity " +
                            Within(*plan->u95_relative) + " → " + Within(step.u95_relative);
+  const double gain = std::log(*plan->beam_u95_deg / *step.beam_u95_deg);
   const MeasuringMinutes minutes;
   NextStepAdvice advice = Take(std::move(step), minutes.move + minutes.reading, std::nullopt);
   advice.say = SayPlannedReading(*advice.reading) + beam;
-  return advice;
+  return AngleAdvice{std::move(advice), gain};
+}
+
+// Off ln of the intensity's interval.
+double GainOf(const NextStepAdvice& advice, const FittedLight& light) {
+  const auto now = RelativeUncertainty(light);
+  if (!advice.reading || !now || !(advice.reading->u95_relative > 0.0)) return 0.0;
+  return std::log(*now / advice.reading->u95_relative);
 }
 
 NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light,
@@ -155,7 +167,10 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
              return SameStep(one, *advice->reading);
            });
   };
-  if (auto angle = AboutBeam(session, light); wanted(angle)) return *std::move(angle);
+  if (auto angle = AboutBeam(session, light); angle && wanted(angle->advice)) {
+    NextStepAdvice bought = WhatMinutesBuy(session, light, skip);
+    return GainOf(bought, light) > angle->gain ? bought : std::move(angle->advice);
+  }
   if (auto place = AboutPlace(session, light); wanted(place)) return *std::move(place);
   const Taken taken = TakenOf(session, light);
   if (taken.distances_m.empty()) {
