@@ -54,15 +54,6 @@ tl::unexpected<Error> NothingNearAxis(double nearest_rad, std::optional<double> 
                      ": read at 0 degrees too, straight before the lamp");
 }
 
-double NearestToAxis(const std::vector<BeamRow>& rows) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const BeamRow& row : rows) {
-    const double off = std::atan2(std::hypot(row.from_lamp[0], row.from_lamp[1]), row.from_lamp[2]);
-    if (row.lit) nearest = std::min(nearest, off);
-  }
-  return nearest;
-}
-
 // What a person can do about angles that are a good part of the beam.
 std::string CureOfAngles(const BeamRows& rows, double half_deg) {
   constexpr double kGoodPart = 0.08;
@@ -240,8 +231,10 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   BeamRows rows = RowsOfBeam(observations, light, &model);
   Result<BeamProfile> fitted = FitBeamProfile(rows.readings, light.name);
   if (!fitted) {
-    const double nearest = NearestToAxis(rows.readings.rows);
-    if (nearest > kFarFromAxis) return NothingNearAxis(nearest, std::nullopt, light.name);
+    const std::vector<RoughPoint> curve = RoughCurve(rows.readings.rows);
+    if (!curve.empty() && curve.front().gamma > kFarFromAxis) {
+      return NothingNearAxis(curve.front().gamma, std::nullopt, light.name);
+    }
     return Propagate(std::move(fitted));
   }
   BeamProfile& profile = *fitted;

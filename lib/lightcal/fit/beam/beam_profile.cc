@@ -160,17 +160,18 @@ Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::*what)
   return {at(0.5), 0.5 * (high - low), low, high};
 }
 
-// 1 sigma of the draws' intensity at that angle over their own on the axis.
-double PartSd(const std::vector<BeamDraw>& draws, std::size_t angle) {
+struct MeanAndSd {
+  double mean = 0.0, sd = 0.0;
+};
+template <class Of>
+MeanAndSd OverDraws(const std::vector<BeamDraw>& draws, const Of& of) {
+  const auto count = static_cast<double>(draws.size());
   double sum = 0.0;
   double squares = 0.0;
-  for (const BeamDraw& draw : draws) {
-    const double part = draw.candela[angle] / std::max(draw.candela.front(), 1e-300);
-    sum += part;
-    squares += part * part;
-  }
-  const auto n = static_cast<double>(draws.size());
-  return std::sqrt(std::max(0.0, squares / n - sum / n * (sum / n)));
+  for (const BeamDraw& draw : draws) sum += of(draw);
+  const double mean = sum / count;
+  for (const BeamDraw& draw : draws) squares += std::pow(of(draw) - mean, 2.0);
+  return {mean, std::sqrt(squares / count)};
 }
 
 }  // namespace
@@ -213,14 +214,13 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   out.family = out.families.front().name;
 
   for (std::size_t i = 0; i < out.gamma_deg.size(); ++i) {
-    double sum = 0.0;
-    double squares = 0.0;
-    for (const BeamDraw& draw : draws) sum += draw.candela[i];
-    const double mean = sum / static_cast<double>(draws.size());
-    for (const BeamDraw& draw : draws) squares += std::pow(draw.candela[i] - mean, 2.0);
-    out.candela.push_back(mean);
-    out.candela_sd.push_back(std::sqrt(squares / static_cast<double>(draws.size())));
-    out.part_sd.push_back(PartSd(draws, i));
+    const MeanAndSd there = OverDraws(draws, [&](const BeamDraw& draw) { return draw.candela[i]; });
+    const MeanAndSd part = OverDraws(draws, [&](const BeamDraw& draw) {
+      return draw.candela[i] / std::max(draw.candela.front(), 1e-300);
+    });
+    out.candela.push_back(there.mean);
+    out.candela_sd.push_back(there.sd);
+    out.part_sd.push_back(part.sd);
   }
   std::vector<NormalPart> ln;
   for (const SolvedBeam& one : beams) {

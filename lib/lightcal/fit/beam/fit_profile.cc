@@ -49,15 +49,17 @@ bool Differs(double printed_deg, const Uncertain& read) {
   return std::abs(std::log(printed_deg / middle)) > kConflict * std::hypot(sd, kSheetAngle);
 }
 
-void CompareAngle(const std::string& light, const char* key, const std::optional<Radians>& printed,
+// Whether it does, and then says so.
+bool Contradicted(const std::string& light, const char* key, const std::optional<Radians>& printed,
                   const std::optional<Uncertain>& read, Warnings& warnings) {
-  if (!printed || !read || !Differs(DegreesFromRadians(*printed), *read)) return;
+  if (!printed || !read || !Differs(DegreesFromRadians(*printed), *read)) return false;
   warnings.push_back({"data_sheet_disagrees", light,
                       "the readings say " + std::string(key) + " is " + RoundedText(*read->low, 2) +
                           " to " + RoundedText(*read->high, 2) + ", the data sheet " +
                           RoundedText(DegreesFromRadians(*printed), 3) +
                           ": the readings alone are believed; check that it is a full angle and "
                           "of this zoom"});
+  return true;
 }
 
 // By the readings and a data sheet's angles; by the readings alone where they know better.
@@ -71,10 +73,11 @@ Result<BeamLight> ShapeOfReadings(const Session& session, const LightDescription
     Result<BeamLight> read = ShapeByAll(session, unprinted, observations, settings, plan);
     if (read && !read->even) {
       Warnings& warnings = read->estimate.warnings;
-      const std::size_t before = warnings.size();
-      CompareAngle(light.name, "beam_deg", light.beam, read->beam.beam_deg, warnings);
-      CompareAngle(light.name, "field_deg", light.field, read->beam.field_deg, warnings);
-      if (warnings.size() > before) return read;
+      const MeasuredBeam& found = read->beam;
+      const bool beam = Contradicted(light.name, "beam_deg", light.beam, found.beam_deg, warnings);
+      const bool field =
+          Contradicted(light.name, "field_deg", light.field, found.field_deg, warnings);
+      if (beam || field) return read;
     }
   }
   return ShapeByAll(session, light, observations, settings, plan);

@@ -36,6 +36,11 @@ std::string RowName(const SessionReading& row, int index) {
 
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
 
+// Nothing else shines in a picture of the lamp itself; a meter beside the camera sees the room.
+bool ShowsTheLampAlone(const Reading& reading) {
+  return reading.of_luminance && ByOwnScale(reading);
+}
+
 class Collector {
  public:
   Collector(const Session& session, const LightDescription& light)
@@ -88,7 +93,7 @@ class Collector {
     observation.data_sheet = reading.meter == kDataSheetMeter;
     observation.picture = ByOwnScale(reading);
     observation.sees_walls = HoldsWallLight(session_, light_, reading);
-    observation.of_luminance = reading.of_luminance && observation.picture;
+    observation.of_luminance = ShowsTheLampAlone(reading);
     observation.measured_from_center = geometry->from_center;
     observation.position_m = reading.position_m;
     observation.table_part = TablePartTowards(light_, reading);
@@ -340,7 +345,7 @@ bool HoldsWallLight(const Session& session, const LightDescription& light, const
       !HasDistanceLaw(light.kind)) {
     return false;
   }
-  return !(reading.of_luminance && ByOwnScale(reading));
+  return !ShowsTheLampAlone(reading);
 }
 
 Result<Observations> CollectObservations(const Session& session, const LightDescription& light) {

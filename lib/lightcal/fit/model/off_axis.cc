@@ -64,10 +64,10 @@ OffAxisPose PoseOf(const PlacedSource& source, OffsetWay way, const Observation&
 // Each angle is as far off as the axis that all count from, and on which side of the lamp the meter
 // went nobody says. The last two are one error of all such readings: no number of them brings the
 // interval under it.
-void WidenByAngle(const LightDescription& light, Observations& observations) {
+void WidenByAngle(const LightDescription& light, const std::optional<SourceModel>& source,
+                  Observations& observations) {
   const double sigma = AngleSigma(light).value();
   const auto count = static_cast<double>(std::ranges::count_if(observations.rows, ByAngle));
-  const std::optional<SourceModel> source = AimedSourceOf(light);
   if (count == 0.0 || (!source && !light.distribution)) return;
   for (Observation& row : observations.rows) {
     if (!ByAngle(row)) continue;
@@ -107,9 +107,9 @@ std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
 int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& observations) {
   // Half way between the two sides of a rect, for which a reading by its angle stands.
   constexpr double kBetweenSides = 0.25 * std::numbers::pi;
-  WidenByAngle(light, observations);
   const std::optional<PlacedSource> placed = PlacedSourceOf(light);
   const std::optional<SourceModel> aimed = AimedSourceOf(light);
+  WidenByAngle(light, aimed, observations);
   if (!placed && !aimed) return 0;
   const bool spot = light.kind == LightKind::kSpot;
   int dark = 0;
