@@ -62,12 +62,12 @@ Result<Xy> TypedXy(const ColorOptions& options) {
   if (!x) return tl::unexpected(x.error());
   const auto y = TypedNumber(options.xy[1], "--xy");
   if (!y) return tl::unexpected(y.error());
-  if (std::abs(*x) > 1.5 || std::abs(*y) > 1.5) {
-    return Refused("bad_chromaticity", "--xy",
-                   "x and y are parts of one, such as 0.4476 0.4074; " + options.xy[0] + " " +
-                       options.xy[1] + " is not (per cent?)");
-  }
-  return Xy{*x, *y};
+  const Xy xy{*x, *y};
+  if (IsPhysicalXy(xy)) return xy;
+  return Refused("bad_chromaticity", "--xy",
+                 "x and y are parts of one, such as 0.4476 0.4074: x >= 0, y > 0, x + y <= 1; " +
+                     options.xy[0] + " " + options.xy[1] + " is not" +
+                     (std::abs(*x) > 1.5 || std::abs(*y) > 1.5 ? " (per cent?)" : ""));
 }
 
 Result<Kelvin> TypedTemperature(const std::string& text) {

@@ -85,6 +85,8 @@ TEST(ColorCommand, WithoutAMeaningfulTemperatureNoneIsGiven) {
 
 TEST(ColorCommand, WhatIsNoChromaticityIsRefused) {
   ExpectRefused({"--xy", "0", "0"}, "bad_chromaticity");
+  ExpectRefused({"--xy", "-0.1", "0.5"}, "bad_chromaticity");
+  ExpectRefused({"--xy", "0.7", "0.4"}, "bad_chromaticity");
   ExpectRefused({"--xy", "0.3", "-0.3"}, "bad_chromaticity");
   ExpectRefused({"--xy", "0.3", "0"}, "bad_chromaticity");
   ExpectRefused({"--xy", "nan", "0.3"}, "bad_number");

@@ -50,6 +50,20 @@ TEST(PhotometricCommand, UniformLampIsFourPiAndShinesAllRound) {
   EXPECT_EQ(got["format"], "ies");
 }
 
+// Beyond the last angle of a file all is dark, to its beam as to its flux: 0 to 90 degrees.
+TEST(PhotometricCommand, AFileThatEndsAtNinetyDegreesShinesIntoHalfTheSphere) {
+  const TempDir folder;
+  std::string text = kUniform;
+  text.replace(text.find("0 180\r\n"), 7, "0 90\r\n");
+  for (const std::string& candela : {"100 100", "100 60"}) {
+    std::string own = text;
+    own.replace(own.rfind("100 100"), 7, candela);
+    const json got = LightcalJson("photometric", {folder.Write("half.ies", own)});
+    EXPECT_NEAR(got["beam_deg"].get<double>(), 180.0, 1e-6);
+    EXPECT_NEAR(got["field_deg"].get<double>(), 180.0, 1e-6);
+  }
+}
+
 TEST(PhotometricCommand, TheFieldOf2019DoesNotMultiply) {
   const TempDir folder;
   std::string text = kUniform;

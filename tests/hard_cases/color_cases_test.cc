@@ -120,7 +120,7 @@ TEST(HardCaseC, C05WithoutLightThereIsNoColour) {
 TEST(HardCaseC, C06XAndYThatAddToNothingAreRefusedOrDefined) {
   ExpectRefused(OfXy(0.0, 0.0), "bad_chromaticity");
   ExpectRefused(OfXy(0.3, -0.3), "bad_chromaticity");
-  ExpectAnswered(OfXy(-0.3, 0.3));  // an imaginary colour, and finite
+  ExpectRefused(OfXy(-0.3, 0.3), "bad_chromaticity");  // imaginary, as files refuse it
   EXPECT_EQ(CctFromXy({0.0, 0.0}).status, CctStatus::kNotAChromaticity);
   EXPECT_EQ(CctFromXy({std::nan(""), 0.3}).status, CctStatus::kNotAChromaticity);
 }

@@ -232,6 +232,13 @@ constexpr BadLight kBadLights[] = {
     {"TextForNumber",
      R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point","diameter_m":"6cm"}]})",
      "bad_light", "diameter_m must be a number"},
+    {"AimOfNoLength",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"spot","aim":[0,0,0]}]})",
+     "bad_light", "lights[0]: aim = [0, 0, 0] is no direction"},
+    {"InnerBeyondOuter",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"spot",
+         "cone":{"inner_deg":30,"outer_deg":20}}]})",
+     "bad_light", "inner_deg exceeds outer_deg"},
 };
 
 class LightJsonRefusals : public testing::TestWithParam<BadLight> {};

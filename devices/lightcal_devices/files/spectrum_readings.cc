@@ -48,6 +48,10 @@ Result<void> CheckSamples(const FoundSpectrum& found) {
       return Refused("bad_spectrum", found.where,
                      "sample " + std::to_string(i + 1) + " is not a finite number");
     }
+    if (wavelength <= 0.0) {
+      return Refused("bad_spectrum", found.where,
+                     "a wavelength of " + ShortestText(wavelength) + " nm is none");
+    }
     if (i > 0 && wavelength <= spectrum.wavelengths_nm[i - 1]) {
       return Refused("bad_spectrum", found.where,
                      "wavelengths must increase, but " + ShortestText(wavelength) + " nm follows " +

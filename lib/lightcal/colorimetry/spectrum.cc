@@ -87,6 +87,10 @@ Result<void> CheckSamples(const Spectrum& s) {
                " values; give one value for each wavelength");
   }
   if (l.size() < 2) return Bad("fewer than two samples; a spectrum needs at least two");
+  if (l.front() <= 0.0) {
+    return Bad("a wavelength of " + ShortestText(l.front()) +
+               " nm is none; correct or remove that sample");
+  }
   for (std::size_t i = 0; i < l.size(); ++i) {
     if (!std::isfinite(l[i]) || !std::isfinite(s.values[i])) {
       return Bad("sample " + std::to_string(i + 1) +

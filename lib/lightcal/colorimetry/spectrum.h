@@ -16,8 +16,8 @@ enum class SpectralQuantity {
   kRelative,    // any scale: chromaticity only, never lux
 };
 
-// Samples at strictly increasing wavelengths (nm), equal or unequal steps, at least two, all
-// finite.
+// Samples at strictly increasing wavelengths (nm) above 0, equal or unequal steps, at least two,
+// all finite.
 struct Spectrum {
   std::vector<double> wavelengths_nm;
   std::vector<double> values;
@@ -46,7 +46,8 @@ inline constexpr double kMaximumLuminousEfficacy = 683.002;
 //     table's wavelengths together, so that a wide gap still meets every row of the table.
 // Nothing is extrapolated: a spectrum that ends inside 380-780 nm loses what lies outside it (black
 // body of 6504 K read over 400-700 nm: -10.6 K); see CoversVisibleRange. Fails:
-// refused/"bad_spectrum" (fewer than two samples, not increasing, not finite, sum <= 0).
+// refused/"bad_spectrum" (fewer than two samples, not increasing from above 0, not finite, sum
+// <= 0).
 [[nodiscard]] Result<Xyz> XyzFromSpectrum(const Spectrum& spectrum);
 
 // Whether the samples reach over 380-780 nm, the range CIE 15:2018 7.1 still allows (half a step of

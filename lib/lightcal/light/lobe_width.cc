@@ -79,7 +79,9 @@ LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
   if (table.symmetry() == TableSymmetry::kAxial) {  // all half-planes are alike
     const double limit = level * table.peak().intensity.value();
     const HalfPlane any(table, 0.0, TableInterpolation::kLinear);
-    const double edge = table.least_cd() > limit ? std::numbers::pi : any.EdgeAt(limit);
+    // No node is dark, and neither is what lies beyond the last: a table may end at 90 degrees.
+    const bool everywhere = table.least_cd() > limit && any.At(std::numbers::pi) > limit;
+    const double edge = everywhere ? std::numbers::pi : any.EdgeAt(limit);
     const Radians whole(2.0 * edge);
     return {whole, whole, whole};
   }

@@ -37,7 +37,7 @@ std::string FaultOfText(std::string_view key, std::string_view value) {
 }
 
 std::string FaultOfChromaticity(std::string_view key, Xy xy) {
-  if (xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0) return "";
+  if (IsPhysicalXy(xy)) return "";
   return std::string(key) + " = [" + NumberText(xy.x) + ", " + NumberText(xy.y) +
          "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1";
 }

@@ -219,6 +219,16 @@ void VisitSizes(Archive& archive, SomeLight& light) {
   archive.Number("radius_m", light.radius_m, kNotNegative);
 }
 
+template <class SomeLight>
+void CheckCone(FieldReader& reader, const SomeLight& light) {
+  constexpr double kRounding_deg = 1e-9;
+  if (!light.inner_deg || !light.outer_deg) return;
+  if (*light.inner_deg <= *light.outer_deg + kRounding_deg) return;
+  reader.Fail("inner_deg", "inner_deg exceeds outer_deg; both are half angles: swap them");
+}
+template <class SomeLight>
+void CheckCone(FieldWriter& /*writer*/, const SomeLight& /*light*/) {}
+
 template <class Archive, class SomeLight>
 void VisitCone(Archive& archive, SomeLight& light) {
   archive.Group("cone", [&](auto& cone) {
@@ -226,6 +236,7 @@ void VisitCone(Archive& archive, SomeLight& light) {
     cone.Number("outer_deg", light.outer_deg, kHalfAngleRule);
     cone.Number("inner_u95_deg", light.inner_u95_deg, kNotNegative);
     cone.Number("outer_u95_deg", light.outer_u95_deg, kNotNegative);
+    CheckCone(cone, light);
   });
 }
 
@@ -250,6 +261,15 @@ void VisitGeometries(FieldWriter& writer, const std::vector<StateGeometry>& geom
   if (!geometries.empty()) writer.List("geometries", geometries, kVisitStateGeometry);
 }
 
+// A number at a time is no rule for these.
+void CheckDirections(FieldReader& reader, const FittedLight& light) {
+  for (const auto& [key, way] : {std::pair("aim", light.aim), std::pair("axis", light.axis)}) {
+    if (!way || Length(*way) > 0.0) continue;
+    reader.Fail(key, std::string(key) + " = [0, 0, 0] is no direction");
+  }
+}
+void CheckDirections(FieldWriter& /*writer*/, const FittedLight& /*light*/) {}
+
 template <class Archive, class SomeLight>
 void VisitGeometry(Archive& archive, SomeLight& light) {
   VisitCone(archive, light);
@@ -260,6 +280,7 @@ void VisitGeometry(Archive& archive, SomeLight& light) {
   archive.Array("aim", light.aim);
   archive.Array("axis", light.axis);
   archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
+  CheckDirections(archive, light);
 }
 
 template <class Archive, class SomeLight>
@@ -322,6 +343,8 @@ constexpr auto kReadPresetLight = [](FieldReader& reader, FittedLight& light) {
     group.Number("inner_deg", light.inner_deg, kHalfAngleRule);
     group.Number("outer_deg", light.outer_deg, kHalfAngleRule);
     VisitSizes(group, light);
+    CheckDirections(group, light);
+    CheckCone(group, light);
     group.IgnoreRest();
   });
   reader.Require({"name", "kind", "photometry", "color", "geometry"});
