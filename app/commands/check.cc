@@ -12,6 +12,7 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lamp_state.h"
 #include "lightcal/calibrate/wall_part.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
@@ -34,7 +35,7 @@ double BeyondRounding(double value, double of) { return std::abs(value) < 1e-7 *
 
 struct CheckOptions {
   std::string preset, session, engine, max_error = "5%";
-  std::vector<std::string> renders, rigs;
+  std::vector<std::string> renders, rigs, states;
 };
 
 // ---- a picture ----
@@ -179,8 +180,54 @@ Result<void> CheckRender(const CheckOptions& options, Console& console) {
 
 // ---- a preset ----
 
+// What of a session a preset is held against: its lights, at states of their controls where some
+// are asked for.
+Result<void> ToStates(const CheckOptions& options, CalibratedSession& calibrated,
+                      Console& console) {
+  const std::vector<FittedLight> references = calibrated.lights.lights;
+  const auto warnings = SetStates(options.states, calibrated.lights);
+  if (!warnings) return tl::unexpected(warnings.error());
+  console.Warn(*warnings);
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    FittedLight& there = calibrated.lights.lights[i];
+    const bool asked = !references[i].states.empty() && there.states.empty();
+    if (!asked || TakeReadingsOfState(references[i], there, calibrated.session) > 0) continue;
+    return Refused("no_readings", there.name,
+                   "was not read at " + StateText(there.state) +
+                       "; check it at a state that was: " +
+                       Joined(references[i].states, ", or ",
+                              [](const MeasuredState& one) { return StateText(one.state); }));
+  }
+  return {};
+}
+
+// "" where no lamp has states that the preset may be of.
+std::string PerhapsOfAState(const CheckOptions& options, const LightFile& lights) {
+  const auto several = [](const FittedLight& light) { return light.states.size() > 1; };
+  const auto one = std::ranges::find_if(lights.lights, several);
+  if (!options.states.empty() || one == lights.lights.end()) return {};
+  return ". A preset of another state than " + StateText(one->state) +
+         " is checked with --state, as it was exported";
+}
+
+// Of a beam that was read at angles, where the engine has but a cone for it.
+std::string PerhapsACone(const ComparedReading& worst) {
+  if (worst.off_axis_deg == 0.0) return {};
+  return "That is " + RoundedText(std::abs(worst.off_axis_deg), 3) +
+         " degrees off the axis, where an engine's own cone may stray; .ies and .ldt hold the beam "
+         "itself. ";
+}
+
+// "1.00 m, 15°"
+std::string PlaceOf(const ComparedReading& row) {
+  std::string place = row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : kNone;
+  if (row.off_axis_deg != 0.0) place += ", " + RoundedText(row.off_axis_deg, 3) + "°";
+  return place;
+}
+
 // What the preset lacks, where that is more than it may.
-std::optional<Error> Judged(const CheckOptions& options, const std::vector<ComparedReading>& rows,
+std::optional<Error> Judged(const CheckOptions& options, const LightFile& lights,
+                            const std::vector<ComparedReading>& rows,
                             const std::vector<std::string>& missing, double rms, double max_error) {
   if (!missing.empty()) {
     return Error{ErrorKind::kFailed, "missing_lights", options.preset,
@@ -194,8 +241,9 @@ std::optional<Error> Judged(const CheckOptions& options, const std::vector<Compa
                "is " + PercentText(rms) + " (rms) off what the meter showed, more than " +
                    PercentText(max_error) + "; most at a reading of " + worst->light + ": " +
                    RoundedText(worst->predicted_lx, 4) + " lx instead of " +
-                   RoundedText(worst->measured_lx, 4) +
-                   " lx. Export it again, or undo what was edited in it; --max-error allows more"};
+                   RoundedText(worst->measured_lx, 4) + " lx. " + PerhapsACone(*worst) +
+                   "Export it again, or undo what was edited in it; --max-error allows more" +
+                   PerhapsOfAState(options, lights)};
 }
 
 Result<void> CheckPreset(const CheckOptions& options, Console& console) {
@@ -205,8 +253,9 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.preset, *text, FilesBeside(options.preset));
   if (!lights) return tl::unexpected(lights.error());
-  const auto calibrated = CalibrateAloud(options.session, {}, console);
+  auto calibrated = CalibrateAloud(options.session, {}, console);
   if (!calibrated) return tl::unexpected(calibrated.error());
+  if (auto there = ToStates(options, *calibrated, console); !there) return there;
   const auto rows = CompareWithReadings(calibrated->session, calibrated->lights, *lights,
                                         [&](const FittedLight& lamp, const ResidualRow& row) {
                                           return WallPartOf(calibrated->session, lamp, row);
@@ -225,23 +274,24 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
   std::vector<Node> readings;
   std::vector<std::vector<std::string>> table;
   for (const ComparedReading& row : rows) {
-    readings.push_back({{"light", row.light},
-                        {"index", row.index},
-                        {"measured_lx", row.measured_lx},
-                        {"walls_lx", row.walls_lx},
-                        {"predicted_lx", row.predicted_lx},
-                        {"used", row.used},
-                        {"distance_m", row.distance_m}});
+    readings.push_back(
+        {{"light", row.light},
+         {"index", row.index},
+         {"measured_lx", row.measured_lx},
+         {"walls_lx", row.walls_lx},
+         {"predicted_lx", row.predicted_lx},
+         {"used", row.used},
+         {"distance_m", row.distance_m},
+         {"off_axis_deg", row.off_axis_deg == 0.0 ? Node() : Node(row.off_axis_deg)}});
     std::string error = kNone;
     if (const auto relative = row.Error()) {
       readings.back().Put("error", *relative);
       error = PercentText(BeyondRounding(*relative, 1.0));
     }
-    table.push_back({row.light, row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : kNone,
-                     RoundedText(row.measured_lx + row.walls_lx, 4) + " lx",
-                     RoundedText(BeyondRounding(row.walls_lx, row.measured_lx), 3) + " lx",
-                     RoundedText(row.predicted_lx, 4) + " lx",
-                     error + (row.used ? "" : " (rejected)")});
+    table.push_back(
+        {row.light, PlaceOf(row), RoundedText(row.measured_lx + row.walls_lx, 4) + " lx",
+         RoundedText(BeyondRounding(row.walls_lx, row.measured_lx), 3) + " lx",
+         RoundedText(row.predicted_lx, 4) + " lx", error + (row.used ? "" : " (rejected)")});
   }
   console.Print(TextTable({"light", "distance", "meter", "of it walls", "preset", "error"}, table));
   console.Print("\nrms " + PercentText(BeyondRounding(*rms, 1.0)) + " of what the meter showed\n");
@@ -249,7 +299,7 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
                    {"rms_relative", *rms},
                    {"max_error", *max_error},
                    {"missing", Node::UnlessEmpty(Node(missing))}};
-  if (const auto fault = Judged(options, rows, missing, *rms, *max_error)) {
+  if (const auto fault = Judged(options, calibrated->lights, rows, missing, *rms, *max_error)) {
     return EndWithError(console, std::move(document), *fault);
   }
   console.PrintDocument(std::move(document));
@@ -271,6 +321,11 @@ Run BuildCheck(CLI::App& parser) {
   auto options = std::make_shared<CheckOptions>();
   parser.add_option("preset", options->preset, "An exported file: " + ReadableEndings(" "));
   parser.add_option("--session", options->session, "The readings it is checked against");
+  parser
+      .add_option("--state", options->states,
+                  "The preset is of lights at this state, as export writes it: "
+                  "[LIGHT:]dimmer=18,cct_K=4500")
+      ->allow_extra_args(false);
   parser
       .add_option("--max-error", options->max_error,
                   "Exit 1 where the rms over the readings is beyond this")

@@ -51,6 +51,26 @@ def behind_its_place():
     return [at_distance(d, 1000.0 / (d + 0.1) ** 2) for d in (0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 3.0)]
 
 
+def panel_nearby():
+    """800 cd of .6 x .3 m, on its axis: the sum over its face."""
+    a, b = 0.3, 0.15
+    readings = []
+    for d in (0.5, 0.7, 1.0, 2.0):
+        p, q = math.hypot(a, d), math.hypot(b, d)
+        per_nit = 2 * (a / p * math.atan(b / p) + b / q * math.atan(a / q))
+        readings.append(at_distance(d, 800 / (4 * a * b) * per_nit))
+    return readings
+
+
+def globe_from_its_glass():
+    return [at_distance(d, 60 / (d + 0.2) ** 2) for d in (1.0, 2.0, 4.0)]
+
+
+def by_angle():
+    return [at_distance(1.0, lux) + f"off_axis_deg = {angle}\n"
+            for angle, lux in ((0, 900.0), (15, 450.0), (30, 60.0))]
+
+
 def around_a_luminaire():
     return [at_place(p["point"], p["normal"], p["lux"]) for p in cases.probes("ies")]
 
@@ -94,10 +114,18 @@ LAMPS = {
     "sky": ('kind = "dome"\n', [at_distance(1.0, 1000.0)],
             ["preset.json", "blender.py", "three.js", "filament.json", "tscn", "usda"], 0.001),
     "tube": (f'kind = "tube"\nlength_m = {TUBE_M}\nradius_m = 0.01\nposition_m = {list(TUBE_AT)}\n'
-             'aim = [0, 0, -1]\n', around_a_tube(), ["usda"] + TABLES, 0.01),
+             'aim = [0, 0, -1]\n', around_a_tube(), ["usda", "preset.json"] + TABLES, 0.01),
+    "panel": ('kind = "rect"\nsize_m = [0.6, 0.3]\nposition_m = [1, 2, 3]\naim = [0, 0.6, -0.8]\n',
+              panel_nearby(), ["usda", "blender.py", "preset.json"], 0.01),
+    "globe": ('kind = "sphere"\ndiameter_m = 0.4\nposition_m = [1, 2, 3]\n',
+              globe_from_its_glass(), SCENES + TABLES, 0.01),
+    # As it was drawn through its readings; some engines' cones are coarser.
+    "reflector": ('kind = "spot"\nfixture = "reflector"\n', by_angle(),
+                  ["blender.py", "usda", "preset.json"] + TABLES, 0.03),
     # Straight lines between nodes; Blender's own text is mirrored.
     "luminaire": (f'kind = "photometric"\ndistribution = "lamp.ies"\nposition_m = {cases.POSITION}\n'
-                  f'aim = {cases.AIM}\n', around_a_luminaire(), ["blender.py", "usda"] + TABLES, 0.01),
+                  f'aim = {cases.AIM}\n', around_a_luminaire(),
+                  ["blender.py", "usda", "preset.json"] + TABLES, 0.01),
 }
 
 

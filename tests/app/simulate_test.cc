@@ -265,6 +265,20 @@ TEST(SimulateCommand, SunSkyAndOffsetFollowTheirLaws) {
   EXPECT_NEAR(at["illuminance_lx"]["u95"].get<double>(), u95, 2e-3 * u95);
 }
 
+// Distances from the glass of a globe of .2 m: the offset says so, and its centre shines.
+TEST(SimulateCommand, AGlobeShinesFromItsCentreWhereverDistancesCountedFrom) {
+  const TempDir folder;
+  json globe = Light("globe", "sphere", 500.0, {0.0, 0.0, 2.0});
+  globe["diameter_m"] = 0.2;
+  globe["distance_offset_m"] = {{"value", 0.1}, {"u95", 0.02}};
+  globe["effects"] = {
+      {{"name", "sphere_surface"}, {"state", "fitted"}, {"bound", 0.2}, {"cost_ns", 0.5}}};
+  const std::string file = folder.Write("globe.json", LightFile({globe}));
+  const json at =
+      LightcalJson("simulate", {file, "--at", "0,0,1", "--normal", "lamp"})["points"][0];
+  EXPECT_NEAR(Value(at), 500.0, 1e-6);
+}
+
 // A lobe of cos^3 whose meter 3 m below reads 100 lx; its file prints `printed` times 800 cd.
 double LobeCd(double gamma_deg) {
   return gamma_deg < 90 ? 800.0 * std::pow(std::cos(gamma_deg * kPi / 180), 3) : 0.0;

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
+#include <string>
 
+#include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/preset_table.h"
 #include "sample_lights.h"
 
@@ -61,6 +65,51 @@ TEST(EngineAnswers, EveryEngineOfReportsAnswersForALampOfEveryForm) {
     // "Any engine" before them.
     EXPECT_EQ(answers.figures.size(), ReportTargets().size() + 1) << lamp.name;
   }
+}
+
+// 30 cd: 4 pi 30/683 W. Its file has an IES node, whose own number is the same of every lamp.
+TEST(EngineAnswers, BlenderSaysThePowerOfASpotThatItsFileHasAsIes) {
+  for (const double candela : {30.0, 728.0}) {
+    FittedLight spot = SimpleLight("spot", LightKind::kSpot, candela);
+    spot.inner_deg = 10.0;
+    spot.outer_deg = 20.0;
+    spot.color = {};
+    const EngineAnswers answers = EngineAnswersOf(FileOf({spot}));
+    const auto figure = std::ranges::find(answers.figures, "Blender", &EngineFigure::engine);
+    ASSERT_NE(figure, answers.figures.end());
+    EXPECT_EQ(figure->field, "IES · Power of a plain Spot");
+    EXPECT_NEAR(std::stod(figure->value) * 683.0 / (4.0 * std::numbers::pi), candela,
+                1e-4 * candela);
+    EXPECT_THAT(figure->note, ::testing::HasSubstr("0.2604 W"));  // 177.83/683
+  }
+}
+
+// Godot's shader takes no rim below 1e-4: of such a beam, whose exponent is the smallest, a tenth
+// of the light on the axis is missing in it. Read back by the reader's own law.
+TEST(EngineAnswers, APeakedBeamHasItsCandelaOnTheAxisInGodot) {
+  IntensityGrid grid{GoniometerType::kC, {0.0}, {}, {}};
+  for (int deg = 0; deg <= 180; ++deg) {
+    grid.vertical_deg.push_back(deg);
+    grid.candela.push_back(1000.0 * std::exp(-deg / 6.0));
+  }
+  FittedLight lamp = SimpleLight("peaked", LightKind::kPhotometric, 1000.0);
+  lamp.distribution = MeasuredDistribution{*IntensityTable::Make(std::move(grid), "peaked")};
+  const auto preset = FindPresetTarget("godot")->exporter(FileOf({lamp}), "p", {});
+  ASSERT_TRUE(preset.has_value());
+  const auto nothing_beside = [](const std::string& name) -> Result<std::string> {
+    return Failed("not_found", name, "stands not there");
+  };
+  const PresetFile& scene = preset->files.front();
+  const auto lights = LightsOfPreset(scene.name, scene.contents, nothing_beside);
+  ASSERT_TRUE(lights.has_value()) << lights.error().message;
+  const EngineLight& light = lights->front();
+  EXPECT_LT(light.cone_power, 0.4);
+  const double lux = LuxAt(light, light.position_m + light.aim * 2.0, light.aim * -1.0);
+  EXPECT_NEAR(lux, 250.0, 0.5);
+  const EngineAnswers answers = EngineAnswersOf(FileOf({lamp}));
+  const auto row = std::ranges::find(answers.parity, "Godot", &ParityRow::engine);
+  ASSERT_NE(row, answers.parity.end());
+  EXPECT_NEAR(row->engine_lx / row->expected_lx, 1.0, 0.002);
 }
 
 TEST(PresetTable, AnEngineOfReportsIsReadBackOrHasAnEmissionLaw) {

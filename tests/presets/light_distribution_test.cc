@@ -118,6 +118,16 @@ TEST(PhotometricExport, NamesFilesAfterLightsAndReadersFindTheLampInThem) {
   }
 }
 
+// To Windows and macOS "set-Key.ies" and "set-key.ies" are one file.
+TEST(PhotometricExport, NamesThatDifferByCaseAloneAreTwoFilesEverywhere) {
+  const LightFile lights = FileOf(
+      {SimpleLight("Key", LightKind::kPoint, 100.0), SimpleLight("key", LightKind::kPoint, 50.0)});
+  const auto preset = ExportIes(lights, "set", {});
+  ASSERT_TRUE(preset);
+  EXPECT_EQ(preset->files[0].name, "set-Key.ies");
+  EXPECT_EQ(preset->files[1].name, "set-key_.ies");
+}
+
 TEST(PhotometricExport, LightsAtInfinityAreNamedAndLeftOut) {
   const auto preset = ExportIes(FileOf({Sun()}), "set", {});
   ASSERT_TRUE(preset);

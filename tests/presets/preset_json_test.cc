@@ -140,5 +140,25 @@ TEST(PresetJson, AlwaysDescribesTheRigForPicturesOfIt) {
   }
 }
 
+// 60 cd of a globe of .4 m, read from its glass: where the gate left it to the offset, that holds
+// the radius already. At 2 m from the glass: 60/2.2^2 = 12.4 lx.
+TEST(PresetJson, TheRigCountsTheRadiusOfAGlobeOnce) {
+  FittedLight globe = SimpleLight("globe", LightKind::kSphere, 60.0);
+  globe.color = {};
+  globe.diameter_m = 0.4;
+  globe.distance_offset_m = Uncertain{0.2, 0.02, {}, {}};
+  ResidualRow row;
+  row.distance_m = 2.0;
+  globe.residuals = {row};
+  for (const auto& [state, offset] :
+       {std::pair(EffectState::kFitted, 0.2), std::pair(EffectState::kOn, 0.0)}) {
+    globe.effects = {{"sphere_surface", state, 0.21, std::nullopt, 0.5, ""}};
+    globe.distance_offset_m->value = offset;
+    const json rig = Exported(FileOf({globe}), true)["rig"];
+    EXPECT_NEAR(rig["separation_m"].get<double>(), 2.2, 1e-12);
+    EXPECT_NEAR(rig["cards"][0]["illuminance_lx"].get<double>(), 60.0 / (2.2 * 2.2), 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace lightcal::test

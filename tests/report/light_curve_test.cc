@@ -36,6 +36,17 @@ TEST(LightCurve, ADiskIsWeakerNearByWhenTheGateSaysSo) {
   EXPECT_NEAR(LightCurve::Of(disk)->LuxAt(0.2), 100.0 / (0.04 + 0.04), 1e-9);
 }
 
+TEST(LightCurve, AGlobesRadiusIsCountedOnce) {
+  FittedLight globe = test::SimpleLight("globe", LightKind::kSphere, 60.0);
+  globe.diameter_m = 0.4;
+  globe.distance_offset_m = Uncertain{0.2, 0.02, {}, {}};
+  globe.effects = {{"sphere_surface", EffectState::kFitted, 0.4, 0.2, 0.5, ""}};
+  EXPECT_NEAR(LightCurve::Of(globe)->LuxAt(1.0), 60.0 / 1.44, 1e-9);
+  globe.distance_offset_m->value = 0.0;
+  globe.effects.front().state = EffectState::kOn;
+  EXPECT_NEAR(LightCurve::Of(globe)->LuxAt(1.0), 60.0 / 1.44, 1e-9);
+}
+
 TEST(LightCurve, ALightAtInfinityHasNone) { EXPECT_FALSE(LightCurve::Of(test::Sun()).has_value()); }
 
 }  // namespace

@@ -155,9 +155,18 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
   return doubt;
 }
 
+// Of a sphere whose distances may have been counted from its surface d0 says from where; what
+// shines is its centre, which is its place.
+bool OffsetHoldsRadius(const FittedLight& light) {
+  return light.kind == LightKind::kSphere &&
+         std::ranges::any_of(light.effects, [](const EffectReport& effect) {
+           return effect.name == "sphere_surface" && effect.state == EffectState::kFitted;
+         });
+}
+
 // AxesOfAim puts a table's C0 along c0 and C90 along c90: right-handed with -aim.
-SourceFrame FrameOfTable(const Vec3& aim) {
-  const LampAxes axes = AxesOfAim(aim);
+SourceFrame FrameOfTable(const Vec3& aim, const Vec3& along) {
+  const LampAxes axes = AxesOfAim(aim, along);
   return {axes.c0, axes.c90, axes.aim};
 }
 
@@ -186,6 +195,12 @@ class Placer {
     }
     PlacedLamp lamp;
     lamp.name = light.name;
+    if (light.kind == LightKind::kDome && light.environment) {
+      warnings.push_back({"dome_taken_even", light.name,
+                          "its picture is not looked into here: it is taken for a hemisphere that "
+                          "shines alike from everywhere, right on a meter that looks up alone; "
+                          "{MakeDome} says what the picture gives to every side"});
+    }
     lamp.source = SourceOf(light, warnings);
     lamp.strength = strength->value;
     lamp.pose.position_m = position.value_or(Vec3{});
@@ -195,10 +210,14 @@ class Placer {
                        ? SourceFrame::Facing(axis).y
                        : kDown;
     lamp.pose.frame = std::holds_alternative<TableSource>(lamp.source)
-                          ? FrameOfTable(z)
+                          ? FrameOfTable(z, axis)
                           : SourceFrame::Facing(z, axis);
     lamp.pose.offset_m = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
     lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name));
+    if (OffsetHoldsRadius(light)) {
+      lamp.pose.offset_m = 0.0;
+      lamp.doubt.variance_offset = lamp.doubt.covariance = 0.0;
+    }
     if (std::holds_alternative<SpotSource>(lamp.source)) return lamp;
     lamp.doubt.inner_rad = lamp.doubt.outer_rad = 0.0;
     if (std::holds_alternative<PointSource>(lamp.source)) lamp.doubt.aim_rad = 0.0;

@@ -71,6 +71,18 @@ double WattsOf(const PresetLight& light) {
   }
 }
 
+// What a light with an IES node is told by itself is that node's multiplier, whatever the lamp: a
+// person who types takes Blender's own light of that intensity.
+void PutPlainPower(const PresetLight& light, DerivedLight& out) {
+  if (light.form != LightForm::kTable) return;
+  const PunctualLight& plain = light.punctual;
+  const double watts =
+      4.0 * std::numbers::pi * plain.photometric / (kLumensPerWatt * plain.color.luminance);
+  const bool spot = plain.type == PunctualType::kSpot;
+  out.elsewhere.push_back({spot ? "spot_power_W" : "point_power_W", {watts}});
+  out.elsewhere.push_back({"ies_strength_W", {WattsOf(light)}});
+}
+
 // Columns: the light's own x, y and z; it shines along -z.
 Node Axes(const PresetLight& light) {
   const LampAxes& a = light.axes;
@@ -182,6 +194,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     const FittedLight& lamp = lights.lights[i];
     Node document = BlenderNode(lamp, (*forms)[i]);
     preset.derived.push_back(DerivedFrom(document));
+    PutPlainPower((*forms)[i], preset.derived.back());
     document.Put("controls", KnobsNode(options, lamp, (*forms)[i]));
     if ((*forms)[i].form == LightForm::kTable) {
       auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);

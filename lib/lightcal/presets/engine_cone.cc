@@ -19,6 +19,7 @@ constexpr double kRightAngle = std::numbers::pi / 2.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDark = 1e-3;  // of the axial intensity: where a beam ends
 constexpr double kBeyond = 5.0 * kDegree;
+constexpr double kLeastRim = 1e-4;  // Godot's shader takes no smaller u
 constexpr int kBeamSteps = 300, kRestSteps = 60, kTurns = 24;
 
 double Clamped(double v) { return std::clamp(v, 0.0, 1.0); }
@@ -27,12 +28,18 @@ double SmoothStepOf(double t) { return t * t * (3.0 - 2.0 * t); }
 // Of a cone, once for all angles.
 struct ConeTerms {
   EngineConeLaw law;
-  double inner, outer, cosine_outer, span, power;
+  double inner, outer, cosine_outer, span, power, axis;
 };
 
 ConeTerms TermsOf(EngineConeLaw law, double inner, double outer, double power) {
   const double cosine = std::cos(outer);
-  return {law, inner, outer, cosine, std::max(1e-12, std::cos(inner) - cosine), power};
+  return {law,
+          inner,
+          outer,
+          cosine,
+          std::max(1e-12, std::cos(inner) - cosine),
+          power,
+          law == EngineConeLaw::kPower ? 1.0 - std::pow(kLeastRim, power) : 1.0};
 }
 
 double FactorAt(const ConeTerms& cone, double angle, double cosine) {
@@ -53,7 +60,7 @@ double FactorAt(const ConeTerms& cone, double angle, double cosine) {
       break;
   }
   const double u = (1.0 - cosine) / std::max(1e-12, 1.0 - cone.cosine_outer);
-  return u < 1.0 ? 1.0 - std::pow(u, cone.power) : 0.0;
+  return u < 1.0 ? (1.0 - std::pow(std::max(u, kLeastRim), cone.power)) / cone.axis : 0.0;
 }
 
 // ---- the search ----
@@ -274,6 +281,10 @@ std::optional<BeamProfile> ProfileOf(const IntensityTable& table) {
 double ConeFactor(const EngineCone& cone, Radians from_axis) {
   return FactorAt(TermsOf(cone.law, cone.cone.inner.value(), cone.cone.outer.value(), cone.power),
                   from_axis.value(), std::cos(from_axis.value()));
+}
+
+double AxisFactor(const EngineCone& cone) {
+  return TermsOf(cone.law, cone.cone.inner.value(), cone.cone.outer.value(), cone.power).axis;
 }
 
 EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam) {

@@ -24,7 +24,7 @@ enum class EngineConeLaw : std::uint8_t {
   kSmoothTimesCosine,  // t^2 (3 - 2t) cos theta: Cycles before 4.0, whose spots are discs
   kSmoothInAngle,      // s^2 (3 - 2s): UsdLux
   kLinearInAngle,      // s: Mitsuba
-  kPower,              // 1 - u^power: Godot
+  kPower,              // 1 - max(u, 1e-4)^power, over that on the axis: Godot
 };
 
 // A beam by angle from its axis, over its intensity there. Angles rise from 0.
@@ -49,6 +49,9 @@ struct EngineCone {
 };
 
 [[nodiscard]] double ConeFactor(const EngineCone& cone, Radians from_axis);
+// What the engine makes on the axis of the intensity it is told: 1, but 1 - 1e-4^power of kPower
+// (.90 of a peaked beam).
+[[nodiscard]] double AxisFactor(const EngineCone& cone);
 
 // The cone of that law that keeps the intensity on the axis, then the flux (to kConeFluxError),
 // then has the least worst error; 0 <= inner < outer <= 90 degrees. To about 0.1 % of the axial

@@ -250,7 +250,7 @@ void AddPhotometricScene(Gltf& gltf, const LightFile& file,
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!file.lights[i].distribution || !ies[i]) continue;
     const PunctualLight& light = lights[i];
-    const LampAxes axes = AxesOfAim(light.aim);
+    const LampAxes axes = AxesOfAim(light.aim, file.lights[i].axis.value_or(Vec3{}));
     scene.nodes[i] = gltf.nodes.size();
     const Node named = {{"light", profiles.size()},
                         {"multiplier", 1.0 / light.color.luminance},

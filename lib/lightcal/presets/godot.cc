@@ -103,7 +103,8 @@ DerivedLight DeriveGodot(const PresetLight& light, const FalloffRefit& refit, do
   }
   if (light.form == LightForm::kSpot) {
     out.type = "SpotLight3D";
-    out.Put("light_intensity_lumens", std::numbers::pi * light.candela * per_luminance);
+    out.Put("light_intensity_lumens",
+            std::numbers::pi * light.candela * per_luminance / AxisFactor(light.cone));
     out.Put("spot_range", RangeOf(refit));
     out.Put("spot_attenuation", 2.0);
     out.Put("spot_angle", DegreesFromRadians(light.cone.cone.outer));

@@ -7,6 +7,7 @@
 
 #include "lightcal/photometry/half_range.h"
 #include "lightcal/presets/exporters.h"
+#include "lightcal/presets/photometric_files.h"
 #include "lightcal/presets/preset_document.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
@@ -136,10 +137,13 @@ void WarnOfHalfFloats(const PresetLight& light, double exposure, Warnings& warni
                       "the disc, or let it clip at 65504"});
 }
 
-Node Distribution(const PresetLight& form) {
+// ies: what the target of that name calls this light's file.
+Node Distribution(const PresetLight& form, const std::optional<PresetFile>& ies) {
   if (!form.table) return {};
   const auto& grid = form.table->grid();
   return {{"peak_cd", form.candela},
+          {"axial_cd", form.punctual.photometric},
+          {"ies_file", ies ? Node(ies->name) : Node()},
           {"flux_lm", form.lumens},
           {"planes", grid.horizontal_deg.size()},
           {"angles", grid.vertical_deg.size()}};
@@ -172,7 +176,8 @@ Node PanoramaNode(const Rig& rig, const std::vector<PresetLight>& lights) {
 }
 
 Node PresetNode(const FittedLight& lamp, const PresetLight& form, std::size_t index,
-                const std::vector<Derivation>& derivations, double exposure) {
+                const std::vector<Derivation>& derivations, double exposure,
+                const std::optional<PresetFile>& ies) {
   Node derived = Node::Table();
   for (const Derivation& derivation : derivations) {
     derived.Put(derivation.target, DerivedNode(derivation.lights[index]));
@@ -184,7 +189,7 @@ Node PresetNode(const FittedLight& lamp, const PresetLight& form, std::size_t in
           {"geometry", Geometry(lamp)},
           {"fit", Fit(lamp.fit)},
           {"pre_exposed", PreExposedNode(form, exposure)},
-          {"distribution", Distribution(form)},
+          {"distribution", Distribution(form, ies)},
           {"derived", Node::UnlessEmpty(std::move(derived))}};
 }
 
@@ -204,11 +209,14 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   Node rig_node = NodeOf(rig);
   rig_node.Put("panorama", PanoramaNode(rig, *forms));
   const auto derivations = Derivations(lights, stem, options);
+  const auto ies = IesFiles(lights, stem);
+  if (!ies) return tl::unexpected(ies.error());
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const PresetLight& form = (*forms)[i];
-    list.items.push_back(PresetNode(lights.lights[i], form, i, derivations, rig.exposure.scale));
+    list.items.push_back(
+        PresetNode(lights.lights[i], form, i, derivations, rig.exposure.scale, (*ies)[i]));
     WarnOfHalfFloats(form, rig.exposure.scale, preset.warnings);
   }
   auto text = JsonText({{"schema", "lightcal.preset/1"},

@@ -54,7 +54,8 @@ FilesOfLights Files(const LightFile& lights, const std::string& stem, std::strin
     auto text = write(FileOf(lamp, **std::move(table), lights.provenance));
     if (!text) return Propagate(std::move(text));
     std::string name = stem + "-" + FileNamePart(lamp.name);
-    while (!taken.insert(name).second) name += "_";
+    // One name to Windows and macOS, whatever its case.
+    while (!taken.insert(LowerAscii(name)).second) name += "_";
     files.back() = PresetFile{name + "." + std::string(extension), std::move(*text)};
   }
   return files;

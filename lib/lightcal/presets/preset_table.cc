@@ -18,6 +18,8 @@ constexpr TypedNote kLinearColor{"color", "color ", " (linear)"};
 constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)"};
 constexpr TypedNote kRadius{"radius", "radius ", " m"};
 constexpr TypedNote kColorNotes[] = {kLinearColor};
+constexpr TypedNote kBlenderNotes[] = {
+    kLinearColor, {"ies_strength_W", "the exported file has an IES node, of Power ", " W"}};
 
 constexpr TypedNumber kGltfNumbers[] = {{"directional", "intensity", "intensity", "lx"},
                                         {"", "intensity", "intensity", "cd"}};
@@ -51,6 +53,8 @@ constexpr TypedNumber kUsdNumbers[] = {{"DistantLight", "intensity", "intensity"
                                        {"", "intensity", "intensity", "nits"}};
 constexpr TypedNote kUsdNotes[] = {kLinearColor, kRadius};
 constexpr TypedNumber kBlenderNumbers[] = {{"SUN", "energy_W", "Strength", "W/m²"},
+                                           {"IES", "spot_power_W", "Power of a plain Spot", "W"},
+                                           {"IES", "point_power_W", "Power of a plain Point", "W"},
                                            {"", "energy_W", "Power", "W"},
                                            {"", "strength", "Strength", ""}};
 constexpr TypedNumber kThreeNumbers[] = {{"directional", "intensity", "intensity", "lx"},
@@ -168,7 +172,7 @@ constexpr std::array kTargets = {
                  .title = "Blender",
                  .panorama = PanoramaLaw::kTraced,
                  .numbers = kBlenderNumbers,
-                 .notes = kColorNotes,
+                 .notes = kBlenderNotes,
                  .renderers = kBlenderRenderers,
                  .kelvin = KelvinSetting{"blender_usdlux_rgb", "Blender's and UsdLux's at this CCT",
                                          &PlanckianRgbAtUnitY}},

@@ -9,6 +9,7 @@
 #include "lightcal/photometry/inverse_square.h"
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/presets/table_cone.h"
+#include "lightcal/records/light_curve.h"
 
 namespace lightcal {
 namespace {
@@ -241,11 +242,7 @@ Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file, War
 
 double EffectiveOffset_m(const FittedLight& lamp) {
   if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return 0.0;
-  const bool from_surface = std::ranges::any_of(lamp.effects, [](const EffectReport& effect) {
-    return effect.name == "sphere_surface" && effect.state != EffectState::kOff;
-  });
-  return (lamp.distance_offset_m ? lamp.distance_offset_m->value : 0.0) +
-         (from_surface ? lamp.diameter_m.value_or(0.0) / 2.0 : 0.0);
+  return (lamp.distance_offset_m ? lamp.distance_offset_m->value : 0.0) + SurfaceRadius_m(lamp);
 }
 
 Lux IlluminanceAt(const PunctualLight& light, const Vec3& point, const Vec3& normal) {

@@ -57,9 +57,8 @@ inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
                                                                     Warnings& warnings,
                                                                     const ColorTarget& color = {});
 
-// From the point distances were measured from to the effective source: d0, and the radius of a
-// sphere whose readings were counted from its surface (the effect sphere_surface). 0 for lights at
-// infinity.
+// From the point distances were measured from to the effective source: d0, and the radius that the
+// fit added before it (SurfaceRadius_m). 0 for lights at infinity.
 [[nodiscard]] double EffectiveOffset_m(const FittedLight& lamp);
 
 // Illuminance of one light at a point on a surface of unit normal `normal`, by the glTF law:

@@ -10,7 +10,7 @@ namespace {
 
 bool IsOn(const FittedLight& light, std::string_view effect) {
   return std::ranges::any_of(light.effects, [&](const EffectReport& e) {
-    return e.name == effect && e.state != EffectState::kOff;
+    return e.name == effect && e.state == EffectState::kOn;
   });
 }
 
@@ -28,14 +28,17 @@ AxialShape ShapeOf(const FittedLight& light) {
 
 }  // namespace
 
+double SurfaceRadius_m(const FittedLight& light) {
+  const bool sphere = light.kind == LightKind::kSphere;
+  return sphere && IsOn(light, "sphere_surface") ? light.diameter_m.value_or(0.0) / 2.0 : 0.0;
+}
+
 std::optional<LightCurve> LightCurve::Of(const FittedLight& light) {
   if (!light.intensity_cd || !(light.intensity_cd->value > 0.0)) return std::nullopt;
   LightCurve curve;
   curve.intensity_cd_ = light.intensity_cd->value;
-  curve.offset_m_ = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
-  if (light.kind == LightKind::kSphere && IsOn(light, "sphere_surface")) {
-    curve.offset_m_ += light.diameter_m.value_or(0.0) / 2.0;
-  }
+  curve.offset_m_ = SurfaceRadius_m(light);
+  if (light.distance_offset_m) curve.offset_m_ += light.distance_offset_m->value;
   curve.ambient_lx_ = light.ambient_lx ? light.ambient_lx->value : 0.0;
   curve.shape_ = ShapeOf(light);
   curve.covariance_ = light.covariance_lnI_d0_E0;

@@ -9,6 +9,10 @@
 
 namespace lightcal {
 
+// What the fit added to every distance before d0: the radius of a sphere whose distances are stated
+// to reach its surface (the effect sphere_surface, on). Where that effect is fitted, d0 holds it.
+[[nodiscard]] double SurfaceRadius_m(const FittedLight& light);
+
 // For a meter that faces the lamp at distance d from its reference point,
 //   E(d) = I g(r)/r^2 + E0,   r = d + d0 (+ the radius of a sphere measured from its surface),
 // g the axial shape factor where the light's finite_source effect is on. The band is normal in ln E

@@ -95,6 +95,8 @@ def read(text, nearest_window=0.995):
             if short == "spot":
                 seen.outer, seen.law = float(values["spot_angle"]), "power"
                 seen.power = 1.0 / float(values["spot_angle_attenuation"])
+                # Its shader takes max(1e-4, rim) to that power, on the axis too.
+                seen.candela *= 1.0 - 1e-4 ** seen.power
             else:
                 seen.aim = None
         lights[head["name"]] = seen

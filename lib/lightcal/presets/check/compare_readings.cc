@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "lightcal/records/light_curve.h"
 
 namespace lightcal {
 namespace {
@@ -26,20 +29,42 @@ struct MeteredLamp {
   double offset_m = 0.0, surface_m = 0.0;  // surface: of a sphere that distances count from
 };
 
+// Any direction of unit length at a right angle.
+Vec3 SquareTo(const Vec3& v) {
+  const Vec3 other = std::abs(v[2]) < 0.9 * Length(v) ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+  const Vec3 square = Cross(v, other);
+  return square * (1.0 / Length(square));
+}
+
 MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
   MeteredLamp lamp{description, fitted};
   lamp.place_m = description.position_m.value_or(Vec3{});
   const LightKind kind = description.kind;
   if (description.aim && kind != LightKind::kDome) lamp.aim = *description.aim;
+  if (!description.aim && kind == LightKind::kTube && description.axis) {
+    lamp.aim = SquareTo(*description.axis);
+  }
   lamp.turned = description.aim || kind == LightKind::kSpot || kind == LightKind::kDisk ||
                 kind == LightKind::kRect || kind == LightKind::kPhotometric;
   if (fitted.distance_offset_m) lamp.offset_m = fitted.distance_offset_m->value;
-  for (const EffectReport& effect : fitted.effects) {
-    if (effect.name == "sphere_surface" && effect.state != EffectState::kOff) {
-      lamp.surface_m = fitted.diameter_m.value_or(0.0) / 2.0;
-    }
-  }
+  lamp.surface_m = SurfaceRadius_m(fitted);
   return lamp;
+}
+
+// Where a meter stood so far from the lamp and off its axis, one place for each side it may have
+// been on; nobody says which.
+std::vector<Vec3> WaysFrom(const MeteredLamp& lamp, double off_axis_rad) {
+  constexpr int kSides = 16;
+  if (off_axis_rad == 0.0) return {lamp.aim};
+  const Vec3 x = SquareTo(lamp.aim);
+  const Vec3 y = Cross(x, lamp.aim);
+  std::vector<Vec3> ways;
+  for (int i = 0; i < kSides; ++i) {
+    const double round = 2.0 * std::numbers::pi * i / kSides;
+    const Vec3 aside = x * std::cos(round) + y * std::sin(round);
+    ways.push_back(lamp.aim * std::cos(off_axis_rad) + aside * std::sin(off_axis_rad));
+  }
+  return ways;
 }
 
 // A photometric file's light where the lamp hangs, C0 to the right as seen from behind it.
@@ -54,7 +79,7 @@ EngineLight PlacedLike(const MeteredLamp& lamp, EngineLight light) {
   return light;
 }
 
-// What the file's lights give where the meter stood.
+// What the file's lights give where the meter stood, facing the lamp unless it says otherwise.
 double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp,
                  const Reading& reading) {
   double sum = 0.0;
@@ -70,8 +95,10 @@ double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp
     }
     const double d = (reading.distance ? reading.distance->value() : 1.0) + lamp.surface_m +
                      (lamp.turned ? 0.0 : placed.offset_m);
-    sum += LuxAt(placed, lamp.place_m + lamp.aim * d, lamp.aim * -1.0) *
-           std::cos(reading.tilt.value());
+    const std::vector<Vec3> ways = WaysFrom(lamp, reading.off_axis.value());
+    double facing = 0.0;
+    for (const Vec3& way : ways) facing += LuxAt(placed, lamp.place_m + way * d, way * -1.0);
+    sum += facing / static_cast<double>(ways.size()) * std::cos(reading.tilt.value());
   }
   return sum;
 }
@@ -134,7 +161,8 @@ std::vector<ComparedReading> CompareWithReadings(const Session& session, const L
       const double others = lamp.ambient_lx ? lamp.ambient_lx->value : 0.0;
       const double walls = walls_of(lamp, row);
       rows.push_back({lamp.name, row.index, row.distance_m, row.measured_lx - others - walls, walls,
-                      Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used});
+                      Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used,
+                      DegreesFromRadians(reading.off_axis)});
     }
   }
   return rows;

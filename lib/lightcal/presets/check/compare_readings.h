@@ -21,6 +21,7 @@ struct ComparedReading {
   // walls'; predicted: what the file's lights give.
   double measured_lx = 0.0, walls_lx = 0.0, predicted_lx = 0.0;
   bool used = true;
+  double off_axis_deg = 0.0;  // as the reading says; 0 = on the axis, or at a place
 
   // Of what the meter showed, the ambient light aside; absent where it showed nothing.
   [[nodiscard]] std::optional<double> Error() const;

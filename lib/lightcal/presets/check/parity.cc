@@ -66,6 +66,9 @@ std::string InverseSquare(double range_m) {
   return "1/d², range " + RoundedText(range_m, 3) + " m";
 }
 
+// Of what a spot is told, on its axis.
+double OnAxis(const std::optional<ConeOfLaw>& cone) { return cone ? ConeAt(*cone, 1.0) : 1.0; }
+
 std::optional<Lit> LitBy(const Emission& emission, const ParityPlace& place) {
   if (emission.lux) return Lit{*emission.lux, "no falloff"};
   if (!emission.candela) return std::nullopt;
@@ -75,7 +78,7 @@ std::optional<Lit> LitBy(const Emission& emission, const ParityPlace& place) {
   const double per_candela =
       emission.falloff ? emission.falloff->per_candela(Metres(d), Metres(emission.range_m))
                        : 1.0 / (d * d);
-  return Lit{*emission.candela * shape * per_candela,
+  return Lit{*emission.candela * shape * per_candela * OnAxis(emission.cone),
              (flat ? "area light, " : "") + InverseSquare(emission.range_m)};
 }
 
@@ -166,7 +169,8 @@ std::optional<OffAxis> OffAxisIn(const EngineExport& exported, std::size_t index
     if (made.table) return OffAxis{};
     return WorstOffAxis(*beam, place.separation_m,
                         [&](const Vec3& /*point*/, const Vec3& /*normal*/, double cosine) {
-                          return axial_lx * (made.cone ? ConeAt(*made.cone, cosine) : 1.0);
+                          const double part = made.cone ? ConeAt(*made.cone, cosine) : 1.0;
+                          return axial_lx * part / OnAxis(made.cone);
                         });
   }
   const auto read = std::ranges::find(exported.read_back, lamp.name, &EngineLight::name);

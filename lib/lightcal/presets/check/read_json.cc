@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A <stem>.preset.json, schema lightcal.preset/1: the measured lights themselves.
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 
 #include "lightcal/presets/check/json_reader_parts.h"
 #include "lightcal/presets/exporters.h"
@@ -11,7 +13,70 @@ namespace {
 
 using Json = nlohmann::json;
 
-EngineLight FromPreset(const Json& json) {
+// The lamp's own axes: a width or a length along "axis", else level, to the right as seen from
+// behind the lamp.
+void TakeAxes(const Json& geometry, EngineLight& light) {
+  const bool aimless = !geometry.contains("aim") && geometry.contains("axis");
+  if (aimless) {  // a tube shines to its side
+    const Vec3 axis = VecFrom(geometry["axis"]);
+    light.aim = Cross(
+        axis, std::abs(axis[2]) < 0.9 * Length(axis) ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0});
+  }
+  light.aim = light.aim * (1.0 / Above0(light.name + ": the length of its aim", Length(light.aim)));
+  const Vec3 along = geometry.contains("axis") ? VecFrom(geometry["axis"]) : Vec3{};
+  const Vec3 level = {light.aim[1], -light.aim[0], 0.0};
+  light.x = {1.0, 0.0, 0.0};
+  for (const Vec3& way : {along - light.aim * Dot(along, light.aim), level}) {
+    if (!(Length(way) > 1e-9)) continue;
+    light.x = way * (1.0 / Length(way));
+    break;
+  }
+  light.y = Cross(light.x, light.aim);
+}
+
+// A luminous face or mantle of that intensity. Without a size so small that none is seen.
+void TakeSurface(const std::string& kind, const Json& geometry, EngineLight& light) {
+  constexpr double kNoSize_m = 1e-3;
+  const auto length = [&](const char* key) { return geometry.value(key, kNoSize_m); };
+  light.round = kind == "disk";
+  if (kind == "tube") {
+    light.kind = EngineLightKind::kTube;
+    light.width_m = length("length_m");
+    light.height_m = 2.0 * length("radius_m");
+  } else {
+    light.kind = EngineLightKind::kFlat;
+    light.width_m = length(light.round ? "diameter_m" : "width_m");
+    light.height_m = light.round ? light.width_m : length("height_m");
+  }
+  const double share = light.round ? std::numbers::pi / 4.0 : 1.0;
+  light.emitted /= Above0(light.name + ": its area", light.width_m * light.height_m * share);
+}
+
+// By the IES file beside it; false: there is none.
+bool TakeDistribution(const Json& distribution, const FileText& beside, EngineLight& light) {
+  const double peak_cd = light.emitted;
+  if (distribution.contains("axial_cd")) {
+    light.emitted *= distribution["axial_cd"].get<double>() /
+                     Above0(light.name + ": peak_cd", distribution.at("peak_cd").get<double>());
+  }
+  std::string file;
+  try {
+    file = beside(distribution.value("ies_file", std::string()));
+  } catch (const std::exception&) {
+    return false;
+  }
+  TakeTable(light, file);
+  light.emitted = peak_cd / light.table->peak().intensity.value();
+  return true;
+}
+
+void TakeSpot(const Json& geometry, EngineLight& light) {
+  light.kind = EngineLightKind::kSpot;
+  light.outer_rad = geometry["outer_deg"].get<double>() * std::numbers::pi / 180.0;
+  light.inner_rad = geometry.value("inner_deg", 0.0) * std::numbers::pi / 180.0;
+}
+
+EngineLight FromPreset(const Json& json, const FileText& beside) {
   EngineLight light;
   light.name = json.at("name").get<std::string>();
   const std::string kind = json.at("kind").get<std::string>();
@@ -42,18 +107,26 @@ EngineLight FromPreset(const Json& json) {
   } else {
     light.offset_m = offset;
   }
-  if (kind == "spot" && geometry.contains("outer_deg")) {
-    light.kind = EngineLightKind::kSpot;
-    light.outer_rad = geometry["outer_deg"].get<double>() * std::numbers::pi / 180.0;
-    light.inner_rad = geometry.value("inner_deg", 0.0) * std::numbers::pi / 180.0;
+  TakeAxes(geometry, light);
+  const bool by_direction = kind == "spot" || kind == "photometric";
+  if (kind == "rect" || kind == "disk" || kind == "tube") {
+    TakeSurface(kind, geometry, light);
+  } else if (by_direction && json.contains("distribution") &&
+             TakeDistribution(json["distribution"], beside, light)) {
+    return light;
+  } else if (kind == "spot" && geometry.contains("outer_deg")) {
+    TakeSpot(geometry, light);
   }
   return light;
 }
 
 }  // namespace
 
-std::vector<EngineLight> ReadJson(const std::string& text, const FileText& /*beside*/) {
-  return EachLight(Json::parse(text), &FromPreset);
+std::vector<EngineLight> ReadJson(const std::string& text, const FileText& beside) {
+  std::vector<EngineLight> lights;
+  const Json root = Json::parse(text);
+  for (const Json& json : root.at("lights")) lights.push_back(FromPreset(json, beside));
+  return lights;
 }
 
 }  // namespace lightcal

@@ -49,10 +49,15 @@ static func figures_for(light: Light3D, lamp: Dictionary) -> Array:
 	if light is DirectionalLight3D:
 		return rows + [["light_intensity_lux", lamp.light_intensity_lux],
 			["light_angular_distance", lamp.light_angular_distance]]
-	# Lumens are 4 pi cd of an omni and pi cd of a spot, whatever its cone.
+	# Lumens are 4 pi cd of an omni and pi cd of a spot, whatever its cone; on its axis a spot keeps
+	# 1 - .0001^(1 / attenuation) of them.
 	var spot := light is SpotLight3D
 	var prefix := "spot" if spot else "omni"
-	rows += [["light_intensity_lumens", lamp.candela * PI * (1.0 if spot else 4.0)],
+	var sr := 4.0 * PI
+	if spot:
+		var attenuation: float = lamp.get("spot_angle_attenuation", light.spot_angle_attenuation)
+		sr = PI / (1.0 - pow(0.0001, 1.0 / attenuation))
+	rows += [["light_intensity_lumens", lamp.candela * sr],
 		[prefix + "_range", lamp.range], [prefix + "_attenuation", 2.0]]
 	if lamp.get("light_size", 0.0) > 0.0:
 		rows.append(["light_size", lamp.light_size])
