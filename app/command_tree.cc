@@ -36,6 +36,26 @@ TypedCommand DescribeParser(const CLI::App& parser, std::vector<std::string> pat
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view kMany = " ...", kAgain = " [again: more]";
+
+class SaysWhatRepeats : public CLI::Formatter {
+ public:
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::size_t at = text.find(kMany);
+    if (at != std::string::npos && DescribeOption(*option).again) {
+      text.replace(at, kMany.size(), kAgain);
+    }
+    return text;
+  }
+};
+
+}  // namespace
+
+void SayWhatRepeats(CLI::App& parser) { parser.formatter(std::make_shared<SaysWhatRepeats>()); }
+
 TypedOption DescribeOption(const CLI::Option& option) {
   TypedOption typed;
   for (const std::string& name : option.get_snames()) typed.names.push_back("-" + name);
@@ -52,6 +72,7 @@ TypedOption DescribeOption(const CLI::Option& option) {
   typed.summary = option.get_description();
   if (!flag) typed.usual = option.get_default_str();
   typed.many = !flag && option.get_items_expected_max() >= CLI::detail::expected_max_vector_size;
+  typed.again = typed.many && !typed.names.empty() && !option.get_allow_extra_args();
   typed.commas = option.get_delimiter() == ',';
   typed.number = type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
   typed.required = option.get_required();

@@ -22,6 +22,7 @@ struct TypedOption {
   std::string usual;    // its value when it is not given; may be empty
   int values = 0;       // how many follow it; 0 for a flag
   bool many = false;    // further ones may follow or it may be repeated
+  bool again = false;   // of those that may be repeated alone
   bool commas = false;  // several words in one, joined by commas
   bool number = false;  // only numbers: no file has such a name
   bool required = false;
@@ -34,6 +35,10 @@ struct TypedCommand {
   std::vector<TypedOption> options;  // nameless words last
   std::vector<TypedCommand> commands;
 };
+
+// Help that says "again: more" of an option that takes one value a time, where CLI11 would have
+// " ...", as if several could follow it.
+void SayWhatRepeats(CLI::App& parser);
 
 // Adds a command's parser without its own options, which row.build gives it.
 CLI::App& AddCommand(CLI::App& parser, const CommandRow& row, Console::Flags& flags);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <string>
 
 #include "command_tree.h"
@@ -26,6 +27,14 @@ bool AsksForJson(int argc, char** argv) {
   return std::any_of(argv, argv + argc, [](const char* a) { return std::string(a) == "--json"; });
 }
 
+// 1 where any of what was written to standard output was lost, even in its middle.
+int Ended(int code) {
+  const bool flushed = std::fflush(stdout) == 0;
+  if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  PrintError(Error{ErrorKind::kFailed, "stdout", "", "standard output cannot be written"}, false);
+  return static_cast<int>(ErrorKind::kFailed);
+}
+
 int Main(int argc, char** argv) {
   CLI::App parser(
       "Measure real lamps, bring them into renderers, and say how sure it is.\n"
@@ -33,6 +42,7 @@ int Main(int argc, char** argv) {
   parser.name("lightcal");
   parser.set_version_flag("--version", GeneratorName());
   parser.require_subcommand(1);
+  SayWhatRepeats(parser);
   Parsed parsed;
   for (const CommandRow& row : Commands()) {
     CLI::App& sub = AddCommand(parser, row, parsed.flags);
@@ -42,20 +52,17 @@ int Main(int argc, char** argv) {
   try {
     parser.parse(argc, argv);
   } catch (const CLI::CallForHelp& e) {
-    return parser.exit(e);
+    return Ended(parser.exit(e));
   } catch (const CLI::CallForVersion& e) {
-    return parser.exit(e);
+    return Ended(parser.exit(e));
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return parser.exit(e);
+    if (e.get_exit_code() == 0) return Ended(parser.exit(e));
     PrintError(MistypedLine(parser, e), AsksForJson(argc, argv));
     return kExitUsage;
   }
   Console console(parsed.flags);
   const Result<void> done = parsed.run(console);
-  if (std::fflush(stdout) != 0) {
-    PrintError(Error{ErrorKind::kFailed, "stdout", "", "standard output cannot be written"}, false);
-    return static_cast<int>(ErrorKind::kFailed);
-  }
+  if (const int lost = Ended(0); lost != 0) return lost;
   if (done) return 0;
   PrintError(done.error(), parsed.flags.json);
   return static_cast<int>(done.error().kind);

@@ -19,17 +19,44 @@ namespace {
 constexpr const char* kForm =
     "a reading is written ILLUMINANCE@DISTANCE, for example 192lx@0.5m or 52lx@1m,card=5lx";
 
-// "192,5lx@1m": a decimal comma, which here begins the next part.
-tl::unexpected<Error> DecimalComma(const std::string& before, const std::string& after) {
-  return WrongUsage(before + "," + after,
-                    "decimals have a point here: " + before + "." + after +
-                        " (a comma begins the next part of a reading, such as card=5lx)");
-}
 bool BeginsWithDigit(const std::string& text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0;
 }
 bool EndsWithDigit(const std::string& text) {
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text.back())) != 0;
+}
+
+// Whether the comma after part i stands within a number: "192,5lx@1m".
+bool WithinNumber(const std::vector<std::string>& parts, std::size_t i) {
+  const std::string& next = parts[i + 1];
+  const bool color = next.ends_with('K') || next.ends_with('k');
+  return EndsWithDigit(parts[i]) && BeginsWithDigit(next) && !color;
+}
+
+// Whether it may part thousands: "1,203lx", not "0,125lx", "1,203m" or "1.5,203lx".
+bool MayPartThousands(const std::string& before, const std::string& after) {
+  constexpr std::string_view kDigits = "0123456789";
+  constexpr std::size_t kGroup = 3;
+  const std::size_t start = before.find_last_not_of(kDigits) + 1;
+  const bool group = std::min(after.find_first_not_of(kDigits), after.size()) == kGroup;
+  const bool plain = start == 0 || (before[start - 1] != '.' && before[start - 1] != '@');
+  return group && plain && before[start] != '0' && before.size() - start <= kGroup;
+}
+
+// The reading as it is to be typed where a number has a comma, which here begins the next part: as
+// decimals, and what else it may mean.
+tl::unexpected<Error> DecimalComma(const std::vector<std::string>& parts, const std::string& text) {
+  std::string decimal = parts.front(), thousands = parts.front();
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    const bool within = WithinNumber(parts, i);
+    decimal += (within ? "." : ",") + parts[i + 1];
+    const bool parted = within && MayPartThousands(parts[i], parts[i + 1]);
+    thousands += (parted ? "" : within ? "." : ",") + parts[i + 1];
+  }
+  const std::string either =
+      thousands == decimal ? decimal : decimal + ", and thousands no sign: " + thousands;
+  return WrongUsage(text, "decimals have a point here: " + either +
+                              " (a comma begins the next part of a reading, such as card=5lx)");
 }
 
 // What a word without a distance looks like, where that is an option.
@@ -38,6 +65,9 @@ std::string MeantWithoutDistance(const std::string& text) {
   if (kelvin && ParseLampTemperature(text)) return "a colour temperature is --cct " + text + "; ";
   if (text.ends_with("lm")) return "what the box says is --lumens " + text + "; ";
   if (text.ends_with("W")) return "what it draws is --watts " + text + "; ";
+  if (text.ends_with("m") && ParseLength(text)) {
+    return "each distance to predict at has its own --at " + text + "; ";
+  }
   return "";
 }
 
@@ -111,11 +141,8 @@ std::vector<std::string> SplitAt(std::string_view text, char separator) {
 Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const std::string& light) {
   const std::vector<std::string> parts = SplitAt(text, ',');
   const std::string& first = parts.front();
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    const bool color = parts[i].ends_with('K') || parts[i].ends_with('k');
-    if (EndsWithDigit(parts[i - 1]) && BeginsWithDigit(parts[i]) && !color) {
-      return DecimalComma(parts[i - 1], parts[i]);
-    }
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (WithinNumber(parts, i)) return DecimalComma(parts, text);
   }
   const auto at = first.find('@');
   if (at == std::string::npos) return WrongUsage(text, MeantWithoutDistance(text) + kForm);

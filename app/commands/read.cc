@@ -107,7 +107,8 @@ class ReadRun {
   Result<void> TakeReadings(const Reading& frame) {
     const bool is_background = frame.shadow_card || frame.lamp == LampState::kOff;
     const bool first_round = published_ == 0;
-    if (session_ && first_round && !is_background &&
+    const bool dark = session_ && session_->surroundings == Surroundings::kDark;
+    if (session_ && first_round && !is_background && !dark &&
         !HasBackground(*session_, options_.frame.light)) {
       if (auto first = BackgroundFirst(frame); !first) return first;
     }
@@ -176,10 +177,13 @@ class ReadRun {
 const SessionReading* LastOfJournal(const Session& session, const std::string& journal) {
   const SessionReading* last = nullptr;
   int last_line = 0;
-  for (const SessionReading& row : session.readings) {
-    if (!row.where.starts_with(journal + ":")) continue;
-    const int line = std::stoi(row.where.substr(journal.size() + 1));
-    if (line >= last_line) last = &row, last_line = line;
+  // A lamp's readings at other states of its controls stand apart.
+  for (const auto* readings : {&session.readings, &session.state_readings}) {
+    for (const SessionReading& row : *readings) {
+      if (!row.where.starts_with(journal + ":")) continue;
+      const int line = std::stoi(row.where.substr(journal.size() + 1));
+      if (line >= last_line) last = &row, last_line = line;
+    }
   }
   return last;
 }

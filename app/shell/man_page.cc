@@ -36,8 +36,9 @@ std::string Verbatim(const std::string& lines) {
 std::string Heading(const TypedOption& option) {
   if (option.names.empty()) return Italic(option.placeholder) + (option.many ? " ..." : "");
   std::string text = Joined(option.names, ", ", Bold);
-  if (option.values > 0) text += " " + Italic(option.placeholder) + (option.many ? " ..." : "");
-  return text;
+  if (option.values > 0) text += " " + Italic(option.placeholder);
+  if (option.again) return text + " (again: more)";
+  return text + (option.values > 0 && option.many ? " ..." : "");
 }
 
 std::string Paragraph(const TypedOption& option) {

@@ -73,6 +73,26 @@ TEST_F(OutputSafety, WhatACommandReadsIsNeverOverwrittenWhateverForceSays) {
   ExpectNothingChanged({"fit", session_, "-o", InFolder("hard"), "--force"}, 3);
 }
 
+// Longer than what the C library holds back: the loss comes in the middle.
+TEST_F(OutputSafety, WhatStandardOutputCannotTakeIsSaidWhateverItsLength) {
+  for (std::vector<std::string> words :
+       std::vector<std::vector<std::string>>{{"fit", session_, "--json", "-q"},
+                                             {"explain", session_, "--json"},
+                                             {"quick", "192lx@0.5m", "--json", "-q"},
+                                             {"man"},
+                                             {"completion", "bash"},
+                                             {"quick", "--help"},
+                                             {"--help"},
+                                             {"--version"}}) {
+    SCOPED_TRACE(testing::PrintToString(words));
+    words.insert(words.begin(),
+                 {"/bin/sh", "-c", "exec \"$0\" \"$@\" > /dev/full", LIGHTCAL_BINARY});
+    const CliResult result = RunProgram(words);
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("standard output cannot be written"));
+  }
+}
+
 TEST_F(OutputSafety, InputsOfOtherCommandsToo) {
   ASSERT_EQ(RunLightcal({"fit", session_, "-o", InFolder("light.json")}).exit_code, 0);
   ExpectNothingChanged({"report", InFolder("light.json"), "-o", InFolder("light.json"), "--force"},

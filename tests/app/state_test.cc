@@ -194,6 +194,54 @@ TEST(StateCommand, ExportsALampAsItIsAtAState) {
   EXPECT_EQ(json::parse(none.out)["error"]["code"], "outside_states");
 }
 
+// A file of the lamp at half is held against what was read at half.
+TEST(StateCommand, APresetOfAStateIsCheckedAgainstThatState) {
+  const TempDir folder;
+  folder.Write("session.toml", Lamp());
+  const std::string out = folder.path() + "/presets";
+  ASSERT_EQ(RunLightcal({"run", folder.path(), "--to", "json"}).exit_code, 0);
+  ASSERT_EQ(RunLightcal({"export", folder.path() + "/out/light.json", "--to", "gltf", "--state",
+                         "dimmer=50", "-o", out})
+                .exit_code,
+            0);
+  const std::vector<std::string> words = {"check", out + "/light.gltf", "--session", folder.path()};
+  const CliResult other = RunLightcal(words);
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("--state"));
+  const auto at = [&](const std::string& state) {
+    std::vector<std::string> more = words;
+    more.insert(more.end(), {"--state", state, "--json"});
+    return RunLightcal(more);
+  };
+  const CliResult half = at("key:dimmer=50");
+  EXPECT_EQ(half.exit_code, 0) << half.err;
+  const json answer = json::parse(half.out);
+  ASSERT_EQ(answer["readings"].size(), 1U);
+  EXPECT_NEAR(double(answer["readings"][0]["measured_lx"]), 545.0, 1.0);
+  EXPECT_LT(double(answer["rms_relative"]), 0.01);
+  const CliResult quarter = at("dimmer=25");
+  EXPECT_EQ(quarter.exit_code, 1) << "545 lx for 307.5";
+  const CliResult unread = at("dimmer=40");
+  EXPECT_EQ(unread.exit_code, 3);
+  EXPECT_THAT(unread.err, HasSubstr("dimmer=50"));
+}
+
+TEST(StateCommand, WhatIsTakenBackIsTheJournalsLastOfAnyState) {
+  const TempDir folder;
+  folder.Write("session.toml", DarkSession());
+  for (const auto& [state, lux] :
+       {std::pair("dimmer=100", "1000"), {"dimmer=50", "400"}, {"dimmer=25", "170"}}) {
+    ASSERT_EQ(RunLightcal({"read", "-s", folder.path(), "--light", "key", "--distance", "1m",
+                           "--lux", lux, "--state", state})
+                  .exit_code,
+              0);
+  }
+  const json first = LightcalJson("read", {"-s", folder.path(), "--undo"});
+  EXPECT_EQ(first["took_back"], "readings.jsonl:3");
+  EXPECT_EQ(first["reading"]["illuminance_lx"], 170.0);
+  EXPECT_EQ(LightcalJson("read", {"-s", folder.path(), "--undo"})["took_back"], "readings.jsonl:2");
+}
+
 TEST(StateCommand, DiffNamesTheStateThatChanged) {
   const TempDir folder;
   folder.Write("a/session.toml", Lamp());

@@ -235,6 +235,11 @@ TEST_F(StrangersFiles, SlipsAreNamed) {
   EXPECT_THAT(Answer({"quick", "1e300lx@1m"}, 3).err, HasSubstr("so many lux"));
   EXPECT_THAT(Answer({"quick", "192,5lx@1m"}, 2).err, HasSubstr("192.5lx@1m"));
   EXPECT_THAT(Answer({"quick", "192.5lx@0,5m"}, 2).err, HasSubstr("192.5lx@0.5m"));
+  EXPECT_THAT(Answer({"quick", "203,5lx@0,5m"}, 2).err, HasSubstr("203.5lx@0.5m"));
+  EXPECT_THAT(Answer({"quick", "0,125lx@0.5m"}, 2).err, Not(HasSubstr("0125lx")));
+  const std::string thousands = Answer({"quick", "1,203lx@0.5m,card=5lx"}, 2).err;
+  EXPECT_THAT(thousands, HasSubstr("1.203lx@0.5m,card=5lx"));
+  EXPECT_THAT(thousands, HasSubstr("1203lx@0.5m,card=5lx"));
   EXPECT_EQ(Answer({"quick", "192lx@1m,2900K"}, 0).exit_code, 0);
   folder_.Write("s/session.toml", SessionToml("key"));
   const std::string session = folder_.path() + "/s";

@@ -53,6 +53,7 @@ TEST(TypedPlainly, AReadingWithoutADistanceIsToldItsOption) {
   ExpectSays({"quick", "5000K", "300lx@1m"}, 2, "--cct 5000K");
   ExpectSays({"quick", "806lm"}, 2, "--lumens 806lm");
   ExpectSays({"quick", "9W"}, 2, "--watts 9W");
+  ExpectSays({"quick", "192lx@0.5m", "--at", "3m", "5m"}, 2, "its own --at 5m");
   ExpectSays({"match", "illuminant:A", "--to", "3200"}, 1, "the colour temperature is 3200K");
 }
 
