@@ -94,6 +94,17 @@ TEST_F(CameraParts, AFlatFieldTakesTheLensOutWithinOnePercent) {
   EXPECT_LT(corner(), 0.7);
 }
 
+// What is written is flattened, and so is what the meter read of it.
+TEST_F(CameraParts, AnAnchorInTheCornerIsTheLuminanceThatIsWrittenThere) {
+  SetLens(0.5, 0.1);
+  Profile(FlatFrames("flat8", 8.0));
+  Shoot("scene", Steady(4, 8.0, 11), Even(250.0));
+  const json merged = MergeLast({"--anchor", "4,4,24,16=300"});
+  EXPECT_NEAR(merge::ReadExr(Out()).Mean(4, 4, 24, 16), 300.0, 1.0);
+  const double flat_sd = merged["camera"]["flat"]["sigma_relative"];
+  EXPECT_GE(double(merged["scale"]["u95_relative"]), 1.96 * std::hypot(0.05, flat_sd) - 1e-4);
+}
+
 TEST_F(CameraParts, AFlatFieldCarriesAReadingInTheCornerToTheAxis) {
   SetLens(0.5, 0.1);
   const std::string flat = FlatFrames("flat8", 8.0);

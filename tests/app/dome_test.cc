@@ -107,6 +107,24 @@ TEST_P(SunInTheSky, ThatClippedInUnknownUnitsNeedsAShadedReading) {
   ExpectTheSun(got, 0.01);
 }
 
+// A half float's limit: so little is left of the disc that it is no light by what it shows. Neither
+// may the whole dome pay for what it lacks, nor a stated clip change nothing.
+TEST_P(SunInTheSky, ThatClippedAlmostWhollyIsInferredToo) {
+  SkyPicture picture = Photograph(scene_);
+  Clip(picture, 65504.0F);
+  const std::string file = WritePicture(folder_, "sky.exr", picture, 1.0, true);
+  for (const Words& more : {Words{}, Words{"--clip", "65504"}, Words{"--clip", "60000"}}) {
+    Words words = {"--lux", Text(lux_), "--extract", "1", "--force"};
+    words.insert(words.end(), more.begin(), more.end());
+    const json got = DomeJson(file, out_, words);
+    EXPECT_EQ(got["scale"]["source"], "white_luminance");
+    const Found sun = LightAt(got, direction_);
+    EXPECT_NEAR(sun.light["illuminance_lx"]["value"].get<double>() / 9e4, 1.0, 0.02);
+    EXPECT_EQ(sun.light["source"], "inferred");
+    EXPECT_LT(sun.off_deg, 0.2);
+  }
+}
+
 class DomeCommand : public testing::Test {
  protected:
   [[nodiscard]] SkyScene SunnyScene() const {
@@ -126,6 +144,39 @@ TEST_F(DomeCommand, RefusesALuxReadingBelowWhatTheRestAloneGives) {
   ExpectRefused(file, out_, "lux_below_rest", {"--lux", "9000", "--clip", "3.9e5"});
   ExpectRefused(file, out_, "lux_misses_light",
                 {"--lux", "90000", "--lux-direction", "down", "--clip", "3.9e5"});
+}
+
+// An even sky but for four pixels, whose sun is 50 klx: what is left of it is a thousandth of the
+// light, and still what the card shaded.
+TEST_F(DomeCommand, ACardShadesWhatIsClippedToAFewPixels) {
+  const Ray direction = RayAt(37.3, 41.7);
+  SkyPicture picture;
+  picture.width = 512;
+  picture.height = 256;
+  picture.rgb.assign(3UL * 512 * 256, 3000.0F);
+  for (const int y : {68, 69}) {
+    for (const int x : {308, 309}) {
+      for (int c = 0; c < 3; ++c) picture.rgb[3UL * (y * 512 + x) + c] = 65504.0F;
+    }
+  }
+  const double rest = 3000.0 * std::numbers::pi;
+  const double lux = rest + 5e4 * std::sin(41.7 / 180.0 * std::numbers::pi);
+  for (const bool absolute : {true, false}) {
+    const std::string file =
+        WritePicture(folder_, "sky.exr", picture, absolute ? 1.0 : 7.0, absolute);
+    const json got = DomeJson(
+        file, out_, {"--lux", Text(lux), "--lux-shaded", Text(rest), "--extract", "1", "--force"});
+    EXPECT_NEAR(got["scale"]["factor"].get<double>(), absolute ? 1.0 : 7.0, 0.01);
+    const Found sun = LightAt(got, direction);
+    EXPECT_NEAR(sun.light["illuminance_lx"]["value"].get<double>() / 5e4, 1.0, 0.02);
+    EXPECT_LT(sun.off_deg, 0.5);
+  }
+}
+
+TEST_F(DomeCommand, AClipThatNothingReachesIsNamed) {
+  const std::string file = WritePicture(folder_, "sky.exr", Photograph(ClearSky(sun_)), 1.0, true);
+  EXPECT_TRUE(Warns(DomeJson(file, out_, {"--clip", "1e9"}), "clip_unused"));
+  EXPECT_FALSE(Warns(DomeJson(file, out_, {"--clip", "1000", "--force"}), "clip_unused"));
 }
 
 // Six lamps in a real room: discs, blurred ones, two whose glow meets, one across the seam, one

@@ -69,6 +69,31 @@ TEST(MergeCommand, ExposuresTypedInAnotherOrderAreRefused) {
                 {"--exposures", "1/60,1/250,1/1000"});
 }
 
+// A lens cap, a flash that did not fire: zeros are no measurement where the labels foretell light.
+TEST(MergeCommand, ABlackFrameIsRefusedWhereverItStands) {
+  const test::TempDir folder;
+  const SyntheticCamera camera = Camera(96, 64);
+  const auto series = Series(3);
+  const auto lit = [](int, int) { return test::XyzOf(3500.0); };
+  const auto black = [](int, int) { return test::XyzOf(0.0); };
+  const Words files = ShootAll(folder, camera, series, lit);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Words with = files;
+    with[i] = Shoot(folder, "black" + std::to_string(i), camera, series[i], black);
+    ExpectRefused(with, folder.path() + "/lum.exr", "exposures_disagree");
+  }
+}
+
+// The same where the shortest frames are as dark as their labels say.
+TEST(MergeCommand, AFrameThatItsLabelSaysIsDarkIsUsed) {
+  const test::TempDir folder;
+  const SyntheticCamera camera = Camera(96, 64);
+  const Words files =
+      ShootAll(folder, camera, Series(5), [](int, int) { return test::XyzOf(50.0); });
+  const json answer = MergeJson(files, folder.path() + "/lum.exr");
+  EXPECT_NEAR(ReadExr(folder.path() + "/lum.exr").Mean(10, 10, 70, 40) / 50.0, 1.0, 0.05);
+}
+
 TEST(MergeCommand, TheSamePictureTwiceCountsOnce) {
   const test::TempDir folder;
   const SyntheticCamera camera = Camera(96, 64);

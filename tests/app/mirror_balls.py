@@ -69,6 +69,10 @@ def one_ball(folder):
                                 "--ball-reflectance", f"{FRESNEL_0:.4f},0.01", "--extract", "1",
                                 "-o", folder / ("out_" + name), "--json")
         expect(code == 0, f"{name}: exit {code} {errors}")
+        # A file that says cd/m2 and not how surely (20 %), and the ball's reflectance.
+        stated = np.hypot(0.2, 1.96 * 0.01 / FRESNEL_0)
+        expect(abs(got["scale"]["u95_relative"] / stated - 1) < 0.01,
+               f"{name}: scale +- {100 * got['scale']['u95_relative']:.1f} %")
         cap = got["blind_cap"]
         axis = centre / np.linalg.norm(centre)
         at = np.radians([cap["azimuth_deg"], cap["elevation_deg"]])
@@ -145,6 +149,15 @@ def grey_plates(folder):
         ratio = said["illuminance_lx"]["up"]["total"] / got["illuminance_lx"]["up"]["total"]
         expect(abs(ratio / white - 1) < 0.01, f"{name}: the plate's exposure makes it cd/m2")
         expect(0.35 < said["scale"]["u95_relative"] < 0.6, f"{name}: within what ISO speeds tell")
+        world.write_exr(folder / f"{name}_nits.exr", plate, white_luminance=1.0)
+        words[words.index("--plate") + 1] = folder / f"{name}_nits.exr"
+        alone = run(*words, "-o", folder / f"{name}_alone", "--json")[1]["scale"]
+        lux = exposed * world.six_lux(panorama)["up"]
+        both = run(*words, "--lux", f"{lux:.4f}", "-o", folder / f"{name}_both", "--json")[1]["scale"]
+        expect(both["u95_relative"] < min(alone["u95_relative"], 1.96 * 0.05) + 0.02,
+               f"{name}: plate +- {100 * alone['u95_relative']:.1f} %, with a lux reading "
+               f"+- {100 * both['u95_relative']:.1f} %")
+        expect(both["u95_relative"] < alone["u95_relative"], f"{name}: a true reading never widens")
         normal = -camera.forward
         card = exposed * 0.18 / np.pi * world.planes(panorama, [normal])[0]
         world.write_exr(folder / "card.exr", np.tile(card, (60, 80, 1)))

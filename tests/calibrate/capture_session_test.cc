@@ -149,6 +149,23 @@ TEST_F(CaptureSession, OneMeterHeldToManyCardsIsNoSurerThanItsCalibration) {
   EXPECT_EQ(all["meter"]["name"], "old");
 }
 
+// An ordinary lens sees .6 rad in its corner; 1 - cos^4 of where the card stands in the picture.
+TEST_F(CaptureSession, VignettingIsThatOfTheCardsPlace) {
+  const auto bound_at = [&](const std::string& rect) {
+    std::string capture = Capture();
+    const std::string middle = "rect = [220, 120, 200, 160]";
+    capture.replace(capture.find(middle), middle.size(), "rect = " + rect);
+    const json light = Light(kHead + capture);
+    for (const json& one : light["effects"]) {
+      if (one["name"] == "vignetting") return double(one["bound"]);
+    }
+    return -1.0;
+  };
+  EXPECT_NEAR(bound_at("[220, 120, 160, 160]"), 0.0, 1e-9);
+  const double tangent = std::hypot(30.0, 40.0) / std::hypot(300.0, 200.0) * std::tan(0.6);
+  EXPECT_NEAR(bound_at("[220, 120, 100, 80]"), 1.0 - std::pow(1.0 + tangent * tangent, -2.0), 1e-6);
+}
+
 TEST_F(CaptureSession, TheCamerasScaleIsWhatTheIntervalOfCardsNames) {
   const json cards = Light(kHead + Capture() + Capture());
   const auto& warnings = document_["warnings"];

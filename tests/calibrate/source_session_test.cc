@@ -142,6 +142,21 @@ TEST_F(SourceSession, ARectGetsItsSides) {
 }
 
 // Two halves of 6000 and 2000: I = sum L dA, whatever is where.
+// A ball of 5000 cd/m^2 and radius R whose surface is d away: sin a = R / (d + R), E = pi L sin^2
+// a, I = pi R^2 L. Size, intensity and luminance are one ball's.
+TEST_F(SourceSession, ABallsIntensityAndLuminanceBelongToItsSize) {
+  FlatLamp lamp;
+  const double sine = 0.15 / (lamp.distance_m + 0.15),
+               tangent = sine / std::sqrt(1.0 - sine * sine);
+  lamp.shines = [&](double r, double u) { return std::hypot(r, u) < tangent * lamp.distance_m; };
+  Shoot(lamp, {1.0 / 800.0, 1.0 / 200.0, 1.0 / 100.0});
+  const std::string anchor = "anchor_illuminance_lx = " + Text(5000.0 * pi * sine * sine) + "\n";
+  const json light = Run(InTheDark(Toml("kind = \"sphere\"\n", anchor)));
+  EXPECT_NEAR(double(light["diameter_m"]), 0.3, 0.005);
+  EXPECT_NEAR(Value(light["luminance_nits"]) / 5000.0, 1.0, 0.04);
+  EXPECT_NEAR(Value(light["intensity_cd"]) / (5000.0 * pi * 0.15 * 0.15), 1.0, 0.02);
+}
+
 TEST_F(SourceSession, AnUnevenLampIsItsSum) {
   FlatLamp lamp;
   lamp.nits = 2000.0;

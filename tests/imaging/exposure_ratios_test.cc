@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -92,6 +93,27 @@ TEST(ExposureRatios, DoNotMindPeopleWalkingThrough) {
   const auto ratios = Measure(frames, Labels(series));
   ASSERT_TRUE(ratios.has_value()) << ratios.error().message;
   EXPECT_LT(Spread(*ratios, series), 0.003);
+}
+
+// Patches of fifteen stops with their edges elsewhere in one frame: its exposure is what the
+// insides show.
+TEST(ExposureRatios, DoNotMindACameraThatMovedBetweenTwoFrames) {
+  const auto series = test::ExposureSeries(1.0 / 1024, 5, 2.0, 8.0, 0.03, 16);
+  auto steps = test::LogSteps(0.5, 2e4, 40);
+  std::shuffle(steps.begin(), steps.end(), std::mt19937_64(5));
+  const StepWedge wedge{steps, 10, 300, 200};
+  const auto still = wedge.Scene();
+  for (const int moved : {2, 8}) {
+    std::vector<Frame> frames;
+    for (std::size_t i = 0; i < series.size(); ++i) {
+      const int by = i == 2 ? moved : 0;
+      const auto scene = [&](int x, int y) { return still(std::max(0, x - by), y); };
+      frames.push_back(test::FrameOf(Camera(), series[i], Expose(Camera(), series[i], scene), "f"));
+    }
+    const auto ratios = Measure(frames, Labels(series));
+    ASSERT_TRUE(ratios.has_value()) << ratios.error().message;
+    EXPECT_LT(Spread(*ratios, series), 0.01) << moved << " pixels";
+  }
 }
 
 TEST(ExposureRatios, AThirdOfAStopOffItsLabelIsCorrectedAndSaid) {

@@ -108,5 +108,28 @@ TEST(RecoverResponse, FramesThatShareNothingTellNoCurve) {
   EXPECT_EQ(curves.error().code, "no_response");
 }
 
+// A curve would be found for any order: codes that fall under more light refuse it.
+TEST(RecoverResponse, ExposuresInAnotherOrderAreRefused) {
+  const std::vector<double> exposures = {0.25, 1.0, 4.0, 16.0};
+  for (const Curve& curve : {Curve(SrgbCurve), Curve(LinearCurve)}) {
+    const auto frames = Shoot(curve, exposures, 255);
+    for (const std::vector<double>& given :
+         {std::vector{16.0, 4.0, 1.0, 0.25}, {0.25, 4.0, 1.0, 16.0}, {1.0, 4.0, 16.0, 0.25}}) {
+      const auto curves = RecoverResponse(frames, given);
+      ASSERT_FALSE(curves.has_value());
+      EXPECT_EQ(curves.error().code, "exposures_disagree");
+    }
+  }
+}
+
+TEST(RecoverResponse, AFrameThatGotNoLightIsRefused) {
+  const std::vector<double> exposures = {0.25, 1.0, 4.0, 16.0};
+  auto frames = Shoot(SrgbCurve, exposures, 255);
+  frames[2] = Shoot(SrgbCurve, {1e-9}, 255).front();
+  const auto curves = RecoverResponse(frames, exposures);
+  ASSERT_FALSE(curves.has_value());
+  EXPECT_EQ(curves.error().code, "exposures_disagree");
+}
+
 }  // namespace
 }  // namespace lightcal

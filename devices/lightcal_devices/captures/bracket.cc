@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/masked_picture.h"
 #include "lightcal_devices/captures/picture.h"
@@ -234,9 +235,14 @@ Result<Bracket> OpenBracket(std::span<const std::string> patterns,
   auto files = ExpandFiles(patterns);
   if (!files) return Propagate(std::move(files));
   if (files->empty()) return Failed("not_found", "bracket", "no files were named");
+  // A RAW file is asked in a process of its own.
+  std::vector<Result<FrameInfo>> asked(files->size(), FrameInfo{});
+  ParallelFor(static_cast<int>(files->size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    asked[at] = ReadFrameInfo((*files)[at], open);
+  });
   Bracket bracket;
-  for (const std::string& file : *files) {
-    auto info = ReadFrameInfo(file, open);
+  for (Result<FrameInfo>& info : asked) {
     if (!info) return Propagate(std::move(info));
     bracket.frames.push_back(std::move(*info));
   }

@@ -155,6 +155,35 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   return measured;
 }
 
+// A ball's own picture says where its distance ends: at the surface, from which its size was taken.
+// Beside a meter's reading, of which nobody says it, that stays open.
+bool ReachTheSurface(const Session& session) {
+  const auto by_own_picture = [&](const LightDescription& light) {
+    if (light.kind != LightKind::kSphere || light.position_m) return false;
+    bool any = false;
+    for (const SessionReading& row : session.readings) {
+      const Reading& reading = row.reading;
+      if (reading.light != light.name || !reading.illuminance || !IsLit(reading)) continue;
+      if (!reading.of_luminance) return false;
+      any = true;
+    }
+    return any;
+  };
+  return !session.lights.empty() && std::ranges::all_of(session.lights, by_own_picture);
+}
+
+FitSettings FitSettingsFor(const Session& session, const CalibrationSettings& settings) {
+  FitSettings fit = FitSettingsOf(settings);
+  if (!ReachTheSurface(session)) return fit;
+  const std::string surface = "+sphere_surface";
+  if (fit.effects.empty() || fit.effects == "auto") {
+    fit.effects = surface;
+  } else if (fit.effects != "all" && fit.effects != "none") {
+    fit.effects = surface + "," + fit.effects;
+  }
+  return fit;
+}
+
 struct FoundLights {
   LightFile file;
   std::vector<std::string> notes;
@@ -186,7 +215,7 @@ Result<FoundLights> FindLights(const Session& session, const Sources& sources,
     found.file.lights = *std::move(walls);
     return found;
   }
-  auto fitted = FitSession(others, FitSettingsOf(settings));
+  auto fitted = FitSession(others, FitSettingsFor(others, settings));
   if (!fitted) return Propagate(std::move(fitted));
   evidence.AddWarnings(fitted->warnings);
   found.notes = std::move(fitted->notes);

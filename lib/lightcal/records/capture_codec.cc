@@ -76,12 +76,18 @@ struct HeardBy {
 };
 constexpr unsigned kPatches = Uses({CaptureUse::kCard, CaptureUse::kSource, CaptureUse::kWall});
 constexpr unsigned kLenses = Uses({CaptureUse::kSource, CaptureUse::kDome, CaptureUse::kBall});
-constexpr std::array<HeardBy, 10> kHeard = {{
+constexpr std::array<HeardBy, 16> kHeard = {{
     {"reflectance", Uses({CaptureUse::kCard, CaptureUse::kWall})},
     {"reflectance_sigma_relative", Uses({CaptureUse::kCard, CaptureUse::kWall})},
     {"tilt_deg", Uses({CaptureUse::kCard})},
     {"distance_m", Uses({CaptureUse::kCard, CaptureUse::kSource, CaptureUse::kBall})},
     {"rect", kPatches},
+    {"exposure_s", kPatches},
+    {"f_number", kPatches},
+    {"iso", kPatches},
+    {"camera", kPatches},
+    {"nd", kPatches},
+    {"spectrum", kPatches},
     {"rows_s", kPatches},
     {"lens_glare", kPatches},
     {"projection", kLenses},

@@ -8,6 +8,7 @@
 
 #include "lightcal/calibrate/captures/lamp_luminance.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/effects/vignetting.h"
 
 namespace lightcal {
 namespace {
@@ -63,6 +64,19 @@ Result<CardPatch> MeasureCard(const MergedBracket& merged, const Region& card) {
   return patch;
 }
 
+// The angle of the card's middle off the lens's axis: by what the file says of its view, else by
+// where it stands between the picture's middle and the corner of an ordinary lens.
+double OffMiddle(const FrameInfo& info, const Region& card) {
+  const double x = card.x + 0.5 * card.width - 0.5 * info.width;
+  const double y = card.y + 0.5 * card.height - 0.5 * info.height;
+  const double half_width = 0.5 * info.width;
+  double focal = std::hypot(half_width, 0.5 * info.height) / std::tan(effects::kCornerDefault_rad);
+  if (info.view && info.view->projection == Projection::kRectilinear) {
+    focal = half_width / std::tan(0.5 * info.view->field_of_view.value());
+  }
+  return std::atan(std::hypot(x, y) / focal);
+}
+
 }  // namespace
 
 Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription& capture,
@@ -93,7 +107,8 @@ Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription
                        {.illuminance = Lux(std::numbers::pi * lamp->nits / capture.reflectance),
                         .independent_sd = std::hypot(patch->noise_sd, patch->uneven_sd),
                         .method_sd = capture.reflectance_sigma,
-                        .patch_unit = patch->color.Y});
+                        .patch_unit = patch->color.Y,
+                        .off_middle_rad = OffMiddle(info, *stated)});
   out.reading.tilt = capture.tilt;
   return out;
 }

@@ -146,6 +146,19 @@ Result<DomeInputRequest> AsFilesSay(const DomeInputRequest& request,
   return asked;
 }
 
+// A person says from where on samples are clipped: if none is, something is amiss.
+void WarnOfUnusedClip(const DomeInputRequest& request, std::vector<DomeInput>& pictures) {
+  const bool used = std::ranges::any_of(pictures, [](const DomeInput& picture) {
+    return std::ranges::find(picture.clipped, 1) != picture.clipped.end();
+  });
+  if (!request.clip || used) return;
+  pictures.front().warnings.push_back(
+      {"clip_unused", pictures.front().files.front(),
+       "no sample reaches the " + RoundedText(*request.clip, 4) +
+           " from which samples are said to be clipped ({dome.clip}, in the file's own unit): "
+           "none is taken to be"});
+}
+
 // The dome in the plate's unit.
 Result<void> TakePlate(const GreyPlate& plate, const DomeInputRequest& request,
                        const Sources& sources, DomeInput& input) {
@@ -199,6 +212,7 @@ Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& 
     if (!picture) return Propagate(std::move(picture));
     pictures.push_back(std::move(*picture));
   }
+  WarnOfUnusedClip(request, pictures);
   const auto asked = AsFilesSay(request, pictures);
   if (!asked) return tl::unexpected(asked.error());
   if (!asked->IsPanorama()) return ComposeViews(std::move(pictures), *asked);

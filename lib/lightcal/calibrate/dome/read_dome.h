@@ -17,7 +17,8 @@ namespace lightcal {
 [[nodiscard]] Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& sources,
                                                 const DomeInputRequest& request);
 
-// One lat-long panorama as it is, or views composed to one.
+// One lat-long panorama as it is, or views composed to one. Warned: clip_unused (of files whose
+// aims are known).
 // Refused: as ReadAimedViews where aims are to be found, else as Sources::read_masked_frame,
 // LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a pixel no scene has).
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request,

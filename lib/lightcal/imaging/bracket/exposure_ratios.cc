@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -39,7 +40,52 @@ struct PairRatio {
   PairSums sums{};
 };
 
-// A first ratio that needs no label: the median of b/a where both stand clear of noise and clip.
+// Where most numbers lie: the middle of the shortest interval that holds a quarter of them. Half of
+// a picture that moved does not reach it, as it does the median.
+float Densest(std::vector<float>& values) {
+  constexpr std::size_t kEnough = 20'000;
+  const std::size_t step = values.size() / kEnough + 1;
+  std::vector<float> some;
+  for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
+  std::ranges::sort(some);
+  const std::size_t quarter = some.size() / 4;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + quarter < some.size(); ++i) {
+    // As a ratio: what is rare is spread over all of them.
+    if (some[i + quarter] * some[best] < some[best + quarter] * some[i]) best = i;
+  }
+  return some[best + quarter / 2];
+}
+
+// Noise grows with the level, and less than in proportion. A level whose residuals break that law,
+// beside levels that keep it, shows edges that moved: its gate is that of the others.
+std::array<double, kLevelBins> WithinNoise(std::array<double, kLevelBins> gates) {
+  constexpr double kSlack = 1.5;  // of one level's gate
+  std::array<double, kLevelBins> lawful = gates;
+  const auto take = [&](std::size_t bin, double limit) {
+    if (std::isfinite(limit))
+      lawful[bin] = lawful[bin] > 0.0 ? std::min(lawful[bin], limit) : limit;
+  };
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const auto level = [](std::size_t bin) { return BinLowerLevel(static_cast<int>(bin) + 1); };
+  double relative = kNone;
+  for (std::size_t bin = 0; bin < gates.size(); ++bin) {
+    if (gates[bin] > 0.0 && level(bin) <= kBelievedTo) {
+      relative = std::min(relative, kSlack * gates[bin] / level(bin));
+    }
+    take(bin, relative * level(bin));
+  }
+  double absolute = kNone;
+  for (std::size_t bin = gates.size(); bin-- > 0;) {
+    if (gates[bin] > 0.0 && level(bin) <= kBelievedTo) {
+      absolute = std::min(absolute, kSlack * gates[bin]);
+    }
+    take(bin, absolute);
+  }
+  return lawful;
+}
+
+// A first ratio that needs no label: what most of b/a is where both stand clear of noise and clip.
 std::optional<double> RoughRatio(std::span<const float> a, std::span<const float> b,
                                  std::span<const float> clip) {
   for (const float floor : {0.03F, 0.01F, 0.003F, 0.001F}) {
@@ -50,7 +96,7 @@ std::optional<double> RoughRatio(std::span<const float> a, std::span<const float
       if (clear) ratios.push_back(b[i] / a[i]);
     }
     if (static_cast<double>(ratios.size()) < kLeastSharedSamples) continue;
-    return UpperMedian(ratios);
+    return Densest(ratios);
   }
   return std::nullopt;
 }
@@ -92,13 +138,13 @@ std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t 
   if (!rough) return std::nullopt;
   PairRatio pair{.a = a, .b = b, .clip_known = clips.known};
   PairSetting setting{.ratio = *rough, .noise = kMiddlingNoise};
-  setting.gate = FirstGates(first, second, clips.clip, setting);
+  setting.gate = WithinNoise(FirstGates(first, second, clips.clip, setting, kLeastSharedSamples));
   for (int pass = 0; pass < kPasses; ++pass) {
     pair.sums = ComparePair(first, second, clips.clip, setting);
     const auto total = TellingLevels(pair.sums, kBelievedTo);
     if (!total) return std::nullopt;
     setting.ratio = total->b / total->a;
-    setting.gate = GatesOf(pair.sums);
+    setting.gate = WithinNoise(GatesOf(pair.sums, kLeastSharedSamples));
   }
   return pair;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ constexpr double kIsoPriorSd = 0.2;
 constexpr double kOutputSensitivityExposure = 10.0;
 constexpr double kOutputSensitivityCode = 118.0 / 255.0;
 constexpr double kEncodedPriorSd = 0.3;
+// Display curves rise as code^1.6 and steeper; the labels' rounding bends a linear one to 1.1.
+constexpr double kSteepestLinear = 1.3;
 constexpr double kClippedSpotSigma = 0.99;
 
 // How much less light focusing near lets onto the sensor.
@@ -48,6 +51,14 @@ double FNumberSpread(const FrameExposure& exposure) {
   return stops > kLabelStops ? std::numbers::ln2 * stops / 2.0 : 0.0;
 }
 
+// Whether codes are the signal itself: the mean slope of ln(signal) over ln(code).
+bool IsLinear(std::span<const float> signal_of_code) {
+  const auto top = static_cast<double>(signal_of_code.size() - 1);
+  const auto low = static_cast<std::size_t>(0.1 * top), high = static_cast<std::size_t>(0.9 * top);
+  const double rise = std::log(double{signal_of_code[high]} / double{signal_of_code[low]});
+  return rise < kSteepestLinear * std::log(static_cast<double>(high) / static_cast<double>(low));
+}
+
 // Luminance of full scale (signal 1) in the shortest frame, as far as ISO speed tells.
 Nits PriorScale(const PreparedFrames& prepared) {
   const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
@@ -57,7 +68,10 @@ Nits PriorScale(const PreparedFrames& prepared) {
     const auto& green = prepared.response.signal_of_code[info.channels == 3 ? kGreenChannel : 0];
     const auto code =
         static_cast<std::size_t>(kOutputSensitivityCode * static_cast<double>(green.size() - 1));
-    nits = kOutputSensitivityExposure / (kIsoLensConstant * exposure * double{green[code]});
+    // Code 118 is a level of an output-referred picture; linear codes end where the sensor does.
+    if (!IsLinear(green)) {
+      nits = kOutputSensitivityExposure / (kIsoLensConstant * exposure * double{green[code]});
+    }
   } else if (info.meaning != SampleMeaning::kLinear) {
     const bool rgb = info.channels == 3 || info.meaning == SampleMeaning::kMosaic;
     nits /= double{prepared.signals.front().clip[rgb ? kGreenChannel : 0]};
@@ -102,10 +116,11 @@ Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows&
   const std::size_t samples =
       static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(spot.height);
   std::vector<float> luminance(samples), sigma(samples);
-  const auto done =
-      MergePicture(merger, {.picture = {rows.luminance}, .luminance = rows.luminance}, spot.y,
-                   spot.height, View2d<float>(luminance.data(), frame.width, spot.height),
-                   View2d<float>(sigma.data(), frame.width, spot.height));
+  const auto done = MergePicture(
+      merger,
+      {.picture = {rows.luminance}, .luminance = rows.luminance, .corrections = rows.corrections},
+      spot.y, spot.height, View2d<float>(luminance.data(), frame.width, spot.height),
+      View2d<float>(sigma.data(), frame.width, spot.height));
   if (!done) return tl::unexpected(done.error());
   double sum = 0.0, variance = 0.0;
   for (int y = 0; y < spot.height; ++y) {
@@ -121,8 +136,12 @@ Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows&
     return Refused("bad_anchor", where, "is too dark to be measured; read a brighter place");
   }
   const double mean = sum / (static_cast<double>(spot.width) * spot.height);
+  // What a flat field leaves open is alike over the spot: it averages out of no mean.
+  const auto& flat = rows.corrections.flat();
+  const double flat_sd = flat ? flat->sigma_relative : 0.0;
   return PictureScale{prior * spot.luminance.value() / mean,
-                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd), std::nullopt};
+                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd, flat_sd),
+                      std::nullopt};
 }
 
 // Of the light that the camera balanced for; the middle of the factor's lamps where it does not

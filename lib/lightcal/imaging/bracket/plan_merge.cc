@@ -22,7 +22,7 @@ constexpr double kStandsOut = 8.0;    // standard deviations of the dark
 constexpr double kLeastShare = 1e-5;  // of the samples that must stand out
 constexpr double kEncodedFloor = 0.003;
 
-double MeanOf(std::span<const NoiseProfile> planes, double NoiseProfile::*member) {
+double MeanOf(std::span<const NoiseProfile> planes, double NoiseProfile::* member) {
   double sum = 0.0;
   for (const NoiseProfile& plane : planes) sum += plane.*member;
   return sum / static_cast<double>(planes.size());
@@ -190,6 +190,59 @@ Result<ExposureRatios> RatiosOf(const SampledSignals& signals, const MergeReques
   return MeasureExposureRatios(signals, label, names);
 }
 
+// Pixels that another frame and the labels foretell to be well exposed here, and those that are.
+struct Foretold {
+  double lit = 0.0, seen = 0.0;
+};
+
+Foretold ForetellBy(const SampledSignals& signals, std::size_t other, std::size_t frame,
+                    double ratio) {
+  constexpr double kWellLit = 0.03, kClear = 0.01, kBelow = 0.9;  // shares of the clip
+  const PairClips clips = ClipsOfPair(signals, other, frame);
+  Foretold foretold;
+  for (std::size_t i = 0; i < clips.clip.size(); ++i) {
+    const double clip = clips.clip[i];
+    const double known = signals.frames[other][i];
+    const bool clear = known > kClear * clip && known < kBelow * clip;
+    if (clear && ratio * known > kWellLit * clip) foretold.lit += 1.0;
+    if (double{signals.frames[frame][i]} > 0.5 * kWellLit * clip) foretold.seen += 1.0;
+  }
+  return foretold;
+}
+
+// The others, those of the most similar exposure first.
+std::vector<std::size_t> OthersByLabel(std::span<const double> label, std::size_t frame) {
+  std::vector<std::size_t> others;
+  for (std::size_t j = 0; j < label.size(); ++j) {
+    if (j != frame) others.push_back(j);
+  }
+  const auto apart = [&](std::size_t j) { return std::abs(std::log(label[j] / label[frame])); };
+  std::ranges::sort(others, {}, apart);
+  return others;
+}
+
+// A frame whose exposure nobody could measure (a lens cap, a flash that did not fire) is no dark
+// frame where the labels foretell light: merged, its zeros would count as a measurement. Counted
+// over the whole picture, so that a lamp that moved between frames stays seen.
+Result<void> CheckLit(const SampledSignals& signals, std::span<const double> label,
+                      const std::vector<bool>& measured, std::span<const SignalFrame> frames) {
+  constexpr double kLitSamples = 64.0, kSeenOfLit = 0.1;  // the latter of those foretold
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (measured[i]) continue;
+    for (const std::size_t j : OthersByLabel(label, i)) {
+      const Foretold foretold = ForetellBy(signals, j, i, label[i] / label[j]);
+      if (foretold.lit < kLitSamples) continue;
+      if (foretold.seen >= kSeenOfLit * foretold.lit) break;
+      return Refused("exposures_disagree", frames[i].name,
+                     "it shows next to nothing where " + frames[j].name +
+                         " and their exposures, as tags or {merge.exposures} say, foretell a "
+                         "well exposed picture (a lens cap? a flash that did not fire?); leave "
+                         "this frame out");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequest& request) {
@@ -205,6 +258,9 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   }
   auto ratios = RatiosOf(signals, request, label, frames);
   if (!ratios) return Propagate(std::move(ratios));
+  if (auto lit = CheckLit(signals, label, ratios->measured, frames); !lit) {
+    return Propagate(std::move(lit));
+  }
   planned.warnings.insert(planned.warnings.end(), ratios->warnings.begin(), ratios->warnings.end());
 
   std::vector<std::size_t> order(frames.size());

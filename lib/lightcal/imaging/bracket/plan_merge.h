@@ -47,7 +47,8 @@ struct PlannedMerge {
 
 // Sorts `frames` by their true exposure and sets their clip.
 // Refused: all_saturated, all_black (nothing stands out of the noise), one_frame (a single frame
-// whose noise nobody knows), exposures_disagree, no_frames.
+// whose noise nobody knows), exposures_disagree (as MeasureExposureRatios; and a frame that shows
+// next to nothing where the labels and another frame foretell light), no_frames.
 [[nodiscard]] Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames,
                                              const MergeRequest& request);
 

@@ -4,10 +4,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "lightcal/core/numbers_text.h"
 
 namespace lightcal {
 namespace {
@@ -190,6 +194,56 @@ std::vector<float> SignalsOf(const Eigen::VectorXd& g, const CodeSteps& steps) {
   return signals;
 }
 
+// Codes of two frames, the second of which should be the brighter: how many fell, and rose, by two
+// steps of 8 bits and more.
+struct CodeMoves {
+  double fell = 0.0, rose = 0.0;
+};
+
+CodeMoves MovesOf(const CodeView& a, const CodeView& b, double top) {
+  const int least = std::max(1, static_cast<int>(2.0 * top / 255.0));
+  constexpr std::size_t kEnough = 4'000'000;  // samples
+  const std::size_t all = a.row(0).size() * static_cast<std::size_t>(a.height());
+  const int step = static_cast<int>(all / kEnough) + 1;
+  CodeMoves moves;
+  for (int y = 0; y < a.height(); y += step) {
+    const auto first = a.row(y), second = b.row(y);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const int rise = int{second[i]} - int{first[i]};
+      if (rise >= least) moves.rose += 1.0;
+      if (rise <= -least) moves.fell += 1.0;
+    }
+  }
+  return moves;
+}
+
+// A curve that rises cannot make codes fall where there was more light: any set of exposures would
+// find some curve otherwise. Each frame beside the next that is longer by half a stop.
+Result<void> CheckOrder(std::span<const Frame> frames, std::span<const double> exposure,
+                        std::span<const std::size_t> order, double top) {
+  constexpr double kLeastFell = 64.0, kMostFell = 0.75;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    const auto longer = std::find_if(
+        order.begin() + static_cast<std::ptrdiff_t>(i), order.end(),
+        [&](std::size_t j) { return exposure[j] > std::numbers::sqrt2 * exposure[order[i]]; });
+    if (longer == order.end()) break;
+    const auto* a = std::get_if<CodeView>(&frames[order[i]].samples);
+    const auto* b = std::get_if<CodeView>(&frames[*longer].samples);
+    const bool alike = a != nullptr && b != nullptr && a->width() == b->width() &&
+                       a->height() == b->height() && a->channels() == b->channels();
+    if (!alike) continue;  // said elsewhere
+    const CodeMoves moves = MovesOf(*a, *b, top);
+    if (moves.fell < kLeastFell || moves.fell < kMostFell * (moves.fell + moves.rose)) continue;
+    const double stops = std::log2(exposure[*longer] / exposure[order[i]]);
+    return Refused("exposures_disagree", frames[*longer].info.file,
+                   "it is darker than " + frames[order[i]].info.file +
+                       ", though its tags or {merge.exposures} give it " + RoundedText(stops, 2) +
+                       " EV more; give the exposures in the order of the files, or leave this "
+                       "frame out (a lens cap? a flash that did not fire?)");
+  }
+  return {};
+}
+
 tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why) {
   return Refused("no_response", file,
                  why +
@@ -212,6 +266,9 @@ Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
   const FrameInfo& info = frames[0].info;
   const CodeSteps steps(info.levels ? double{info.levels->white[0]} : 255.0);
   const std::vector<int> nearest = steps.Nearest();
+  if (auto ordered = CheckOrder(frames, exposure, order, steps.top()); !ordered) {
+    return Propagate(std::move(ordered));
+  }
   ResponseCurves curves;
   for (int channel = 0; channel < std::min(info.channels, 3); ++channel) {
     std::vector<PairCounts> pairs;

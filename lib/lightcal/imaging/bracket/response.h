@@ -21,7 +21,8 @@ namespace lightcal {
 // `exposure` of each frame, > 0, in any unit; an error of 6 % in one ratio bends the curve as much.
 // Codes of more than 8 bits are seen through 256 steps of their square root, finer in the dark.
 // Refused: no_response (not encoded, fewer than two exposures, or too few codes that two frames
-// share: less than a third of them in some channel).
+// share: less than a third of them in some channel), exposures_disagree (codes fall, nearly
+// everywhere they change, in a frame that should have half a stop more light or above).
 [[nodiscard]] Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
                                                      std::span<const double> exposure);
 

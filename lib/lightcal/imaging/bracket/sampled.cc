@@ -2,6 +2,7 @@
 #include "lightcal/imaging/bracket/sampled.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -17,6 +18,7 @@ constexpr float kAboveOrdinary = 1.5F;
 
 constexpr std::size_t kAtOnce = 512;
 constexpr std::int32_t kNoBin = -1;
+constexpr double kQuarterOctaves[] = {1.189207115002721, 1.4142135623730951, 1.681792830507429};
 using Bins = std::array<std::int32_t, kAtOnce>;
 
 // The level bin of two samples of one place; kNoBin near the clip. At most kAtOnce of them, without
@@ -47,6 +49,24 @@ void FindBins(std::span<const float> a, std::span<const float> b, std::span<cons
     const double bin = kLevelBins * std::sqrt(std::max(seen, 0.0));
     bins[i] = static_cast<std::int32_t>(seen < 0.0 ? -1.0 : bin);
   }
+}
+
+// Sizes counted in quarter octaves from 2^-24 up.
+constexpr int kSizes = 128;
+constexpr int kSmallestOctave = -24;
+
+// floor(4 log2(size)) - 4 kSmallestOctave, kept within what is counted, from the number's own
+// exponent: a logarithm of each sample took a third of what comparing two frames does.
+std::size_t SizeOf(double size) {
+  constexpr int kMantissaBits = 52, kBias = 1023;
+  constexpr std::uint64_t kMantissa = (std::uint64_t{1} << kMantissaBits) - 1;
+  constexpr std::uint64_t kOne = std::uint64_t{kBias} << kMantissaBits;
+  const auto bits = std::bit_cast<std::uint64_t>(size);
+  const double part = std::bit_cast<double>((bits & kMantissa) | kOne);  // from 1 to 2
+  const int quarters = (part >= kQuarterOctaves[0] ? 1 : 0) + (part >= kQuarterOctaves[1] ? 1 : 0) +
+                       (part >= kQuarterOctaves[2] ? 1 : 0);
+  const int octave = static_cast<int>(bits >> kMantissaBits) - kBias - kSmallestOctave;
+  return static_cast<std::size_t>(std::clamp(4 * octave + quarters, 0, kSizes - 1));
 }
 
 // Calls add(i, bin) for every sample that has one, in their order.
@@ -123,35 +143,32 @@ PairSums ComparePair(std::span<const float> a, std::span<const float> b,
   return sums;
 }
 
-std::array<double, kLevelBins> GatesOf(const PairSums& sums) {
+std::array<double, kLevelBins> GatesOf(const PairSums& sums, double least) {
   std::array<double, kLevelBins> gates{};
   for (std::size_t bin = 0; bin < gates.size(); ++bin) {
-    if (sums[bin].count < 2.0) continue;
+    if (sums[bin].count < least) continue;
     gates[bin] = kGateSigmas * std::sqrt(sums[bin].d2 / sums[bin].count);
   }
   return gates;
 }
 
 std::array<double, kLevelBins> FirstGates(std::span<const float> a, std::span<const float> b,
-                                          std::span<const float> clip, const PairSetting& setting) {
-  // |d| counted in quarter octaves from 2^-24 up.
-  constexpr int kSizes = 128;
-  constexpr double kSmallest = -24.0;
+                                          std::span<const float> clip, const PairSetting& setting,
+                                          double least) {
   std::vector<std::array<std::size_t, kSizes>> sizes(kLevelBins);
   std::array<std::size_t, kLevelBins> counts{};
   ForEachBinned(a, b, clip, setting, [&](std::size_t i, std::size_t bin) {
-    const double d = std::abs(b[i] - setting.ratio * a[i]);
-    const double octaves = d > 0.0 ? std::log2(d) - kSmallest : 0.0;
-    ++sizes[bin][static_cast<std::size_t>(std::clamp(4.0 * octaves, 0.0, kSizes - 1.0))];
+    ++sizes[bin][SizeOf(std::abs(b[i] - setting.ratio * a[i]))];
     ++counts[bin];
   });
   std::array<double, kLevelBins> gates{};
   for (std::size_t bin = 0; bin < gates.size(); ++bin) {
+    if (static_cast<double>(counts[bin]) < least) continue;
     std::size_t seen = 0;
     for (int size = 0; size < kSizes && 2 * seen < counts[bin]; ++size) {
       seen += sizes[bin][static_cast<std::size_t>(size)];
       if (2 * seen >= counts[bin] && size > 0) {
-        gates[bin] = kGateSigmas * kSdPerMad * std::exp2(kSmallest + (size + 1) / 4.0);
+        gates[bin] = kGateSigmas * kSdPerMad * std::exp2(kSmallestOctave + (size + 1) / 4.0);
       }
     }
   }

@@ -62,10 +62,12 @@ struct PairSetting {
 
 // Gates of four standard deviations of each bin's residuals; the first ones from the median of
 // |d|, which a moving crowd does not reach.
-[[nodiscard]] std::array<double, kLevelBins> GatesOf(const PairSums& sums);
+// A level of fewer than `least` samples tells no gate.
+[[nodiscard]] std::array<double, kLevelBins> GatesOf(const PairSums& sums, double least = 2.0);
 [[nodiscard]] std::array<double, kLevelBins> FirstGates(std::span<const float> a,
                                                         std::span<const float> b,
                                                         std::span<const float> clip,
-                                                        const PairSetting& setting);
+                                                        const PairSetting& setting,
+                                                        double least = 1.0);
 
 }  // namespace lightcal

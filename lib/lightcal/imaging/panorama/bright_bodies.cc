@@ -236,6 +236,38 @@ struct Candidate {
   double flux = 0.0;
 };
 
+// What is clipped and belongs to no body yet, each piece that hangs together as one.
+std::vector<Candidate> ClippedPieces(View2d<const float> nits, const LatLongGrid& grid,
+                                     std::span<const std::uint8_t> clipped,
+                                     const std::vector<Index>& owner) {
+  std::vector<std::uint8_t> left(clipped.begin(), clipped.end());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (owner[i] != kNone) left[i] = 0;
+  }
+  std::vector<Candidate> pieces;
+  for (std::size_t first = 0; first < left.size(); ++first) {
+    if (left[first] == 0) continue;
+    left[first] = 0;
+    BrightBody body;
+    body.clipped = true;
+    body.pixels = {static_cast<Index>(first)};
+    for (std::size_t i = 0; i < body.pixels.size(); ++i) {
+      const Index at = body.pixels[i];
+      body.peak_nits = std::max(body.peak_nits, double{nits.data()[at]});
+      grid.ForNeighbours(grid.X(at), grid.Y(at), [&](Index neighbour) {
+        std::uint8_t& of = left[static_cast<std::size_t>(neighbour)];
+        if (of != 0) body.pixels.push_back(neighbour);
+        of = 0;
+      });
+    }
+    for (const Index i : body.pixels) {
+      if (double{nits.data()[i]} == body.peak_nits) ++body.plateau;
+    }
+    pieces.push_back({std::move(body), kEdgePixels * grid.pitch().value(), 0.0});
+  }
+  return pieces;
+}
+
 }  // namespace
 
 std::vector<BrightBody> FindBrightBodies(View2d<const float> nits, const LatLongGrid& grid,
@@ -272,15 +304,23 @@ std::vector<BrightBody> FindBrightBodies(View2d<const float> nits, const LatLong
       candidate.flux += grid.SolidAngle(grid.Y(i)) * (value(i) - edge_level);
       if (double{value(i)} == candidate.body.peak_nits) ++candidate.body.plateau;
     }
-    if (candidate.flux >= least_flux) candidates.push_back(std::move(candidate));
+    const bool stays = search.clipped_always && candidate.body.clipped;
+    if (stays || candidate.flux >= least_flux) candidates.push_back(std::move(candidate));
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.flux > b.flux; });
 
   std::vector<Index> owner(static_cast<std::size_t>(grid.width()) * grid.height(), kNone);
-  for (std::size_t k = 0; k < candidates.size(); ++k) {
+  const auto claim = [&](std::size_t k) {
     for (const Index i : candidates[k].body.pixels) {
       owner[static_cast<std::size_t>(i)] = static_cast<Index>(k);
+    }
+  };
+  for (std::size_t k = 0; k < candidates.size(); ++k) claim(k);
+  if (search.clipped_always && !search.clipped.empty()) {
+    for (Candidate& piece : ClippedPieces(nits, grid, search.clipped, owner)) {
+      candidates.push_back(std::move(piece));
+      claim(candidates.size() - 1);
     }
   }
   std::vector<BrightBody> bodies;

@@ -25,6 +25,8 @@ struct BodySearch {
   std::span<const std::uint8_t> clipped;
   // A body brings at least this share of the integral of L dOmega over the sphere.
   double least_share = 1e-3;
+  // Whether all that is clipped is a body, however little of it the picture shows.
+  bool clipped_always = false;
 };
 
 // Bodies by the flux they have above their edge, largest first; no pixel is in two of them.

@@ -136,7 +136,7 @@ void TakeBalls(const std::vector<AimedPicture>& views, const DomeInputRequest& r
   if (request.balls.empty()) return;
   const BallView& ball = request.balls.front();
   if (dome.absolute) {
-    dome.scale_u95_relative = std::hypot(dome.scale_u95_relative.value_or(0.0),
+    dome.scale_u95_relative = std::hypot(dome.scale_u95_relative.value_or(kUnstatedScaleU95),
                                          kZ95 * ball.reflectance_sd / ball.reflectance);
   }
   if (views.size() > 1) return;

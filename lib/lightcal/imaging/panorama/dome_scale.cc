@@ -24,8 +24,11 @@ tl::unexpected<Error> NoLight() {
                  "{dome.normal} and that the picture is not black");
 }
 
-Result<void> CheckFacing(const DomeLight& light, const Vec3& normal) {
-  if (Dot(light.direction, normal) >= kLeastCosine) return {};
+bool Faces(const DomeLight& light, const Vec3& normal) {
+  return Dot(light.direction, normal) >= kLeastCosine;
+}
+
+tl::unexpected<Error> FacedAway() {
   return Refused("lux_misses_light", "{dome.illuminance}",
                  "the meter faced away from the light that is to be solved from its reading; turn "
                  "it towards the light and say so with {dome.normal}");
@@ -42,15 +45,28 @@ void Multiply(double factor, Dome& dome, std::vector<DomeLight>& lights) {
   }
 }
 
-Result<DomeScale> ByShading(const DomeReading& reading, double all, Dome& dome,
-                            std::vector<DomeLight>& lights) {
+// What a reading and the picture's own scale say together.
+DomeScale Agreed(double read_factor, double read_sd, std::optional<double> stated_sd) {
+  constexpr double kAgreeSd = 2.0;
+  DomeScale scale;
+  scale.factor = scale.read_factor = read_factor;
+  scale.sd_relative = read_sd;
+  if (!stated_sd || !(*stated_sd > 0.0) || !(read_sd > 0.0)) return scale;
+  const double both = std::hypot(*stated_sd, read_sd);
+  if (std::abs(std::log(read_factor)) > kAgreeSd * both) return scale;
+  scale.read_weight = std::pow(*stated_sd / both, 2);
+  scale.factor = std::pow(read_factor, scale.read_weight);
+  scale.sd_relative = *stated_sd * read_sd / both;
+  return scale;
+}
+
+Result<DomeScale> ByShading(const DomeReading& reading, double all, std::optional<double> stated_sd,
+                            Dome& dome, std::vector<DomeLight>& lights) {
   if (lights.empty()) {
     return Refused("no_light", "{dome.shaded}",
                    "the panorama shows no light that a card could have shaded");
   }
-  if (auto facing = CheckFacing(lights[0], reading.normal); !facing) {
-    return Propagate(std::move(facing));
-  }
+  if (!Faces(lights[0], reading.normal)) return FacedAway();
   const double rest = all - ByLight(lights[0], reading.normal);
   if (!(rest > 0.0)) return NoLight();
   const double direct = reading.illuminance.value() - reading.shaded->value();
@@ -59,11 +75,9 @@ Result<DomeScale> ByShading(const DomeReading& reading, double all, Dome& dome,
                    LuxText(reading.illuminance.value()) + " is not above the shaded reading of " +
                        LuxText(reading.shaded->value()));
   }
-  Multiply(reading.shaded->value() / rest, dome, lights);
+  DomeScale scale = Agreed(reading.shaded->value() / rest, reading.sigma_relative, stated_sd);
+  Multiply(scale.factor, dome, lights);
   InferIlluminance(Lux(direct / Dot(lights[0].direction, reading.normal)), lights[0]);
-  DomeScale scale;
-  scale.factor = reading.shaded->value() / rest;
-  scale.sd_relative = reading.sigma_relative;
   scale.inferred = 1;
   scale.inferred_sd_relative = reading.sigma_relative;  // one meter: both readings share its error
   return scale;
@@ -74,13 +88,13 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
   double rest = all, weight = 0.0;
   for (DomeLight& light : lights) {
     if (!light.body.clipped) continue;
-    if (auto facing = CheckFacing(light, reading.normal); !facing) {
-      return Propagate(std::move(facing));
-    }
+    // What shone past the meter stays a lower bound, as long as something clipped lit it.
+    if (!Faces(light, reading.normal)) continue;
     rest -= ByLight(light, reading.normal);
     weight += light.solid_angle.value() * Dot(light.direction, reading.normal);
     clipped.push_back(&light);
   }
+  if (clipped.empty()) return FacedAway();
   const double missing = reading.illuminance.value() - rest;
   if (!(missing > 0.0)) {
     return Refused("lux_below_rest", "{dome.illuminance}",
@@ -100,10 +114,12 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
 
 }  // namespace
 
-Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute, Dome& dome,
+Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
+                            std::optional<double> stated_sd, Dome& dome,
                             std::vector<DomeLight>& lights) {
   const double all = IlluminanceOn(dome.luminance(), dome.grid(), reading.normal).value();
-  if (reading.shaded) return ByShading(reading, all, dome, lights);
+  if (!absolute) stated_sd.reset();
+  if (reading.shaded) return ByShading(reading, all, stated_sd, dome, lights);
   const bool clipped =
       std::ranges::any_of(lights, [](const DomeLight& light) { return light.body.clipped; });
   if (clipped && absolute) return ByRest(reading, all, lights);
@@ -115,9 +131,8 @@ Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute, Dome& dom
         "({MergeBracket} writes one)");
   }
   if (!(all > 0.0)) return NoLight();
-  DomeScale scale;
-  scale.factor = reading.illuminance.value() / all;
-  scale.sd_relative = reading.sigma_relative;
+  const DomeScale scale =
+      Agreed(reading.illuminance.value() / all, reading.sigma_relative, stated_sd);
   Multiply(scale.factor, dome, lights);
   return scale;
 }

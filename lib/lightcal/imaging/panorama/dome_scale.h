@@ -22,6 +22,8 @@ struct DomeReading {
 
 struct DomeScale {
   double factor = 1.0;       // what samples and lights were multiplied by
+  double read_factor = 1.0;  // what the reading alone asked for
+  double read_weight = 1.0;  // of the reading in the factor, beside the picture's own scale
   double sd_relative = 0.0;  // of the samples' scale; 0 where no reading gave it
   // Lights whose illuminance is the reading minus the rest; their relative sd.
   int inferred = 0;
@@ -35,11 +37,14 @@ struct DomeScale {
 //                                      gives (E_lux - E_shaded) / (n . d) at normal incidence
 //   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
 //                                      several share one luminance
-// The samples of dome and lights are multiplied.
-// Refused: no_light (E(n) or R not above 0), lux_below_rest (the rest alone exceeds the reading),
-// lux_misses_light (the meter faced away from the light to be solved), clipped_scale_unknown (a
-// clipped light in a panorama whose scale nobody knows).
-[[nodiscard]] Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute, Dome& dome,
+// The samples of dome and lights are multiplied. A picture that states how sure its scale is
+// (`stated_sd`, relative; in cd/m^2) keeps its part in ln(factor), by 1/sd^2, unless it is more
+// than two standard deviations from the reading, which is then believed alone. Refused: no_light
+// (E(n) or R not above 0), lux_below_rest (the rest alone exceeds the reading), lux_misses_light
+// (the meter faced away from the light to be solved), clipped_scale_unknown (a clipped light in a
+// panorama whose scale nobody knows).
+[[nodiscard]] Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
+                                          std::optional<double> stated_sd, Dome& dome,
                                           std::vector<DomeLight>& lights);
 
 }  // namespace lightcal

@@ -109,38 +109,81 @@ std::vector<std::uint8_t> PixelsAt(float level, const std::vector<float>& nits) 
   return at;
 }
 
-std::vector<DomeLight> FindLights(const DomeInput& input) {
+// `clipped_always`: that something is clipped is known, be it a pixel or two.
+std::vector<DomeLight> FindLights(const DomeInput& input, bool clipped_always) {
   const Dome& dome = input.dome;
   return MeasureDomeLights(
-      dome, FindBrightBodies(dome.luminance(), dome.grid(), {.clipped = input.clipped}),
+      dome,
+      FindBrightBodies(dome.luminance(), dome.grid(),
+                       {.clipped = input.clipped, .clipped_always = clipped_always}),
       input.clipped);
 }
 
-// A light that ends in a plateau at the picture's largest value is either clipped or drawn. In
-// cd/m^2 the reading tells: it exceeds what the picture holds.
+// A few pixels at the picture's largest value, far above the rest: a sun too small to be a light by
+// what is left of it.
+bool EndsInFewPixels(const Dome& dome, float brightest) {
+  constexpr double kFew = 0.01, kFarAbove = 3.0;  // of the sphere; times the mean luminance
+  const LatLongGrid grid = dome.grid();
+  double at_limit = 0.0, sum = 0.0;
+  int pixels = 0;
+  for (int y = 0; y < dome.height; ++y) {
+    const double omega = grid.SolidAngle(y);
+    for (const float v : dome.luminance().row(y)) {
+      sum += omega * double{v};
+      if (v < brightest) continue;
+      at_limit += omega;
+      ++pixels;
+    }
+  }
+  constexpr double kSphere = 4.0 * std::numbers::pi;
+  return pixels >= kPlateau &&
+         at_limit<kFew * kSphere&& double{brightest}> kFarAbove * sum / kSphere;
+}
+
+// What may be clipped, where that is so.
+std::string SuspectOf(const MeasuredDome& measured, float brightest, bool has_reading) {
+  const auto light = std::ranges::find_if(
+      measured.lights, [&](const DomeLight& one) { return AtLimit(one, brightest); });
+  if (light != measured.lights.end()) {
+    const AzimuthElevation at = AnglesOf(TurnedNorth(light->direction, measured.north));
+    return std::to_string(light->body.plateau) + " pixels of the light at azimuth " +
+           RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3);
+  }
+  // Only a reading would be divided by what they lack.
+  if (!has_reading || !EndsInFewPixels(measured.input.dome, brightest)) return "";
+  return "a few pixels that are far brighter than the rest";
+}
+
+// A plateau at the picture's largest value is either clipped or drawn. In cd/m^2 the reading tells:
+// it exceeds what the picture holds.
 void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
                    MeasuredDome& measured) {
   DomeInput& input = measured.input;
   if (request.input.clip) return;
   const float brightest = *std::max_element(input.dome.nits.begin(), input.dome.nits.end());
-  const auto suspect = std::ranges::find_if(
-      measured.lights, [&](const DomeLight& light) { return AtLimit(light, brightest); });
-  if (suspect == measured.lights.end()) return;
+  // A card that shaded something knows of a light, where nothing else stands out.
+  if (reading && reading->shaded && measured.lights.empty() &&
+      EndsInFewPixels(input.dome, brightest)) {
+    input.clipped = PixelsAt(brightest, input.dome.nits);
+    measured.lights = FindLights(input, true);
+    return;
+  }
+  const std::string suspect =
+      SuspectOf(measured, brightest, reading.has_value() && !reading->shaded);
+  if (suspect.empty()) return;
   if (reading && !reading->shaded && input.absolute) {
     const double seen =
         IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
     const double u95 = input.scale_u95_relative.value_or(kUnstatedScaleU95);
     if (reading->illuminance.value() > seen * (1.0 + u95)) {
       input.clipped = PixelsAt(brightest, input.dome.nits);
-      measured.lights = FindLights(input);
+      measured.lights = FindLights(input, true);
       return;
     }
   }
-  const AzimuthElevation at = AnglesOf(TurnedNorth(suspect->direction, measured.north));
   measured.warnings.push_back(
       {"maybe_clipped", input.files.front(),
-       std::to_string(suspect->body.plateau) + " pixels of the light at azimuth " +
-           RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3) +
+       suspect +
            " share the picture's largest value; if they are clipped, say from where ({dome.clip}) "
            "and "
            "read again with the light shaded ({dome.shaded})"});
@@ -153,22 +196,24 @@ Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& m
   measured.scale_u95_relative = input.scale_u95_relative;
   if (input.absolute && !input.scale_u95_relative) measured.scale_u95_relative = kUnstatedScaleU95;
   if (!reading) return {};
-  auto scale = ScaleDome(*reading, input.absolute, input.dome, measured.lights);
+  std::optional<double> stated_sd = input.scale_u95_relative;
+  if (stated_sd) *stated_sd /= kZ95;
+  auto scale = ScaleDome(*reading, input.absolute, stated_sd, input.dome, measured.lights);
   if (!scale) return Propagate(std::move(scale));
   measured.scale = *scale;
   const bool scaled = scale->sd_relative > 0.0;
   if (scaled) {
     measured.unit_known = true;
-    measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
+    if (scale->read_weight >= 0.5) measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
     measured.scale_u95_relative = kZ95 * scale->sd_relative;
     std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
   }
-  const double off = std::abs(std::log(scale->factor));
-  if (scaled && input.absolute &&
-      off > std::max(kConflict, input.scale_u95_relative.value_or(0.0))) {
+  const double off = std::abs(std::log(scale->read_factor));
+  const bool agree = stated_sd ? scale->read_weight < 1.0 : off <= kConflict;
+  if (scaled && input.absolute && !agree) {
     measured.warnings.push_back(
         {"scale_conflict", input.files.front(),
-         "the reading makes the picture " + RoundedText(scale->factor, 3) +
+         "the reading makes the picture " + RoundedText(scale->read_factor, 3) +
              " times as bright as the file says it is; the reading is believed"});
   }
   if (scale->inferred > 1) {
@@ -225,12 +270,12 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   if (reading) reading->normal = TurnedNorth(reading->normal, -request.north);
   auto hidden = CheckSeen(reading, measured);
   if (!hidden) return Propagate(std::move(hidden));
-  measured.lights = FindLights(measured.input);
+  if (reading) {  // the hidden part may be as dark as it may be bright
+    reading->sigma_relative = std::hypot(reading->sigma_relative, *hidden / 2.0);
+  }
+  measured.lights = FindLights(measured.input, request.input.clip.has_value());
   JudgePlateaus(request, reading, measured);
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
-  if (measured.scale_u95_relative) {  // the hidden part may be as dark as it may be bright
-    measured.scale_u95_relative = std::hypot(*measured.scale_u95_relative, kZ95 * *hidden / 2.0);
-  }
   OrderLights(measured);
   WarnOfClippedLights(measured);
   Warnings& warnings = measured.warnings;
