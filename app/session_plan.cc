@@ -55,9 +55,9 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
   const bool card = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
     return row.reading.light == planned.light->name && row.reading.shadow_card;
   });
-  if (!card) {
+  if (!card && session.surroundings == Surroundings::kIndoors) {
     advice += advice.empty() ? "" : ". ";
-    advice += "No shadow-card reading yet: without one the room's bounce counts as the lamp";
+    advice += "No shadow-card reading yet: one measures what walls and other lamps add";
   }
   return advice;
 }
@@ -132,12 +132,14 @@ Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   FitSettings settings;
   settings.tolerance_relative = asked->profile.tolerance_relative;
   settings.effects = asked->profile.effects;
+  const auto reach_m = options.reach_stated ? std::optional(wishes->reach_m) : std::nullopt;
   std::vector<PlannedLight> planned;
   const Error* refused = nullptr;
   bool any = false;
   for (const LightDescription& light : session->lights) {
     if (!options.light.empty() && light.name != options.light) continue;
-    planned.push_back({&light, PlanReadings(*session, light.name, settings, options.steps)});
+    planned.push_back(
+        {&light, PlanReadings(*session, light.name, settings, options.steps, reach_m)});
     any = any || planned.back().plan.has_value();
   }
   if (!any && !planned.empty()) refused = &planned.front().plan.error();

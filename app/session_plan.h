@@ -18,6 +18,7 @@ struct SessionPlanOptions {
   MinutesOptions minutes;
   bool force = false;
   bool with_minutes = false;  // any of those was given
+  bool reach_stated = false;  // for the readings too, not for the minutes alone
 };
 
 // Prints the plan. A light whose readings are refused shows what the refusal asks for; refused only

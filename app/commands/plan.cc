@@ -128,6 +128,7 @@ Run BuildPlan(CLI::App& parser) {
       ->check(OneOf(kMarkerDictionaryWords));
   parser.add_flag("--force", options->session.force, "Replace a file that lightcal did not write");
   return [options, &parser](Console& console) {
+    options->session.reach_stated = parser.count("--reach") > 0;
     for (const char* name : {"--minutes", "--reach", "--plot"}) {
       if (parser.count(name) > 0) options->session.with_minutes = true;
     }

@@ -72,6 +72,21 @@ std::string KindOf(const QuickOptions& options) {
   return options.length.empty() ? "point" : "tube";
 }
 
+// Angles that would be heard by nobody.
+Result<void> CheckAngles(std::optional<Radians> inner, std::optional<Radians> outer,
+                         const LightDescription& light) {
+  if (inner && !outer) {
+    return WrongUsage("--inner", "says how far a cone is even; add --outer, where it ends");
+  }
+  if (inner && *inner > *outer) {
+    return WrongUsage("--inner", "exceeds --outer; both count from the axis: swap them");
+  }
+  if (light.field && !light.beam) {
+    return WrongUsage("--field", "stands beside a beam angle: add --beam, at half of the middle");
+  }
+  return {};
+}
+
 Result<LightDescription> DescribeLight(const QuickOptions& options) {
   LightDescription light;
   light.name = options.name;
@@ -98,6 +113,7 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
         FillPlain(light.electrical, options.watts, "W")}) {
     if (!filled) return tl::unexpected(filled.error());
   }
+  if (auto shaped = CheckAngles(inner, outer, light); !shaped) return Propagate(std::move(shaped));
   const double half = options.full_angles ? 0.5 : 1.0;
   if (inner) light.inner = *inner * half;
   if (outer) light.outer = *outer * half;

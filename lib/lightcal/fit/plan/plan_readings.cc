@@ -381,10 +381,11 @@ bool SameStep(const PlannedReading& a, const PlannedReading& b) {
 }
 
 Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
-                                 const FitSettings& settings, int steps) {
+                                 const FitSettings& settings, int steps,
+                                 std::optional<double> reach_m) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, fit::kFarthestReach).Plan(steps);
+  return Planner(*std::move(alone), settings, reach_m.value_or(fit::kFarthestReach)).Plan(steps);
 }
 
 Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,

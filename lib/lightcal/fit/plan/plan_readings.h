@@ -24,7 +24,8 @@ struct ReadingPlan {
 // c-optimal: of the readings a person could take next the one after which the interval of the
 // intensity is shortest, found by taking each in thought (at the illuminance the present estimate
 // predicts, by the meter used last) and fitting again; then the next on top of it. Candidates are
-// distances in geometric steps from 0.25 m to 10 m within a factor sqrt(8) of those taken, places
+// distances in geometric steps from 0.25 m to 10 m (`reach_m`, where a meter cannot stand so far
+// from the lamp) within a factor sqrt(8) of those taken, places
 // round those taken, across a spot's beam and on the axis of a lamp whose place and aim are known,
 // angles off the axis of a lamp that was read off its axis (there what counts is the product of
 // both intervals, the intensity's and the beam angle's), a shadow card where a reading stands, the
@@ -32,7 +33,8 @@ struct ReadingPlan {
 // uncertainty does not depend on its strength. Refused: as FitSession (what the refusal asks for
 // comes first), unknown_light.
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
-                                               const FitSettings& settings, int steps);
+                                               const FitSettings& settings, int steps,
+                                               std::optional<double> reach_m = std::nullopt);
 
 // Whether they ask for the same: what to do, and where.
 [[nodiscard]] bool SameStep(const PlannedReading& a, const PlannedReading& b);

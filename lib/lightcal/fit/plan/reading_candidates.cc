@@ -40,7 +40,11 @@ class Candidates {
  public:
   Candidates(const Session& session, const LightDescription& light, const FittedLight* fitted,
              double reach_m)
-      : light_(light), fitted_(fitted), room_(session.room), reach_(reach_m) {
+      : light_(light),
+        fitted_(fitted),
+        room_(session.room),
+        dark_(session.surroundings == Surroundings::kDark),
+        reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
     for (const double d : distances_) reach_ = std::max(reach_, d);
     for (const Place& place : places_) {
@@ -55,8 +59,8 @@ class Candidates {
 
   [[nodiscard]] std::vector<PlannedReading> List() const {
     std::vector<PlannedReading> out;
-    AddShadowCards(out);
-    if (!off_) out.push_back({PlannedAction::kLampOff, {}, {}, {}});
+    if (!dark_) AddShadowCards(out);
+    if (!dark_ && !off_) out.push_back({PlannedAction::kLampOff, {}, {}, {}});
     if (!HasDistanceLaw(light_.kind)) {
       out.push_back({});
       return out;
@@ -267,6 +271,7 @@ class Candidates {
   const LightDescription& light_;
   const FittedLight* fitted_;
   std::optional<Room> room_;
+  const bool dark_;  // nothing but the lamp shines, and nothing sends its light back
   double reach_;
   double nearest_ = kNearest;
   std::optional<double> floor_m_;  // Z is up: as low as a meter has lain, or 0
