@@ -377,13 +377,44 @@ TEST(Effects, WarmUpIsTheDriftLeftAndADefaultWhereNobodySays) {
   EXPECT_FALSE(effects::FindWarmUp(scene).applies);
 }
 
+// E over E0 cos(tilt) of a disk that shines evenly, by a million pieces; the meter on its axis is
+// tilted towards `way`, and what lies behind its plane is not seen.
+double CutOfDisk(double radius, double distance, double tilt) {
+  constexpr int kRings = 1000, kParts = 1000;
+  double seen = 0.0, facing = 0.0;
+  for (int i = 0; i < kRings; ++i) {
+    const double r = (i + 0.5) / kRings * radius;
+    for (int k = 0; k < kParts; ++k) {
+      const double x = r * std::cos(2.0 * std::numbers::pi * (k + 0.5) / kParts);
+      const double l2 = r * r + distance * distance;
+      const double weight = r * distance / (l2 * l2);  // of the piece, seen along its way
+      facing += weight * distance;
+      seen += weight * std::max(0.0, distance * std::cos(tilt) - x * std::sin(tilt));
+    }
+  }
+  return seen / (facing * std::cos(tilt));
+}
+
+TEST(Effects, TheHorizonCutsWhatLiesBehindATiltedMeter) {
+  for (const auto& [distance, degrees] : {std::pair(0.5, 60.0), std::pair(0.3, 45.0)}) {
+    Scene scene = OneReading(distance);
+    scene.kind = LightKind::kDisk;
+    scene.size.diameter = Metres(1.2);
+    scene.poses.front().tilt_rad = RadiansFromDegrees(degrees).value();
+    const double cut = CutOfDisk(0.6, distance, scene.poses.front().tilt_rad) - 1.0;
+    EXPECT_NEAR(effects::FindHorizon(scene).bound, cut, 1e-3 + 0.01 * cut);
+    EXPECT_GT(cut, 0.005);
+  }
+}
+
 TEST(Effects, HorizonIsATestOfTheSourcesRadius) {
   Scene scene = OneReading(1.0);
   scene.kind = LightKind::kDisk;
   scene.size.diameter = Metres(0.2);
   EXPECT_EQ(effects::FindHorizon(scene).bound, 0.0);
   scene.poses.front().tilt_rad = RadiansFromDegrees(85.0).value();
-  EXPECT_EQ(effects::FindHorizon(scene).bound, 1.0);
+  EXPECT_GT(effects::FindHorizon(scene).bound, 0.0);
+  EXPECT_LT(effects::FindHorizon(scene).bound, 0.01);
   // Facing a softbox squarely a meter sees all of it, however near; within a ball of that radius it
   // would not.
   scene.poses.front().tilt_rad = 0.0;
@@ -429,6 +460,12 @@ TEST(Effects, PicturesHaveVignettingAndGlare) {
   EXPECT_NEAR(effects::FindVeilingGlare(scene).bound, 0.01, 1e-12);
   scene.picture->flat_field = true;
   EXPECT_FALSE(effects::FindVignetting(scene).applies);
+  // A fisheye's rim: a lamp cannot read lower than by all of itself.
+  scene.picture->flat_field = false;
+  scene.picture->off_middle_rad = 1.22;
+  EXPECT_NEAR(effects::FindVignetting(scene).bound, 1.0 - std::pow(std::cos(1.22), 4.0), 1e-12);
+  scene.picture->off_middle_rad = 3.0;
+  EXPECT_DOUBLE_EQ(effects::FindVignetting(scene).bound, 1.0);
 }
 
 }  // namespace

@@ -115,7 +115,7 @@ LightEstimate UpperLimit(const Prepared& prepared, const LinearIntensity& intens
   out.upper_limit = cd * (std::max(0.0, intensity.value) + kZ95 * intensity.sd);
   out.diagnostics.readings = observations.readings;
   out.diagnostics.rejected = observations.rejected;
-  out.diagnostics.used = prepared.own_rows + static_cast<int>(observations.shadow_used.size());
+  out.diagnostics.used = prepared.own_rows + static_cast<int>(observations.subtracted.size());
   out.diagnostics.prior = {distance_law ? "intensity" : "illuminance"};
   if (distance_law) out.diagnostics.prior.emplace_back("distance_offset");
   out.diagnostics.prior.emplace_back("ambient");

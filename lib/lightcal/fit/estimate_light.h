@@ -30,6 +30,7 @@ struct ForwardModel {
   double surface_radius_m = 0.0;           // added to distances taken from a sphere's surface
   bool tilt = true;                        // cosine of the tilt
   double head_radius_m = 0.0;              // of the meter, where its size matters
+  double haze_per_m = 0.0;                 // stated extinction of the air, where it matters
   bool fit_offset = true;                  // false: d0 = 0, exactly
   bool fit_ambient = true;                 // false: E0 = 0, and lamp-off readings say nothing
   std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none

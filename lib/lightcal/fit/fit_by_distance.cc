@@ -53,10 +53,12 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   const LightDescription seen = beam ? WithBeam(light, *beam) : light;
   const int beyond = PlaceOnSource(seen, beam.has_value(), observations);
   if (observations.rows.empty()) {
+    const auto rejected = std::ranges::find(observations.warnings, "row_rejected", &Warning::code);
     return Refused(
         "no_valid_readings", light.name,
-        "the lamp shines on none of the readings by its position_m, aim, size or cone and "
-        "their position_m or off_axis_deg; correct what is wrong of them");
+        rejected == observations.warnings.end()
+            ? "the lamp shines on none of the readings by the cone that was found"
+            : "every reading of this light was rejected; the first because " + rejected->message);
   }
   if (auto units = CheckUnits(observations, light.name); !units) {
     return Propagate(std::move(units));

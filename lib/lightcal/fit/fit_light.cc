@@ -8,6 +8,7 @@
 
 #include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/fit_profile.h"
+#include "lightcal/fit/beam/unstated_inner.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/fit_by_distance.h"
 #include "lightcal/fit/locate/fit_located_light.h"
@@ -81,7 +82,9 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
                               session_out);
   }
   Result<FittedLight> fitted =
-      fit::FitByDistance(session, light, *observations, settings, std::move(out), session_out);
+      fit::LacksInner(light, *observations)
+          ? fit::FitUnstatedInner(session, light, *observations, settings, out, session_out)
+          : fit::FitByDistance(session, light, *observations, settings, out, session_out);
   if (fitted && SuitsReadings(*fitted)) return fitted;
   if (auto cone = fit::CheckStatedCone(session, light, *observations, settings, fitted.has_value());
       !cone) {

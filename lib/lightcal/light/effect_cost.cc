@@ -50,9 +50,9 @@ double HeadFactor(const Scene& scene, const ScenePose& pose) {
   return effects::DetectorFactor(head, pose.distance_m);
 }
 
-double HazeFactor(const Scene& scene, const ScenePose& pose) {
-  return std::exp(-scene.time.haze_per_metre.value_or(effects::kClearAirPerMetre) *
-                  pose.distance_m);
+double AirFactor(const Scene& scene, const ScenePose& pose) {
+  return effects::HazeFactor(scene.time.haze_per_metre.value_or(effects::kClearAirPerMetre),
+                             pose.distance_m);
 }
 
 double OffsetBy(double offset_m, const ScenePose& pose) {
@@ -79,7 +79,7 @@ constexpr std::array<std::pair<std::string_view, Factor>, 10> kFactors = {{
     {"distance_error", DistanceFactor},
     {"room_bounce", WallsFactor},
     {"detector_size", HeadFactor},
-    {"haze", HazeFactor},
+    {"haze", AirFactor},
     {"narrow_beam", BeamRimFactor},
 }};
 

@@ -33,6 +33,7 @@ struct OffsetPart {
 // The offset of such a fixture, in metres at any distance: a virtual source does not move when one
 // steps back. From 205 published photometric tables of film fixtures with three to five distances
 // each (fits of E = I/(d + offset)^2 with rms under 2 %); bulb, panel and luminaire by judgement.
+// The tables count from a softbox's mount, people as often from its front: half of each.
 // An unknown fixture: most start near their reference point, lamps behind a front diffuser or in a
 // reflector well in front of it; one reading of it is best told by E d^2, the mixture's median
 // being 0, and it holds 95 % of the 205.

@@ -25,6 +25,7 @@ constexpr double kLeastSpan = 5.0 * kDegree;
 constexpr double kNearAxis = 1.0;  // half angles
 constexpr double kFarFromAxis = 10.0 * kDegree;
 constexpr double kOpenBeam = 2.5;  // ends of its interval
+constexpr double kNoEdge = 0.9;    // of the axis, at the widest angle read: no edge was seen
 constexpr double kDarkEnd = 1e-3;  // of the peak: where a table ends
 constexpr double kUnlikely = 1e-5;
 constexpr double kHardlyEven = 0.01;
@@ -65,6 +66,24 @@ std::string CureOfAngles(const BeamRows& rows, double half_deg) {
          "more exactly and say so by {light.off_axis_sigma}";
 }
 
+// Of the axis's intensity, at the widest angle that was read.
+struct SeenOut {
+  double gamma_deg = 0.0, part = 1.0;
+};
+
+SeenOut FarthestSeen(const BeamRows& rows, const BeamProfile& profile) {
+  SeenOut out;
+  for (std::size_t i = 0; i < rows.readings.rows.size(); ++i) {
+    if (!rows.readings.rows[i].lit) continue;
+    out.gamma_deg = std::max(out.gamma_deg, profile.gamma_rad[i] / kDegree);
+  }
+  const auto above = std::ranges::lower_bound(profile.gamma_deg, out.gamma_deg);
+  const auto at = std::min<std::size_t>(static_cast<std::size_t>(above - profile.gamma_deg.begin()),
+                                        profile.candela.size() - 1);
+  out.part = profile.candela[at] / profile.candela.front();
+  return out;
+}
+
 Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
                             const std::string& light) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -76,6 +95,16 @@ Result<void> CheckKnownBeam(const BeamRows& rows, const BeamProfile& profile,
     return NothingNearAxis(nearest * kDegree, 2.0 * half, light);
   }
   const Uncertain& beam = profile.beam_deg;
+  const SeenOut seen = FarthestSeen(rows, profile);
+  if (profile.family != "even" && rows.readings.sheet.empty() && seen.part > kNoEdge) {
+    return Refused("beam_unknown", light,
+                   "at " + RoundedText(seen.gamma_deg, 2) +
+                       " degrees off the axis, the farthest that was read, it shines as in the "
+                       "middle (" +
+                       PercentText(seen.part) +
+                       "): where its beam ends no reading tells; read farther out, until half is "
+                       "left, or give the data sheet's {light.beam}");
+  }
   if (profile.family == "even" || *beam.high <= kOpenBeam * *beam.low) return {};
   return Refused("beam_unknown", light,
                  "the readings leave the beam angle open from " + RoundedText(*beam.low, 2) +
@@ -161,7 +190,7 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
   FitDiagnostics& d = out.diagnostics;
   d.readings = observations.readings;
   d.rejected = observations.rejected;
-  d.used = static_cast<int>(observations.shadow_used.size());
+  d.used = static_cast<int>(observations.subtracted.size());
   d.learned = {"intensity", "beam"};
   d.prior = {};
   const double offset_sd = std::sqrt(std::max(0.0, profile.covariance[5]));

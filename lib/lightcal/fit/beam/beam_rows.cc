@@ -10,6 +10,7 @@
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/row_values.h"
+#include "lightcal/light/effects/haze.h"
 
 namespace lightcal::fit {
 namespace {
@@ -152,6 +153,9 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
   AddSheet(light, out.readings.sheet);
   out.readings.may_be_even = MayBeEven(light, out.placed, widest - nearest);
   if (model == nullptr) return out;
+  for (BeamRow& row : out.readings.rows) {
+    row.gain *= effects::HazeFactor(model->haze_per_m, Length(row.from_lamp));
+  }
   if (model->fit_offset && model->distance_law) {
     out.readings.offsets = model->offsets;
     if (out.readings.offsets.empty()) {

@@ -206,7 +206,7 @@ Result<std::optional<FittedLight>> FitProfile(const Session& session, const Ligh
   out.budget = BudgetWithScale(observations, estimate.variance_parts);
   session_out.Warn(std::move(estimate.warnings));
   FillBeamLight(*std::move(found), out);
-  CheckDataSheet(light, out.intensity_cd, session_out.warnings);
+  CheckPrintedFlux(light, *out.flux_lm, session_out.warnings);
   CheckDrift(session, out, session_out.warnings);
   return out;
 }

@@ -81,11 +81,26 @@ void OtherLight::Note(const SessionReading& row) {
     cards_.push_back(&row);
     return;
   }
+  if (reading.lamp == LampState::kOff && reading.illuminance) offs_.push_back(&row);
   if (!MeasuresColor(reading) || reading.lamp == LampState::kOff) return;
   const auto distance = DistanceOf(reading);
   if (!distance) of_unknown_place_.common = kUnknownPlace;
   if (!distance || walls_.contains(*distance)) return;
   if (const auto there = WallsAt(*distance)) walls_.emplace(*distance, *there);
+}
+
+// Of one light everywhere what the fit found; of light that differs, what was read there with the
+// lamp off.
+double OtherLight::AmbientIn(const Reading& reading) const {
+  if (light_.ambient_lx) return ambient_lx_;
+  double sum = 0.0;
+  int count = 0;
+  for (const SessionReading* off : offs_) {
+    if (!SamePlace(off->reading, reading)) continue;
+    sum += off->reading.illuminance->value();
+    ++count;
+  }
+  return count > 0 ? sum / count : ambient_lx_;
 }
 
 // Where its colours were read elsewhere, else at a metre.
@@ -152,7 +167,7 @@ OtherShares OtherLight::Unlit(const Reading& reading) const {
     return out;
   }
   const double lux = reading.illuminance ? reading.illuminance->value() : 0.0;
-  out.ambient = lux > 0.0 ? std::min(1.0, ambient_lx_ / lux) : 0.0;
+  out.ambient = lux > 0.0 ? std::min(1.0, AmbientIn(reading) / lux) : 0.0;
   out.walls = 1.0 - out.ambient;
   return out;
 }
@@ -162,7 +177,8 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   if (!MeasuresColor(reading) || !row.others_lit.empty()) return {};
   if (reading.meter == kDataSheetMeter) return {};
   const bool walls_shine = !reading.of_luminance && HoldsWallLight(session_, description_, reading);
-  if (!walls_shine && !(ambient_lx_ > 0.0)) return {};
+  const double ambient_lx = AmbientIn(reading);
+  if (!walls_shine && !(ambient_lx > 0.0)) return {};
   if (reading.lamp == LampState::kOff || reading.shadow_card) return Unlit(reading);
   OtherShares out;
   const auto distance = DistanceOf(reading);
@@ -173,14 +189,13 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   const double direct =
       std::max(0.0, there.direct_lx) * std::max(0.0, std::cos(reading.tilt.value()));
   const double lux = reading.illuminance ? reading.illuminance->value() : 0.0;
-  const double whole =
-      lux > 0.0 ? lux : direct + (walls_shine ? there.walls_lx : 0.0) + ambient_lx_;
+  const double whole = lux > 0.0 ? lux : direct + (walls_shine ? there.walls_lx : 0.0) + ambient_lx;
   if (!(whole > 0.0)) return {};
-  out.ambient = std::min(1.0, ambient_lx_ / whole);
+  out.ambient = std::min(1.0, ambient_lx / whole);
   if (!walls_shine) return out;
   const Reading* card = lux > 0.0 ? CardBeside(reading) : nullptr;
   if (card != nullptr) {
-    const double left = std::max(0.0, card->illuminance->value() - ambient_lx_);
+    const double left = std::max(0.0, card->illuminance->value() - ambient_lx);
     out.walls = std::min(left * (1.0 + kCardHides) / lux, 1.0 - out.ambient);
     out.own = std::hypot(kCardHides, kCardLux);
     return out;

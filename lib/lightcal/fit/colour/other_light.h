@@ -42,12 +42,13 @@ class OtherLight {
   void NoteUnknownPlace();
   [[nodiscard]] std::optional<double> DistanceOf(const Reading& reading) const;
   [[nodiscard]] std::optional<Walls> WallsAt(double distance_m) const;
+  [[nodiscard]] double AmbientIn(const Reading& reading) const;
   [[nodiscard]] OtherShares Unlit(const Reading& reading) const;
   const Session& session_;
   const LightDescription& description_;
   const FittedLight& light_;
   double ambient_lx_ = 0.0;
-  std::vector<const SessionReading*> cards_;
+  std::vector<const SessionReading*> cards_, offs_;
   std::map<double, Walls> walls_;  // at the distances, in metres, that its colours were read at
   OtherShares of_unknown_place_;
 };

@@ -118,7 +118,7 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
                      const PlacedCovariance& covariance, FitDiagnostics& d) {
   const PlacedEstimation& estimation = kept.problem.estimation;
   d.readings = observations.readings;
-  d.used = static_cast<int>(estimation.rows.size() + observations.shadow_used.size()) -
+  d.used = static_cast<int>(estimation.rows.size() + observations.subtracted.size()) -
            kept.problem.card_rows;
   d.rejected = observations.rejected;
   for (const int row : kept.rejected) {

@@ -8,6 +8,7 @@
 #include "lightcal/fit/model/row_values.h"
 #include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/light/effects/detector_size.h"
+#include "lightcal/light/effects/haze.h"
 
 namespace lightcal::fit {
 namespace {
@@ -52,6 +53,7 @@ PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardMo
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, o.distance_m);
   }
+  row.direct_gain *= effects::HazeFactor(model.haze_per_m, o.distance_m);
   return row;
 }
 

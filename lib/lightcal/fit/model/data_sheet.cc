@@ -79,14 +79,22 @@ Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
     if (!beams) return Propagate(std::move(beams));
     return FromInterval(flux / beams->most.value(), flux / beams->least.value());
   }
+  if (light.kind == LightKind::kSpot && !light.outer && !light.distribution) {
+    return Refused("no_readings", light.name,
+                   "flux_lm says nothing of a spot's middle while its beam is unknown: give "
+                   "{light.beam}, or a reading");
+  }
+  if (light.kind == LightKind::kSpot && light.outer && !light.inner && !light.distribution) {
+    LightDescription hard = light;
+    hard.inner = light.outer;
+    return FromInterval(flux / SolidAngleOfKind(hard), flux / SolidAngleOfKind(light));
+  }
   if (light.kind == LightKind::kPoint && light.fixture == Fixture::kBulb) {
     const FluxSpread spread = FluxSpreadOf(light);
     const double even = flux / SolidAngleOfKind(light);
     return FromInterval(even / spread.high, even / spread.low);
   }
-  const bool shape_unknown =
-      light.kind == LightKind::kPoint || (light.kind == LightKind::kSpot && !light.outer);
-  const double kind_spread = shape_unknown ? kPointSpread : kKindSpread;
+  const double kind_spread = light.kind == LightKind::kPoint ? kPointSpread : kKindSpread;
   const double spread = light.distribution ? 0.0 : std::log1p(kind_spread);
   const double middle = flux / SolidAngleOfKind(light);
   return FromInterval(middle * std::exp(-spread), middle * std::exp(spread));
@@ -128,6 +136,20 @@ void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain
                           RoundedText(light.flux->value(), 4) + " lm) gives " +
                           RoundedText(*sheet->low, 3) + " to " + RoundedText(*sheet->high, 3) +
                           " cd; check distance, beam_deg and whether the lamp is dimmed"});
+}
+
+void CheckPrintedFlux(const LightDescription& light, const Uncertain& read, Warnings& warnings) {
+  if (!HasDataSheet(light)) return;
+  const double printed = light.flux->value();
+  const double low = read.low.value_or(read.value - read.u95);
+  const double high = read.high.value_or(read.value + read.u95);
+  const double least = printed / (1.0 + kFluxToleranceRelative);
+  const double most = printed * (1.0 + kFluxToleranceRelative);
+  if (high >= least && low <= most) return;
+  warnings.push_back({"data_sheet_disagrees", light.name,
+                      "the readings give " + RoundedText(low, 3) + " to " + RoundedText(high, 3) +
+                          " lm, its data sheet prints " + RoundedText(printed, 4) +
+                          "; check distances and angles, and whether the lamp is dimmed"});
 }
 
 std::optional<SheetIntensity> SheetBeside(const Session& session, const Observations& observations,

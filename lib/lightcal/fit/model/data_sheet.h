@@ -57,6 +57,10 @@ struct FluxSpread {
 // The flux as a data sheet that the readings bear out leaves it.
 void TellFlux(const LightEstimate& estimate, const LightDescription& light, FittedLight& out);
 
+// Adds the warning data_sheet_disagrees when the flux of a beam whose shape was read and the
+// printed one do not overlap within their 95 % intervals.
+void CheckPrintedFlux(const LightDescription& light, const Uncertain& read, Warnings& warnings);
+
 // Adds the warning data_sheet_disagrees when the intensity that readings alone give and the data
 // sheet's do not overlap within their 95 % intervals.
 void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain>& measured,

@@ -58,6 +58,7 @@ class Collector {
     }
     if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
     if (auto taken = SubtractShadows(); !taken) return Propagate(std::move(taken));
+    SubtractOff();
     FillSigmas();
     out_.by_camera = instruments_.size() == 1 && !out_.rows.empty() && out_.rows[0].picture;
     std::sort(out_.rejected.begin(), out_.rejected.end());
@@ -77,7 +78,6 @@ class Collector {
       out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
       return {};
     }
-    if (!reading.shadow_card && !lit) ++out_.off_readings;
     if (reading.shadow_card) ++out_.shadow_readings;
     Observation observation;
     observation.index = index;
@@ -231,7 +231,7 @@ class Collector {
     }
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       if (consumed[i]) {
-        out_.shadow_used.push_back(out_.rows[i].index);
+        out_.subtracted.push_back(out_.rows[i].index);
         continue;
       }
       if (!relative_[i].shadow) continue;
@@ -243,6 +243,53 @@ class Collector {
     }
     Keep(consumed);
     return {};
+  }
+
+  // Whether what was read with the lamp off differs from place to place, beyond three standard
+  // deviations of each reading.
+  [[nodiscard]] bool Differ(const std::vector<std::size_t>& off) const {
+    constexpr double kApart = 3.0;
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const std::size_t j : off) {
+      const double lux = out_.rows[j].raw_lx;
+      least = std::min(least, lux * (1.0 + kApart * relative_[j].sigma));
+      most = std::max(most, lux * (1.0 - kApart * relative_[j].sigma));
+    }
+    return most > least;
+  }
+
+  // Other light that is one everywhere is a parameter. Where it differs from place to place, what
+  // was read with the lamp off at a reading's own place is taken from that, and tells of one light
+  // everywhere only for readings that have none. One that shows more than the lamp's reading is
+  // left to the checks.
+  void SubtractOff() {
+    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
+      return !out_.rows[j].lit && !relative_[j].shadow && !relative_[j].no_place;
+    });
+    if (!Differ(off)) return;
+    std::vector<bool> consumed(out_.rows.size(), false);
+    bool some_open = false;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Observation& row = out_.rows[i];
+      if (!row.lit) continue;
+      const auto off_here = [&](std::size_t j) {
+        const bool here = out_.rows[j].raw_lx < row.raw_lx && SamePlace(row, j);
+        if (here) consumed[j] = true;
+        return here;
+      };
+      if (row.differenced || row.ambient_subtracted) {
+        std::ranges::for_each(off, off_here);
+      } else if (!row.over_range) {
+        row.ambient_subtracted = Subtract(i, off, off_here);
+      }
+      some_open = some_open || !(row.differenced || row.ambient_subtracted);
+    }
+    if (some_open) return;
+    for (std::size_t j = 0; j < consumed.size(); ++j) {
+      if (consumed[j]) out_.subtracted.push_back(out_.rows[j].index);
+    }
+    Keep(consumed);
   }
 
   // Cutting it at 0 would make the lamp brighter than it is.
@@ -258,9 +305,7 @@ class Collector {
   [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
     if (!HasDistanceLaw(light_.kind)) return true;
     const std::optional<Vec3>& there = out_.rows[j].position_m;
-    if (!light_.position_m && row.position_m && there) {
-      return Length(*row.position_m - *there) < kSamePlace;
-    }
+    if (row.position_m && there) return Length(*row.position_m - *there) < kSamePlace;
     return !relative_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m) &&
            row.off_axis_rad == out_.rows[j].off_axis_rad;
   }
@@ -309,7 +354,12 @@ bool SameDistance(double a_m, double b_m) {
 
 bool SamePlace(const Reading& a, const Reading& b) {
   constexpr double kSameAngle_rad = 1e-3;
-  if (a.position_m && b.position_m) return Length(*a.position_m - *b.position_m) < kSamePlace;
+  if (a.position_m && b.position_m) {
+    const bool turned = a.normal && b.normal &&
+                        Dot(*a.normal, *b.normal) <
+                            std::cos(kSameAngle_rad) * Length(*a.normal) * Length(*b.normal);
+    return !turned && Length(*a.position_m - *b.position_m) < kSamePlace;
+  }
   if (a.distance && b.distance) {
     return SameDistance(a.distance->value(), b.distance->value()) &&
            std::abs(a.tilt.value() - b.tilt.value()) < kSameAngle_rad &&

@@ -53,10 +53,9 @@ struct Observation {
 
 struct Observations {
   std::vector<Observation> rows;
-  std::vector<int> rejected;     // indices over the light's readings, ascending
-  std::vector<int> shadow_used;  // indices of shadow-card readings that were subtracted
-  int readings = 0;              // rows of this light, good or bad
-  int off_readings = 0;
+  std::vector<int> rejected;    // indices over the light's readings, ascending
+  std::vector<int> subtracted;  // indices of the shadow-card and lamp-off readings that were
+  int readings = 0;             // rows of this light, good or bad
   int shadow_readings = 0;
   bool by_camera = false;  // one camera's pictures, which share its scale, are all there is
   Warnings warnings;
@@ -66,7 +65,9 @@ struct Observations {
 // inside the lamp or faces away is rejected with the warning row_rejected. Refused:
 // negative_distance, no_distance, not_separated (other lamps were lit in every reading of this one,
 // and none of them was taken with this one off). A reading with other lamps lit counts by its
-// difference from one at the same place with this lamp off and the same others lit. Where one
+// difference from one at the same place with this lamp off and the same others lit; every other one
+// by its difference from one behind a card at the same place, if there is one, or, where other
+// light differs from place to place, from one there with the lamp off. Where one
 // instrument took every reading, sigmas are its repeatability and `calibration` is to be added
 // after the fit; beside another's they hold both. Where the lamp has no position, readings that
 // give theirs keep a distance of 1 until locate.h finds it.
@@ -83,8 +84,8 @@ struct Observations {
 
 // Readings within a thousandth of each other stand at one distance.
 [[nodiscard]] bool SameDistance(double a_m, double b_m);
-// Whether two readings were taken at one place, as they say: within 5 mm, or at one distance and
-// one angle; those that say nothing at all stand together.
+// Whether two readings were taken at one place, as they say: within 5 mm and not turned otherwise,
+// or at one distance and one angle; those that say nothing at all stand together.
 [[nodiscard]] bool SamePlace(const Reading& a, const Reading& b);
 // Whether `row` is what was read behind the card where `reading` was, nothing else lit.
 [[nodiscard]] bool IsCardOf(const SessionReading& row, const Reading& reading);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/reading_geometry.h"
 
 namespace lightcal::fit {
@@ -13,6 +14,8 @@ namespace {
 
 // Of a spot's axis: below it the cone's edge decides all.
 constexpr double kDarkShare = 0.05;
+// Of what was read, for an angle off by its 1 sigma: a reading that alone tells nothing.
+constexpr double kAngleDecides = 0.3;
 
 // What shines to one side, about an axis.
 std::optional<SourceModel> AimedSourceOf(const LightDescription& light) {
@@ -61,12 +64,28 @@ OffAxisPose PoseOf(const PlacedSource& source, OffsetWay way, const Observation&
           way};
 }
 
+// Every reading stands where the lamp falls so steeply that the angle decides what was read.
+void RejectAtEdge(const LightDescription& light, Observations& observations) {
+  for (const Observation& row : observations.rows) {
+    if (!row.lit) continue;
+    observations.rejected.push_back(row.index);
+    observations.warnings.push_back(
+        {"row_rejected", light.name + ", reading " + std::to_string(row.index),
+         "at " + RoundedText(std::abs(row.off_axis_rad) * 180.0 / std::numbers::pi, 3) +
+             " degrees off the axis the lamp as stated falls so steeply that its intensity hangs "
+             "on the angle alone: read on the axis too"});
+  }
+  std::erase_if(observations.rows, [](const Observation& row) { return row.lit; });
+  std::ranges::sort(observations.rejected);
+}
+
 // Each angle is as far off as the axis that all count from, and on which side of the lamp the meter
 // went nobody says. The last two are one error of all such readings: no number of them brings the
 // interval under it.
 void WidenByAngle(const LightDescription& light, const std::optional<SourceModel>& source,
                   Observations& observations) {
   const double sigma = AngleSigma(light).value();
+  std::ptrdiff_t decided = 0;
   const auto count = static_cast<double>(std::ranges::count_if(observations.rows, ByAngle));
   if (count == 0.0 || (!source && !light.distribution)) return;
   for (Observation& row : observations.rows) {
@@ -86,6 +105,10 @@ void WidenByAngle(const LightDescription& light, const std::optional<SourceModel
     const double relative =
         std::sqrt((1.0 + count) * steep * steep + count * here.sd_relative * here.sd_relative);
     row.sigma_lx = std::hypot(row.sigma_lx, relative * row.measured_lx);
+    decided += steep > kAngleDecides ? 1 : 0;
+  }
+  if (decided > 0 && decided == std::ranges::count_if(observations.rows, &Observation::lit)) {
+    RejectAtEdge(light, observations);
   }
 }
 
@@ -98,10 +121,16 @@ Radians AngleSigma(const LightDescription& light) {
 std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
   std::optional<SourceModel> model = ModelOf(light);
   if (!model || !light.position_m) return std::nullopt;
-  const Vec3 along = light.axis.value_or(Vec3{});
-  // A tube known by its axis alone: any direction square to it serves as z.
-  const Vec3 z = light.aim ? *light.aim : SourceFrame::Facing(along).y;
-  return PlacedSource{*model, *light.position_m, SourceFrame::Facing(z, along)};
+  if (light.aim) {
+    return PlacedSource{*model, *light.position_m,
+                        SourceFrame::Facing(*light.aim, light.axis.value_or(Vec3{}))};
+  }
+  // A sphere shines alike all round; of a tube known by its axis any direction square to that
+  // serves as z.
+  constexpr Vec3 kDown = {0.0, 0.0, -1.0};
+  if (!light.axis) return PlacedSource{*model, *light.position_m, SourceFrame::Facing(kDown)};
+  const Vec3 z = SourceFrame::Facing(*light.axis).y;
+  return PlacedSource{*model, *light.position_m, SourceFrame::Facing(z, *light.axis)};
 }
 
 int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& observations) {

@@ -11,6 +11,7 @@
 
 #include "lightcal/fit/model/row_values.h"
 #include "lightcal/light/effects/detector_size.h"
+#include "lightcal/light/effects/haze.h"
 
 namespace lightcal::fit {
 namespace {
@@ -84,6 +85,9 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.direct_gain *= observation.table_part;
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, observation.distance_m);
+  }
+  if (!observation.data_sheet) {
+    row.direct_gain *= effects::HazeFactor(model.haze_per_m, observation.distance_m);
   }
   return row;
 }

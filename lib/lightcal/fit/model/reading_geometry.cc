@@ -16,12 +16,16 @@ namespace {
 // Nearer than this no meter's head fits and no distance is known.
 constexpr double kLeastDistance_m = 1e-3;
 
+// A right angle where one of them has no length.
+double AngleBetween(const Vec3& a, const Vec3& b) {
+  const double lengths = Length(a) * Length(b);
+  const double cosine = lengths > 0.0 ? Dot(a, b) / lengths : 0.0;
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
 ReadingGeometry FromPositions(const Vec3& lamp, const Vec3& meter, const Vec3& normal) {
   const Vec3 to_lamp = lamp - meter;
-  const double distance = Length(to_lamp);
-  const double lengths = distance * Length(normal);
-  const double cosine = lengths > 0.0 ? Dot(to_lamp, normal) / lengths : 0.0;
-  return {distance, std::acos(std::clamp(cosine, -1.0, 1.0)), true};
+  return {Length(to_lamp), AngleBetween(to_lamp, normal), true};
 }
 
 // Absent where the angle off it says enough.
@@ -71,7 +75,8 @@ double TablePartTowards(const LightDescription& light, const Reading& reading) {
   }
   Vec3 towards{0.0, 0.0, -1.0};
   if (reading.position_m && light.position_m) {
-    const LampAxes axes = AxesOfAim(light.aim.value_or(Vec3{0.0, 0.0, -1.0}));
+    const LampAxes axes =
+        AxesOfAim(light.aim.value_or(Vec3{0.0, 0.0, -1.0}), light.axis.value_or(Vec3{}));
     const Vec3 way = *reading.position_m - *light.position_m;
     towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
   }
@@ -85,6 +90,14 @@ Result<ReadingGeometry> GeometryOfReading(const LightDescription& light, const R
   }
   if (lit && reading.off_axis.value() != 0.0) {
     if (auto fault = WithoutAxis(light.kind)) return Refused("no_axis", name, *std::move(fault));
+  }
+  if (light.kind == LightKind::kDirectional && lit && reading.normal) {
+    if (!light.aim) {
+      return Refused("no_aim", name,
+                     "its normal says how the meter was turned, but nobody says where the light "
+                     "comes from: give the light's aim, or the reading's tilt_deg from the light");
+    }
+    return ReadingGeometry{1.0, AngleBetween(*light.aim * -1.0, *reading.normal), true};
   }
   if (!HasDistanceLaw(light.kind)) return ReadingGeometry{1.0, reading.tilt.value(), true};
   if (reading.distance)

@@ -16,9 +16,11 @@ struct ReadingGeometry {
   bool from_center = false;  // by positions, or of a light without a distance law
 };
 
-// From the reading's distance and tilt, or from its position, its normal and the lamp's place.
-// `name` is the row's in errors. Refused: negative_distance, no_distance (lit, and neither distance
-// nor position), no_axis (lit, an angle off the axis of a light that has none or, a tube, two).
+// From the reading's distance and tilt, or from its position, its normal and the lamp's place; of a
+// directional light from its normal and the light's aim. `name` is the row's in errors. Refused:
+// negative_distance, no_distance (lit, and neither distance nor position), no_aim (a normal towards
+// a directional light without one), no_axis (lit, an angle off the axis of a light that has none
+// or, a tube, two).
 [[nodiscard]] Result<ReadingGeometry> GeometryOfReading(const LightDescription& light,
                                                         const Reading& reading,
                                                         const std::string& name, bool lit);

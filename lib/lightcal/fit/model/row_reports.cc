@@ -88,7 +88,7 @@ void FillDiagnostics(const RobustEstimate& estimate, const Prepared& prepared,
                      const Observations& observations, LightEstimate& out) {
   FitDiagnostics& d = out.diagnostics;
   d.readings = observations.readings;
-  d.used = prepared.own_rows + static_cast<int>(observations.shadow_used.size());
+  d.used = prepared.own_rows + static_cast<int>(observations.subtracted.size());
   d.rejected = observations.rejected;
   for (const int row : estimate.rejected) {
     if (row >= prepared.own_rows) continue;

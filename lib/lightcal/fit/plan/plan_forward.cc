@@ -11,6 +11,7 @@
 #include "lightcal/fit/plan/scene_of_session.h"
 #include "lightcal/light/effect_cost.h"
 #include "lightcal/light/effects/detector_size.h"
+#include "lightcal/light/effects/haze.h"
 #include "lightcal/light/effects/room_bounce.h"
 #include "lightcal/light/gate.h"
 #include "lightcal/light/room_bounce.h"
@@ -85,6 +86,7 @@ void ModelEffect(const Scene& scene, const LightDescription& light,
   if (name == "finite_source") model.shape = AxialShapeOf(light.kind, scene.size);
   if (name == "meter_tilt") model.tilt = true;
   if (name == "detector_size") model.head_radius_m = scene.head_radius->value();
+  if (name == "haze") model.haze_per_m = *scene.time.haze_per_metre;
   if (name == "sphere_surface" && light.diameter) {
     model.surface_radius_m = 0.5 * light.diameter->value();
   }
@@ -158,6 +160,8 @@ std::optional<double> ContributionOf(const EffectReport& effect, const ForwardMo
       part = model.bounce_per_candela[i] * d * d;
     } else if (effect.name == "detector_size" && model.head_radius_m > 0.0) {
       part = effects::DetectorFactor(model.head_radius_m, d) - 1.0;
+    } else if (effect.name == "haze" && model.haze_per_m > 0.0) {
+      part = effects::HazeFactor(model.haze_per_m, d) - 1.0;
     } else if (effect.name == "sphere_surface" && model.surface_radius_m > 0.0) {
       part = d * d / ((d + model.surface_radius_m) * (d + model.surface_radius_m)) - 1.0;
     } else {
@@ -235,7 +239,9 @@ Result<LampInPictures> FindLampInPictures(const Session& session, const LightDes
         effect.name == "mains" || effect.name == "warm_up" || effect.name == "haze";
     if (!effect.finding.applies || !(of_lamp || (of_shutter && !level_by_meter))) continue;
     out.effects.push_back(ReportOf(effect, scene, settings));
-    if (const double sd = WidensBy(effect); sd > 0.0) {
+    // No row of a reading's own holds the air here.
+    const bool no_row = effect.finding.treatment == Treatment::kModelled;
+    if (const double sd = no_row ? 0.5 * effect.finding.bound : WidensBy(effect); sd > 0.0) {
       out.parts.push_back({std::string(effect.name), sd * sd});
     }
   }

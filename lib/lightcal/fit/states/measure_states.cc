@@ -9,10 +9,10 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
-#include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/states/drift.h"
+#include "lightcal/fit/states/predicted_reading.h"
 #include "lightcal/fit/states/split_geometries.h"
 #include "lightcal/light/fixture.h"
 
@@ -39,7 +39,8 @@ struct Background {
 
 class Measuring {
  public:
-  Measuring(const Session& session, FittedLight& light) : session_(session), light_(light) {
+  Measuring(const Session& session, const LightDescription& description, FittedLight& light)
+      : session_(session), description_(description), light_(light) {
     Note(session.readings);
     Note(session.state_readings);
     const bool surely_dark = session.surroundings == Surroundings::kDark;
@@ -170,21 +171,16 @@ class Measuring {
       if (is_reference) there.variance = 0.0;
       return ReferenceLog{there, false};
     }
-    if (!reading.distance) return std::nullopt;
-    const auto facing = PredictInRoom(light_, *reading.distance, 0.0);
-    const auto alone = PredictIlluminance(light_, *reading.distance, 0.0);
-    if (!facing || !alone) return std::nullopt;
-    const Uncertain& lux = *facing ? (*facing)->whole_lx : alone->model_lx;
-    const double ambient = light_.ambient_lx ? light_.ambient_lx->value : 0.0;
-    if (!(lux.value > ambient)) return std::nullopt;
+    const auto predicted = PredictReading(description_, light_, reading);
+    if (!predicted) return std::nullopt;
     const double own = light_.meter ? light_.meter->calibration_relative : 0.0;
-    const double sd = lux.u95 / kZ95 / lux.value;
+    const double sd = predicted->sd_relative;
     const double variance = std::max(1e-4 * sd * sd, sd * sd - own * own);
-    return ReferenceLog{
-        {std::log((lux.value - ambient) * std::cos(reading.tilt.value())), variance}, true};
+    return ReferenceLog{{std::log(predicted->lux), variance}, true};
   }
 
   const Session& session_;
+  const LightDescription& description_;
   FittedLight& light_;
   std::vector<StateReadings> states_;
   std::vector<const SessionReading*> off_;
@@ -250,7 +246,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
                    CctMethod cct_method, FittedLight& light, Warnings& warnings) {
   light.state = ReferenceState(session, light.name);
   if (light.state.empty()) return;
-  const Measuring measuring(session, light);
+  const Measuring measuring(session, description, light);
   const OtherLight others(session, description, light);
   std::vector<MeasuredState> out;
   bool other_geometry = false;

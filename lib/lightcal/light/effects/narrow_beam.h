@@ -63,8 +63,8 @@ namespace lightcal::effects {
                                                             : 1.0 / BeamFactor(exponent, y) - 1.0);
   }
   return {std::min(1.0, bound), Treatment::kFitted, 0.0,
-          radius ? "beam and size stated; the distance offset takes up what remains"
-                 : "beam stated, a 6 cm lamp assumed; the distance offset takes up what remains"};
+          radius ? "of such a beam and size; the distance offset takes up what remains"
+                 : "of such a beam, of a 6 cm lamp; the distance offset takes up what remains"};
 }
 
 }  // namespace lightcal::effects
