@@ -71,14 +71,18 @@ def make_everything(lightcal, folder):
 
 def opened(lightcal, strace, session, folder):
     """How often each file of the session was opened, by name."""
+    for stale in folder.glob("calls.*"):
+        stale.unlink()
     log = folder / "calls"
-    run = subprocess.run([strace, "-f", "-o", log, "-e", "trace=open,openat",
+    # A log a thread: in one file a call that another cuts in two is no line any more.
+    run = subprocess.run([strace, "-ff", "-o", log, "-e", "trace=open,openat",
                           lightcal, "run", session, "-o", folder / "out"],
                          capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"{session.name}: {run.stderr}")
     counts = collections.Counter()
-    for path in OPENED.findall(log.read_text(errors="replace")):
+    calls = "".join(own.read_text(errors="replace") for own in folder.glob("calls.*"))
+    for path in OPENED.findall(calls):
         if path.startswith(str(session)) and pathlib.Path(path).is_file():
             counts[str(pathlib.Path(path).relative_to(session))] += 1
     return counts
