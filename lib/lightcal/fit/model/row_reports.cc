@@ -34,6 +34,14 @@ Scatter ScatterOf(const Estimation& estimation, const Theta& theta) {
   return out;
 }
 
+// measured/predicted - 1; a finite number too where the model sends no light at all, as beyond the
+// edge of a cone.
+double RelativeTo(double predicted, double measured) {
+  constexpr double kMost = 1e6;
+  if (std::abs(predicted) * kMost > std::abs(measured)) return measured / predicted - 1.0;
+  return measured == 0.0 ? 0.0 : std::copysign(kMost, measured);
+}
+
 }  // namespace
 
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
@@ -131,7 +139,7 @@ void FillResiduals(const RobustEstimate& estimate, const Estimation& all, const 
                           WallsPerCandela(row, estimate.theta.data()) *
                           ScaleOfRow(row, estimate.theta.data()) * prepared.scales.illuminance_lx;
     }
-    residual.relative = o.measured_lx / predicted - 1.0;
+    residual.relative = RelativeTo(predicted, o.measured_lx);
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
     residual.used = std::find(estimate.rejected.begin(), estimate.rejected.end(),
                               static_cast<int>(i)) == estimate.rejected.end();
