@@ -34,10 +34,6 @@ TypedCommand DescribeParser(const CLI::App& parser, std::vector<std::string> pat
   return command;
 }
 
-}  // namespace
-
-namespace {
-
 constexpr std::string_view kMany = " ...", kAgain = " [again: more]";
 
 class SaysWhatRepeats : public CLI::Formatter {

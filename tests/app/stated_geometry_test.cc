@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -60,6 +61,14 @@ double HalfWidth(const json& value) {
   return (High(value) - Low(value)) / 2.0 / double(value["value"]);
 }
 bool Holds(const json& value, double truth) { return Low(value) <= truth && truth <= High(value); }
+
+std::vector<std::string> FilesIn(const std::string& folder, const std::string& extension) {
+  std::vector<std::string> out;
+  for (const auto& file : std::filesystem::directory_iterator(folder)) {
+    if (file.path().extension() == extension) out.push_back(file.path().string());
+  }
+  return out;
+}
 
 std::string At(double x, double y, double z, const std::string& normal) {
   std::ostringstream text;
@@ -303,6 +312,12 @@ TEST(StatedGeometry, APhotometricLampIsTurnedAboutItsAim) {
       LightcalJson("simulate", {session, "--at", "0,2,0", "--at", "2,0,0", "--normal", "0,0,1"});
   EXPECT_NEAR(double(shown["points"][0]["illuminance_lx"]["value"]), 300.0 * slant, 0.5);
   EXPECT_NEAR(double(shown["points"][1]["illuminance_lx"]["value"]), 100.0 * slant, 0.5);
+  const std::string out = folder.path() + "/out";
+  ASSERT_EQ(RunLightcal({"run", session, "-o", out, "--to", "ies", "--quiet"}).exit_code, 0);
+  const auto files = FilesIn(out, ".ies");
+  ASSERT_EQ(files.size(), 1U);
+  const json checked = LightcalJson("check", {files[0], "--session", session});
+  EXPECT_LT(double(checked["rms_relative"]), 0.01) << checked;
 }
 
 // A softbox's distance may be counted from its mount or from its front.

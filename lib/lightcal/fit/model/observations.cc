@@ -83,10 +83,7 @@ class Collector {
     observation.index = index;
     observation.lit = lit;
     observation.behind_card = reading.shadow_card;
-    observation.distance_m = geometry->distance_m;
     observation.placed = reading.distance || reading.position_m;
-    observation.tilt_rad = geometry->tilt_rad;
-    observation.off_axis_rad = reading.off_axis.value();
     observation.measured_lx = observation.raw_lx =
         (reading.under_range ? kUnderRangeMean : 1.0) * reading.illuminance->value();
     observation.over_range = reading.over_range;
@@ -94,10 +91,7 @@ class Collector {
     observation.picture = ByOwnScale(reading);
     observation.sees_walls = HoldsWallLight(session_, light_, reading);
     observation.of_luminance = ShowsTheLampAlone(reading);
-    observation.measured_from_center = geometry->from_center;
-    observation.position_m = reading.position_m;
-    observation.table_part = TablePartTowards(light_, reading);
-    if (reading.normal) observation.normal = *reading.normal * (1.0 / Length(*reading.normal));
+    StandMeter(light_, reading, *geometry, observation);
     observation.calibration = CalibrationRelative(session_, reading);
     observation.instrument = InstrumentIndex(reading);
     const double sigma = SigmaOf(reading);
@@ -343,6 +337,17 @@ class Collector {
 };
 
 }  // namespace
+
+void StandMeter(const LightDescription& light, const Reading& reading,
+                const ReadingGeometry& geometry, Observation& row) {
+  row.distance_m = geometry.distance_m;
+  row.tilt_rad = geometry.tilt_rad;
+  row.measured_from_center = geometry.from_center;
+  row.off_axis_rad = reading.off_axis.value();
+  row.position_m = reading.position_m;
+  if (reading.normal) row.normal = *reading.normal * (1.0 / Length(*reading.normal));
+  row.table_part = TablePartTowards(light, reading);
+}
 
 bool HasDistanceLaw(LightKind kind) {
   return kind != LightKind::kDirectional && kind != LightKind::kDome;

@@ -46,6 +46,12 @@ struct Observation {
   double emission = 1.0;                // E/I there over cos(tilt)/d^2
 };
 
+struct ReadingGeometry;
+
+// Fills where the reading's meter stood and how it was turned, and what a table sends there.
+void StandMeter(const LightDescription& light, const Reading& reading,
+                const ReadingGeometry& geometry, Observation& row);
+
 // Whether it tells how the lamp shines towards a place.
 [[nodiscard]] inline bool LitAndPlaced(const Observation& row) {
   return row.lit && row.position_m && row.measured_from_center && !row.over_range;

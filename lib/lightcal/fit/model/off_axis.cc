@@ -8,6 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/reading_geometry.h"
+#include "lightcal/light/models/body_of.h"
 
 namespace lightcal::fit {
 namespace {
@@ -17,14 +18,14 @@ constexpr double kDarkShare = 0.05;
 // Of what was read, for an angle off by its 1 sigma: a reading that alone tells nothing.
 constexpr double kAngleDecides = 0.3;
 
+std::optional<SourceModel> BodyOf(const LightDescription& light) {
+  return lightcal::BodyOf(light.kind,
+                          {light.diameter, light.width, light.height, light.length, light.radius});
+}
+
 // What shines to one side, about an axis.
 std::optional<SourceModel> AimedSourceOf(const LightDescription& light) {
-  if (light.kind == LightKind::kDisk && light.diameter) {
-    return DiskSource{0.5 * light.diameter->value()};
-  }
-  if (light.kind == LightKind::kRect && light.width && light.height) {
-    return RectSource{0.5 * light.width->value(), 0.5 * light.height->value()};
-  }
+  if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) return BodyOf(light);
   if (light.kind == LightKind::kSpot && light.outer) {
     return SpotSource{{light.inner.value_or(Radians(0.0)), *light.outer}};
   }
@@ -32,12 +33,8 @@ std::optional<SourceModel> AimedSourceOf(const LightDescription& light) {
 }
 
 std::optional<SourceModel> ModelOf(const LightDescription& light) {
-  if (light.kind == LightKind::kSphere && light.diameter) {
-    return SphereSource{0.5 * light.diameter->value()};
-  }
-  if (light.kind == LightKind::kTube && light.length && (light.aim || light.axis)) {
-    return TubeSource{0.5 * light.length->value(), light.radius.value_or(Metres(0.0)).value()};
-  }
+  const bool tube = light.kind == LightKind::kTube && (light.aim || light.axis);
+  if (light.kind == LightKind::kSphere || tube) return BodyOf(light);
   return light.aim ? AimedSourceOf(light) : std::nullopt;
 }
 
@@ -71,7 +68,7 @@ void RejectAtEdge(const LightDescription& light, Observations& observations) {
     observations.rejected.push_back(row.index);
     observations.warnings.push_back(
         {"row_rejected", light.name + ", reading " + std::to_string(row.index),
-         "at " + RoundedText(std::abs(row.off_axis_rad) * 180.0 / std::numbers::pi, 3) +
+         "at " + RoundedText(DegreesFromRadians(Radians(std::abs(row.off_axis_rad))), 3) +
              " degrees off the axis the lamp as stated falls so steeply that its intensity hangs "
              "on the angle alone: read on the axis too"});
   }

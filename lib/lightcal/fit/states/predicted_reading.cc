@@ -18,14 +18,8 @@ std::optional<Observation> ObservationAt(const LightDescription& light, const Re
   const auto geometry = GeometryOfReading(light, reading, {}, true);
   if (!geometry || !FaultOfReading(light, reading, *geometry, true).empty()) return std::nullopt;
   Observation row;
-  row.distance_m = geometry->distance_m;
-  row.tilt_rad = geometry->tilt_rad;
-  row.measured_from_center = geometry->from_center;
-  row.off_axis_rad = reading.off_axis.value();
+  StandMeter(light, reading, *geometry, row);
   row.measured_lx = row.raw_lx = 1.0;
-  row.position_m = reading.position_m;
-  if (reading.normal) row.normal = *reading.normal * (1.0 / Length(*reading.normal));
-  row.table_part = TablePartTowards(light, reading);
   Observations one;
   one.rows = {row};
   PlaceOnSource(light, false, one);

@@ -8,35 +8,9 @@
 #include <optional>
 
 #include "lightcal/light/effects/effect.h"
-#include "lightcal/light/models/source_model.h"
+#include "lightcal/light/models/body_of.h"
 
 namespace lightcal::effects {
-
-// The source as a body before the meter; absent where its size is not known.
-[[nodiscard]] inline std::optional<SourceModel> BodyOf(const Scene& scene) {
-  const SourceSize& size = scene.size;
-  switch (scene.kind) {
-    case LightKind::kSphere:
-      if (size.diameter) return SphereSource{0.5 * size.diameter->value()};
-      break;
-    case LightKind::kDisk:
-      if (size.diameter) return DiskSource{0.5 * size.diameter->value()};
-      break;
-    case LightKind::kRect:
-      if (size.width && size.height) {
-        return RectSource{0.5 * size.width->value(), 0.5 * size.height->value()};
-      }
-      break;
-    case LightKind::kTube:
-      if (size.length) {
-        return TubeSource{0.5 * size.length->value(), size.radius.value_or(Metres(0.0)).value()};
-      }
-      break;
-    default:
-      break;
-  }
-  return std::nullopt;
-}
 
 // The largest |E/(E0 cos t) - 1| over all directions in which a meter on the axis can be tilted by
 // t, E by the exact form that the meter's plane cuts, E0 facing: without a cut E follows the cosine
@@ -64,7 +38,7 @@ namespace lightcal::effects {
   if (!FollowsDistance(scene)) return NotApplicable("no distance law");
   if (!radius) return {0.0, Treatment::kModelled, 0.0, "a point is above the horizon or below it"};
   const bool ball = scene.kind == LightKind::kSphere;
-  const std::optional<SourceModel> body = BodyOf(scene);
+  const std::optional<SourceModel> body = BodyOf(scene.kind, scene.size);
   bool cut = false;
   bool placed = true;
   double bound = 0.0;

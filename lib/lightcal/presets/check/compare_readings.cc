@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lightcal/light/lamp_axes.h"
 #include "lightcal/records/light_curve.h"
 
 namespace lightcal {
@@ -25,16 +26,10 @@ struct MeteredLamp {
   const LightDescription& description;
   const FittedLight& fitted;
   Vec3 place_m{}, aim{0.0, 0.0, -1.0};
+  LampAxes axes{};
   bool turned = false;
   double offset_m = 0.0, surface_m = 0.0;  // surface: of a sphere that distances count from
 };
-
-// Any direction of unit length at a right angle.
-Vec3 SquareTo(const Vec3& v) {
-  const Vec3 other = std::abs(v[2]) < 0.9 * Length(v) ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
-  const Vec3 square = Cross(v, other);
-  return square * (1.0 / Length(square));
-}
 
 MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
   MeteredLamp lamp{description, fitted};
@@ -42,8 +37,9 @@ MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight
   const LightKind kind = description.kind;
   if (description.aim && kind != LightKind::kDome) lamp.aim = *description.aim;
   if (!description.aim && kind == LightKind::kTube && description.axis) {
-    lamp.aim = SquareTo(*description.axis);
+    lamp.aim = AxesOfAim(*description.axis).c0;  // any that is square to it
   }
+  lamp.axes = AxesOfAim(lamp.aim, description.axis.value_or(Vec3{}));
   lamp.turned = description.aim || kind == LightKind::kSpot || kind == LightKind::kDisk ||
                 kind == LightKind::kRect || kind == LightKind::kPhotometric;
   if (fitted.distance_offset_m) lamp.offset_m = fitted.distance_offset_m->value;
@@ -56,26 +52,22 @@ MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight
 std::vector<Vec3> WaysFrom(const MeteredLamp& lamp, double off_axis_rad) {
   constexpr int kSides = 16;
   if (off_axis_rad == 0.0) return {lamp.aim};
-  const Vec3 x = SquareTo(lamp.aim);
-  const Vec3 y = Cross(x, lamp.aim);
   std::vector<Vec3> ways;
   for (int i = 0; i < kSides; ++i) {
     const double round = 2.0 * std::numbers::pi * i / kSides;
-    const Vec3 aside = x * std::cos(round) + y * std::sin(round);
+    const Vec3 aside = lamp.axes.c0 * std::cos(round) + lamp.axes.c90 * std::sin(round);
     ways.push_back(lamp.aim * std::cos(off_axis_rad) + aside * std::sin(off_axis_rad));
   }
   return ways;
 }
 
-// A photometric file's light where the lamp hangs, C0 to the right as seen from behind it.
+// A photometric file's light where the lamp hangs, turned about its aim as it does.
 EngineLight PlacedLike(const MeteredLamp& lamp, EngineLight light) {
   light.position_m = lamp.place_m - lamp.aim * (lamp.turned ? lamp.offset_m : 0.0);
   light.offset_m = lamp.turned ? 0.0 : lamp.offset_m;
   light.aim = lamp.aim;
-  const Vec3 level = {lamp.aim[1], -lamp.aim[0], 0.0};
-  const double length = Length(level);
-  light.x = length > 1e-9 ? level * (1.0 / length) : Vec3{1.0, 0.0, 0.0};
-  light.y = Cross(light.x, lamp.aim);
+  light.x = lamp.axes.c0;
+  light.y = lamp.axes.c90;
   return light;
 }
 

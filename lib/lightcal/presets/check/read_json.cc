@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/check/json_reader_parts.h"
 #include "lightcal/presets/exporters.h"
 
@@ -16,22 +17,14 @@ using Json = nlohmann::json;
 // The lamp's own axes: a width or a length along "axis", else level, to the right as seen from
 // behind the lamp.
 void TakeAxes(const Json& geometry, EngineLight& light) {
-  const bool aimless = !geometry.contains("aim") && geometry.contains("axis");
-  if (aimless) {  // a tube shines to its side
-    const Vec3 axis = VecFrom(geometry["axis"]);
-    light.aim = Cross(
-        axis, std::abs(axis[2]) < 0.9 * Length(axis) ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0});
+  const Vec3 along = geometry.contains("axis") ? VecFrom(geometry["axis"]) : Vec3{};
+  if (!geometry.contains("aim") && Length(along) > 0.0) {
+    light.aim = AxesOfAim(along).c0;  // a tube shines to its side
   }
   light.aim = light.aim * (1.0 / Above0(light.name + ": the length of its aim", Length(light.aim)));
-  const Vec3 along = geometry.contains("axis") ? VecFrom(geometry["axis"]) : Vec3{};
-  const Vec3 level = {light.aim[1], -light.aim[0], 0.0};
-  light.x = {1.0, 0.0, 0.0};
-  for (const Vec3& way : {along - light.aim * Dot(along, light.aim), level}) {
-    if (!(Length(way) > 1e-9)) continue;
-    light.x = way * (1.0 / Length(way));
-    break;
-  }
-  light.y = Cross(light.x, light.aim);
+  const LampAxes axes = AxesOfAim(light.aim, along);
+  light.x = axes.c0;
+  light.y = axes.c90;
 }
 
 // A luminous face or mantle of that intensity. Without a size so small that none is seen.
