@@ -3,17 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "calibration_options.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lightcal/calibrate/lux_in_room.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
-#include "lightcal/fit/fit_light.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 #include "simulate/lamp_places.h"
@@ -185,57 +184,14 @@ Result<void> CheckInRoom(const Simulated& simulated) {
   return {};
 }
 
-// The whole with what a point may shine more or less that way than where it was read.
-Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double direct_lx,
-                      const Vec3& way) {
-  if (!light.uneven) return whole;
-  const double share = direct_lx / whole.value;
-  const double pattern = kZ95 * share * SdTowards(*light.uneven, way * (-1.0 / Length(way)));
-  Uncertain out = whole;
-  out.low = whole.value * std::exp(-std::hypot(std::log(whole.value / *whole.low), pattern));
-  out.high = whole.value * std::exp(std::hypot(std::log(*whole.high / whole.value), pattern));
-  out.u95 = std::hypot(whole.u95, pattern * whole.value);
-  return out;
-}
-
-// What a meter sees of each lamp and of what it lights, in the room it was measured in. Turned away
-// from the lamp a meter sees other walls: the tracer's surfaces differ so much.
+// Of the room the lamps were measured in; another, stated one is simulated.
 void PredictRooms(const SimulateOptions& options, const Input& input, Simulated& simulated) {
   const auto chosen = ChooseLights(input.lights, options.lights);
   if (!chosen || simulated.settings.room || chosen->size() != simulated.lamps.size()) return;
-  constexpr double kFacing = 0.98;
-  constexpr double kOtherWalls = 0.4;  // 1 sigma of ln E_walls
   for (PredictedPoint& point : simulated.points) {
-    point.in_room.assign(simulated.lamps.size(), std::nullopt);
     for (std::size_t k = 0; k < simulated.lamps.size(); ++k) {
-      const PlacedLamp& lamp = simulated.lamps[k];
-      if (IsEverywhere(lamp.source)) continue;
-      const Vec3 way = lamp.pose.position_m - point.at.position_m;
-      const double distance = Length(way);
-      if (!(distance > 0.0)) continue;
-      const LampLux& part = point.parts[k];
-      const FittedLight& light = *(*chosen)[k];
-      if (light.located) {
-        const bool moved = lamp.pose.position_m != light.located->position_m;
-        if (moved) continue;
-        point.in_room[k] = PredictInRoom(
-            light, {point.at.position_m, point.at.normal, part.direct_lx / lamp.strength});
-        continue;
-      }
-      const auto room = PredictInRoom(light, Metres(distance), 0.0);
-      if (!room || !*room) continue;
-      const bool even = std::holds_alternative<PointSource>(lamp.source) ||
-                        std::holds_alternative<SphereSource>(lamp.source);
-      const bool on_axis = even || -Dot(lamp.pose.frame.z, way) > kFacing * distance;
-      if (Dot(way, point.at.normal) > kFacing * distance && on_axis) {
-        point.in_room[k] = WithPattern((*room)->whole_lx, light, part.direct_lx, way);
-        continue;
-      }
-      const double walls = (*room)->walls_lx.value;
-      const double own = (*room)->walls_lx.u95;
-      const double u95 = std::hypot(part.u95_lx, own, kZ95 * kOtherWalls * walls);
-      const double lux = part.direct_lx + walls;
-      point.in_room[k] = Uncertain{lux, u95, std::max(0.0, lux - u95), lux + u95};
+      point.in_room.push_back(
+          LuxInRoom(*(*chosen)[k], simulated.lamps[k], point.parts[k], point.at));
     }
   }
 }

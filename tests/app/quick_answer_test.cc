@@ -186,6 +186,25 @@ TEST(QuickAnswer, AtADistanceTheLampAloneAndTheRoomAreTwoNumbers) {
               Not(HasSubstr("in the room ")));
 }
 
+// What the lamp is decides strength and place of its light together: one normal for both foretold
+// 132 to 320 lx where 203 +- 10 % had been read.
+TEST(QuickAnswer, AtTheDistanceReadItForetellsWhatWasRead) {
+  const auto foretold = [](const std::vector<std::string>& words) {
+    std::vector<std::string> asked = {"quick", "203lx@0.5m", "--meter", "10%", "--json"};
+    asked.insert(asked.end(), words.begin(), words.end());
+    const json at = json::parse(Said(asked))["predictions"][0];
+    return std::pair(at["model_lx"], at.value("in_room_lx", at["model_lx"]));
+  };
+  const auto [dark, whole] = foretold({"--room", "dark", "--at", "0.5m"});
+  EXPECT_NEAR(dark["value"], 203.0, 1.0);
+  EXPECT_NEAR(dark["u95"], 0.107 * 203.0, 2.0) << "the meter's, and a reading's own 1 %";
+  const auto [alone, in_room] = foretold({"--at", "0.5m"});
+  EXPECT_NEAR(in_room["value"], 203.0, 1.0);
+  EXPECT_LT(alone["high95"], 1.02 * in_room["high95"].get<double>()) << "without the walls";
+  const auto [far, there] = foretold({"--at", "2m"});
+  EXPECT_LT(far["high95"], there["high95"]);
+}
+
 // ---- many ----
 
 std::string TwoHundredLamps() {

@@ -123,6 +123,8 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   EXPECT_EQ(back.meter->calibration_relative, 0.031);
   EXPECT_EQ(back.of_file->value, 0.78);
   EXPECT_EQ(back.residuals.at(0).walls_lx, 8.25);
+  for (LampInRoom& part : light.in_room) part.ln_b.reset();
+  EXPECT_FALSE(Back(JsonOf(file)).lights.at(0).in_room.at(1).ln_b.has_value());
 }
 
 TEST(LightJson, DiagnosticsComeBack) {

@@ -129,6 +129,18 @@ PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln) {
   return doubt;
 }
 
+// What the lamp may be, where that is more than one thing.
+std::vector<LampPart> PartsOf(const FittedLight& light) {
+  constexpr int n = LampInRoom::kCount;
+  std::vector<LampPart> parts;
+  if (light.in_room.size() < 2) return parts;
+  for (const LampInRoom& one : light.in_room) {
+    parts.push_back({one.weight, one.ln_intensity, one.distance_offset_m, one.width_m, one.height_m,
+                     one.covariance[0], one.covariance[n + 1], one.covariance[1]});
+  }
+  return parts;
+}
+
 LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stated_position) {
   LampDoubt doubt;
   const double sd = SdOfLog(strength);
@@ -138,6 +150,7 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
     doubt.variance_ln = c[0];
     doubt.covariance = c[1];
     doubt.variance_offset = c[4];
+    doubt.parts = PartsOf(light);
   } else if (light.distance_offset_m) {
     const double offset = light.distance_offset_m->u95 / kZ95;
     doubt.variance_offset = offset * offset;
@@ -217,6 +230,7 @@ class Placer {
     if (OffsetHoldsRadius(light)) {
       lamp.pose.offset_m = 0.0;
       lamp.doubt.variance_offset = lamp.doubt.covariance = 0.0;
+      lamp.doubt.parts.clear();
     }
     if (std::holds_alternative<SpotSource>(lamp.source)) return lamp;
     lamp.doubt.inner_rad = lamp.doubt.outer_rad = 0.0;

@@ -66,7 +66,7 @@ struct LightEstimate {
   // How likely what a data sheet prints is this lamp's; 0: none, or the readings deny it.
   double sheet_held = 0.0;
   std::vector<double> walls_per_candela;  // lx/cd beside the observations; empty = none fitted
-  std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = no walls fitted
+  std::vector<LampInRoom> in_room;        // what lamp and room may be; empty = one normal, no walls
   // The readings cannot tell the intensity from 0: an upper limit replaces it.
   std::optional<double> upper_limit;
   std::optional<SampledEstimate> sampled;  // where it was asked for

@@ -49,7 +49,8 @@ struct FittedSession {
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval
-// of the model alone and of one further reading with relative sigma `sigma_relative`.
+// of the model alone and of one further reading with relative sigma `sigma_relative`: the mixture
+// of light.in_room without its walls, each ln E normal, or one normal where that is empty.
 struct PredictedIlluminance {
   Uncertain model_lx;
   Uncertain reading_lx;

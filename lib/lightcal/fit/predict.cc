@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/reading_model.h"
 #include "lightcal/fit/model/solve.h"
 #include "lightcal/light/wall_prior.h"
@@ -63,40 +63,73 @@ double VarianceOfLog(const FittedLight& light, const Uncertain& strength,
 }
 
 // One of the things that lamp and room may be, at one distance.
-struct AtDistance {
-  double ln_whole = 0.0, variance = 0.0;
-  double ln_walls = 0.0, walls_variance = 0.0;
-};
-
-AtDistance Of(const LampInRoom& one, const fit::ReadingRow& bare, double distance_m) {
-  constexpr int n = LampInRoom::kCount;
-  fit::ReadingRow row = bare;
-  if (one.width_m > 0.0) {
+class PartAtDistance {
+ public:
+  PartAtDistance(const LampInRoom& one, const fit::ReadingRow& bare, double distance_m)
+      : one_(one), row_(bare), x_(std::log(distance_m / kWallReference_m)) {
+    if (!(one.width_m > 0.0)) return;
     SourceSize size;
     size.width = Metres(one.width_m);
     size.height = Metres(one.height_m);
-    row.shape = AxialShapeOf(LightKind::kRect, size);
+    row_.shape = AxialShapeOf(LightKind::kRect, size);
   }
-  const double x = std::log(distance_m / kWallReference_m);
-  row.walls = fit::WallsOfRow{x, one.bend * x * x, one.scatter};
-  const fit::Theta theta = {one.ln_intensity, one.distance_offset_m, one.ambient_lx, one.ln_b,
-                            one.slope};
-  const fit::RowDerivative whole = fit::DifferentiateRow(row, theta);
-  const std::array<double, fit::kParameters> walls = {1.0, 0.0, 0.0, 1.0, x};
-  const auto variance = [&](const std::array<double, fit::kParameters>& gradient) {
+
+  [[nodiscard]] NormalPart Alone() const {
+    const fit::RowDerivative at = fit::DifferentiateRow(row_, Theta());
+    return {one_.weight, -at.residual, std::sqrt(Variance(at.gradient))};
+  }
+  [[nodiscard]] NormalPart Walls() const {
+    const double ln = one_.ln_intensity + std::log(fit::WallsPerCandela(Lit(), Theta().data()));
+    return {one_.weight, ln,
+            std::hypot(std::sqrt(Variance({1.0, 0.0, 0.0, 1.0, x_})), one_.scatter)};
+  }
+  [[nodiscard]] NormalPart Whole(const NormalPart& walls) const {
+    const fit::RowDerivative at = fit::DifferentiateRow(Lit(), Theta());
+    const double share = std::exp(walls.mean + at.residual);
+    return {one_.weight, -at.residual,
+            std::hypot(std::sqrt(Variance(at.gradient)), share * one_.scatter)};
+  }
+
+ private:
+  using Gradient = std::array<double, fit::kParameters>;
+
+  [[nodiscard]] fit::Theta Theta() const {
+    return {one_.ln_intensity, one_.distance_offset_m, one_.ambient_lx, one_.ln_b.value_or(0.0),
+            one_.slope};
+  }
+  [[nodiscard]] fit::ReadingRow Lit() const {
+    fit::ReadingRow row = row_;
+    row.walls = fit::WallsOfRow{x_, one_.bend * x_ * x_, one_.scatter};
+    return row;
+  }
+  [[nodiscard]] double Variance(const Gradient& gradient) const {
+    constexpr int n = LampInRoom::kCount;
     double sum = 0.0;
     for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) sum += gradient[i] * gradient[j] * one.covariance[i * n + j];
+      for (int j = 0; j < n; ++j) sum += gradient[i] * gradient[j] * one_.covariance[i * n + j];
     }
     return std::max(0.0, sum);
-  };
-  AtDistance out;
-  out.ln_whole = -whole.residual;
-  out.ln_walls = one.ln_intensity + std::log(fit::WallsPerCandela(row, theta.data()));
-  const double share = std::exp(out.ln_walls - out.ln_whole);
-  out.variance = variance(whole.gradient) + std::pow(share * one.scatter, 2.0);
-  out.walls_variance = variance(walls) + one.scatter * one.scatter;
+  }
+
+  const LampInRoom& one_;
+  fit::ReadingRow row_;
+  double x_;  // of the walls' law
+};
+
+// What stands before its effective source, as each part has that, at one distance.
+std::vector<PartAtDistance> PartsAt(const FittedLight& light, const fit::ReadingRow& bare,
+                                    double distance_m) {
+  std::vector<PartAtDistance> out;
+  for (const LampInRoom& one : light.in_room) {
+    if (bare.distance + one.distance_offset_m > 0.0) out.emplace_back(one, bare, distance_m);
+  }
   return out;
+}
+
+// Each part as one further reading scatters about it.
+std::vector<NormalPart> Read(std::vector<NormalPart> parts, double sigma_relative) {
+  for (NormalPart& part : parts) part.sd = std::hypot(part.sd, sigma_relative);
+  return parts;
 }
 
 }  // namespace
@@ -116,6 +149,16 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
                    "no illuminance is defined " + ShortestText(distance.value()) +
                        " m from the lamp: its effective source lies there or beyond");
   }
+  if (light.in_room.size() > 1 && !no_distance) {
+    std::vector<NormalPart> alone;
+    for (const PartAtDistance& part : PartsAt(light, row, distance.value())) {
+      alone.push_back(part.Alone());
+    }
+    if (!alone.empty()) {
+      return PredictedIlluminance{UncertainFromLogMixture(alone),
+                                  UncertainFromLogMixture(Read(alone, sigma_relative))};
+    }
+  }
   const fit::Theta theta = {std::log(strength->value), d0, ambient};
   const fit::RowDerivative at = fit::DifferentiateRow(row, theta);
   const double variance = VarianceOfLog(light, *strength, at.gradient);
@@ -128,22 +171,20 @@ Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light,
                                                        double sigma_relative) {
   const auto alone = PredictIlluminance(light, distance, sigma_relative);
   if (!alone) return tl::unexpected(alone.error());
-  if (light.in_room.empty()) return std::optional<IlluminanceInRoom>();
+  if (light.in_room.empty() || !light.in_room.front().ln_b) {
+    return std::optional<IlluminanceInRoom>();
+  }
   const fit::ReadingRow bare = RowAt(light, distance.value());
-  std::vector<fit::NormalPart> whole;
-  std::vector<fit::NormalPart> reading;
-  std::vector<fit::NormalPart> walls;
-  for (const LampInRoom& one : light.in_room) {
-    if (!(bare.distance + one.distance_offset_m > 0.0)) continue;
-    const AtDistance at = Of(one, bare, distance.value());
-    whole.push_back({one.weight, at.ln_whole, std::sqrt(at.variance)});
-    reading.push_back({one.weight, at.ln_whole, std::hypot(whole.back().sd, sigma_relative)});
-    walls.push_back({one.weight, at.ln_walls, std::sqrt(at.walls_variance)});
+  std::vector<NormalPart> whole;
+  std::vector<NormalPart> walls;
+  for (const PartAtDistance& part : PartsAt(light, bare, distance.value())) {
+    walls.push_back(part.Walls());
+    whole.push_back(part.Whole(walls.back()));
   }
   if (whole.empty()) return std::optional<IlluminanceInRoom>();
-  return IlluminanceInRoom{fit::UncertainFromLogMixture(whole),
-                           fit::UncertainFromLogMixture(reading),
-                           fit::UncertainFromLogMixture(walls)};
+  return IlluminanceInRoom{UncertainFromLogMixture(whole),
+                           UncertainFromLogMixture(Read(whole, sigma_relative)),
+                           UncertainFromLogMixture(walls)};
 }
 
 }  // namespace lightcal

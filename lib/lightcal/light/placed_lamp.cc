@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <type_traits>
+
+#include "lightcal/core/normal_mixture.h"
 
 namespace lightcal {
 namespace {
@@ -100,6 +103,46 @@ double VarianceOfPlace(const PlaceDoubt& doubt, const Vec3& way, double here, co
   return variance;
 }
 
+// As one of the things that the lamp may be has it: ln E at a place.
+NormalPart LnLuxOf(const PlacedLamp& lamp, const LampPart& part, const SurfacePoint& at,
+                   const SourceDetail& detail) {
+  LampPose pose = lamp.pose;
+  LampSource source = lamp.source;
+  const Vec3 way = at.position_m - pose.position_m;
+  if (part.width_m > 0.0 && Length(way) > 0.0) {
+    source = RectSource{0.5 * part.width_m, 0.5 * part.height_m};
+    pose.frame = SourceFrame::Facing(way * (1.0 / Length(way)), pose.frame.x);
+  }
+  const auto ln = [&](double offset_m) {
+    pose.offset_m = offset_m;
+    return std::log(LuxPerUnit(source, pose, at, detail));
+  };
+  const double here = ln(part.offset_m);
+  NormalPart out{part.weight, part.ln_strength + here, std::sqrt(part.variance_ln)};
+  if (!(part.variance_offset > 0.0) || !std::isfinite(here)) return out;
+  // Over a step within which its light cannot start behind the meter.
+  constexpr double kStep = 1e-3;
+  const double step = kStep * std::sqrt(part.variance_offset);
+  const double slope = (ln(part.offset_m + step) - ln(part.offset_m - step)) / (2.0 * step);
+  const double variance =
+      part.variance_ln + slope * slope * part.variance_offset + 2.0 * slope * part.covariance;
+  out.sd = std::sqrt(std::max(0.0, variance));
+  return out;
+}
+
+// Absent where they leave the place dark.
+std::optional<double> VarianceOfParts(const PlacedLamp& lamp, const SurfacePoint& at,
+                                      const SourceDetail& detail) {
+  std::vector<NormalPart> parts;
+  for (const LampPart& part : lamp.doubt.parts) {
+    parts.push_back(LnLuxOf(lamp, part, at, detail));
+    if (!std::isfinite(parts.back().mean) || !std::isfinite(parts.back().sd)) parts.pop_back();
+  }
+  if (parts.empty()) return std::nullopt;
+  const double sd = UncertainFromLogMixture(parts).u95 / kZ95;
+  return sd * sd;
+}
+
 }  // namespace
 
 double LuxPerUnit(const LampSource& source, const LampPose& pose, const SurfacePoint& at,
@@ -146,9 +189,13 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
     variance += half * half;
   };
   const double here = lux(lamp.source, lamp.pose);
-  if (!doubt.place) variance += here * here * doubt.variance_ln;
   const bool everywhere = IsEverywhere(lamp.source);
-  if (doubt.variance_offset > 0.0 && !everywhere) {
+  const bool mixed = !doubt.place && !everywhere && !doubt.parts.empty();
+  const std::optional<double> of_parts =
+      mixed ? VarianceOfParts(lamp, at, detail) : std::optional<double>();
+  if (of_parts) variance += *of_parts;
+  if (!of_parts && !doubt.place) variance += here * here * doubt.variance_ln;
+  if (doubt.variance_offset > 0.0 && !everywhere && !of_parts) {
     const double sd = std::sqrt(doubt.variance_offset);
     const auto moved = [&](double by) {
       LampPose pose = lamp.pose;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/intensity_table.h"
@@ -45,11 +46,21 @@ struct PlaceDoubt {
   std::array<double, kCount * kCount> covariance{};  // of (ln strength, x, y, z [m], g)
 };
 
+// One of the things that a lamp may be: its strength, where its light starts, and the rectangle it
+// shines as towards whoever looks (0 = its own source).
+struct LampPart {
+  double weight = 1.0;
+  double ln_strength = 0.0, offset_m = 0.0;
+  double width_m = 0.0, height_m = 0.0;
+  double variance_ln = 0.0, variance_offset = 0.0, covariance = 0.0;  // as LampDoubt's
+};
+
 // Standard deviations; what is not known to be unsure is 0.
 struct LampDoubt {
   double variance_ln = 0.0;         // of ln strength
   double variance_offset = 0.0;     // of d0 [m^2]
   double covariance = 0.0;          // of both [m]
+  std::vector<LampPart> parts{};    // in the stead of these three, where one normal does not say it
   std::optional<PlaceDoubt> place;  // variance_ln is in it
   double aim_rad = 0.0;             // of each of its two directions
   double inner_rad = 0.0, outer_rad = 0.0;
@@ -93,7 +104,8 @@ struct SurfacePoint {
 [[nodiscard]] std::optional<Vec3> DirectionToLamp(const PlacedLamp& lamp, const Vec3& position_m);
 
 // Standard deviation of LuxOf from the lamp's own doubt: each parameter moved by its standard
-// deviation both ways, strength and d0 together by their covariance.                    [lx]
+// deviation both ways, strength and d0 together by their covariance; of a mixture of parts half its
+// 95 % over kZ95.                                                                         [lx]
 [[nodiscard]] double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at,
                                 const SourceDetail& detail = {});
 

@@ -75,14 +75,16 @@ struct ResidualRow {
 
 // A lamp in its room, as one of the things that both may be: facing it a meter sees
 //   E = I (s(r)/r^2 + b exp(slope x + bend x^2)) + E0,  r = d + d0,  x = ln(d / 3 m)
-// s being 1, or of a luminous rectangle where the lamp is taken for one. ln of E_walls scatters by
-// `scatter` from place to place. All of a light's make its posterior; weights make 1.
+// s being 1, or of a luminous rectangle where the lamp is taken for one; no b where no walls throw
+// its light back. ln of E_walls scatters by `scatter` from place to place. All of a light's make
+// its posterior; weights make 1.
 struct LampInRoom {
   double weight = 1.0;
   double ln_intensity = 0.0;       // of cd
   double distance_offset_m = 0.0;  // d0
   double ambient_lx = 0.0;         // E0
-  double ln_b = 0.0, slope = 0.0, bend = 0.0, scatter = 0.0;
+  std::optional<double> ln_b{};
+  double slope = 0.0, bend = 0.0, scatter = 0.0;
   double width_m = 0.0, height_m = 0.0;  // 0 = a point
   static constexpr int kCount = 5;
   std::array<double, std::size_t{kCount} * kCount> covariance{};  // of (ln I, d0, E0, ln b, slope)
@@ -242,7 +244,8 @@ struct FittedLight {
   std::vector<BudgetPart> budget{};    // of intensity_cd or illuminance_lx, largest first
   std::optional<MeterShare> meter{};   // where one took every reading
   std::optional<Uncertain> of_file{};  // of a luminaire: its intensity over its photometric file's
-  // Where walls shone in the readings: what a meter will see in that room. Empty = not known.
+  // Lamp and room as all that they may be, for what a meter will see. Empty: one normal says it
+  // (covariance_lnI_d0_E0), and no walls are known.
   std::vector<LampInRoom> in_room{};
   std::optional<LocatedLamp> located{};  // in its stead where the lamp's place was sought
   std::optional<UnevenLight> uneven{};   // of a point read in known directions from a known place

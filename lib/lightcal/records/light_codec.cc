@@ -135,8 +135,8 @@ constexpr auto kVisitInRoom = [](auto& archive, auto& one) {
   archive.Number("width_m", one.width_m, kNotNegative);
   archive.Number("height_m", one.height_m, kNotNegative);
   archive.Array("covariance", one.covariance);
-  archive.Require({"weight", "ln_intensity_cd", "distance_offset_m", "ambient_lx", "ln_b", "slope",
-                   "bend", "scatter", "covariance"});
+  archive.Require({"weight", "ln_intensity_cd", "distance_offset_m", "ambient_lx", "slope", "bend",
+                   "scatter", "covariance"});
 };
 
 constexpr auto kVisitLocatedWalls = [](auto& archive, auto& walls) {
@@ -192,7 +192,7 @@ void VisitStates(FieldWriter& writer, const std::vector<MeasuredState>& states) 
   if (!states.empty()) writer.List("states", states, kVisitState);
 }
 
-// Absent where nothing is known of walls.
+// Absent where one normal says all.
 void VisitRoom(FieldReader& reader, std::vector<LampInRoom>& in_room) {
   reader.List("in_room", in_room, kVisitInRoom);
 }

@@ -152,7 +152,7 @@ std::string RoomKeys(const FittedLight& light, const ReportExtras& extras) {
   return ReadingKeys(light, extras) +
          Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
              "your lamp, 95 %") +
-         (light.in_room.empty()
+         (light.in_room.empty() || !light.in_room.front().ln_b
               ? ""
               : Key("<rect class=\"wedge\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
                     "what the walls add"));

@@ -19,13 +19,13 @@ constexpr int kRoomSteps = 60;
 
 const LampInRoom* LikeliestOf(const FittedLight& light) {
   const auto most = std::ranges::max_element(light.in_room, {}, &LampInRoom::weight);
-  return most == light.in_room.end() ? nullptr : &*most;
+  return most == light.in_room.end() || !most->ln_b ? nullptr : &*most;
 }
 
 // E d^2 of the light from the walls, by the likeliest of what lamp and room may be.
 double WallsTimesSquare(const LampInRoom& one, double distance_m) {
   const double x = std::log(distance_m / kWallReference_m);
-  const double ln = one.ln_intensity + one.ln_b + one.slope * x + one.bend * x * x;
+  const double ln = one.ln_intensity + *one.ln_b + one.slope * x + one.bend * x * x;
   return std::exp(ln) * distance_m * distance_m;
 }
 

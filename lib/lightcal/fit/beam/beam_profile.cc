@@ -9,11 +9,11 @@
 #include <random>
 #include <utility>
 
+#include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/fit/beam/rough_beam.h"
 #include "lightcal/fit/beam/solved_beams.h"
-#include "lightcal/fit/model/hypotheses.h"
 
 namespace lightcal::fit {
 namespace {
@@ -144,7 +144,7 @@ Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int
   return out;
 }
 
-Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::*what) {
+Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::* what) {
   std::vector<double> values;
   values.reserve(draws.size());
   for (const BeamDraw& draw : draws) values.push_back(draw.*what);

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/normal_mixture.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/fit_by_distance.h"
 #include "lightcal/fit/model/data_sheet.h"
-#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/states/ln_of.h"
 #include "lightcal/photometry/source_photometry.h"
 

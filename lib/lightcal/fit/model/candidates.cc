@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/fit/model/merged_rows.h"
 #include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/fit/model/starts.h"
@@ -330,18 +330,33 @@ std::array<double, std::size_t{LampInRoom::kCount} * LampInRoom::kCount> Covaria
 std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
                                const std::vector<double>& shares) {
   constexpr double kLeastShareTold = 0.01;
+  const auto sees_walls = [](const Candidate& one) {
+    return one.hypothesis.walls.has_value() && one.estimation.rules[kLnWalls].free;
+  };
+  const bool walls_shine = sees_walls(candidates.front());
+  if (!walls_shine && candidates.size() == 1) return {};
   std::vector<LampInRoom> out;
   double whole = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& one = candidates[i];
-    if (!one.hypothesis.walls || !one.estimation.rules[kLnWalls].free) return {};
+    if (sees_walls(one) != walls_shine) return {};
     if (shares[i] < kLeastShareTold) continue;
     const Theta& theta = one.estimate.theta;
-    const WallHypothesis& walls = *one.hypothesis.walls;
-    out.push_back({shares[i], theta[kLnIntensity], theta[kDistanceOffset], theta[kAmbient],
-                   theta[kLnWalls], theta[kWallsSlope], walls.prior.bend, walls.prior.scatter,
-                   walls.width_m, walls.height_m, CovarianceInRoom(one.covariance)});
+    LampInRoom& told = out.emplace_back();
+    told.weight = shares[i];
+    told.ln_intensity = theta[kLnIntensity];
+    told.distance_offset_m = theta[kDistanceOffset];
+    told.ambient_lx = theta[kAmbient];
+    told.covariance = CovarianceInRoom(one.covariance);
     whole += shares[i];
+    if (!walls_shine) continue;
+    const WallHypothesis& walls = *one.hypothesis.walls;
+    told.ln_b = theta[kLnWalls];
+    told.slope = theta[kWallsSlope];
+    told.bend = walls.prior.bend;
+    told.scatter = walls.prior.scatter;
+    told.width_m = walls.width_m;
+    told.height_m = walls.height_m;
   }
   for (LampInRoom& one : out) one.weight /= whole;
   return out;

@@ -56,7 +56,7 @@ struct WeighedCandidates {
                                           const std::vector<double>& shares);
 
 // Each in its room, as light.json keeps it, but in the solver's units; those of less than a
-// hundredth are left out. Empty where some see no walls.
+// hundredth are left out. Empty where some see walls and some do not, and of one alone without.
 [[nodiscard]] std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
                                              const std::vector<double>& shares);
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <utility>
 
+#include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/fill_light.h"
-#include "lightcal/fit/model/hypotheses.h"
 #include "lightcal/light/beam_ensemble.h"
 #include "lightcal/photometry/source_photometry.h"
 

@@ -3,9 +3,7 @@
 // weighed by how well it explains them.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "lightcal/fit/estimate_light.h"
@@ -36,16 +34,5 @@ struct LampHypothesis {
 // Logarithm of the probability of the rows, up to a constant that all hypotheses share: Laplace's
 // approximation about theta.
 [[nodiscard]] double LnEvidence(const Estimation& estimation, const Theta& theta);
-
-// A mixture of normals.
-struct NormalPart {
-  double weight = 1.0;
-  double mean = 0.0;
-  double sd = 0.0;
-};
-// The value below which a part `probability` of it lies.
-[[nodiscard]] double QuantileOf(std::span<const NormalPart> mixture, double probability);
-// Of a variable whose logarithm is such a mixture: its median and the 95 % between its quantiles.
-[[nodiscard]] Uncertain UncertainFromLogMixture(std::span<const NormalPart> of_ln);
 
 }  // namespace lightcal::fit

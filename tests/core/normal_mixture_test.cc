@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "lightcal/fit/model/hypotheses.h"
+#include "lightcal/core/normal_mixture.h"
 
-namespace lightcal::fit {
+namespace lightcal {
 namespace {
 
 double Below(const std::vector<NormalPart>& mixture, double x) {
@@ -49,4 +49,4 @@ TEST(Mixture, OfPartsWithoutWidthEndsAtOneOfThem) {
 }
 
 }  // namespace
-}  // namespace lightcal::fit
+}  // namespace lightcal

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/calibrate/lux_in_room.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lightcal/fit/fit_light.h"
+
+namespace lightcal {
+namespace {
+
+constexpr double kFacing = 0.98;     // cosine from which on a meter faces the lamp
+constexpr double kOtherWalls = 0.4;  // 1 sigma of ln E_walls
+
+// The whole with what a point may shine more or less that way than where it was read.
+Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double direct_lx,
+                      const Vec3& way) {
+  if (!light.uneven) return whole;
+  const double share = direct_lx / whole.value;
+  const double pattern = kZ95 * share * SdTowards(*light.uneven, way * (-1.0 / Length(way)));
+  Uncertain out = whole;
+  out.low = whole.value * std::exp(-std::hypot(std::log(whole.value / *whole.low), pattern));
+  out.high = whole.value * std::exp(std::hypot(std::log(*whole.high / whole.value), pattern));
+  out.u95 = std::hypot(whole.u95, pattern * whole.value);
+  return out;
+}
+
+}  // namespace
+
+std::optional<Uncertain> LuxInRoom(const FittedLight& light, const PlacedLamp& placed,
+                                   const LampLux& alone, const SurfacePoint& at) {
+  if (IsEverywhere(placed.source)) return std::nullopt;
+  const Vec3 way = placed.pose.position_m - at.position_m;
+  const double distance = Length(way);
+  if (!(distance > 0.0)) return std::nullopt;
+  if (light.located) {
+    if (placed.pose.position_m != light.located->position_m) return std::nullopt;
+    return PredictInRoom(light, {at.position_m, at.normal, alone.direct_lx / placed.strength});
+  }
+  const auto room = PredictInRoom(light, Metres(distance), 0.0);
+  if (!room || !*room) return std::nullopt;
+  const bool even = std::holds_alternative<PointSource>(placed.source) ||
+                    std::holds_alternative<SphereSource>(placed.source);
+  const bool on_axis = even || -Dot(placed.pose.frame.z, way) > kFacing * distance;
+  if (Dot(way, at.normal) > kFacing * distance && on_axis) {
+    return WithPattern((*room)->whole_lx, light, alone.direct_lx, way);
+  }
+  const Uncertain& walls = (*room)->walls_lx;
+  const double u95 = std::hypot(alone.u95_lx, walls.u95, kZ95 * kOtherWalls * walls.value);
+  const double lux = alone.direct_lx + walls.value;
+  return Uncertain{lux, u95, std::max(0.0, lux - u95), lux + u95};
+}
+
+}  // namespace lightcal
