@@ -211,8 +211,20 @@ TEST_P(SixLamps, AreFoundAndTakenOut) {
         << found.light.dump();
     EXPECT_EQ(found.light["extracted"], true) << found.light.dump();
   }
-  // The files alone give what the picture gave to planes whose horizon no lamp crosses.
+  // As sure in the file as in the answer: nothing but the lamp was cut out of the picture.
   const json lights = json::parse(ReadFile(out + "/light.json"));
+  for (const json& told : got["lights"]) {
+    const auto kept = std::ranges::find_if(
+        lights["lights"], [&](const json& light) { return light["name"] == told["name"]; });
+    if (kept == lights["lights"].end()) continue;
+    const json& strength =
+        kept->contains("illuminance_lx") ? (*kept)["illuminance_lx"] : (*kept)["luminance_nits"];
+    const auto relative = [](const json& u) {
+      return u["u95"].get<double>() / u["value"].get<double>();
+    };
+    EXPECT_NEAR(relative(strength) / relative(told["illuminance_lx"]), 1.0, 0.02) << told;
+  }
+  // The files alone give what the picture gave to planes whose horizon no lamp crosses.
   const SkyPicture dome = ReadPictureFile(out + "/dome.exr");
   for (const Ray& normal :
        {kUp, Ray{0.0, 0.0, -1.0}, RayAt(0.0, 0.0), RayAt(70.0, 10.0), RayAt(-135.0, 20.0)}) {

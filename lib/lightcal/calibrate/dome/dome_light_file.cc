@@ -95,6 +95,7 @@ Reading ReadingOfLight(const MeasuredDome& measured, std::size_t index, std::str
 Result<LightFile> LightFileOfDome(const MeasuredDome& measured, std::size_t count,
                                   Warnings& warnings) {
   Session session;
+  session.surroundings = Surroundings::kDark;  // what else shines was left in the picture
   const std::vector<std::string> names = NamesOfLights(measured, count);
   for (std::size_t i = 0; i < names.size(); ++i) {
     session.lights.push_back(DirectionalLight(measured, i, names[i]));
