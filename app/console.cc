@@ -30,27 +30,54 @@ std::string Sentence(std::string_view kind, const std::string& subject,
   return line + message + "\n";
 }
 
-// One sentence for one cause: "143 times (a, b, c and 140 more): " and the first's message.
-std::string OfMany(const Warnings& warnings, const std::string& code) {
+// "143 times (a, b, c and 140 more)"
+std::string TimesOf(const std::vector<const Warning*>& alike) {
   constexpr std::size_t kShown = 3;
   std::vector<std::string_view> subjects;
-  const Warning* first = nullptr;
-  std::size_t count = 0;
-  for (const Warning& warning : warnings) {
-    if (warning.code != code) continue;
-    ++count;
-    if (first == nullptr) first = &warning;
-    if (std::ranges::find(subjects, warning.subject) == subjects.end()) {
-      subjects.push_back(warning.subject);
+  for (const Warning* warning : alike) {
+    if (std::ranges::find(subjects, warning->subject) == subjects.end()) {
+      subjects.push_back(warning->subject);
     }
   }
-  std::string text = std::to_string(count) + " times (";
+  std::string text = std::to_string(alike.size()) + " times (";
   for (std::size_t i = 0; i < std::min(kShown, subjects.size()); ++i) {
     text += (i == 0 ? "" : ", ") + std::string(subjects[i]);
   }
   if (subjects.size() > kShown)
     text += " and " + std::to_string(subjects.size() - kShown) + " more";
-  return text + "): " + first->message;
+  return text + ")";
+}
+
+// One line for one message; of more messages than a person reads one line for all, which says
+// whose the message is.
+std::vector<std::string> OfMany(const Warnings& warnings, const std::string& code) {
+  constexpr std::size_t kRead = 6;
+  std::vector<std::vector<const Warning*>> groups;
+  std::vector<const Warning*> all;
+  for (const Warning& warning : warnings) {
+    if (warning.code != code) continue;
+    all.push_back(&warning);
+    const auto same = std::ranges::find_if(
+        groups, [&](const auto& group) { return group.front()->message == warning.message; });
+    if (same == groups.end()) {
+      groups.push_back({&warning});
+    } else {
+      same->push_back(&warning);
+    }
+  }
+  if (groups.size() > kRead) {
+    const Warning& first = *all.front();
+    return {TimesOf(all) + ", of " + first.subject + ": " + first.message +
+            " (the others by --verbose)"};
+  }
+  std::vector<std::string> lines;
+  for (const auto& group : groups) {
+    const Warning& first = *group.front();
+    const bool once = group.size() == 1;
+    lines.push_back((once ? first.subject : TimesOf(group)) +
+                    (once && first.subject.empty() ? "" : ": ") + first.message);
+  }
+  return lines;
 }
 
 std::size_t DisplayWidth(std::string_view text) {
@@ -109,7 +136,9 @@ void Console::Warn(const Warnings& warnings) {
     warnings_.push_back(warning);
     if (flags_.muted || std::ranges::find(said, warning.code) != said.end()) continue;
     said.push_back(warning.code);
-    Write(stderr, "lightcal: warning: " + OfMany(warnings, warning.code) + "\n");
+    for (const std::string& line : OfMany(warnings, warning.code)) {
+      Write(stderr, "lightcal: warning: " + line + "\n");
+    }
   }
 }
 

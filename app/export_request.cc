@@ -14,7 +14,6 @@
 #include "lamp_state.h"
 #include "light_input.h"
 #include "lightcal/calibrate/environments.h"
-#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/into_scene.h"
@@ -146,7 +145,6 @@ Result<ExportedPresets> PresetsOfLights(NamedLights named, const ExportOptions& 
   auto into = IntoOf(options.into, lights);
   if (!into) return Propagate(std::move(into));
   with_pictures.into = *std::move(into);
-  with_pictures.sweeps = ControlSweepsOf(lights);
   std::vector<std::string> targets = options.targets;
   const bool page = std::erase(targets, std::string(kPageTarget)) > 0;
   Result<ExportedPresets> exported = ExportedPresets{};

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "console.h"
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/core/result.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/records/fitted_light.h"
 
 namespace lightcal::app {

@@ -198,6 +198,7 @@ class Planner {
           "does not say which light it reads; add --light" + DidYouMean("", session_.lights));
     }
     if (reading.meter.empty()) reading.meter = settings_.meter;
+    if (reading.state.empty()) reading.state = settings_.state;
     if (settings_.lamp_off) reading.lamp = LampState::kOff;
     if (settings_.shadow_card) reading.shadow_card = true;
     if (settings_.color_only) reading.illuminance.reset();

@@ -18,6 +18,7 @@ struct ImportSettings {
   std::string light;  // for readings whose file names none, "" = the session's only one
   std::optional<Metres> distance;  // for readings whose file gives none
   std::string meter;               // for readings whose file names none
+  FixtureState state;              // for readings whose file says nothing of the lamp's controls
   std::vector<std::string>
       columns;              // what a table's columns are, in their order; none = its header
   std::string column;       // one spectrum of a file, by name or number from 1; "" = all

@@ -33,18 +33,18 @@ NotedFiles& Noted() {
   return noted;
 }
 
-std::string WholePath(const std::string& path) {
-  std::error_code error;
-  const auto whole = std::filesystem::weakly_canonical(path, error);
-  return error ? path : whole.string();
-}
-
 void NoteFrames(const Result<Bracket>& bracket) {
   if (!bracket) return;
   for (const FrameInfo& frame : bracket->frames) NoteInput(frame.file);
 }
 
 }  // namespace
+
+std::string WholePath(const std::string& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(path, error);
+  return error ? path : whole.string();
+}
 
 void NoteInput(const std::string& path) {
   struct stat status {};

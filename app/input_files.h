@@ -10,6 +10,10 @@
 
 namespace lightcal::app {
 
+// The path from the root with its links followed; as it is typed where that cannot be told (behind
+// a folder that this user may not enter).
+[[nodiscard]] std::string WholePath(const std::string& path);
+
 // From now on no output of this process replaces this file, whatever --force says. It counts by
 // its path and as the file itself, so that a link to it is known too. Threads may note at once.
 void NoteInput(const std::string& path);

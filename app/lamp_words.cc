@@ -171,11 +171,7 @@ std::string ValueText(const Uncertain& u) {
 }
 
 std::string ValueAndInterval(const Uncertain& u, std::string_view unit) {
-  constexpr double kEven = 1.25;  // one arm of the interval over the other
-  const double below = u.value - LowOf(u);
-  const double above = HighOf(u) - u.value;
-  const bool even = below > 0.0 && above > 0.0 && below <= kEven * above && above <= kEven * below;
-  if (even || !(u.value > 0.0)) return ValueWithPercent(u.value, u.u95, unit);
+  if (IsEven(u)) return ValueWithPercent(u.value, u.u95, unit);
   return ValueText(u) + " " + std::string(unit) + ", " + RangeText(u);
 }
 

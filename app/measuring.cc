@@ -2,7 +2,6 @@
 #include "measuring.h"
 
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,7 @@ Result<void> WaitUntilSettled(double tolerance_relative, MeterSession& meter, Co
                " in half a minute (Ctrl-C stops).");
   std::vector<double> values;
   for (int i = 0; i < kSettleMeasurements && meter.HasMore(); ++i) {
-    if (i > 0 && !meter.IsReplay()) std::this_thread::sleep_for(kSettlePause);
+    if (i > 0) meter.Pause(kSettlePause);
     const auto one = meter.Measure();
     if (!one) return tl::unexpected(one.error());
     console.Note("  settling: " + LuxText(one->reading));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <thread>
 #include <utility>
 
 #include "clock.h"
@@ -11,6 +12,7 @@
 #include "lightcal_devices/transport/recording.h"
 #include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
+#include "provenance_mark.h"
 
 namespace lightcal::app {
 namespace {
@@ -36,6 +38,16 @@ void AddSettings(const std::string& text, std::map<std::string, std::string>& se
     const auto equals = std::min(line.find('='), line.size());
     settings.emplace(line.substr(0, equals), line.substr(std::min(equals + 1, line.size())));
   }
+}
+
+// Before a meter is asked anything: its answers would be lost. Nothing here knows a --force.
+Result<void> CheckRecordFile(const std::string& path) {
+  if (path.empty()) return {};
+  auto free = CheckOutputs({{path, std::string(kTapeFormat)}}, false);
+  if (free || free.error().code != "exists") return free;
+  return Failed("exists", path,
+                "exists and is no tape of lightcal, which alone is replaced; name another file to "
+                "record into");
 }
 
 }  // namespace
@@ -117,6 +129,7 @@ Result<void> MeterSession::Identify(Console& console) {
 
 Result<std::unique_ptr<MeterSession>> MeterSession::Open(const MeterRequest& request,
                                                          Console& console) {
+  if (auto free = CheckRecordFile(request.record_file); !free) return Propagate(std::move(free));
   std::unique_ptr<MeterSession> session(new MeterSession(request, NowIso8601()));
   const auto opened = request.replay_file.empty() ? session->OpenDevice() : session->OpenTape();
   if (!opened) return tl::unexpected(opened.error());
@@ -136,8 +149,18 @@ Result<MeterReading> MeterSession::Measure() {
   auto measured = meter_->Measure(InterruptGuard::StopRequest());
   if (!measured) return measured;
   Reading& reading = measured->reading;
-  reading.time = IsReplay() ? time_ : NowIso8601();
+  reading.time = IsReplay() ? time_ : MomentIso8601();
   return measured;
+}
+
+void MeterSession::Pause(std::chrono::milliseconds time) {
+  if (IsReplay() || time.count() == 0) return;
+  std::this_thread::sleep_for(time);
+  DropBacklog();
+}
+
+void MeterSession::DropBacklog() {
+  if (!IsReplay()) line_->Paused();
 }
 
 Result<MeterReading> MeterSession::ReadMemory(int index) {

@@ -26,7 +26,8 @@ struct MeterRequest {
 class MeterSession {
  public:
   // Finds or loads, opens and identifies. Fails: no_device, no_permission, busy, not_found,
-  // bad_tape, and whatever the meter answers.
+  // bad_tape, exists (the file to record into, which no tape may replace), and whatever the meter
+  // answers.
   [[nodiscard]] static Result<std::unique_ptr<MeterSession>> Open(const MeterRequest& request,
                                                                   Console& console);
   // One measurement with its time. Ctrl-C gives the meter back and fails as interrupted; a second
@@ -34,6 +35,12 @@ class MeterSession {
   [[nodiscard]] Result<devices::MeterReading> Measure();
   // A reading the meter keeps in its memory, from 0; its time is the meter's own, or unknown.
   [[nodiscard]] Result<devices::MeterReading> ReadMemory(int index);
+
+  // Waits between two measurements (not where a tape is played): what the meter sends meanwhile is
+  // not read later.
+  void Pause(std::chrono::milliseconds time);
+  // As after a pause, where a person was waited for.
+  void DropBacklog();
 
   [[nodiscard]] bool IsReplay() const { return replay_ != nullptr; }
   // Whether the tape holds more; always so of a device.

@@ -203,10 +203,9 @@ Result<void> CheckTarget(const std::string& path, std::string_view format, bool 
 }
 
 Result<void> CheckDistinct(const std::vector<std::string>& paths) {
-  std::set<fs::path> names;
+  std::set<std::string> names;
   for (const std::string& path : paths) {
-    std::error_code error;
-    if (!names.insert(fs::weakly_canonical(path, error)).second) {
+    if (!names.insert(WholePath(path)).second) {
       return Refused("same_output", path,
                      "would be written twice by one command; give each file a name of its own");
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "page_file.h"
 
-#include <array>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal_devices/transport/module_door.h"
 #include "output_files.h"
 #include "shell/shell_texts.h"
 
@@ -23,15 +24,19 @@ constexpr std::string_view kCarried = "id=\"carried\">null<";
 Result<std::string> ReadPage() {
   std::error_code ignored;
   const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  const std::array<fs::path, 2> places = {beside / kPageFile,
-                                          beside / LIGHTCAL_DATA_DIR_FROM_BIN / kPageFile};
+  std::vector<fs::path> places = {beside / kPageFile,
+                                  beside / LIGHTCAL_DATA_DIR_FROM_BIN / kPageFile};
+  if (const fs::path own = devices::OwnFolder(); own != beside) {  // part of a Python package
+    places.push_back(own / devices::kModulesFromPython / kPageFile);
+    places.push_back(own / LIGHTCAL_DATA_DIR_FROM_PYTHON / kPageFile);
+  }
   for (const fs::path& place : places) {
     if (fs::exists(place, ignored)) return ReadOutput(place.string());
   }
   return Failed("no_page", kPageFile,
                 "this lightcal was built without the page; install clang-19 lld-19 wasi-libc "
-                "libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32, then: cmake --preset release && "
-                "cmake --build --preset release --target lightcal_page");
+                "libc++-19-dev-wasm32 libclang-rt-19-dev-wasm32, then: `cmake --preset release && "
+                "cmake --build --preset release --target lightcal_page`");
 }
 
 Result<std::string> PageWith(const LightFile& lights, const std::string& name) {

@@ -22,7 +22,6 @@ constexpr std::size_t kMostOfADocument = std::size_t{256} << 20U;
 constexpr std::size_t kHeadLines = 16;
 constexpr std::string_view kOurName = "lightcal ";  // of "lightcal 0.1.0"
 constexpr std::string_view kSchema = "lightcal.";   // how the "schema" of our documents begins
-constexpr std::string_view kTape = "lightcal.tape";
 constexpr std::string_view kExrMagic = "\x76\x2f\x31\x01";
 constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
 
@@ -216,7 +215,7 @@ Result<void> CheckEnding(const std::string& path, std::string_view format) {
   if (format.empty() || known == nullptr || known->formats == kAny) return {};
   std::string wanted = " json ";
   if (!format.starts_with(kSchema)) wanted = " " + std::string(format) + " ";
-  if (format == kTape) wanted = " tape ";
+  if (format == kTapeFormat) wanted = " tape ";
   if (known->formats.find(wanted) != std::string_view::npos) return {};
   return Refused("wrong_ending", path,
                  "ends as another kind of file than what would be written there (" +

@@ -10,6 +10,8 @@
 
 namespace lightcal::app {
 
+inline constexpr std::string_view kTapeFormat = "lightcal.tape";
+
 // "lightcal.light", "gltf", "svg", "exr", ...; empty for every file that lightcal did not write,
 // and for a session.toml and a journal, which are a person's whoever wrote them first. JSON: its
 // "schema", or the "generator" of glTF's asset, of the root or of its provenance. Text for engines:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reading_source.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -37,6 +38,9 @@ std::vector<std::string> DirectoriesOfMeters(const std::string& session_path) {
 // What the driver `typed` understands; what is no number is a wrong command line.
 Result<devices::Summary> TypedSummary(const std::string& text) {
   const auto typed = devices::text::DecodeLine(text);
+  if (IsOverloadWord(text)) {
+    return WrongUsage("--lux " + text, "says no number; " + std::string(kWriteALimit));
+  }
   if (!typed || !*typed) {
     if (auto number = ParseIlluminance(text); !number) return tl::unexpected(number.error());
     return Refused("bad_reading", "--lux " + text, typed ? "is no reading" : typed.error().message);
@@ -45,6 +49,8 @@ Result<devices::Summary> TypedSummary(const std::string& text) {
   summary.count = 1;
   summary.kept.reading.illuminance = (*typed)->illuminance;
   summary.kept.reading.cct = (*typed)->cct;
+  summary.kept.reading.over_range = (*typed)->over_range;
+  summary.kept.reading.under_range = (*typed)->under_range;
   summary.kept.reading.time = MomentIso8601();
   return summary;
 }
@@ -130,6 +136,8 @@ Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_typ
       MeterCalibrations::Load(DirectoriesOfMeters(settings.session), InputSources());
   if (!calibrations) return Propagate(std::move(calibrations));
   source.calibrations_ = *std::move(calibrations);
+  source.meters_ = settings.meters;
+  source.sigma_is_set_ = settings.request.settings.contains("sigma");
   if (settings.typed) return source;
   auto opened = MeterSession::Open(settings.request, console);
   if (opened) {
@@ -153,11 +161,52 @@ Result<TakenReading> ReadingSource::TakeTyped(const Reading& frame, const std::s
   return Finished(frame, TypedSummary(text), console);
 }
 
+void ReadingSource::HearSigma(const std::string& meter, const std::optional<double>& guess,
+                              devices::Summary& summary) const {
+  Reading& reading = summary.kept.reading;
+  if (reading.device.empty() || !reading.sigma_relative) return;
+  // Whoever says how far off it may be knows that nobody corrected it.
+  const auto vouched = [&] {
+    std::erase_if(summary.kept.warnings, [](const Warning& w) { return w.code == "uncalibrated"; });
+  };
+  if (sigma_is_set_) {
+    reading.sigma_relative = guess;
+    return vouched();
+  }
+  const bool guessed = reading.quality == MeterQuality::kBareSensor;
+  const bool by_file = reading.sigma_relative != guess;
+  const auto named = std::ranges::find(meters_, meter, &MeterDescription::name);
+  if (named == meters_.end() || !named->states_sigma) {
+    if (!guessed || by_file || !reading.calibration_factor) return;
+    summary.kept.warnings.push_back(
+        {"sigma_guessed", reading.device,
+         "is corrected by its factor, yet counts within " +
+             PercentText(kZ95 * *reading.sigma_relative) +
+             " as any bare sensor: write sigma_relative beside the factor in meters.toml, how far "
+             "off it may still be (1 sigma: 0.05)"});
+    return;
+  }
+  const double scatter = summary.spread_relative;
+  const double stated = named->sigma_relative;
+  if (guessed || by_file || *reading.sigma_relative <= std::max(stated, scatter)) {
+    reading.sigma_relative = scatter > stated ? std::optional(scatter) : std::nullopt;
+    return vouched();
+  }
+  summary.kept.warnings.push_back(
+      {"meter_sigma", reading.device,
+       "counts within " + PercentText(kZ95 * *reading.sigma_relative) +
+           " as its driver knows it, not within the " + PercentText(kZ95 * stated) +
+           " of [[meter]] " + meter +
+           "; write sigma_relative of this device into meters.toml if you know better"});
+}
+
 Result<TakenReading> ReadingSource::Finished(const Reading& frame, Result<devices::Summary> summary,
                                              Console& console) {
   if (!summary) return Propagate(std::move(summary));
   Warnings& warnings = summary->kept.warnings;
+  const std::optional<double> guess = summary->kept.reading.sigma_relative;
   calibrations_.Apply(summary->kept.reading, warnings);
+  HearSigma(frame.meter, guess, *summary);
   WarnOutOfRange(summary->kept.reading, warnings);
   for (const Warning& warning : warnings) {
     if (warned_.insert(warning.code + " " + warning.subject).second) console.Warn(warning);

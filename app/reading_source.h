@@ -7,11 +7,13 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "console.h"
 #include "lightcal/calibrate/meter_calibrations.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/reading.h"
+#include "lightcal/records/session.h"
 #include "measuring.h"
 #include "meter_session.h"
 
@@ -34,6 +36,7 @@ class ReadingSource {
     std::string session;  // whose meters.toml counts; "" = only the person's own
     bool typed = false;   // numbers are typed, whatever is plugged in
     MeterRequest request;
+    std::vector<MeterDescription> meters{};  // of the session, by their names in a frame
   };
   // Where no meter is plugged in and none is named, `may_type` lets the person type.
   // Fails: as MeterSession::Open and MeterCalibrations::Load.
@@ -41,8 +44,11 @@ class ReadingSource {
                                                   Console& console);
 
   // One reading in the light, place and lamp state of `frame`, measured, or asked for where there
-  // is no meter. Warnings go to the console, each once.  Fails: as TakeSummary; no_device where the
-  // person types nothing.
+  // is no meter. How far a meter may be off: what its setting says, else what the frame's [[meter]]
+  // states, else what meters.toml states, else its driver. Where the driver of an instrument that
+  // knows its own accuracy says more than its [[meter]], that counts, with the warning
+  // meter_sigma.  Warnings go to the console, each once.  Fails: as TakeSummary; no_device where
+  // the person types nothing.
   [[nodiscard]] Result<TakenReading> Take(const Reading& frame, const MeasuringPlan& plan,
                                           Console& console);
   // The same of what was typed already.  Wrong usage, refused: it is no reading.
@@ -60,8 +66,14 @@ class ReadingSource {
   [[nodiscard]] Result<TakenReading> Finished(const Reading& frame,
                                               Result<devices::Summary> summary, Console& console);
 
+  // The sigma of what was measured, `guess` being the driver's.
+  void HearSigma(const std::string& meter, const std::optional<double>& guess,
+                 devices::Summary& summary) const;
+
   std::unique_ptr<MeterSession> meter_;
   MeterCalibrations calibrations_;
+  std::vector<MeterDescription> meters_;
+  bool sigma_is_set_ = false;  // by a setting of the driver
   std::set<std::string> warned_;
 };
 

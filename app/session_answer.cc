@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/core/parallel.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
 #include "report_html.h"

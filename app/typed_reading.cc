@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "calibration_options.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units_text.h"
@@ -86,8 +87,15 @@ Result<Lux> NotNegative(const std::string& text) {
   return lux;
 }
 
+// A place holds one value of each kind: which of two was meant nobody can tell.
+Result<void> GivenTwice(const std::string& part, const char* what) {
+  return WrongUsage(part, std::string("is a second ") + what +
+                              " of one reading; leave one out, or type another reading");
+}
+
 // One word after a comma.
-Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Reading>& out) {
+Result<void> AddPart(const std::string& part, const Reading& lit, bool& angle_given,
+                     std::vector<Reading>& out) {
   const auto equals = part.find('=');
   const std::string key = part.substr(0, equals);
   if (equals != std::string::npos && (key == "card" || key == "off")) {
@@ -96,7 +104,14 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
     Reading other = lit;
     other.off_axis = out.front().off_axis;
     other.illuminance = *lux;
-    if (key == "card") {
+    const bool card = key == "card";
+    const auto of_its_kind = [&](const Reading& one) {
+      return card ? one.shadow_card : one.lamp == LampState::kOff;
+    };
+    if (std::ranges::any_of(out, of_its_kind)) {
+      return GivenTwice(part, card ? "shadow card" : "lamp off");
+    }
+    if (card) {
       other.shadow_card = true;
     } else {
       other.lamp = LampState::kOff;
@@ -110,12 +125,14 @@ Result<void> AddPart(const std::string& part, const Reading& lit, std::vector<Re
     if (!(std::abs(angle->value()) < RadiansFromDegrees(180.0).value())) {
       return Refused("bad_reading", part, "an angle off the axis lies within 180 degrees");
     }
+    if (std::exchange(angle_given, true)) return GivenTwice(part, "angle off the axis");
     for (Reading& one : out) one.off_axis = *angle;
     return {};
   }
   if (!part.empty() && (part.back() == 'K' || part.back() == 'k')) {
     const auto cct = ParseLampTemperature(part);
     if (!cct) return tl::unexpected(cct.error());
+    if (out.front().cct) return GivenTwice(part, "colour temperature");
     out.front().cct = *cct;
     return {};
   }
@@ -155,8 +172,10 @@ Result<std::vector<Reading>> ParseTypedReading(const std::string& text, const st
   out.front().illuminance = *illuminance;
   out.front().distance = *distance;
   const Reading lit = out.front();
+  bool angle_given = false;
   for (std::size_t i = 1; i < parts.size(); ++i) {
-    if (auto added = AddPart(parts[i], lit, out); !added) return Propagate(std::move(added));
+    auto added = AddPart(parts[i], lit, angle_given, out);
+    if (!added) return Propagate(std::move(added));
   }
   if (distance->value() > kFarthestMetres) {
     return Refused("bad_reading", text, "no meter stands so far away; look at the distance's unit");
@@ -193,12 +212,15 @@ Result<std::vector<double>> ParseSides(const std::string& text, std::size_t coun
 }
 
 Result<Kelvin> ParseLampTemperature(const std::string& text) {
-  constexpr double kColdestLamp = 1000.0;
   auto cct = ParseTemperature(text);
   if (cct && !(cct->value() > 0.0)) return WrongUsage(text, "must be above zero");
-  if (cct && !(cct->value() >= kColdestLamp)) {
+  if (cct && !(*cct >= kColdestLamp)) {
     return Refused("bad_reading", text,
                    "no lamp is so red: a candle has 1900 K; is a digit missing?");
+  }
+  if (cct && !IsTemperatureOfLamp(*cct)) {
+    return Refused("bad_reading", text,
+                   "no lamp is so blue: the sky has 20 000 K; is there a digit too many?");
   }
   return cct;
 }
@@ -223,12 +245,11 @@ Result<void> SetRoom(const std::string& text, Session& session) {
   }
   const std::vector<std::string> parts = SplitAt(text, ',');
   if (parts.size() != 3 && parts.size() != 4) return WrongUsage(text, kRoomForm);
+  const auto sides = ParseLengths(text, parts[0] + "," + parts[1] + "," + parts[2], ',');
+  const bool positive = sides && std::ranges::all_of(*sides, [](double v) { return v > 0.0; });
+  if (!positive) return WrongUsage(text, kRoomForm);
   Room room;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto side = ParseLength(parts[i]);
-    if (!side || !(side->value() > 0.0)) return WrongUsage(text, kRoomForm);
-    room.size_m[i] = side->value();
-  }
+  std::ranges::copy(*sides, room.size_m.begin());
   if (parts.size() == 4) {
     const auto reflectance = SplitNumberAndUnit(parts[3]);
     if (!reflectance || !reflectance->unit.empty() || !(reflectance->number >= 0.0) ||

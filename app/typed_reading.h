@@ -30,7 +30,8 @@ namespace lightcal::app {
 [[nodiscard]] Result<std::vector<double>> ParseSides(const std::string& text, std::size_t count,
                                                      const std::string& example);
 
-// The colour temperature of a lamp. Refused: bad_reading (under 1000 K, which no lamp has).
+// The colour temperature of a lamp. Refused: bad_reading (what no lamp has: below
+// 1000 K, above 100 000 K).
 [[nodiscard]] Result<Kelvin> ParseLampTemperature(const std::string& text);
 
 // How far a light's colour lies from the black body's, in u, v of 1960. Refused: bad_reading

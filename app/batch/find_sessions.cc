@@ -8,6 +8,7 @@
 #include <span>
 #include <system_error>
 
+#include "input_files.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal_devices/captures/bracket.h"
 
@@ -20,8 +21,13 @@ constexpr const char* kSessionFile = "session.toml";
 
 constexpr int kAnyDepth = 1000;
 
+struct FoundBelow {
+  std::vector<std::string> sessions;
+  std::vector<std::string> hidden;  // folders that this user may not look into
+};
+
 // Below a session no other session is looked for: its captures and outputs lie there.
-void CollectBelow(const fs::path& directory, int levels, std::vector<std::string>& sessions) {
+void CollectBelow(const fs::path& directory, int levels, FoundBelow& found) {
   std::error_code error;
   std::vector<fs::path> entries;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
@@ -31,9 +37,11 @@ void CollectBelow(const fs::path& directory, int levels, std::vector<std::string
   std::ranges::sort(entries);
   for (const fs::path& entry : entries) {
     if (IsSession(entry)) {
-      sessions.push_back(entry.string());
+      found.sessions.push_back(entry.string());
+    } else if (MayNotLookInto(entry.string())) {
+      found.hidden.push_back(entry.string());
     } else if (levels > 1) {
-      CollectBelow(entry, levels - 1, sessions);
+      CollectBelow(entry, levels - 1, found);
     }
   }
 }
@@ -42,11 +50,15 @@ void CollectBelow(const fs::path& directory, int levels, std::vector<std::string
 // through.
 Result<std::vector<std::string>> SessionsOf(const std::string& path, bool recursive) {
   if (IsSession(path)) return std::vector<std::string>{path};
-  std::vector<std::string> sessions;
-  CollectBelow(path, recursive ? kAnyDepth : 1, sessions);
+  FoundBelow found;
+  CollectBelow(path, recursive ? kAnyDepth : 1, found);
+  std::vector<std::string> sessions = found.sessions;
+  std::ranges::copy(found.hidden, std::back_inserter(sessions));
+  std::ranges::sort(sessions);
   if (recursive) return sessions;
-  std::vector<std::string> deeper;
-  CollectBelow(path, 2, deeper);
+  FoundBelow two_levels;
+  CollectBelow(path, 2, two_levels);
+  std::vector<std::string> deeper = std::move(two_levels.sessions);
   std::erase_if(deeper, [&](const std::string& one) {
     return std::ranges::find(sessions, one) != sessions.end();
   });
@@ -80,10 +92,7 @@ Result<std::vector<std::string>> MatchesOf(const std::string& pattern, bool recu
 void DropRepeated(std::vector<std::string>& sessions) {
   std::set<std::string> seen;
   std::erase_if(sessions, [&](const std::string& session) {
-    std::error_code error;
-    const std::string journal = JournalPath(session);  // one for the directory and its toml
-    const fs::path whole = fs::weakly_canonical(journal, error);
-    return !seen.insert(error ? journal : whole.string()).second;
+    return !seen.insert(WholePath(JournalPath(session))).second;  // of a directory and its toml
   });
 }
 

@@ -15,7 +15,8 @@ namespace lightcal::app {
 
 // A session directory or a .toml file stands for itself, a wildcard for what matches it, any other
 // directory for every session directory in it, by name; recursive: at any depth. Each session once.
-// A path with nothing of that stays as it is, for LoadSession to say what is wrong.
+// A path with nothing of that stays as it is, for LoadSession to say what is wrong; so does every
+// folder among those that this user may not look into.
 // Refused: no_sessions (a wildcard that matches no session), sessions_deeper (not recursive, and a
 // folder of the directory holds sessions).
 [[nodiscard]] Result<std::vector<std::string>> FindSessions(const std::vector<std::string>& given,

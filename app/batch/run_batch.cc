@@ -298,7 +298,7 @@ std::string StemOf(const fs::path& session) {
                           fs::is_regular_file(session, error);
   if (named_toml) return session.stem().string();
   const fs::path directory = fs::path(JournalPath(session.string())).parent_path();
-  return fs::weakly_canonical(directory.empty() ? "." : directory, error).filename().string();
+  return fs::path(WholePath(directory.empty() ? "." : directory.string())).filename().string();
 }
 
 }  // namespace
@@ -310,9 +310,7 @@ Result<std::vector<BatchItem>> BatchItems(const std::vector<std::string>& sessio
   for (const std::string& session : sessions) {
     fs::path directory = fs::path(JournalPath(session)).parent_path() / "out";
     if (!output.empty()) directory = apart ? fs::path(output) / StemOf(session) : fs::path(output);
-    std::error_code error;
-    const std::string whole = fs::weakly_canonical(directory, error).string();
-    const auto [earlier, added] = taken.emplace(whole, session);
+    const auto [earlier, added] = taken.emplace(WholePath(directory.string()), session);
     if (!added) {
       return WrongUsage(session, "would write to " + directory.string() + ", as " +
                                      earlier->second + " does; run them apart, each with its -o");

@@ -50,9 +50,14 @@ Result<Xyz> TypedXyz(const ColorOptions& options) {
     values[i] = *number;
   }
   const auto [x, y, z] = values;
-  if (!(y > 0.0 && x + y + z > 0.0 && std::isfinite(x + y + z))) {
+  // IsPhysicalXy of x and y, before they are rounded.
+  if (!(x >= 0.0 && y > 0.0 && z >= 0.0)) {
     return Refused("bad_chromaticity", "--xyz",
-                   "no light has Y at or below 0; check the dark level");
+                   "no light has a value below 0, nor Y at 0; check the dark level");
+  }
+  if (!std::isfinite(x + y + z)) {
+    return Refused("out_of_range", "--xyz",
+                   "the three add up to more than a number holds; divide them all by one");
   }
   return Xyz{x, y, z};
 }
@@ -101,7 +106,7 @@ Result<Xy> XyOfTemperature(const ColorOptions& options) {
     duv = *typed;
   }
   const Xy xy = XyFromCct(*temperature, duv);
-  if (!(xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0)) {
+  if (!IsPhysicalXy(xy)) {
     return Refused("bad_chromaticity", "--duv",
                    "no light lies so far from the locus; Duv is a few thousandths, such as 0.006");
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal convert: one photometric value of a lamp -> all the others.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "commands.h"
 #include "light_value.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/photometry/lambert.h"
@@ -196,6 +198,33 @@ Result<void> LightSurface(ConvertAnswer& answer, const std::string& text) {
   return {};
 }
 
+// Options of other kinds of lamps, which change nothing.
+void WarnOfUnused(const ConvertOptions& o, LightKind kind, Console& console) {
+  using enum LightKind;
+  struct Row {
+    const char* option;
+    bool given;
+    std::vector<LightKind> of;
+  };
+  const Row rows[] = {{"--inner", !o.inner.empty(), {kSpot}},
+                      {"--outer", !o.outer.empty(), {kSpot}},
+                      {"--radius", !o.radius.empty(), {kSphere, kDisk, kTube}},
+                      {"--diameter", !o.diameter.empty(), {kSphere, kDisk, kTube}},
+                      {"--size", !o.size.empty(), {kRect}},
+                      {"--width", !o.width.empty(), {kRect}},
+                      {"--height", !o.height.empty(), {kRect}},
+                      {"--length", !o.length.empty(), {kTube}},
+                      {"--angular-diameter", !o.angular_diameter.empty(), {kDirectional}}};
+  for (const Row& row : rows) {
+    if (!row.given || std::ranges::find(row.of, kind) != row.of.end()) continue;
+    console.Warn({"unused_option", row.option,
+                  "says nothing of a " + std::string(LightKindName(kind)) +
+                      " light and is left aside: it is of a " +
+                      Joined(row.of, " or ",
+                             [](LightKind one) { return std::string(LightKindName(one)); })});
+  }
+}
+
 Result<ConvertAnswer> Convert(const ConvertOptions& o, Console& console) {
   const auto typed = ParseLightValue(o.value);
   if (!typed) return tl::unexpected(typed.error());
@@ -209,6 +238,7 @@ Result<ConvertAnswer> Convert(const ConvertOptions& o, Console& console) {
   }
   const auto given = GivenQuantity(*typed, efficacy);
   if (!given) return tl::unexpected(given.error());
+  WarnOfUnused(o, *kind, console);
   SourceGeometry geometry;
   geometry.kind = *kind;
   if (auto done = FillSizes(geometry, o); !done) return tl::unexpected(done.error());

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "commands.h"
+#include "lamp_words.h"
 #include "light_input.h"
 #include "lightcal/calibrate/compare_lights.h"
 #include "lightcal/core/numbers_text.h"
@@ -30,7 +31,10 @@ std::string_view Word(const std::array<std::string_view, 4>& words, Change chang
 }
 
 Node WithU(const Uncertain& u) {
-  return {{"value", u.value}, {"u95", u.u95 > 0.0 ? Node(u.u95) : Node()}};
+  return {{"value", u.value},
+          {"u95", u.u95 > 0.0 ? Node(u.u95) : Node()},
+          {"low95", u.low},
+          {"high95", u.high}};
 }
 
 Node QuantityNode(const QuantityChange& change) {
@@ -65,6 +69,7 @@ Node ToJson(const DiffOptions& options, const LightComparison& comparison) {
 }
 
 std::string ValueText(const Uncertain& u, const std::string& unit) {
+  if (u.u95 > 0.0 && !IsEven(u)) return ValueAndInterval(u, unit);
   if (u.u95 > 0.0) return ValueWithAbsolute(u.value, u.u95, unit);
   return RoundedText(u.value, kDigitsWithoutU) + (unit.empty() ? "" : " " + unit);
 }

@@ -9,7 +9,7 @@
 #include "commands.h"
 #include "directory_name.h"
 #include "export_request.h"
-#include "lightcal/presets/export_presets.h"
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/presets/preset_table.h"
 #include "one_of.h"
 #include "output_files.h"

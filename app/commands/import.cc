@@ -24,6 +24,7 @@ struct ImportOptions {
   std::vector<std::string> files;
   std::string session;
   std::string distance;
+  std::string state;
   ImportSettings settings;
 };
 
@@ -98,6 +99,11 @@ Result<void> AppendAll(const ImportPlan& plan, const std::string& journal) {
 
 Result<ImportSettings> SettingsOf(const ImportOptions& options) {
   ImportSettings settings = options.settings;
+  if (!options.state.empty()) {
+    auto state = ParseFixtureState(options.state);
+    if (!state) return Propagate(std::move(state));
+    settings.state = *std::move(state);
+  }
   if (options.distance.empty()) return settings;
   auto distance = ParseLength(options.distance);
   if (!distance) return Propagate(std::move(distance));
@@ -194,6 +200,9 @@ Run BuildImport(CLI::App& parser) {
   parser.add_option("-d,--distance", options->distance,
                     "From the lamp to the meter (0.5m, 20in), unless the file gives it");
   parser.add_option("-m,--meter", settings.meter, "Which [[meter]] of the session read it");
+  parser.add_option("--state", options->state,
+                    "What the fixture's controls said, unless the file says it: "
+                    "dimmer=50,cct_K=4000 (any names)");
   parser
       .add_option("--columns", settings.columns,
                   "What a table's columns are, in their order, whatever its header says: "

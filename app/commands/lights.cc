@@ -184,6 +184,7 @@ Result<void> Rename(const LightsOptions& options, Console& console) {
   if (!lights) return tl::unexpected(lights.error());
   const auto entry = ExactlyCalled(options.name, *lights);
   if (!entry) return tl::unexpected(entry.error());
+  if (auto free = RefuseTakenName(*entry, options.as, *lights); !free) return free;
   LightFile renamed{{entry->light}, entry->provenance};
   renamed.lights.front().name = options.as;
   const auto written = AddToLibrary(renamed, fs::path(entry->path).parent_path().string());

@@ -117,7 +117,8 @@ Run BuildNew(CLI::App& parser) {
   parser.add_option("--meter", flags.meter,
                     "none (you type what it shows), or a device [asked; the one plugged in]");
   parser.add_option("--accuracy", flags.accuracy,
-                    "Of a meter that is typed, as its maker says, taken as 95 %: 3% [asked; 10%]");
+                    "Of the meter, as its maker says, taken as 95 %: 3% [asked of one that is "
+                    "typed; 10%]");
   parser.add_option("--to", flags.targets, "Engines: gltf,blender or all [asked; all]");
   parser.add_option("--room", flags.room,
                     "Width, depth, height in metres: 5,4,2.6, or dark or outdoors [asked]");

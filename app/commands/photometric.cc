@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal photometric: what an IES or EULUMDAT file says, converted, drawn.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -78,7 +79,7 @@ Node ToJson(const PhotometricFile& file) {
   const LobeWidths beam = LobeWidthsAt(table, 0.5);
   const LobeWidths field = LobeWidthsAt(table, 0.1);
   const auto by_plane = [](const LobeWidths& lobe) -> Node {
-    return {DegreesFromRadians(lobe.c0), DegreesFromRadians(lobe.c90)};
+    return {DegreesFromRadians(lobe.along), DegreesFromRadians(lobe.across)};
   };
   Node node = {
       {"format", word(kPhotometricFormatWords, header.format)},
@@ -98,6 +99,7 @@ Node ToJson(const PhotometricFile& file) {
       {"symmetry", word(kTableSymmetryWords, table.symmetry())},
       {"beam_deg", DegreesFromRadians(beam.mean)},
       {"field_deg", DegreesFromRadians(field.mean)},
+      {"lobe_about", beam.beside_axis ? "peak" : "axis"},
       {"beam_by_plane_deg", by_plane(beam)},
       {"field_by_plane_deg", by_plane(field)},
       {"power_W", header.power},
@@ -126,6 +128,8 @@ std::string DistributionTitle(const PhotometricOptions& options, const Photometr
   return header.luminaire.empty() ? file : header.luminaire + " (" + file + ")";
 }
 
+double Tenth(Radians angle) { return std::round(10.0 * DegreesFromRadians(angle)) / 10.0; }
+
 std::string Table(const PhotometricOptions& options, const PhotometricFile& file) {
   const PhotometricHeader& header = file.header;
   const IntensityTable& table = file.table;
@@ -134,8 +138,8 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
     const LobeWidths lobe = LobeWidthsAt(table, level);
     std::string out = text(DegreesFromRadians(lobe.mean));
     if (table.symmetry() != TableSymmetry::kAxial) {
-      out += " (" + text(DegreesFromRadians(lobe.c0)) + " by " +
-             text(DegreesFromRadians(lobe.c90)) + ")";
+      out += " (" + text(DegreesFromRadians(lobe.along)) + " by " +
+             text(DegreesFromRadians(lobe.across)) + ")";
     }
     return out;
   };
@@ -149,13 +153,21 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
   rows.push_back({"peak at gamma", text(DegreesFromRadians(table.peak().gamma)), "deg"});
   rows.push_back({"beam angle (50 %)", widths(0.5), "deg"});
   rows.push_back({"field angle (10 %)", widths(0.1), "deg"});
+  const std::string peak_gamma = ShortestText(Tenth(table.peak().gamma));
+  const std::string peak_c = ShortestText(Tenth(table.peak().c));
+  const std::string where = LobeWidthsAt(table, 0.5).beside_axis
+                                ? "the lobe lies beside the axis, its peak at gamma " + peak_gamma +
+                                      ", C " + peak_c +
+                                      ": its angles are about that direction, in the plane of C " +
+                                      peak_c + " and across it\n"
+                                : "";
   const std::string planes = std::to_string(table.grid().horizontal_deg.size());
   return DistributionTitle(options, header) + "\n" + header.version + ", type " +
          std::string(kGoniometerTypeWords[static_cast<std::size_t>(table.grid().type)]) +
          ", symmetry " +
          std::string(kTableSymmetryWords[static_cast<std::size_t>(table.symmetry())]) + ", " +
          planes + " planes of " + std::to_string(table.grid().vertical_deg.size()) + " angles\n" +
-         TextTable({"quantity", "value", "unit"}, rows);
+         TextTable({"quantity", "value", "unit"}, rows) + where;
 }
 
 Result<void> RunPhotometric(const PhotometricOptions& options, Console& console) {

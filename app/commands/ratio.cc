@@ -28,6 +28,7 @@ namespace {
 struct RatioOptions {
   std::vector<std::string> what;
   std::string at, normal = "lamp", meter;
+  bool normal_given = false;
   std::vector<std::string> key, fill;
   LampPlaceWords places;
 };
@@ -158,6 +159,18 @@ bool IsReading(const std::string& text) {
 Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
   const std::vector<std::string>& what = options.what;
   if (what.size() == 2 && IsReading(what[0])) {
+    const std::pair<const char*, bool> of_lights[] = {
+        {"--at", !options.at.empty()},
+        {"--key", !options.key.empty()},
+        {"--fill", !options.fill.empty()},
+        {"--normal", options.normal_given},
+        {"--position", !options.places.position.empty()},
+        {"--aim", !options.places.aim.empty()}};
+    for (const auto& [option, given] : of_lights) {
+      if (given) {
+        return WrongUsage(option, "is of a light.json; two readings say themselves what is where");
+      }
+    }
     double calibration = kSigmaUnnamedMeter;
     if (!options.meter.empty()) {
       const auto sigma = SigmaOfMeter(options.meter);
@@ -176,6 +189,9 @@ Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
                       "--key and --fill");
   }
   // The line first: a wrong one is told whatever the file holds.
+  if (!options.meter.empty()) {
+    return WrongUsage("--meter", "is of two readings; a light.json knows the meter of its own");
+  }
   if (options.at.empty()) return WrongUsage("--at", "say where: --at x,y,z (metres)");
   for (const auto& [option, names] :
        {std::pair("--key", &options.key), std::pair("--fill", &options.fill)}) {
@@ -222,8 +238,10 @@ Result<void> RunRatio(const RatioOptions& options, Console& console) {
   const double stops = std::log2(answer.ratio);
   const double u95_stops = StopsOfSd(answer.sd_of_ln);
   const double apart = StopsOfSd(answer.apart_sd_of_ln);
-  const int decimals = u95_stops < 0.095 ? 2 : 1;
-  const double unit = decimals == 2 ? 100.0 : 10.0;
+  const bool surer = apart > 1.05 * u95_stops;
+  double unit = u95_stops < 0.095 ? 100.0 : 10.0;
+  // So many decimals that the two intervals, side by side, read as they are.
+  while (surer && std::round(u95_stops * unit) >= std::round(apart * unit)) unit *= 10.0;
   const auto rounded = [&](double value) {
     std::string text = ShortestText(std::round(value * unit) / unit);
     if (text.find('.') == std::string::npos) text += ".0";
@@ -232,11 +250,11 @@ Result<void> RunRatio(const RatioOptions& options, Console& console) {
   console.Print(RoundedText(answer.ratio, 2) + " : 1 · " + rounded(stops) + " ± " +
                 rounded(u95_stops) + " stops\n");
   console.Print(LabelledLine("key", SideText(key)) + LabelledLine("fill", SideText(fill)));
-  if (apart > 1.05 * u95_stops) {
+  if (surer) {
     console.Print(LabelledLine("why so sure",
                                "one meter read both: its own error cancels (two "
                                "meters would leave ± " +
-                                   RoundedText(apart, 2) + ")"));
+                                   rounded(apart) + ")"));
   }
   console.PrintDocument({{"ratio", DocumentOf(ratio)},
                          {"stops", {{"value", stops}, {"u95", u95_stops}}},
@@ -261,10 +279,11 @@ Run BuildRatio(CLI::App& parser) {
   parser.add_option("--fill", options->fill, "Lights of the fill")
       ->delimiter(',')
       ->allow_extra_args(false);
-  parser
-      .add_option("--normal", options->normal,
-                  "How the meter is turned: lamp (to each side's brightest), up, or x,y,z")
-      ->capture_default_str();
+  const CLI::Option* const normal =
+      parser
+          .add_option("--normal", options->normal,
+                      "How the meter is turned: lamp (to each side's brightest), up, or x,y,z")
+          ->capture_default_str();
   parser
       .add_option("--position", options->places.position,
                   "Where a light stands: [NAME=]x,y,z; may be repeated")
@@ -273,7 +292,10 @@ Run BuildRatio(CLI::App& parser) {
       ->allow_extra_args(false);
   parser.add_option("--meter", options->meter,
                     "Of two readings: phone, hobby or lab, or its maker's figure, e.g. 3%");
-  return [options](Console& console) { return RunRatio(*options, console); };
+  return [options, normal](Console& console) {
+    options->normal_given = normal->count() > 0;
+    return RunRatio(*options, console);
+  };
 }
 
 }  // namespace lightcal::app

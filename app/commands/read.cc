@@ -57,7 +57,9 @@ class ReadRun {
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
     const bool typed = options_.typed || !options_.lux.empty();
     auto opened =
-        ReadingSource::Open({options_.session, typed, options_.request}, AsksQuestions(), console_);
+        ReadingSource::Open({options_.session, typed, options_.request,
+                             session_ ? session_->meters : std::vector<MeterDescription>()},
+                            AsksQuestions(), console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     Reading frame = options_.frame;
@@ -95,13 +97,20 @@ class ReadRun {
   Result<void> TakeSeries(const Reading& frame) {
     for (int round = 0; round < options_.repeat; ++round) {
       if (round > 0 && !source_.HasMore()) break;
-      const bool is_replay = source_.meter() != nullptr && source_.meter()->IsReplay();
-      if (round > 0 && !is_replay) std::this_thread::sleep_for(options_.every);
+      if (round > 0) Pause();
       taken_.clear();
       if (auto taken = TakeReadings(frame); !taken) return taken;
       if (auto published = Publish(); !published) return published;
     }
     return {};
+  }
+
+  void Pause() {
+    if (source_.meter() != nullptr) {
+      source_.meter()->Pause(options_.every);
+    } else {
+      std::this_thread::sleep_for(options_.every);
+    }
   }
 
   Result<void> TakeReadings(const Reading& frame) {
@@ -138,6 +147,9 @@ class ReadRun {
   }
 
   Result<void> TakeOne(const Reading& frame) {
+    if (AsksQuestions() && source_.meter() != nullptr && !taken_.empty()) {
+      source_.meter()->DropBacklog();  // a card was taken away meanwhile
+    }
     auto taken = options_.lux.empty() ? source_.Take(frame, options_.plan, console_)
                                       : source_.TakeTyped(frame, options_.lux, console_);
     if (!taken) return Propagate(std::move(taken));

@@ -84,11 +84,12 @@ Result<std::vector<PlotRequest>> ParsePlots(const std::vector<std::string>& text
 }
 
 // "polar.svg" -> "polar-key.svg", as exports name the photometric files of their lights.
-std::string WithLight(const std::string& file, const std::string& light) {
+std::string WithLight(const std::string& file, const std::string& light,
+                      std::set<std::string>& taken) {
   const fs::path path(file);
-  return (path.parent_path() /
-          (path.stem().string() + "-" + FileNamePart(light) + path.extension().string()))
-      .string();
+  const std::string name =
+      DistinctFileName(path.stem().string() + "-" + FileNamePart(light), taken);
+  return (path.parent_path() / (name + path.extension().string())).string();
 }
 
 Result<void> AddPlot(const PlotRequest& request, const Source& source, const std::string& light,
@@ -103,9 +104,10 @@ Result<void> AddPlot(const PlotRequest& request, const Source& source, const std
                    light.empty() ? "no light here has what it shows"
                                  : "the light \"" + light + "\" has not what it shows");
   }
+  std::set<std::string> taken;
   for (const report::PlotFile& plot : plots) {
     auto picture = PictureFile(
-        plots.size() == 1 ? request.file : WithLight(request.file, plot.light), plot.svg);
+        plots.size() == 1 ? request.file : WithLight(request.file, plot.light, taken), plot.svg);
     if (!picture) return Propagate(std::move(picture));
     files.push_back(*std::move(picture));
   }

@@ -131,16 +131,24 @@ Result<void> CheckSimulate(const SimulateOptions& options) {
   return CheckMapNames(options.outputs);
 }
 
-// "lamp": turned to the lamp that gives most there.
+// "lamp": turned to the lamp that gives most there; behind all of them, to the one of the most
+// candela over the square of its distance.
 Vec3 TowardBrightest(const std::vector<PlacedLamp>& lamps, const Vec3& position) {
   Vec3 best{0.0, 0.0, 1.0};
   double most = 0.0;
+  double most_behind = 0.0;
   for (const PlacedLamp& lamp : lamps) {
     const auto normal = DirectionToLamp(lamp, position);
     if (!normal) continue;
     const double lux = LuxOf(lamp, {position, *normal});
     if (lux > most) {
       most = lux;
+      best = *normal;
+    }
+    const Vec3 way = lamp.pose.position_m - position;
+    const double behind = IsEverywhere(lamp.source) ? 0.0 : lamp.strength / Dot(way, way);
+    if (most == 0.0 && behind > most_behind) {
+      most_behind = behind;
       best = *normal;
     }
   }

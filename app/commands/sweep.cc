@@ -11,6 +11,7 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "guide/driven_fixture.h"
+#include "guide/shell_word.h"
 #include "guide/sweep_plan.h"
 #include "input_files.h"
 #include "interrupt.h"
@@ -30,6 +31,8 @@ namespace {
 
 // A lamp that gives this much less or more when it comes back to full is not yet steady.
 constexpr double kDrift = 0.02;
+// No warming up changes ln of its light so much: another number was typed, or the lamp is not back.
+constexpr double kNoDrift = 0.4;
 // Light that changes by less than this many of the meter's repeatabilities stands still: six looks'
 // least-squares line alone changes by 1.2 of them, 1 sigma.
 constexpr double kStillSigmas = 2.5;
@@ -97,8 +100,9 @@ class Sweep {
     if (!settings) return Propagate(std::move(settings));
     MeterRequest request = options_.request;
     request.settings = *std::move(settings);
-    auto opened = ReadingSource::Open({options_.session, options_.typed, std::move(request)},
-                                      !console_.json() || options_.typed, console_);
+    auto opened =
+        ReadingSource::Open({options_.session, options_.typed, std::move(request), session_.meters},
+                            !console_.json() || options_.typed, console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     const bool tape = source_.meter() != nullptr && source_.meter()->IsReplay();
@@ -229,6 +233,7 @@ class Sweep {
       console_.Note(set);
     } else if (source_.meter() != nullptr) {
       if (!Ask(set + ", press Enter. ")) return false;
+      source_.meter()->DropBacklog();
     } else {
       console_.Note(set + ".");
     }
@@ -279,7 +284,14 @@ class Sweep {
   void WatchDrift(const Reading& reading) {
     if (!reading.illuminance || !SameState(reading.state, FullOf(states_))) return;
     const double now = reading.illuminance->value();
-    if (first_full_ && std::abs(now / *first_full_ - 1.0) > kDrift) {
+    const bool another = first_full_ && std::abs(std::log(now / *first_full_)) > kNoDrift;
+    if (another) {
+      console_.Warn({"return_disagrees", frame_.light,
+                     "back at " + StateText(reading.state) + " it read " + RoundedText(now, 4) +
+                         " lx where it had read " + RoundedText(*first_full_, 4) +
+                         ": if the number is wrong, take it back (lightcal read -s " +
+                         ShellWord(options_.session) + " --undo) and sweep again"});
+    } else if (first_full_ && std::abs(now / *first_full_ - 1.0) > kDrift) {
       console_.Warn({"drift", frame_.light,
                      "back at " + StateText(reading.state) + " it gives " +
                          PercentText(now / *first_full_ - 1.0) +

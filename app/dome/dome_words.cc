@@ -112,10 +112,11 @@ Result<CameraSettings> ParsePlateExposure(const std::string& option, const std::
   if (!whole || !f_number || !time || !iso) {
     return WrongUsage(option, "\"" + text + "\" is not f-number,time,ISO such as f/8,1/60,100");
   }
-  if (!(*f_number > 0.0 && time->value() > 0.0 && *iso > 0.0)) {
+  const CameraSettings camera{*f_number, *time, *iso};
+  if (!IsPossible(camera)) {
     return Refused("not_positive", option, "f-number, time and ISO speed are above 0");
   }
-  return CameraSettings{*f_number, *time, *iso};
+  return camera;
 }
 
 }  // namespace lightcal::app

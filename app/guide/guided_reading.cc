@@ -68,8 +68,8 @@ class Walk {
     const Session& session = measured->session;
     if (auto named = ChooseNames(session); !named) return named;
     const bool may_type = !console_.json() || options_.typed;
-    auto opened = ReadingSource::Open({options_.session, options_.typed, options_.request},
-                                      may_type, console_);
+    auto opened = ReadingSource::Open(
+        {options_.session, options_.typed, options_.request, session.meters}, may_type, console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     typed_ = source_.meter() == nullptr;
@@ -273,6 +273,7 @@ class Walk {
     frame.off_axis = step.off_axis.value_or(Radians(0.0));
     frame.shadow_card = step.action == PlannedAction::kShadowCard;
     frame.lamp = step.action == PlannedAction::kLampOff ? LampState::kOff : LampState::kOn;
+    if (!typed_) source_.meter()->DropBacklog();
     const auto taken = typed_ ? source_.TakeTyped(frame, answer.typed, console_)
                               : source_.Take(frame, plan_, console_);
     if (!taken) {

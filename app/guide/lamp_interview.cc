@@ -283,11 +283,7 @@ class Interview {
   }
 
   Result<void> AskAccuracy() {
-    if (!session_.device.empty()) {
-      if (!flags_.accuracy) return {};
-      return WrongUsage("--accuracy", "is for a meter without a cable; the driver of " +
-                                          session_.device + " knows its own");
-    }
+    if (!session_.device.empty() && !flags_.accuracy) return {};  // as its driver knows it
     return Take(
         session_.meter_sigma_relative,
         {"--accuracy", "How far may it be off, as its data sheet says, for example 3%?", "10%"},

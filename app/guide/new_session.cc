@@ -80,8 +80,12 @@ std::string LightText(const LightDescription& light) {
   return text + "\n";
 }
 
+bool StatesSigma(const NewSession& session) {
+  return session.device.empty() || session.meter_sigma_relative > 0.0;
+}
+
 std::string MeterText(const NewSession& session) {
-  if (!session.device.empty()) return "";
+  if (!StatesSigma(session)) return "";
   return "[[meter]]\n" + TomlLine("name", TomlText(kTypedMeterName), "") +
          TomlLine("sigma_relative", ShortestText(session.meter_sigma_relative),
                   "1 sigma: half of the accuracy on its data sheet") +
@@ -101,7 +105,9 @@ std::string BoxColorText(const NewSession& session) {
 std::string ReadLine(const NewSession& session) {
   std::string line = "lightcal read -s " + ShellWord(session.directory) + " --light " +
                      ShellWord(session.light.name);
-  return line + (session.device.empty() ? " --typed" : " --device " + ShellWord(session.device));
+  if (session.device.empty()) return line + " --typed";
+  if (StatesSigma(session)) line += std::string(" --meter ") + kTypedMeterName;
+  return line + " --device " + ShellWord(session.device);
 }
 
 std::string RunLine(const NewSession& session) {

@@ -17,13 +17,13 @@ struct NewSession {
   LightDescription light;
   std::optional<Kelvin> cct;         // as the box says
   std::string device;                // a connected meter, as read --device takes it; "" = typed
-  double meter_sigma_relative = 0;   // of a typed meter, 1 sigma
+  double meter_sigma_relative = 0;   // 1 sigma; 0: of a connected meter, as its driver knows it
   std::vector<std::string> targets;  // engines; none = all of them
   std::optional<Room> room;
   std::string surroundings{};  // "dark" or "outdoors": no walls; "" = a room
 };
 
-// The name that a typed meter has in the session.
+// The name that a meter whose accuracy is stated has in the session.
 inline constexpr const char* kTypedMeterName = "my_meter";
 
 // A commented session.toml that ParseSessionToml reads back.

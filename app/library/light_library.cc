@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "input_files.h"
+#include "lightcal/core/file_name.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/records/light_codec.h"
 #include "output_files.h"
 
@@ -47,6 +50,19 @@ std::string HashOf(const std::vector<InputFile>& inputs, const std::string& text
   std::string list;
   for (const InputFile& input : inputs) list += input.sha256 + '\n';
   return devices::Sha256Hex(list.empty() ? text : list).substr(0, kHashDigits);
+}
+
+Result<std::vector<OutputFile>> LibraryFiles(const LightFile& file, const std::string& folder) {
+  std::vector<OutputFile> outputs;
+  std::set<std::string> taken;
+  for (const FittedLight& light : file.lights) {
+    auto text = LightFileToJson({{light}, file.provenance});
+    if (!text) return Propagate(std::move(text));
+    const std::string name = DistinctFileName(
+        FileNameOf(light.name) + "-" + HashOf(file.provenance.inputs, *text), taken);
+    outputs.push_back({(fs::path(folder) / (name + ".json")).string(), *std::move(text)});
+  }
+  return outputs;
 }
 
 bool LooksLikeLights(const std::string& text) {
@@ -96,18 +112,31 @@ Result<std::vector<LibraryLight>> LightsInFolder(const std::string& folder, Warn
   return lights;
 }
 
-Result<std::vector<std::string>> AddToLibrary(const LightFile& file, const std::string& folder) {
-  std::vector<OutputFile> outputs;
-  std::vector<std::string> paths;
-  for (const FittedLight& light : file.lights) {
-    auto text = LightFileToJson({{light}, file.provenance});
-    if (!text) return Propagate(std::move(text));
-    const std::string name =
-        FileNameOf(light.name) + "-" + HashOf(file.provenance.inputs, *text) + ".json";
-    paths.push_back((fs::path(folder) / name).string());
-    outputs.push_back({paths.back(), *std::move(text)});
+Result<void> RefuseTakenName(const LibraryLight& entry, const std::string& name,
+                             const std::vector<LibraryLight>& all) {
+  LightFile renamed{{entry.light}, entry.provenance};
+  renamed.lights.front().name = name;
+  const auto files = LibraryFiles(renamed, fs::path(entry.path).parent_path().string());
+  if (!files) return tl::unexpected(files.error());
+  const std::string path = LowerAscii(files->front().path);
+  const auto taken = std::ranges::find_if(
+      all, [&](const LibraryLight& one) { return LowerAscii(one.path) == path; });
+  if (taken == all.end() || (taken->path == entry.path && files->front().path != entry.path)) {
+    return {};
   }
-  if (auto written = WriteOutputs(outputs, false); !written) return Propagate(std::move(written));
+  return Failed("exists", name,
+                taken->path == entry.path
+                    ? "is what it is called already"
+                    : "exists already (" + taken->path +
+                          "): take another name, or lights remove that light first");
+}
+
+Result<std::vector<std::string>> AddToLibrary(const LightFile& file, const std::string& folder) {
+  std::vector<std::string> paths;
+  const auto outputs = LibraryFiles(file, folder);
+  if (!outputs) return tl::unexpected(outputs.error());
+  for (const OutputFile& output : *outputs) paths.push_back(output.path);
+  if (auto written = WriteOutputs(*outputs, false); !written) return Propagate(std::move(written));
   return paths;
 }
 

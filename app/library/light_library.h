@@ -32,6 +32,10 @@ struct LibraryLight {
 [[nodiscard]] Result<std::vector<std::string>> AddToLibrary(const LightFile& file,
                                                             const std::string& folder);
 
+// Whether a light can be called that: no other light's file has the name. Fails: exists.
+[[nodiscard]] Result<void> RefuseTakenName(const LibraryLight& entry, const std::string& name,
+                                           const std::vector<LibraryLight>& all);
+
 // Takes a light out of the library: its file goes. Refused: several_lights (a file that somebody
 // put there holds others too). Fails: not_removed.
 [[nodiscard]] Result<void> RemoveFromLibrary(const LibraryLight& entry,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -10,6 +11,8 @@
 #include "commands/color_source.h"
 #include "input_files.h"
 #include "light_input.h"
+#include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal/colorimetry/illuminants.h"
 #include "lightcal/colorimetry/ssi.h"
 #include "lightcal/core/did_you_mean.h"
@@ -98,6 +101,40 @@ Result<const FittedLight*> OneLight(const LightFile& file, const MatchLightWords
                                    DidYouMean(words.light, file.lights));
 }
 
+// A spectrum that is not of the colour the lamp was measured to have: another lamp's, or of another
+// state.
+void WarnOfOtherColor(const FittedLight& light, const std::string& source, const Spectrum& spectrum,
+                      Console& console) {
+  constexpr double kAlike = 0.02;    // of a CCT
+  constexpr double kAlikeUv = 0.01;  // in u'v', where no CCT tells
+  const auto xyz = XyzFromSpectrum(spectrum);
+  if (!xyz) return;
+  const Xy xy = XyFromXyz(*xyz);
+  const CctResult own = CctFromXy(xy);
+  std::string measured, given;
+  if (light.color.cct_K && own.valid()) {
+    const double kelvin = light.color.cct_K->value;
+    const double off = std::abs(own.temperature.value() - kelvin);
+    if (off <= light.color.cct_K->u95 + kAlike * kelvin) return;
+    measured = ValueWithAbsolute(kelvin, light.color.cct_K->u95, "K");
+    given = RoundedText(own.temperature.value(), 4) + " K";
+  } else if (light.color.xy) {
+    const auto [u, v] = Uv1976FromXy(xy);
+    const auto [lamp_u, lamp_v] = Uv1976FromXy(*light.color.xy);
+    if (std::hypot(u - lamp_u, v - lamp_v) <= kAlikeUv) return;
+    const auto text = [](const Xy& at) {
+      return "x " + RoundedText(at.x, 3) + ", y " + RoundedText(at.y, 3);
+    };
+    measured = text(*light.color.xy);
+    given = text(xy);
+  } else {
+    return;
+  }
+  console.Warn({"color_disagrees", source,
+                "is of " + given + ", \"" + light.name + "\" was measured at " + measured +
+                    ": is it this lamp's, and of this state? The spectrum is believed"});
+}
+
 // A light.json knows a colour, not the spectrum it came from.
 Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& words,
                               const std::vector<LightSpectrum>& spectra, Console& console) {
@@ -112,6 +149,7 @@ Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& word
     auto one = OneSpectrum(words.spectrum, words.column, console);
     if (!one) return one;
     made = *std::move(one);
+    WarnOfOtherColor(**light, words.spectrum, made.spectrum, console);
   } else if (own != spectra.end()) {
     made.spectrum = own->spectrum;
     // What its lamp gave at one meter's place is no measure of the lamp.

@@ -36,7 +36,8 @@ struct MatchLightWords {
   bool by_color = false;  // a light of a light.json or session is left without a spectrum
 };
 // Refused: no_spectrum (a light.json or session without one), several_spectra, several_lights, and
-// as ReadSpectrumSource, LightsIn and CalibrateSession. Warns spectrum_assumed, spectrum_truncated.
+// as ReadSpectrumSource, LightsIn and CalibrateSession. Warns spectrum_assumed, spectrum_truncated,
+// color_disagrees (a spectrum given for a light that was measured to have another colour).
 [[nodiscard]] Result<MatchLight> ReadMatchLight(const MatchLightWords& words, Console& console);
 
 // A gel file, or the demonstration filters where none is named (warns demonstration_gels).

@@ -11,9 +11,11 @@ namespace lightcal::app::python {
 std::string InKeywords(std::string_view text) {
   const std::string words = InOptionWords(text);
   std::string out;
+  bool command = false;
   for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == '`') command = !command;
     const bool dashes =
-        words.compare(i, 2, "--") == 0 && i + 2 < words.size() && words[i + 2] >= 'a' &&
+        !command && words.compare(i, 2, "--") == 0 && i + 2 < words.size() && words[i + 2] >= 'a' &&
         words[i + 2] <= 'z' &&
         (i == 0 || words[i - 1] == ' ' || words[i - 1] == '(' || words[i - 1] == ',');
     if (!dashes) {
@@ -42,7 +44,12 @@ void Raise(const Error& error) {
 }
 
 std::string TextOf(py::handle value) {
-  if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+  if (py::isinstance<py::str>(value)) {
+    if (PyUnicode_AsUTF8(value.ptr()) != nullptr) return py::cast<std::string>(value);
+    PyErr_Clear();
+    Raise({ErrorKind::kUsage, "usage", py::cast<std::string>(py::repr(value)),
+           "holds half a character (a lone surrogate); give text"});
+  }
   if (py::hasattr(value, "__fspath__")) {
     return py::cast<std::string>(py::module_::import("os").attr("fspath")(value));
   }

@@ -30,10 +30,11 @@ T OrRaise(Result<T>&& result) {
 }
 
 // "give --anchor-sigma" or "give {merge.anchor}" -> "give `anchor_sigma`": keywords are named as
-// the options are.
+// the options are. What stands in `backticks` is a command line and stays.
 [[nodiscard]] std::string InKeywords(std::string_view text);
 
-// A value as a person would type it; a bare number is SI. TypeError for anything else.
+// A value as a person would type it; a bare number is SI. TypeError for anything else; raises usage
+// for a text that is not Unicode (half of a pair).
 [[nodiscard]] std::string TextOf(py::handle value);
 [[nodiscard]] std::vector<std::string> TextsOf(py::handle values);
 

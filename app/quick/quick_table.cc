@@ -10,12 +10,12 @@
 #include "input_files.h"
 #include "lamp_answer.h"
 #include "lamp_words.h"
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/fit_light.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal_devices/files/csv_columns.h"
 #include "lightcal_devices/files/delimited_text.h"
@@ -316,14 +316,14 @@ Result<std::deque<TableLamp>> ReadTable(const QuickOptions& options) {
   if (rows->empty()) return Refused("bad_table", options.table, "holds no lamp");
   std::deque<TableLamp> lamps;
   for (const Row& row : *rows) {
-    TableLamp& lamp = lamps.emplace_back();
-    lamp.where = devices::files::AtLine(options.table, row.line);
-    lamp.name = "line " + std::to_string(row.line);
+    const std::string where = devices::files::AtLine(options.table, row.line);
     QuickOptions of_row = options;
-    of_row.name = lamp.name;
-    auto typed = RowReader(of_row, lamp.where, delimiter != ',').Read(*columns, row);
-    if (typed) typed = UnderANameOfItsOwn(*std::move(typed), lamps, lamp.where);
-    if (typed) lamp.name = typed->name;
+    of_row.name = "line " + std::to_string(row.line);
+    auto typed = RowReader(of_row, where, delimiter != ',').Read(*columns, row);
+    if (typed) typed = UnderANameOfItsOwn(*std::move(typed), lamps, where);
+    TableLamp& lamp = lamps.emplace_back();  // after its name was looked for among the others
+    lamp.name = typed ? typed->name : of_row.name;
+    lamp.where = where;
     const auto answered =
         typed ? AnswerRow(*typed, lamp) : Result<void>(tl::unexpected(typed.error()));
     if (!answered) lamp.error = answered.error();

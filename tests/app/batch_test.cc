@@ -55,7 +55,7 @@ std::map<std::string, std::string> Contents(const fs::path& folder) {
 // Which file it is and when it was written: any new writing changes it.
 using Writing = std::tuple<ino_t, time_t, long>;
 Writing WritingOf(const fs::path& path) {
-  struct stat status {};
+  struct stat status{};
   EXPECT_EQ(::stat(path.c_str(), &status), 0) << path;
   return {status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
@@ -297,6 +297,57 @@ TEST_F(Batch, OneSessionOfAJobArrayIsLeftAloneTheSecondTime) {
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.out, HasSubstr("up to date"));
   EXPECT_EQ(WritingOf(lamps + "/a/out/light.json"), writing);
+}
+
+// Permissions do not bind root, who runs the binary as nobody.
+class BatchOfNobody : public Batch {
+ protected:
+  BatchOfNobody() {
+    fs::permissions(folder.path(), fs::perms(0755));
+    fs::create_directory(out);
+    fs::permissions(out, fs::perms(0777));
+  }
+  ~BatchOfNobody() override {
+    for (const std::string& one : locked) fs::permissions(one, fs::perms(0755));
+  }
+  void Lock(const std::string& one) {
+    fs::permissions(one, fs::perms::none);
+    locked.push_back(one);
+  }
+  CliResult Ask(std::vector<std::string> words) const {
+    words.emplace_back("--json");
+    std::vector<std::string> as_nobody = {"setpriv", "--reuid=65534", "--clear-groups"};
+    return RunLightcal(words, "", {}, ::geteuid() == 0 ? as_nobody : std::vector<std::string>());
+  }
+
+  std::string out = folder.path() + "/out";
+  std::vector<std::string> locked;
+};
+
+TEST_F(BatchOfNobody, AFolderThatMayNotBeEnteredIsASessionThatFails) {
+  Lock(lamps + "/b");
+  const CliResult result = Ask({"run", lamps, "-o", out, "--to", "gltf"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  const json document = json::parse(result.out);
+  EXPECT_EQ(document["counts"]["done"], 1);
+  EXPECT_EQ(document["sessions"][1]["status"], "failed");
+  EXPECT_EQ(document["sessions"][1]["error"]["code"], "no_permission");
+  const CliResult alone = Ask({"run", lamps + "/b", "-o", out, "--to", "gltf"});
+  EXPECT_EQ(json::parse(alone.out)["error"]["code"], "no_permission");
+  const CliResult validated = Ask({"validate", lamps});
+  EXPECT_EQ(validated.exit_code, 1);
+  EXPECT_EQ(json::parse(validated.out)["files"].size(), 2U);
+}
+
+TEST_F(BatchOfNobody, AnOutputFolderThatMayNotBeEnteredFails) {
+  const std::vector<std::string> words = {"run", lamps, "-o", out, "--to", "gltf", "--resume"};
+  ASSERT_EQ(Ask(words).exit_code, 0);
+  Lock(out + "/a");
+  const CliResult result = Ask(words);
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  const json a = json::parse(result.out)["sessions"][0];
+  EXPECT_EQ(a["error"]["code"], "unwritable");
+  EXPECT_THAT(std::string(a["error"]["message"]), HasSubstr("Permission denied"));
 }
 
 TEST_F(Batch, WildcardsAreExpandedAndEachSessionRunOnce) {

@@ -91,6 +91,10 @@ TEST(ColorCommand, WhatIsNoChromaticityIsRefused) {
   ExpectRefused({"--xy", "0.3", "0"}, "bad_chromaticity");
   ExpectRefused({"--xy", "nan", "0.3"}, "bad_number");
   ExpectRefused({"--xy", "0.3", "inf"}, "bad_number");
+  ExpectRefused({"--xy", "0.9", "0.9"}, "bad_chromaticity");
+  ExpectRefused({"--xyz", "-1", "1", "1"}, "bad_chromaticity");
+  ExpectRefused({"--xyz", "1", "1", "-0.001"}, "bad_chromaticity");
+  ExpectRefused({"--xyz", "1e308", "1e308", "1e308"}, "out_of_range");
   ExpectRefused({"--cct", "nan"}, "bad_number");
   ExpectRefused({"--cct", "0"}, "out_of_range");
   ExpectRefused({"--cct", "3000", "--duv", "5"}, "bad_chromaticity");

@@ -186,5 +186,14 @@ TEST(ConvertCommand, HelpSaysThatWattsAreElectricalAndShowsAnExample) {
   EXPECT_NE(run.out.find("lightcal convert 60W --efficacy 10lm/W"), std::string::npos) << run.out;
 }
 
+TEST(ConvertCommand, WhatSaysNothingOfTheLampIsWarnedOf) {
+  const json document = ConvertJson({"100cd", "--kind", "point", "--inner", "20"});
+  ASSERT_EQ(document["warnings"].size(), 1U);
+  EXPECT_EQ(document["warnings"][0]["code"], "unused_option");
+  EXPECT_EQ(document["warnings"][0]["subject"], "--inner");
+  EXPECT_FALSE(ConvertJson({"100cd", "--kind", "spot", "--inner", "20", "--outer", "30"})
+                   .contains("warnings"));
+}
+
 }  // namespace
 }  // namespace lightcal

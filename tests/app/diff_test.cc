@@ -154,5 +154,29 @@ TEST(DiffCommand, ReadsPresetsAndSessions) {
   EXPECT_THAT(RunLightcal({"diff", session, session}).out, HasSubstr("not the lamp"));
 }
 
+TEST(DiffCommand, AnUnevenIntervalHasItsEnds) {
+  const TempDir folder;
+  FittedLight lamp = SimpleLight("spot", LightKind::kSpot, 2000.0);
+  lamp.flux_lm = Uncertain{1260.0, 659.5, 11.0, 1330.0};
+  const std::string a = Write(folder, "a.json", {lamp});
+  lamp.flux_lm->value = 1250.0;
+  const std::string b = Write(folder, "b.json", {lamp});
+  const json flux = QuantityOf(LightcalJson("diff", {a, b})["lights"][0], "flux_lm");
+  EXPECT_EQ(flux["old"]["low95"], 11.0);
+  EXPECT_EQ(flux["old"]["high95"], 1330.0);
+  EXPECT_THAT(RunLightcal({"diff", a, b}).out, HasSubstr("1260 lm, 11 … 1330"));
+}
+
+TEST(DiffCommand, WhatASolverLeavesIsNoChange) {
+  const TempDir folder;
+  FittedLight lamp = SimpleLight("key", LightKind::kPoint, 100.0);
+  lamp.distance_offset_m = Uncertain{0.01, 0.0186, {}, {}};
+  const std::string a = Write(folder, "a.json", {lamp});
+  lamp.distance_offset_m = Uncertain{0.01 + 2e-6, 0.0186 + 4e-7, {}, {}};
+  const json document =
+      LightcalJson("diff", {a, Write(folder, "b.json", {lamp}), "--correlation", "1"});
+  EXPECT_EQ(QuantityOf(document["lights"][0], "distance_offset_m")["verdict"], "within_u");
+}
+
 }  // namespace
 }  // namespace lightcal::test

@@ -55,6 +55,29 @@ class Import : public testing::Test {
   TempDir temp_;
 };
 
+TEST_F(Import, WhatTheControlsSaidMayStandOnTheLine) {
+  const std::string file = temp_.Write("half.csv", "distance_m,illuminance_lx\n1,60\n");
+  ASSERT_EQ(Run({file, "--light", "key", "--state", "dimmer=50"}).exit_code, 0);
+  const std::string own =
+      temp_.Write("own.csv", "distance_m,illuminance_lx,state.dimmer\n1,30,25\n");
+  ASSERT_EQ(Run({own, "--light", "key", "--state", "dimmer=50"}).exit_code, 0);
+  ASSERT_EQ(Journal().size(), 2U);
+  EXPECT_EQ(Journal()[0]["state"], (json{{"dimmer", 50.0}}));
+  EXPECT_EQ(Journal()[1]["state"], (json{{"dimmer", 25.0}})) << "the file's own word counts first";
+  EXPECT_EQ(Run({file, "--light", "key", "--state", "dimmer"}).exit_code, 2);
+}
+
+TEST_F(Import, ZonesOfTimesAreKept) {
+  const std::string file = temp_.Write("zones.csv",
+                                       "distance_m,illuminance_lx,time\n"
+                                       "1,120,2026-11-28T10:00:00+02:00\n"
+                                       "2,30,2026-11-28T09:00:00Z\n"
+                                       "3,13.33,2026-11-28T10:00:00-05:00\n");
+  ASSERT_EQ(Run({file, "--light", "key"}).exit_code, 0);
+  EXPECT_EQ(Journal()[0]["time"], "2026-11-28T10:00:00+02:00");
+  EXPECT_THAT(RunLightcal({"fit", Session()}).err, Not(HasSubstr("earlier time")));
+}
+
 TEST_F(Import, SpectrometerFileBecomesAReadingWithItsSpectrum) {
   const CliResult result = Run(
       {SampleData(kCasper), "--light", "key", "--distance", "50cm", "--meter", "cv600", "--json"});

@@ -52,6 +52,31 @@ TEST(MakeDome, GivesTheSamplesThatTheCommandWrites) {
   EXPECT_EQ(made->light_file.provenance.inputs.size(), 1U);
 }
 
+TEST(MergeBracket, OfNoFrameIsRefused) {
+  const auto merged = MergeBracket(Bracket{}, DiskSources(), {});
+  ASSERT_FALSE(merged);
+  EXPECT_EQ(merged.error().code, "no_frames");
+}
+
+TEST(MakeDome, OfNoPictureOrAnImpossibleSettingIsRefused) {
+  const auto code = [](const std::vector<std::string>& files, const DomeSettings& settings) {
+    const auto made = MakeDome(files, DiskSources(), settings);
+    return made ? std::string("made") : made.error().code;
+  };
+  EXPECT_EQ(code({}, {}), "no_pictures");
+  const TempDir folder;
+  const SkyPicture sky = Photograph(dome::ClearSky(RayAt(37.3, 41.7)), LatLongView(64, 32), 64, 32);
+  const std::string file = dome::WritePicture(folder, "sky.exr", sky, 1.0, true);
+  DomeSettings settings;
+  settings.white = Xy{0.0, 0.0};
+  EXPECT_EQ(code({file}, settings), "bad_chromaticity");
+  settings.white.reset();
+  settings.plate = CameraSettings{0.0, Seconds(0.01), 100.0};
+  EXPECT_EQ(code({file}, settings), "not_positive");
+  settings.plate->f_number = 8.0;
+  EXPECT_EQ(code({file}, settings), "made");
+}
+
 TEST(InspectPicture, GivesTheLuminanceThatTheCommandPrints) {
   const TempDir folder;
   const std::string file = folder.path() + "/flat.exr";

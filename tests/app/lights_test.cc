@@ -150,6 +150,9 @@ TEST_F(Library, OneIsTakenOutOrRenamedByItsWholeName) {
   EXPECT_EQ(part.exit_code, 3);
   EXPECT_THAT(part.err, HasSubstr("did you mean \"Desk lamp\""));
   EXPECT_EQ(Names({}).size(), 4U);
+  const CliResult taken = lights({"rename", "Desk lamp", "Desk lamp"});
+  EXPECT_EQ(taken.exit_code, 1);
+  EXPECT_THAT(taken.err, HasSubstr("called already"));
   EXPECT_EQ(lights({"rename", "Desk lamp", "Reading lamp"}).exit_code, 0);
   EXPECT_THAT(Names({"--name", "lamp"}), ElementsAre("Reading lamp"));
   EXPECT_EQ(LightcalJson("lights", {"--library", library, "show",

@@ -178,6 +178,13 @@ class SameAnswers(unittest.TestCase):
                                   output=self.folder / "by_command")
         self.same(written, document)
 
+    def test_an_answer_saved_whole_is_a_light_file_and_makes_a_page(self):
+        path = self.folder / "lamp.json"
+        path.write_text(json.dumps(lightcal.quick("203lx@0.5m")))
+        self.assertEqual(list(lightcal.export(path, "gltf")["contents"]), ["lamp.gltf"])
+        if (pathlib.Path(LIGHTCAL).parent / "lightcal_page.html").exists():
+            self.assertEqual(list(lightcal.export(path, "page")["contents"]), ["lamp.page.html"])
+
     def test_answers_hold_what_their_types_say(self):
         def check(document, kind, where):
             hints = typing.get_type_hints(kind)
@@ -218,6 +225,12 @@ class SameAnswers(unittest.TestCase):
                          ("usage", "usage", "fixture"))
         self.assertEqual(error(lightcal.quick, {"illuminance_lx": 5}), ("usage", "usage", "readings"))
         self.assertEqual(error(lightcal.quick, "1lx@1m", meter="3%", sigma=.05)[2], "meter")
+        self.assertEqual(error(lightcal.quick, {"illuminance_lx": "192lx", "distance_m": 1}),
+                         ("usage", "usage", "illuminance_lx"))
+        self.assertEqual(error(lightcal.quick, "1lx@1m", name="a\ud800b")[:2], ("usage", "usage"))
+        for anchor in ((1, 2, 3), (1, 2, 3, 4, "bright"), (1.5, 2, 3, 4, 312.0)):
+            self.assertEqual(error(lightcal.merge, FRAMES, anchor=anchor),
+                             ("usage", "usage", "anchor"))
         self.assertEqual(error(lightcal.export, lightcal.quick("1lx@1m"), "blendr")[:2],
                          ("usage", "usage"))
         missing = error(lightcal.run, self.folder / "none")

@@ -12,6 +12,7 @@
 #include <random>
 #include <regex>
 #include <sstream>
+#include <tuple>
 
 #include "run_cli.h"
 #include "run_cli_json.h"
@@ -138,11 +139,14 @@ TEST(QuickAnswer, FollowingWhatIsBetterMakesTheLampSurer) {
   EXPECT_NEAR(StopsSaid(then) / promised, 1.0, 0.2) << out << then;
 }
 
-// Of a lamp nobody described a card at 1 m leaves nearly all of .93 stop, a second distance .53.
+// Of a lamp nobody described a card at 1 m, which tells lamps apart by what they light, leaves .77
+// of .93 stop for a minute, a second distance .53 for five.
 TEST(QuickAnswer, WhatALampIsCostsNoMinuteToSay) {
   const std::string out = Said({"quick", "58lx@1m"});
   EXPECT_THAT(out, HasSubstr("0 minutes better  say what it is: add --fixture bulb"));
-  EXPECT_THAT(out, HasSubstr("5 minutes better  read at 0.5 m too"));
+  EXPECT_THAT(out, HasSubstr("1 minute better   block the direct beam at 1 m with a card"));
+  EXPECT_NEAR(StopsSaid(Said({"quick", "58lx@1m,card=10lx"})), 0.77, 0.08);
+  EXPECT_THAT(Said({"quick", "203lx@0.5m"}), HasSubstr("5 minutes better  read at 1 m too"));
   EXPECT_LE(LinesOf(out).size(), 12U) << out;
   const std::string said = Said({"quick", "58lx@1m", "--fixture", "bulb"});
   EXPECT_THAT(said, Not(HasSubstr("0 minutes better")));
@@ -203,6 +207,30 @@ TEST(QuickAnswer, AtTheDistanceReadItForetellsWhatWasRead) {
   EXPECT_LT(alone["high95"], 1.02 * in_room["high95"].get<double>()) << "without the walls";
   const auto [far, there] = foretold({"--at", "2m"});
   EXPECT_LT(far["high95"], there["high95"]);
+}
+
+// A card at every reading measured the walls that a meter two metres away will see.
+TEST(QuickAnswer, CardsAtEveryReadingForetellTheRoom) {
+  const json at = json::parse(Said({"quick", "100lx@1m,card=11lx", "--fixture", "bulb", "--meter",
+                                    "3%", "--at", "2m", "--json"}))["predictions"][0];
+  EXPECT_NEAR(at["model_lx"]["value"], 22.2, 0.5);
+  EXPECT_NEAR(at["in_room_lx"]["value"], 22.2 + 9.0, 2.5) << "walls fall slowly";
+  EXPECT_GT(at["in_room_lx"]["low95"], at["model_lx"]["value"]);
+}
+
+// 39 cd that start 2 cm behind the mark, in the dark: 37.5, 9.56, 4.28, 2.41 and 1.55 lx by a
+// display of whole lux, cut off, and by one of five, rounded.
+TEST(QuickAnswer, ADisplaysStepsAreNoLamp) {
+  for (const auto& shown : {std::array{37, 10, 4, 2, 2}, std::array{40, 10, 5, 0, 0}}) {
+    std::vector<std::string> words = {"quick", "--room", "dark", "--meter", "5%", "--json"};
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+      words.push_back(std::to_string(shown[k]) + "lx@" + std::to_string(k + 1) + "m");
+    }
+    const json lamp = json::parse(Said(words))["lights"][0];
+    EXPECT_LT(lamp["intensity_cd"]["low95"], 39.0) << lamp["intensity_cd"];
+    EXPECT_GT(lamp["intensity_cd"]["high95"], 39.0) << lamp["intensity_cd"];
+    EXPECT_TRUE(lamp["fit"]["rejected"].empty());
+  }
 }
 
 // ---- many ----
@@ -283,6 +311,15 @@ TEST(QuickTable, TwoRowsOfOneNameAreNotTwoLampsOfIt) {
   EXPECT_EQ(json::parse(result.out)["lights"].size(), 2U);
 }
 
+TEST(QuickTable, ALampWithoutANameIsCalledByItsLine) {
+  const TempDir dir;
+  const std::string table = dir.Write("lamps.csv", "distance_m,illuminance_lx\n0.5,203\n1,58\n");
+  const json lights = LightcalJson("quick", {"--table", table})["lights"];
+  ASSERT_EQ(lights.size(), 2U);
+  EXPECT_EQ(lights[0]["name"], "line 2");
+  EXPECT_EQ(lights[1]["name"], "line 3");
+}
+
 TEST(QuickTable, ARefusedRowIsNamedAndTheOthersAnswer) {
   const TempDir dir;
   const std::string table =
@@ -352,6 +389,7 @@ TEST(Ratio, OfTwoReadingsOneMetersErrorCancels) {
   EXPECT_GT(double(answer["stops_u95_if_independent"]), 4.0 * double(answer["stops"]["u95"]));
   EXPECT_THAT(Said({"ratio", "800lx", "200lx"}), HasSubstr("4.0 : 1 · 2.0"));
   EXPECT_EQ(RunLightcal({"ratio", "800lx"}).exit_code, 2) << "of what?";
+  EXPECT_EQ(RunLightcal({"ratio", "800lx", "200lx", "--at", "0,0,0"}).exit_code, 2);
   EXPECT_EQ(RunLightcal({"ratio", "800lx", "0lx"}).exit_code, 3);
 }
 
@@ -376,7 +414,7 @@ TEST(Ratio, HoldsTheTruthAsOftenAsItSays) {
          {std::tuple("key", key, -1.0), std::tuple("fill", fill, 1.0)}) {
       text += "[[light]]\nname = \"" + std::string(name) +
               "\"\nkind = \"point\"\nfixture = \"bulb\"\nposition_m = [" + std::to_string(x) +
-              ", 0, 1]\n";
+              ", 0, 1]\naim = [" + std::to_string(-x) + ", 1, 0]\n";
       for (const double d : {1.0, 2.0, 4.0}) {
         const double lux = candela / (d * d) * gain * std::exp(0.01 * normal(random));
         text += "[[reading]]\nlight = \"" + std::string(name) +
@@ -491,9 +529,127 @@ TEST(QuickOff, MoreLightWithoutTheLampIsRefused) {
   }
 }
 
+TEST(QuickOff, WhatALampLeavesNothingOfIsRefusedBesideItsOtherReadings) {
+  const auto code = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "quick");
+    words.insert(words.end(), {"--fixture", "bulb", "--meter", "3%", "--json"});
+    const json answer = json::parse(RunLightcal(words).out);
+    return answer.contains("error") ? answer["error"]["code"].get<std::string>() : "";
+  };
+  EXPECT_EQ(code({"203lx@0.5m", "58lx@1m,off=60lx"}), "dark_above_lit");
+  EXPECT_EQ(code({"120lx@1m,off=130lx", "30lx@2m"}), "dark_above_lit");
+  EXPECT_EQ(code({"203lx@0.5m", "58lx@1m,off=10lx"}), "");
+  EXPECT_EQ(code({"203lx@0.5m,off=150lx", "163lx@1m,off=150lx"}), "");
+}
+
+TEST(QuickCard, OneThatMissedTheMeterIsNamed) {
+  const auto missed = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "quick");
+    words.insert(words.end(), {"--fixture", "bulb", "--meter", "3%"});
+    return RunLightcal(words).err.find("did the card shade the whole meter?") != std::string::npos;
+  };
+  EXPECT_TRUE(missed({"203lx@0.5m", "58lx@1m,card=58lx"}));
+  EXPECT_TRUE(missed({"203lx@0.5m", "58lx@1m,card=50lx"}));
+  EXPECT_FALSE(missed({"203lx@0.5m", "58lx@1m,card=11lx"}));
+  // 46 cd in a small white room: walls give most of what is read at 4 m.
+  EXPECT_FALSE(missed({"195lx@0.5m", "57lx@1m", "12lx@4m,card=9.2lx"}));
+}
+
+TEST(QuickUnits, ASlippedPointIsNamedBesideFeetWithItsOwnFactor) {
+  for (const auto& words : {std::vector<std::string>{"quick", "203lx@0.5m", "5.8lx@1m"},
+                            std::vector<std::string>{"quick", "2030lx@0.5m", "58lx@1m"}}) {
+    const CliResult answer = RunLightcal(words);
+    EXPECT_EQ(answer.exit_code, 3);
+    EXPECT_THAT(answer.err,
+                AllOf(HasSubstr("8.75"), HasSubstr("decimal point"), HasSubstr("feet")));
+    EXPECT_THAT(answer.err, Not(HasSubstr("10.76")));
+  }
+  EXPECT_THAT(RunLightcal({"quick", "203lx@1m", "20.3lx@1m"}).err, Not(HasSubstr("feet")));
+}
+
+TEST(QuickDigits, TheReadingThatAsksForAStrangeOffsetIsNamed) {
+  // 203 lx at half a metre, its digits swapped.
+  const CliResult swapped = RunLightcal({"quick", "302lx@0.5m", "58lx@1m,card=11lx",
+                                         "20lx@2m,card=9lx", "--fixture", "bulb", "--meter", "3%"});
+  EXPECT_THAT(swapped.err, HasSubstr("without reading 0 (302.0 lx at 0.5000 m) they do not"));
+}
+
+TEST(FitTable, TheOnlyMeterIsTheOneOfReadingsThatNameNone) {
+  const TempDir folder;
+  const auto u95 = [&](const std::string& sigma, const std::string& more) {
+    folder.Write(
+        "s/session.toml",
+        "lightcal = 1\n[room]\ndark = true\n[[meter]]\nname = \"m\"\nsigma_relative = " + sigma +
+            "\n[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = \"bulb\"\n"
+            "[[reading]]\nlight = \"key\"\ndistance_m = 1\nilluminance_lx = 100\n" +
+            more + "[[reading]]\nlight = \"key\"\ndistance_m = 2\nilluminance_lx = 25\n" + more);
+    const json fitted = LightcalJson("fit", {folder.path() + "/s"});
+    const json& cd = fitted["lights"][0]["intensity_cd"];
+    return double(cd["u95"]) / double(cd["value"]);
+  };
+  EXPECT_LT(u95("0.01", ""), 0.5 * u95("0.25", ""));
+  EXPECT_EQ(u95("0.01", "meter = \"m\"\n"), u95("0.01", ""));
+  EXPECT_EQ(u95("0.01", "sigma_relative = 0.05\n"), u95("0.25", "sigma_relative = 0.05\n"));
+}
+
+// .154 and .173 stop, both of which are .2.
+TEST(Ratio, OneMetersIntervalNeverReadsAsTheWiderOne) {
+  const TempDir dir;
+  std::string text =
+      "lightcal = 1\n[room]\ndark = true\n[[meter]]\nname = \"m\"\nsigma_relative = 0.06\n"
+      "calibration_relative = 0.02\n";
+  for (const auto& [name, candela, x] : {std::tuple("a", 100.0, "0"), std::tuple("b", 50.0, "2")}) {
+    text += "[[light]]\nname = \"" + std::string(name) + "\"\nkind = \"point\"\nposition_m = [" +
+            x + ", 0, 2]\n";
+    for (const double d : {1.0, 2.0, 4.0}) {
+      text += "[[reading]]\nlight = \"" + std::string(name) +
+              "\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +
+              "\nilluminance_lx = " + std::to_string(candela / (d * d)) + "\n";
+    }
+  }
+  const std::string file = dir.path() + "/light.json";
+  Said({"fit", dir.Write("two.toml", text), "-o", file});
+  const std::string said = Said({"ratio", file, "--at", "1,0,0", "--key", "a", "--fill", "b"});
+  EXPECT_THAT(said, AllOf(HasSubstr("± 0.15 stops"), HasSubstr("would leave ± 0.17)")));
+}
+
+// What the command answers is a light.json, whatever it adds beside the lights.
+TEST(QuickAnswer, AnAnswerKeptIsALightFile) {
+  const TempDir dir;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"quick", "203lx@0.5m", "--cct", "3200K", "--gel", "half ctb",
+                                 "--at", "2m", "--plan"},
+        {"run", SampleData("sessions/godox_vl300ii_bare"), "--to", "gltf", "-o",
+         dir.path() + "/out"}}) {
+    std::vector<std::string> asked = words;
+    asked.emplace_back("--json");
+    const std::string path = dir.Write("answer.json", Said(asked));
+    EXPECT_EQ(RunLightcal({"validate", path}).exit_code, 0) << words[0];
+    EXPECT_EQ(
+        RunLightcal({"export", path, "--to", "gltf", "-o", dir.path() + "/" + words[0]}).exit_code,
+        0);
+    const CliResult schema =
+        RunProgram({"/usr/bin/python3", LIGHTCAL_SOURCE_DIR "/tests/tools/validate_json.py",
+                    LIGHTCAL_SOURCE_DIR "/lib/lightcal/records/schemas", "light", path});
+    EXPECT_EQ(schema.exit_code, 0) << schema.out << schema.err;
+  }
+}
+
+TEST(QuickAnswer, ADataSheetThatNarrowsTheAnswerIsMarkedAsAPrior) {
+  const auto prior = [](const std::vector<std::string>& words) {
+    return LightcalJson("quick", words)["lights"][0]["fit"]["prior"].dump();
+  };
+  EXPECT_THAT(prior({"58lx@1m", "--lumens", "806"}), HasSubstr("data_sheet"));
+  EXPECT_EQ(prior({"58lx@1m"}).find("data_sheet"), std::string::npos);
+}
+
 TEST(Ratio, WrongLinesTeach) {
   const std::string session = SampleData("sessions/amaran_200x_s_bare");
   EXPECT_EQ(RunLightcal({"ratio", session}).exit_code, 2) << "no --at";
+  EXPECT_THAT(
+      RunLightcal({"ratio", session, "--at", "0,0,0", "--key", "a", "--fill", "b", "--meter", "3%"})
+          .err,
+      HasSubstr("--meter"));
   EXPECT_EQ(RunLightcal({"ratio", session, "--at", "0,0,0"}).exit_code, 2) << "no --key";
 }
 

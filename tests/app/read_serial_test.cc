@@ -104,6 +104,72 @@ TEST(ReadSource, AProgramThatPrintsLuxIsRead) {
   EXPECT_EQ(reading["quality"], "bare_sensor");
 }
 
+constexpr const char* kStatedMeter =
+    "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
+    "[[meter]]\nname = \"m\"\nsigma_relative = 0.02\n[[meter]]\nname = \"plain\"\n";
+
+json LastRow(const TempDir& dir) {
+  std::istringstream lines(ReadFile(dir.path() + "/readings.jsonl"));
+  std::string last;
+  for (std::string line; std::getline(lines, line);) last = line;
+  return json::parse(last);
+}
+
+CliResult ReadByProgram(const TempDir& dir, std::vector<std::string> more) {
+  std::vector<std::string> all = {"read", "-s", dir.path(), "--distance",    "1m",
+                                  "-n",   "1",  "--device", "line:!echo 120"};
+  all.insert(all.end(), more.begin(), more.end());
+  return RunLightcal(all);
+}
+
+TEST(ReadSource, WhatIsStatedOfTheMeterIsHeardTheNearestFirst) {
+  const TempDir dir;
+  dir.Write("session.toml", kStatedMeter);
+  const CliResult stated = ReadByProgram(dir, {"--meter", "m"});
+  ASSERT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_EQ(stated.err.find("warning"), std::string::npos) << stated.err;
+  EXPECT_FALSE(LastRow(dir).contains("sigma_relative")) << "the session's 2 % counts";
+  ASSERT_EQ(ReadByProgram(dir, {"--meter", "m", "--set", "sigma=7%"}).exit_code, 0);
+  EXPECT_EQ(LastRow(dir)["sigma_relative"], 0.07);
+  ASSERT_EQ(ReadByProgram(dir, {"--meter", "plain"}).exit_code, 0);
+  EXPECT_EQ(LastRow(dir)["sigma_relative"], 0.3) << "that [[meter]] states none";
+  const std::string calibration =
+      "lightcal = 1\n[[calibration]]\ndevice = \"line:text\"\nfactor = 1.1\n";
+  dir.Write("meters.toml", calibration);
+  const CliResult guessed = ReadByProgram(dir, {});
+  EXPECT_THAT(guessed.err, HasSubstr("write sigma_relative beside the factor"));
+  dir.Write("meters.toml", calibration + "sigma_relative = 0.05\n");
+  EXPECT_EQ(ReadByProgram(dir, {}).err.find("warning"), std::string::npos);
+  EXPECT_EQ(LastRow(dir)["sigma_relative"], 0.05);
+  ASSERT_EQ(ReadByProgram(dir, {"--meter", "m"}).exit_code, 0);
+  EXPECT_FALSE(LastRow(dir).contains("sigma_relative"));
+}
+
+TEST(ReadSource, WhatCameInAPauseIsNotReadAsIfItWereNew) {
+  const TempDir dir;
+  dir.Write("session.toml", kStatedMeter);
+  // Seconds since it began, 50 times a second.
+  const std::string clock =
+      "line:!i=0; while [ $i -lt 200 ]; do echo $i; i=$((i+1)); sleep 0.02; done";
+  ASSERT_EQ(RunLightcal({"read", "-s", dir.path(), "--distance", "1m", "--device", clock, "-n", "1",
+                         "--repeat", "2", "--every", "500ms"})
+                .exit_code,
+            0);
+  EXPECT_GE(double(LastRow(dir)["illuminance_lx"]), 10.0) << "not the line after the first";
+}
+
+TEST(ReadSource, AFileThatIsNoTapeIsNamedBeforeAnythingIsMeasured) {
+  const TempDir dir;
+  const std::string notes = dir.Write("notes.txt", "mine\n");
+  const std::string ran = dir.path() + "/ran";
+  const CliResult result = ReadOnce("line:!touch " + ran + "; echo 5", {"--record", notes});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(json::parse(result.out)["error"]["code"], "exists");
+  EXPECT_THAT(json::parse(result.out)["error"]["message"].get<std::string>(),
+              testing::Not(HasSubstr("--force")));
+  EXPECT_EQ(ReadFile(ran), "") << "it was not started";
+}
+
 TEST(ReadSource, AProgramThatFailsOrBabblesIsAnError) {
   const CliResult failed = ReadOnce("line:!exit 3");
   EXPECT_EQ(failed.exit_code, 1);

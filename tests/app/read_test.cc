@@ -503,6 +503,19 @@ TEST(ReadTyped, AShadowCardIsSuggestedUntilThereIsOne) {
   EXPECT_EQ(rows[1]["shadow_card"], true);
 }
 
+TEST(ReadTyped, LightBeyondTheRangeIsALimit) {
+  const SessionDir session;
+  ASSERT_EQ(RunLightcal(session.Read({"--lux", ">20000"})).exit_code, 0);
+  EXPECT_EQ(session.Journal().back()["over_range"], true);
+  EXPECT_EQ(session.Journal().back()["illuminance_lx"], 20000.0);
+  const CliResult overload = RunLightcal(session.Read({"--lux", "OL"}));
+  EXPECT_EQ(overload.exit_code, 2);
+  EXPECT_THAT(overload.err, HasSubstr(">20000"));
+  const CliResult comma = RunLightcal(session.Read({"--lux", "1,5"}));
+  EXPECT_EQ(comma.exit_code, 2);
+  EXPECT_THAT(comma.err, HasSubstr("decimals have a point here, and thousands no sign: 1.5"));
+}
+
 TEST(ReadTyped, ALampThatIsOffIsSaidSo) {
   const SessionDir session;
   ASSERT_EQ(RunLightcal(session.Read({"--lux", "0.4", "--lamp-off"})).exit_code, 0);

@@ -92,6 +92,25 @@ TEST(RunCommand, WritesLightPresetsAndReportAndIsIdempotent) {
   }
 }
 
+// Knobs of a lamp's dimmer and colour too.
+TEST(RunCommand, PresetsAreThoseThatExportMakesOfTheLightFile) {
+  const TempDir dir;
+  const std::string out = dir.path() + "/run";
+  ASSERT_EQ(RunLightcal(
+                {"run", SampleData("sessions/dimmed_panels"), "--to", "blender,unreal", "-o", out})
+                .exit_code,
+            0);
+  const std::string light = dir.Write("dimmed_panels.json", ReadFile(out + "/light.json"));
+  ASSERT_EQ(RunLightcal({"export", light, "--to", "blender,unreal", "-o", dir.path() + "/export"})
+                .exit_code,
+            0);
+  for (const std::string name : {"/dimmed_panels.blender.py", "/dimmed_panels.unreal.py"}) {
+    const std::string script = ReadFile(out + name);
+    EXPECT_THAT(script, testing::HasSubstr("\"controls\""));
+    EXPECT_EQ(script, ReadFile(dir.path() + "/export" + name));
+  }
+}
+
 // A farm types sessions/*/, a person session: one page of both (the Slurm bench found the slash).
 TEST(RunCommand, HowAPathWasTypedIsInNoFile) {
   const TempDir dir;

@@ -400,6 +400,21 @@ TEST(SimulateCommand, TheGateStaysWithinItsTolerance) {
   }
 }
 
+TEST(SimulateCommand, AMeterBehindTheLampStillFacesIt) {
+  const TempDir folder;
+  json panel = Kinds()[3].light;  // shines from one side
+  const V at = {panel["position_m"][0], panel["position_m"][1], panel["position_m"][2]};
+  const V aim = {panel["aim"][0], panel["aim"][1], panel["aim"][2]};
+  const V behind = at - Unit(aim);
+  const json told =
+      LightcalJson("simulate", {folder.Write("panel.json", LightFile({panel})),
+                                "--at=" + std::to_string(behind[0]) + "," +
+                                    std::to_string(behind[1]) + "," + std::to_string(behind[2]),
+                                "--normal", "lamp"});
+  const json& normal = told["points"][0]["normal"];
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(double(normal[i]), Unit(aim)[i], 1e-5);
+}
+
 TEST(SimulateCommand, SeveralLightsAddUp) {
   const TempDir folder;
   const std::vector<Kind> kinds = Kinds();
@@ -448,6 +463,29 @@ TEST(SimulateCommand, APointIsThePixelThatLiesThere) {
       }
     }
   }
+}
+
+// A reflector was read on its axis: of its rear nothing is known, of a bulb's not much.
+TEST(SimulateCommand, OffItsAxisALampIsAsUnsureAsItsFixture) {
+  const TempDir session;
+  const auto relative = [&](const std::string& fixture, const char* at) {
+    const std::string file = session.Write(
+        "s.toml",
+        "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\nkind = \"point\"\nfixture = "
+        "\"" +
+            fixture +
+            "\"\nposition_m = [0, 0, 2]\naim = [0, 0, -1]\n[[reading]]\nlight = \"key\"\n"
+            "distance_m = 1\nilluminance_lx = 1000\n[[reading]]\nlight = \"key\"\ndistance_m = 2\n"
+            "illuminance_lx = 240\n");
+    const json lux = LightcalJson(
+        "simulate", {file, "--at", at, "--normal", "lamp"})["points"][0]["illuminance_lx"];
+    return double(lux["u95"]) / double(lux["value"]);
+  };
+  EXPECT_LT(relative("reflector", "0,0,0"), 0.13);
+  EXPECT_GT(relative("reflector", "0,0,3"), 1.0);
+  EXPECT_LT(relative("bulb", "0,0,0"), 0.13);
+  EXPECT_GT(relative("bulb", "0,0,3"), 0.5) << "a base takes up to half";
+  EXPECT_LT(relative("bulb", "0,0,3"), 1.0);
 }
 
 // However few points a map has, each has its own u95: between corners 4 m apart it is no straight

@@ -70,6 +70,90 @@ TEST(ValidateCommand, PassesWhatLightcalWrites) {
   EXPECT_EQ(FileIn(profile)["holds"], "tolerance 2.0 %");
 }
 
+// What stops on its way here is no preset, wherever it stops.
+TEST(ValidateCommand, RefusesWhatIsCutOff) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/out";
+  const std::string session = SampleData("sessions/three_real_lights");
+  ASSERT_EQ(RunLightcal({"run", session, "-o", out, "--jobs", "1"}).exit_code, 0);
+  std::vector<std::string> files;
+  for (const char* ending : {".blender.py", ".three.js", ".usda", ".tscn", ".gltf",
+                             ".filament.json", ".preset.json", "-cob_bare.gdtf"}) {
+    const std::string name = std::string("three_real_lights") + ending;
+    const std::string whole = ReadFile(out + "/" + name);
+    EXPECT_TRUE(FileIn(out + "/" + name)["ok"]) << name;
+    for (const std::size_t percent : {30U, 50U, 75U, 90U, 99U}) {
+      const std::size_t size = whole.size() * percent / 100;
+      files.push_back(folder.Write(std::to_string(percent) + "/" + name, whole.substr(0, size)));
+    }
+    files.push_back(folder.Write("2/" + name, whole.substr(0, whole.size() - 2)));
+  }
+  std::vector<std::string> command = files;
+  command.insert(command.begin(), "validate");
+  command.emplace_back("--json");
+  const CliResult result = RunLightcal(command);
+  EXPECT_EQ(result.exit_code, 3);
+  for (const json& file : json::parse(result.out)["files"]) {
+    EXPECT_FALSE(file["ok"]) << file;
+  }
+  const CliResult check = RunLightcal(
+      {"check", folder.path() + "/50/three_real_lights.blender.py", "--session", session});
+  EXPECT_EQ(check.exit_code, 3);
+  EXPECT_THAT(check.err, HasSubstr("cut off"));
+}
+
+// Exported before scenes said by which line they end.
+TEST(ValidateCommand, RefusesALightOfAnOldSceneThatIsCutOff) {
+  const TempDir folder;
+  const std::string head = "[gd_scene format=3]\n\n; lightcal 0.1.0, schema-checked.\n\n";
+  const std::string lamp =
+      "[node name=\"a\" type=\"OmniLight3D\" parent=\".\"]\nlight_intensity_lumens = 100\n"
+      "metadata/lightcal = {\n\"name\": \"a\"\n}\n";
+  const std::string begun = "\n[node name=\"b\" type=\"OmniLight3D\" parent=\".\"]\n";
+  EXPECT_TRUE(FileIn(folder.Write("whole.tscn", head + lamp))["ok"]);
+  const CliResult cut = RunLightcal({"validate", folder.Write("cut.tscn", head + lamp + begun)});
+  EXPECT_EQ(cut.exit_code, 3);
+  EXPECT_THAT(cut.out, HasSubstr("what ends its light \"b\""));
+  // As the editor saves it: a light that is as the engine's defaults are.
+  EXPECT_TRUE(FileIn(folder.Write("own.tscn", "[gd_scene format=3]\n" + lamp + begun))["ok"]);
+}
+
+// By hand: another quote, a comment, a function of one's own, an editor that drops comments.
+TEST(ValidateCommand, PassesWhatAPersonEdited) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/out";
+  ASSERT_EQ(RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out, "--jobs", "1"})
+                .exit_code,
+            0);
+  const std::string stem = out + "/three_real_lights";
+  const auto edited = [&](const std::string& ending, const auto& edit) {
+    std::string text = ReadFile(stem + ending);
+    edit(text);
+    const json file = FileIn(folder.Write("edited" + ending, text));
+    EXPECT_TRUE(file["ok"]) << file;
+  };
+  edited(".blender.py", [](std::string& text) {
+    text.replace(text.rfind("'__main__'"), 10, "\"__main__\"");
+    text += "print('it\\'s (done')  # don't (worry\n";
+  });
+  edited(".three.js", [](std::string& text) {
+    text += "// it's {mine\nexport const strip = (s) => s.replace(/[\"'({]/g, `}`);\n";
+  });
+  edited(".three.js", [](std::string& text) { text.pop_back(); });
+  edited(".usda", [](std::string& text) {
+    text.insert(text.find("\n(\n") + 3, "  comment = \"\"\"two {\nlines\"\"\" # (mine\n");
+  });
+  edited(".tscn", [](std::string& text) {
+    std::string kept;
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t end = text.find('\n', at) + 1;
+      if (text[at] != ';') kept += text.substr(at, end - at);
+      at = end;
+    }
+    text = kept;
+  });
+}
+
 struct Fault {
   const char* name;
   const char* file;

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every public header compiles alone: what it uses it includes.
+"""Every public header compiles alone: what it uses it includes, and what it includes is public.
 
     check_headers.py SOURCE BUILD     compiles each by CMake's own command (the sources that
                                       VERIFY_INTERFACE_HEADER_SETS lays out); exit 1 and their
                                       messages when one does not
-    check_headers.py --self-test      a header that leaves an include out is found
+    check_headers.py --self-test      a header that leaves an include out is found, and one that
+                                      includes what is not installed with it
 
 Nine tenths of such a compilation read what the header includes. A few precompiled beginnings spare
 it: one is used only by headers that include, themselves or through other headers of ours,
@@ -109,6 +110,15 @@ def commands_of(build, roots):
     return found
 
 
+def not_installed(public, includes):
+    """Messages of public headers whose includes of ours are not public: installed, they miss them."""
+    own = {header: sorted(name for name in includes.all_of(header)
+                          if name.startswith("/") and pathlib.Path(name) not in public)
+           for header in public}
+    return [f"{header} is installed without {', '.join(missing)}: list what it includes in the "
+            "room's CMakeLists.txt, or leave it out" for header, missing in own.items() if missing]
+
+
 def self_test():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -125,6 +135,10 @@ def self_test():
         told = sorted(pathlib.Path(message.split()[0]).stem
                       for message in compile_all(commands, Includes([folder])))
         assert told == ["lacks", "later"], told
+        alone = not_installed({folder / "again.h"}, Includes([folder]))
+        assert len(alone) == 1 and "whole.h" in alone[0], alone
+        both = {folder / "again.h", folder / "whole.h"}
+        assert not not_installed(both, Includes([folder]))
 
 
 def main():
@@ -135,7 +149,8 @@ def main():
     commands = commands_of(build, roots)
     if len(commands) < 400:
         sys.exit(f"{len(commands)} headers to compile: CMake laid out fewer than there are")
-    messages = compile_all(commands, Includes(roots))
+    messages = (not_installed(set(commands), Includes(roots)) or
+                compile_all(commands, Includes(roots)))
     print("\n".join(messages) or f"{len(commands)} headers compile alone")
     return 1 if messages else 0
 

@@ -31,7 +31,7 @@ if(NOT text MATCHES "48 cd")
   message(FATAL_ERROR "the consumer printed: ${text}")
 endif()
 
-# Everything at once: typed readings, a spectrum, an IES file, a capture.
+# Everything at once: typed readings, a dimmer, a spectrum, an IES file, a capture.
 set(lightcal ${WORK}/prefix/bin/lightcal)
 file(GLOB frames ${SAMPLES}/sessions/grey_card_dng/captures/*.dng)
 file(COPY ${frames} DESTINATION ${WORK}/session/captures)
@@ -49,6 +49,19 @@ distribution = "lamp.ies"
 [[light]]
 name = "card_lamp"
 kind = "point"
+[[light]]
+name = "panel"
+kind = "point"
+[[reading]]
+light = "panel"
+distance_m = 1.0
+illuminance_lx = 800.0
+state = { dimmer = 100 }
+[[reading]]
+light = "panel"
+distance_m = 1.0
+illuminance_lx = 410.0
+state = { dimmer = 50 }
 [[reading]]
 light = "key"
 distance_m = 0.5

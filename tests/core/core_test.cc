@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <set>
+#include <string>
 
+#include "lightcal/core/file_name.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
@@ -76,6 +79,13 @@ TEST(Stops, AreHalfTheLogarithmOfTheEnds) {
   const Uncertain u = UncertainFromLog(std::log(48.0), 0.1);
   EXPECT_NEAR(*HalfWidthStops(u), StopsOfSd(0.1), 1e-12);
   EXPECT_FALSE(HalfWidthStops({1.0, 1.0, 0.0, 2.0})) << "an upper limit";
+}
+
+TEST(FileName, OneThatDiffersInCaseAloneIsTaken) {
+  std::set<std::string> taken;
+  EXPECT_EQ(DistinctFileName("lamp-Key", taken), "lamp-Key");
+  EXPECT_EQ(DistinctFileName("lamp-key", taken), "lamp-key_");
+  EXPECT_EQ(DistinctFileName("lamp-fill", taken), "lamp-fill");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string>
 
 #include "fitted.h"
 #include "lamp_twin.h"
@@ -212,10 +213,78 @@ TEST(HardInputs, F25WeightsOfAnySpanAreSolved) {
   EXPECT_NEAR(near_one, 100.5, 0.03);
 }
 
-TEST(HardInputs, F26ASigmaOfZeroDoesNotMakeCertainty) {
-  const FittedLight light = FitOk(TypedSession({{1, 100}, {1, 100}, {1, 100}}, 0.0));
+TEST(HardInputs, F26ASigmaOfNextToNothingDoesNotMakeCertainty) {
+  const FittedLight light = FitOk(TypedSession({{1, 100}, {1, 100}, {1, 100}}, 1e-12));
   EXPECT_GT(light.intensity_cd->u95, 0.0);
   EXPECT_TRUE(std::isfinite(light.intensity_cd->u95));
+  EXPECT_EQ(FitRefused(TypedSession({{1, 100}}, 0.0)).code, "no_valid_readings");
+}
+
+// A session made by a program obeys what one of a file does.
+struct Impossible {
+  const char* name;
+  void (*make)(Session& session, LightDescription& light, Reading& reading);
+  const char* code;
+  const char* says;
+};
+void PrintTo(const Impossible& one, std::ostream* out) { *out << one.name; }
+class ImpossibleSession : public testing::TestWithParam<Impossible> {};
+
+TEST_P(ImpossibleSession, IsRefusedBeforeAnythingIsFitted) {
+  Session session = TypedSession({{1.0, 100.0}}, 0.05);
+  GetParam().make(session, session.lights.front(), session.readings.front().reading);
+  const Error error = FitRefused(session);
+  EXPECT_EQ(error.kind, ErrorKind::kRefused);
+  EXPECT_EQ(error.code, GetParam().code);
+  EXPECT_THAT(error.message, HasSubstr(GetParam().says));
+}
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Impossible kImpossible[] = {
+    {"Meter", [](Session&, LightDescription&, Reading& r) { r.meter = "nope"; }, "unknown_meter",
+     "nope"},
+    {"OffAxis", [](Session&, LightDescription&, Reading& r) { r.off_axis = Radians(kNan); },
+     "no_valid_readings", "off_axis_deg"},
+    {"Tilt", [](Session&, LightDescription&, Reading& r) { r.tilt = Radians(kNan); },
+     "no_valid_readings", "tilt_deg"},
+    {"NoSigma", [](Session&, LightDescription&, Reading& r) { r.sigma_relative = 0.0; },
+     "no_valid_readings", "sigma_relative = 0"},
+    {"SigmaBelow0", [](Session&, LightDescription&, Reading& r) { r.sigma_relative = -0.1; },
+     "no_valid_readings", "sigma_relative"},
+    {"SigmaNan", [](Session&, LightDescription&, Reading& r) { r.sigma_relative = kNan; },
+     "no_valid_readings", "sigma_relative"},
+    {"DarkBelow0", [](Session&, LightDescription&, Reading& r) { r.illuminance = Lux(-1.0); },
+     "no_valid_readings", "illuminance_lx"},
+    {"Reflectance", [](Session& s, LightDescription&, Reading&) { s.room = Room{{5, 4, 2}, 1.5}; },
+     "bad_session", "reflectance = 1.5"},
+    {"RoomNan", [](Session& s, LightDescription&, Reading&) { s.room = Room{{kNan, 4, 2}}; },
+     "bad_session", "size_m = nan"},
+    {"RoomOfNothing", [](Session& s, LightDescription&, Reading&) { s.room = Room{}; },
+     "bad_session", "size_m = 0"},
+    {"Diameter", [](Session&, LightDescription& l, Reading&) { l.diameter = Metres(-1.0); },
+     "bad_session", "diameter_m = -1"},
+    {"DiameterNan", [](Session&, LightDescription& l, Reading&) { l.diameter = Metres(kNan); },
+     "bad_session", "diameter_m = nan"},
+    {"LongAim", [](Session&, LightDescription& l, Reading&) { l.aim = Vec3{0, 0, -2}; },
+     "bad_session", "aim must be a direction of length 1"},
+    {"TwoOfOneName",
+     [](Session& s, LightDescription&, Reading&) { s.lights.push_back(s.lights.front()); },
+     "duplicate_name", "described twice"},
+    {"FartherThanAnything",
+     [](Session&, LightDescription&, Reading& r) {
+       r.distance = Metres(1e308);
+       r.illuminance = Lux(0.0);
+     },
+     "out_of_range", "no number can hold"},
+};
+INSTANTIATE_TEST_SUITE_P(HardInputs, ImpossibleSession, testing::ValuesIn(kImpossible),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+TEST(HardInputs, AHalfAngleOfAHalfTurnIsOne) {
+  Session session = TypedSession({{1.0, 100.0}}, 0.05);
+  session.lights.front().outer = RadiansFromDegrees(180.0);
+  session.lights.front().beam = RadiansFromDegrees(360.0);
+  EXPECT_TRUE(CheckSession(session).has_value());
 }
 
 TEST(HardInputs, F27AnOverRangeReadingIsALowerLimit) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamp_twin.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lightcal::test {
@@ -24,7 +25,8 @@ Reading& TwinSession::Add(double illuminance_lx) {
   SessionReading row;
   row.reading.light = "lamp";
   row.reading.illuminance = Lux(illuminance_lx * std::exp(sigma_ * normal_(random_)));
-  row.reading.sigma_relative = sigma_;
+  // No reading is sure: what the fit takes the surest to be.
+  row.reading.sigma_relative = std::max(sigma_, 1e-4);
   session_.readings.push_back(row);
   return session_.readings.back().reading;
 }

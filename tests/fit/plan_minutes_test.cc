@@ -162,7 +162,6 @@ TEST(PlanMinutes, TheFirstStepIsTheBestOfAllSettledToTheEnd) {
     const auto stops = HalfWidthStops(*fitted->lights.lights.front().intensity_cd);
     if (!stops) continue;
     LadderWishes wishes;
-    wishes.reach_m = 10.0;  // as far as PlanReadings goes
     wishes.steps = 1;
     const MinutesLadder ladder = LadderOf(session, wishes);
     const auto rate = [&](const PlannedReading& step) { return RateOf(step, *stops, stands_m); };

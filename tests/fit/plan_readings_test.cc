@@ -170,5 +170,36 @@ TEST(PlanReadings, AnUnknownLightIsRefused) {
             "unknown_light");
 }
 
+// Of a lamp read once nothing is foretold that no lamp gives: E d^2 rises by the walls alone, and
+// nobody is sent out of the room.
+TEST(PlanReadings, WhatIsExpectedIsWhatALampGives) {
+  TwinSession twin(LampTruth{}, 0.05, 1);
+  twin.On(1.5);
+  Session session = twin.session();
+  session.surroundings = Surroundings::kIndoors;
+  session.readings.front().reading.illuminance = Lux(60.0);
+  const auto plan = PlanReadings(session, "lamp", {}, 3);
+  ASSERT_TRUE(plan) << plan.error().message;
+  for (const std::vector<PlannedReading>* rows : {&plan->candidates, &plan->steps}) {
+    for (const PlannedReading& row : *rows) {
+      if (row.action != PlannedAction::kRead || !row.distance) continue;
+      const double d = row.distance->value();
+      EXPECT_LE(d, 4.0);
+      const double times_square = row.expected.value() * d * d;
+      EXPECT_GT(times_square, 0.75 * 60.0 * 1.5 * 1.5) << d;
+      EXPECT_LT(times_square, 1.9 * 60.0 * 1.5 * 1.5) << d;
+    }
+  }
+  session.room = Room{};
+  session.room->size_m = {3.0, 3.0, 2.4};
+  session.lights.front().position_m = Vec3{0.0, 0.0, 2.2};
+  session.lights.front().aim = Vec3{0.0, 0.0, -1.0};
+  const auto inside = PlanReadings(session, "lamp", {}, 1);
+  ASSERT_TRUE(inside);
+  for (const PlannedReading& row : inside->candidates) {
+    if (row.distance) EXPECT_LE(row.distance->value(), 2.2) << "the floor";
+  }
+}
+
 }  // namespace
 }  // namespace lightcal

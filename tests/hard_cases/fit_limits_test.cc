@@ -222,6 +222,14 @@ TEST(HardCaseF, F27AnOverloadedMeterSaysAtLeast) {
   ExpectAnswered(answer);
   EXPECT_NEAR(Value(answer, "intensity_cd"), 100.0, 1.0);
   ExpectRefused(KeySession().At(0.5, 199.9, "over_range = true").Run(), "over_range");
+  // A limit that says nothing changes nothing: it took the corners out of a room.
+  KeySession room("point", "fixture = \"bulb\"\n");
+  room.At(1, 120).At(2, 30).At(3, 13.3333);
+  const json without = Lamp(room.Run())["intensity_cd"];
+  const json with = Lamp(room.At(1, 1, "over_range = true").Run())["intensity_cd"];
+  for (const char* end : {"value", "low95", "high95"}) {
+    EXPECT_NEAR(double(with[end]) / double(without[end]), 1.0, 0.01) << end << without << with;
+  }
 }
 
 TEST(HardCaseF, F28AMeterBelowItsRangeSaysAtMost) {

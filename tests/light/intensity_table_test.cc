@@ -330,9 +330,53 @@ TEST(IntensityTable, HeadlampsAreMeasuredAboutTheirOwnZero) {
     return std::max(0.0, 100.0 * (1.0 - std::abs(h) / 30.0) * (1.0 - std::abs(v) / 12.0));
   });
   const auto beam = LobeWidthsAt(a, 0.5);
-  EXPECT_NEAR(DegreesFromRadians(beam.c0), 30.0, 1e-6);
-  EXPECT_NEAR(DegreesFromRadians(beam.c90), 12.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(beam.along), 30.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(beam.across), 12.0, 1e-6);
   EXPECT_NEAR(DegreesFromRadians(a.peak().gamma), 90.0, 1e-9);
+}
+
+// I = exp(-ln 2 (a / 15 deg)^2), a the angle to the peak: 30 degrees wide at a half, and
+// 30 sqrt(log2 10) = 54.68 at a tenth, wherever the peak lies.
+TEST(IntensityTable, ALobeBesideTheAxisIsMeasuredAboutItsOwnPeak) {
+  for (const double gamma : {60.0, 90.0}) {
+    const Vec3 peak{std::sin(Rad(gamma)) * std::cos(Rad(90)),
+                    std::sin(Rad(gamma)) * std::sin(Rad(90)), -std::cos(Rad(gamma))};
+    const auto table = TableOf(kC, Range(0, 360, 2.5), Range(0, 180, 1), [&](double c, double g) {
+      const Vec3 u{std::sin(Rad(g)) * std::cos(Rad(c)), std::sin(Rad(g)) * std::sin(Rad(c)),
+                   -std::cos(Rad(g))};
+      const double off = std::acos(std::clamp(Dot(u, peak), -1.0, 1.0)) / Rad(15);
+      return 1000.0 * std::exp2(-off * off);
+    });
+    const auto beam = LobeWidthsAt(table, 0.5);
+    const auto field = LobeWidthsAt(table, 0.1);
+    EXPECT_TRUE(beam.beside_axis);
+    EXPECT_NEAR(DegreesFromRadians(beam.along), 30.0, 0.1) << gamma;
+    EXPECT_NEAR(DegreesFromRadians(beam.across), 30.0, 0.2) << gamma;
+    EXPECT_NEAR(DegreesFromRadians(field.along), 30.0 * std::sqrt(std::log2(10.0)), 0.1) << gamma;
+    EXPECT_NEAR(DegreesFromRadians(field.across), 30.0 * std::sqrt(std::log2(10.0)), 0.3) << gamma;
+  }
+}
+
+TEST(IntensityTable, AHeadlampSampledAsTypeCKeepsItsAngles) {
+  const auto a = TableOf(kA, Range(-40, 40, 1), Range(-20, 20, 1), [](double h, double v) {
+    return std::max(0.0, 100.0 * (1.0 - std::abs(h) / 30.0) * (1.0 - std::abs(v) / 12.0));
+  });
+  const auto c = SampledAsTypeC(a, Range(0, 360, 1), Range(0, 180, 1), kLinear);
+  ASSERT_TRUE(c);
+  const auto beam = LobeWidthsAt(*c, 0.5);
+  EXPECT_NEAR(DegreesFromRadians(beam.along), 12.0, 0.05);
+  EXPECT_NEAR(DegreesFromRadians(beam.across), 30.0, 0.05);
+}
+
+// Two wings make one lamp about its axis, though each shines beside it.
+TEST(IntensityTable, ABatwingOfTwoPlanesIsMeasuredAboutItsAxis) {
+  const auto wings = TableOf(kC, Range(0, 360, 5), Range(0, 90, 1), [](double c, double g) {
+    const double off = (g - 40.0) / 10.0;
+    return 100.0 * std::exp2(-off * off) * (0.2 + 0.8 * std::pow(std::cos(Rad(c)), 2.0));
+  });
+  const auto beam = LobeWidthsAt(wings, 0.5);
+  EXPECT_FALSE(beam.beside_axis);
+  EXPECT_NEAR(DegreesFromRadians(beam.along), 100.0, 0.1);
 }
 
 TEST(IntensityTable, SampledAsTypeCKeepsTheValues) {

@@ -44,6 +44,26 @@ def what_gels_cannot_do_is_refused_with_the_nearest():
     assert answer("match", "gaussian:530:12", "--to", "magenta.csv", "--reach", "1")["matches"]
 
 
+def every_match_is_within_reach():
+    words = ("match", NICHIA, "--to", "illuminant:A", "-n", 40)
+    all_of_them = answer(*words, "--reach", 1)["matches"]
+    least = min(m["delta_uv"] for m in all_of_them)
+    reach = 1.01 * max(least, .004)
+    assert any(m["delta_uv"] > reach for m in all_of_them), "the reach leaves some out"
+    near = answer(*words, "--reach", reach)["matches"]
+    assert near and all(m["delta_uv"] <= reach for m in near), near
+
+
+def a_spectrum_of_another_colour_than_the_lamp_is_warned_of():
+    lamp = ROOT / "sample_data/lights/desk_lamp_june.json"
+    light = json.loads(lamp.read_text())["lights"][0]  # of 2860 +- 103 K
+    words = ("match", lamp, "--light", light["name"], "--to", "illuminant:D55", "--reach", 1)
+    for spectrum, told in (("illuminant:D65", 1), ("illuminant:A", 0)):
+        warnings = answer(*words, "--spectrum", spectrum).get("warnings", [])
+        assert [w["code"] for w in warnings].count("color_disagrees") == told, warnings
+
+
+
 def a_target_brighter_than_the_lamp_costs_negative_stops():
     dim = NICHIA.read_bytes().decode("latin-1")
     lines = []

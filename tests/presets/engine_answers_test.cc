@@ -121,5 +121,17 @@ TEST(PresetTable, AnEngineOfReportsIsReadBackOrHasAnEmissionLaw) {
   }
 }
 
+TEST(EngineAnswers, TheCardsOfASpotWithoutAConeSayThatItIsAPoint) {
+  FittedLight lamp = Spot();
+  lamp.inner_deg.reset();
+  lamp.outer_deg.reset();
+  const EngineAnswers answers = EngineAnswersOf(FileOf({lamp}));
+  ASSERT_FALSE(answers.figures.empty());
+  for (const EngineFigure& figure : answers.figures) {
+    EXPECT_THAT(figure.note, ::testing::HasSubstr("unknown cone exported as a point"))
+        << figure.engine;
+  }
+}
+
 }  // namespace
 }  // namespace lightcal::test

@@ -109,6 +109,7 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   light.meter = MeterShare{"c800", 0.031};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};
   light.residuals.at(0).walls_lx = 8.25;
+  light.residuals.at(0).facing_lx = 230.5;
   const FittedLight back = Back(JsonOf(file)).lights.at(0);
   ASSERT_EQ(back.in_room.size(), 2U);
   EXPECT_EQ(back.in_room[0].weight, one.weight);
@@ -123,6 +124,7 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   EXPECT_EQ(back.meter->calibration_relative, 0.031);
   EXPECT_EQ(back.of_file->value, 0.78);
   EXPECT_EQ(back.residuals.at(0).walls_lx, 8.25);
+  EXPECT_EQ(back.residuals.at(0).facing_lx, 230.5);
   for (LampInRoom& part : light.in_room) part.ln_b.reset();
   EXPECT_FALSE(Back(JsonOf(file)).lights.at(0).in_room.at(1).ln_b.has_value());
 }
@@ -241,6 +243,36 @@ constexpr BadLight kBadLights[] = {
      R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"spot",
          "cone":{"inner_deg":30,"outer_deg":20}}]})",
      "bad_light", "inner_deg exceeds outer_deg"},
+    {"NoName", R"({"schema":"lightcal.light/1","lights":[{"name":"","kind":"point"}]})",
+     "bad_light", "lights[0]: name must not be empty"},
+    {"DarkerThanDark",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "intensity_cd":{"value":-3,"u95":1}}]})",
+     "bad_light", "lights[0].intensity_cd: value = -3: must not be negative"},
+    {"ColderThanCold",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "color":{"cct_K":{"value":-1,"u95":1}}}]})",
+     "bad_light", "lights[0].color.cct_K: value = -1: must be above 0"},
+    {"IntervalTurnedRound",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "intensity_cd":{"value":40,"u95":20,"low95":60,"high95":20}}]})",
+     "bad_light", "low95 lies above value"},
+    {"DuvOutsideItsInterval",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "color":{"duv":0.001,"duv_u95":0.01,"duv_low95":-0.01,"duv_high95":-0.001}}]})",
+     "bad_light", "duv_high95 lies below duv"},
+    {"DuvOfNothing",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "color":{"duv_u95":0.01}}]})",
+     "bad_light", "duv is missing"},
+    {"FewerReadingsThanNone",
+     R"({"schema":"lightcal.light/1","lights":[{"name":"a","kind":"point",
+         "fit":{"readings":-1,"used":1,"rejected":[],"learned":[],"prior":[]}}]})",
+     "bad_light", "readings = -1: must not be negative"},
+    {"NoHash",
+     R"({"schema":"lightcal.light/1","lights":[],
+         "provenance":{"inputs":[{"path":"a","sha256":"zzz"}]}})",
+     "bad_light", "sha256 = \"zzz\" is no SHA-256"},
 };
 
 class LightJsonRefusals : public testing::TestWithParam<BadLight> {};

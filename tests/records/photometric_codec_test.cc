@@ -160,6 +160,23 @@ TEST(Eulumdat, TakesDecimalCommasMarksConversionFactorsAndAbsoluteCounts) {
   EXPECT_NE(EulumdatText(absolute)->find("\r\n-2\r\nLED"), std::string::npos);
 }
 
+TEST(Ies, WarnsWhenMoreComesOutThanItsLampsGive) {
+  const auto codes = [](const std::string& lumens) {
+    const auto read = PhotometricFromText("IESNA:LM-63-2002\nTILT=NONE\n1 " + lumens +
+                                              " 1 2 1 1 2 0 0 0\n1 1 60\n0 180\n0\n100 100\n",
+                                          "x.ies");
+    EXPECT_TRUE(read);
+    std::vector<std::string> out;
+    for (const Warning& warning : read->warnings) out.push_back(warning.code);
+    return out;
+  };
+  // 400 pi = 1257 lm.
+  EXPECT_EQ(codes("500"), std::vector<std::string>{"flux_disagrees"});
+  EXPECT_EQ(codes("1250"), std::vector<std::string>{});
+  EXPECT_EQ(codes("3000"), std::vector<std::string>{}) << "a dark luminaire may be";
+  EXPECT_EQ(codes("-1"), std::vector<std::string>{}) << "absolute";
+}
+
 TEST(Eulumdat, WarnsWhenTheLumensAreNotThoseOfTheIntensities) {
   const auto read = PhotometricFromText(Ldt(1, {0}, 1, "35"), "x.ldt");
   ASSERT_TRUE(read);

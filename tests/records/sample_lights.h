@@ -98,7 +98,7 @@ inline LightFile FullLightFile() {
   bare_front.beam = light.beam;
   light.geometries = {bare_front};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};
-  light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true, 8.25},
+  light.residuals = {{0, 0.5, 192.0, 191.1, 0.0047, 0.05, true, 8.25, 230.5},
                      {1, std::nullopt, 60.0, 52.0, 0.15, 0.05, false}};
   light.covariance_lnI_d0_E0 = {0.1, 0.2, 0.3, 0.2, 0.5, 0.6, 0.3, 0.6, 1.0 / 7.0};
   light.budget = {{"readings", 1.0 / 30.0, 0.9, "four times as many readings"}};

@@ -253,7 +253,8 @@ TEST(Schemas, ReadingSchemaAndWriterKnowTheSameKeys) {
 TEST(Schemas, LightSchemaAndWriterKnowTheSameKeys) {
   const TempDir dir;
   std::string text = LightFileToJson(test::FullLightFile()).value();
-  text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],)");
+  text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],"next_step":"a",
+      "next_steps":{"key":"a"},"files":["a"],"through":{},"predictions":[{}],"minutes":[{}],)");
   EXPECT_TRUE(LightFileFromJson(text, "light.json"));
   ExpectValid("light", {"--every-key", dir.Write("light.json", text)});
 }

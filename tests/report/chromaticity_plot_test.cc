@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,32 @@ TEST(ChromaticityPlot, IsOneWellFormedPictureWithItsOwnStyle) {
 
 TEST(ChromaticityPlot, OfNoColorIsEmpty) {
   EXPECT_TRUE(report::ChromaticityPlot(FittedColor{}).empty());
+}
+
+// Far off it, at u' .229, v' .032, no axis goes where no colours are.
+TEST(ChromaticityPlot, OfAColorFarOffTheLocusShowsBoth) {
+  FittedColor color;
+  color.xy = Xy{0.16, 0.01};
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(report::ChromaticityPlot(color).c_str()));
+  const auto dot = document.select_node("//circle[@class='used']").node();
+  EXPECT_GT(dot.attribute("cy").as_double(), 16.0);
+  EXPECT_LT(dot.attribute("cy").as_double(), 286.0);
+  const std::string locus =
+      document.select_node("//path[@class='locus']").node().attribute("d").value();
+  bool inside = false;
+  std::istringstream points(locus);
+  char letter = 0;
+  for (double x = 0.0, y = 0.0; points >> letter >> x;) {
+    if (points.peek() == ',' || points.peek() == ' ') points.get();
+    if (!(points >> y)) break;
+    inside = inside || (x > 84.0 && x < 468.0 && y > 16.0 && y < 286.0);
+  }
+  EXPECT_TRUE(inside) << locus;
+  for (const auto& tick : document.select_nodes("//text")) {
+    EXPECT_FALSE(std::string_view(tick.node().text().get()).starts_with("\u2212"))
+        << tick.node().text().get();
+  }
 }
 
 }  // namespace

@@ -215,6 +215,29 @@ TEST(RoomFigure, MultipliesByTheSquareOfTheDistanceOnTwoLinearAxes) {
   EXPECT_EQ(report::RoomFigure(light, "w"), "");
 }
 
+// At 60 degrees to the lamp a meter shows half of what it shows facing it.
+TEST(RoomFigure, AReadingThatWasTurnedStandsAsIfItFacedTheLamp) {
+  FittedLight light = WarmPoint();
+  light.residuals.erase(light.residuals.begin() + 2);  // rejected
+  const auto heights = [](const FittedLight& one) {
+    std::vector<std::string> out;
+    const auto svg = Parsed(report::RoomFigure(one, "w"));
+    for (const auto& dot : svg.select_nodes("//circle[@class='used']")) {
+      out.emplace_back(dot.node().attribute("cy").value());
+    }
+    return out;
+  };
+  const auto facing = heights(light);
+  EXPECT_THAT(report::RoomFigure(light, "w"), Not(HasSubstr("facing")));
+  ResidualRow& row = light.residuals.front();
+  row.facing_lx = row.predicted_lx;
+  row.predicted_lx /= 2.0;
+  row.measured_lx /= 2.0;
+  EXPECT_EQ(heights(light), facing);
+  EXPECT_THAT(report::RoomFigure(light, "w"), HasSubstr("lux facing the lamp"));
+  EXPECT_THAT(report::DistanceFigure(light, "d"), HasSubstr("illuminance facing the lamp"));
+}
+
 TEST(RoomFigure, TheLampsNameStandsOnNoReading) {
   constexpr double kLeastCharacter = 6.0, kHeight = 11.0;  // px of its 13 px sans-serif
   for (const double part : {0.80, 0.86, 0.92, 0.96, 1.0, 1.04, 1.1}) {

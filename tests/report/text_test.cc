@@ -24,6 +24,9 @@ TEST(PlusMinusText, KeepsTheDigitsTheUncertaintyLeaves) {
   EXPECT_EQ(PlusMinus({12566.4, 502.7, {}, {}}, "lm"), "12\u202F570 ±\u00A0500\u00A0lm");
   EXPECT_EQ(PlusMinus({-0.0012, 0.0008, {}, {}}, ""), "\u22120.00120 ±\u00A00.00080");
   EXPECT_EQ(PlusMinus({0.06, 0.02, {}, {}}, "cm", 100.0), "6.0 ±\u00A02.0\u00A0cm");
+  EXPECT_EQ(PlusMinus({1000.0, 40.9, 961.0, 1042.0}, "cd"), "1000 ±\u00A041\u00A0cd");
+  EXPECT_EQ(PlusMinus({1260.0, 660.0, 11.0, 1331.0}, "lm"), "1260\u00A0lm, 11 … 1330");
+  EXPECT_EQ(RelativePlusMinus({1260.0, 660.0, 12.6, 1332.0}), "\u221299 … +5.7\u00A0%");
 }
 
 TEST(FigureText, DropsTrailingZerosAndGroupsThousands) {

@@ -51,6 +51,22 @@ def _words(to: Targets) -> List[str]:
     return [word for word in to.split(",") if word] if isinstance(to, str) else list(to)
 
 
+def _number(where: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise Error("usage", "usage", where, f"{value!r} is no number") from None
+
+
+def _anchor(anchor: Sequence[float]) -> str:
+    if len(anchor) != 5:
+        raise Error("usage", "usage", "anchor", "takes x, y, width, height in pixels, and cd/m2")
+    *sides, nits = (_number("anchor", value) for value in anchor)
+    if not all(side.is_integer() for side in sides):
+        raise Error("usage", "usage", "anchor", "x, y, width and height are whole pixels")
+    return ",".join(str(int(side)) for side in sides) + f"={nits!r}"
+
+
 def _typed(reading: Reading) -> str:
     if isinstance(reading, str):
         return reading
@@ -63,10 +79,11 @@ def _typed(reading: Reading) -> str:
     for key in ("illuminance_lx", "distance_m"):
         if key not in reading:
             raise Error("usage", "usage", "readings", f"a reading needs {key}")
-    text = f"{float(reading['illuminance_lx'])!r}lx@{float(reading['distance_m'])!r}m"
+    lux, metres = (_number(key, reading[key]) for key in ("illuminance_lx", "distance_m"))
+    text = f"{lux!r}lx@{metres!r}m"
     for key, (before, unit) in units.items():
         if key in reading:
-            text += f",{before}{float(reading[key])!r}{unit}"
+            text += f",{before}{_number(key, reading[key])!r}{unit}"
     return text
 
 
@@ -194,7 +211,7 @@ def merge(frames: Union[_Path, Iterable[_Path]], *, sigma: bool = True,
     several: Iterable[_Path]
     several = [frames] if isinstance(frames, (str, _os.PathLike)) else frames
     if anchor is not None and not isinstance(anchor, str):
-        anchor = ",".join(str(int(side)) for side in anchor[:4]) + f"={float(anchor[4])!r}"
+        anchor = _anchor(anchor)
     given = dict(exposures=exposures, f_number=f_number, t_stop=t_stop, iso=iso, anchor=anchor,
                  anchor_sigma=anchor_sigma, noise=noise, space=space, white=white, camera=camera,
                  nd=nd, lamp_class=lamp_class, no_flat=no_flat, cos4=cos4, align=align,

@@ -83,7 +83,9 @@ function save(name, text, type = 'text/plain') {
 
 // ---- the lamp ----
 
-const number = (text) => text.trim().replace(',', '.');
+const decimal = (text) => text.trim().replace(',', '.');
+// A comma that may part thousands (1,200) stays: the command says how either is typed.
+const number = (text) => (/^[1-9]\d{0,2}(,\d{3})+(\.|$)/.test(text.trim()) ? text.trim() : decimal(text));
 
 function addReading(lux = '', metres = '', card = '') {
   const row = make('li');
@@ -104,8 +106,8 @@ function addReading(lux = '', metres = '', card = '') {
 }
 function readings() {
   return [...byId('readings').children].map((row) => {
-    const value = (name) => number(row.querySelector(`[name=${name}]`).value);
-    return { lux: value('lux'), metres: value('metres'), card: value('card') };
+    const typed = (name) => row.querySelector(`[name=${name}]`).value;
+    return { lux: number(typed('lux')), metres: decimal(typed('metres')), card: number(typed('card')) };
   }).filter((one) => one.lux !== '' && one.metres !== '');
 }
 const wordOf = ({ lux, metres, card }) => `${lux}lx@${metres}m` + (card === '' ? '' : `,card=${card}lx`);
@@ -176,9 +178,22 @@ function answerLamp() {
 }
 
 const toml = (text) => '"' + text.replace(/[\\"]/g, (c) => '\\' + c) + '"';
-const plain = (text) => String(Number(text)).includes('.') || /e/.test(text) ? String(Number(text)) : Number(text) + '.0';
+function plain(text) {
+  const value = String(Number(text));
+  if (!Number.isFinite(Number(text))) throw new Error(`"${text}" is not a number alone, as a session.toml has it`);
+  return /[.e]/.test(value) ? value : value + '.0';
+}
+// As the command reads a length (core/units_text.cc).
+const kMetres = { '': 1, m: 1, cm: 0.01, mm: 0.001, km: 1000, in: 0.0254, inch: 0.0254, '"': 0.0254, ft: 0.3048, "'": 0.3048 };
+function metresOf(text, unitOfBare) {
+  const [, value, unit] = /^(.*?)([a-z"']*)$/i.exec(text ?? '');
+  const metres = value === '' ? NaN : value * kMetres[unit || unitOfBare];
+  if (!(metres > 0)) throw new Error('a room is written LENGTH,WIDTH,HEIGHT, for example 5,4,2.6');
+  return plain(Number(metres.toPrecision(14)));
+}
 
-// The same lamp as a session: what `quick` was told, in session.toml's words.
+// The same lamp as a session: what `quick` was told, in session.toml's words. Throws where a field is
+// no number alone.
 export function sessionText() {
   const name = byId('name').value.trim() || 'light', fixture = byId('fixture').value;
   const where = byId('room').value, meter = byId('meter').value, cct = number(byId('cct').value);
@@ -187,7 +202,8 @@ export function sessionText() {
   if (where === 'dark' || where === 'outdoors') lines.push('[room]', `${where} = true`, '');
   if (where === 'size') {
     const [length, width, height, reflectance] = roomWord().split(',');
-    lines.push('[room]', `size_m = [${[length, width, height].map(plain).join(', ')}]`);
+    const unit = /[a-z"']*$/i.exec(height ?? '')[0];
+    lines.push('[room]', `size_m = [${[length, width, height].map((side) => metresOf(side, unit)).join(', ')}]`);
     if (reflectance) lines.push(`reflectance = ${plain(reflectance)}`);
     lines.push('');
   }
@@ -209,14 +225,32 @@ export function sessionText() {
   }
   return lines.join('\n');
 }
+// { text }, or { error } where it would not be read back.
+function readableSession() {
+  try {
+    const text = sessionText();
+    const { error } = asked(['fit', '/lamp/session.toml'], new MemoryFiles({ '/lamp/session.toml': text }));
+    return error ? { error } : { text };
+  } catch (error) {
+    return { error };
+  }
+}
 function fileStem() { return (byId('name').value.trim() || 'light').replace(/[^\p{L}\p{N}_-]+/gu, '_'); }
 
 function savePresets(words, files, folder, status) {
   const { value, error } = asked([...words, '-o', folder], files);
   if (error) { status.textContent = error.message; return; }
   const names = files.list(folder);
+  if (names.length === 0) {
+    const why = (value.warnings ?? []).map((one) => `${one.subject}: ${one.message}`);
+    status.textContent = ['Nothing was saved.', ...why].join(' ');
+    return;
+  }
   for (const name of names) save(name, files.read(`${folder}/${name}`), 'application/octet-stream');
-  status.textContent = `Saved ${names.join(', ')}.` + (value.paste ? ` ${value.paste.join(' ')}` : '');
+  // Only the browser knows where they went.
+  const paste = (value.paste ?? []).map((line) => line.replaceAll(`${folder}/`, 'FOLDER/'));
+  status.textContent = [`Saved ${names.join(', ')}.`,
+    ...(paste.length > 0 ? ['Where FOLDER is the one they were saved to:', ...paste] : [])].join(' ');
 }
 
 // ---- the others ----
@@ -351,8 +385,10 @@ function wire() {
     select.value = 'blender';
   }
   byId('save-session').addEventListener('click', () => {
-    save('session.toml', sessionText());
-    byId('lamp-saved').textContent = 'Saved session.toml.';
+    const { text, error } = readableSession();
+    if (text) save('session.toml', text);
+    byId('lamp-saved').textContent = text ? 'Saved session.toml.'
+      : `Not saved: ${[error.subject, error.message].filter(Boolean).join(': ')}`;
   });
   byId('save-preset').addEventListener('click', () => {
     const words = [...lampWords(readings()), '--to', byId('engine').value];

@@ -88,10 +88,95 @@ bool IsRowOfNumbers(const CsvTable& table, const Row& row) {
     const CsvQuantity quantity = table.columns[i].quantity;
     if (IsWord(quantity) || quantity == CsvQuantity::kLeftOut) continue;
     if (TrimBlanks(CellAt(row, i)).empty()) continue;
-    if (!ParseNumber(CellAt(row, i), table.decimal_comma)) return false;
+    if (!NumberAt(table, row, i)) return false;
     any = true;
   }
   return any;
+}
+
+bool HoldsNumbers(const CsvColumn& column) {
+  return !IsWord(column.quantity) && !IsLeftOut(column.quantity);
+}
+
+// The cell that makes a row with a number in its first column of numbers none of numbers.
+std::string_view CellThatIsNone(const CsvTable& table, const Row& row) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (!HoldsNumbers(table.columns[i]) || TrimBlanks(CellAt(row, i)).empty()) continue;
+    if (!NumberAt(table, row, i)) return CellAt(row, i);
+  }
+  return {};
+}
+
+// Drops the titles above the first row of numbers; a row of data with a slip in it is none.
+Result<void> DropTitles(CsvTable& table) {
+  const auto first =
+      std::ranges::find_if(table.rows, [&](const Row& row) { return IsRowOfNumbers(table, row); });
+  if (first == table.rows.end()) {
+    return Refused("no_rows", table.name, "has no row of numbers in the columns named");
+  }
+  const auto column = static_cast<std::size_t>(std::ranges::find_if(table.columns, HoldsNumbers) -
+                                               table.columns.begin());
+  std::string skipped;
+  for (auto row = table.rows.begin(); row != first; ++row) {
+    if (NumberAt(table, *row, column)) {
+      return Refused("bad_row", AtLine(table.name, row->line),
+                     "begins with a number and goes on with '" +
+                         std::string(CellThatIsNone(table, *row).substr(0, 40)) +
+                         "', which is none: correct the cell, or put # before a line that is no "
+                         "reading");
+    }
+    bool any = false;
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      any = any || (HoldsNumbers(table.columns[i]) && NumberAt(table, *row, i));
+    }
+    if (any) skipped += (skipped.empty() ? "" : ", ") + std::to_string(row->line);
+  }
+  if (!skipped.empty()) {
+    table.warnings.push_back({"rows_skipped", table.name + ", line " + skipped,
+                              "taken for a title: its first column holds no number"});
+  }
+  table.rows.erase(table.rows.begin(), first);
+  return {};
+}
+
+// "1.200": in a file of decimal commas a thousand and two hundred.
+bool MayPartThousands(std::string_view cell) {
+  constexpr std::string_view kDigits = "0123456789";
+  const std::size_t point = cell.find('.');
+  if (point == std::string_view::npos || point == 0 || point > 3 || cell[0] == '0') return false;
+  const std::string_view after = cell.substr(point + 1);
+  return cell.substr(0, point).find_first_not_of(kDigits) == std::string_view::npos &&
+         after.size() == 3 && after.find_first_not_of(kDigits) == std::string_view::npos;
+}
+
+// Between semicolons, where numbers often have a decimal comma, whole numbers beside one such as
+// "1.200" leave open whether its point parts thousands.
+void WarnOfThousands(CsvTable& table, char delimiter) {
+  if (delimiter != ';' || table.decimal_comma) return;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    const CsvQuantity quantity = table.columns[column].quantity;
+    if (quantity != CsvQuantity::kIlluminance && quantity != CsvQuantity::kDistance) continue;
+    const Row* parted = nullptr;
+    bool whole = false, decimals = false;
+    for (const Row& row : table.rows) {
+      const std::string_view cell = TrimBlanks(CellAt(row, column));
+      if (MayPartThousands(cell)) {
+        parted = &row;
+      } else if (cell.find('.') != std::string_view::npos) {
+        decimals = true;
+      } else {
+        whole = whole || NumberAt(table, row, column);
+      }
+    }
+    if (parted == nullptr || !whole || decimals) continue;
+    std::string cell(TrimBlanks(CellAt(*parted, column)));
+    std::string thousands = cell;
+    std::erase(thousands, '.');
+    const std::string read = ShortestText(NumberAt(table, *parted, column).value_or(0.0));
+    table.warnings.push_back(
+        {"decimals_ambiguous", AtLine(table.name, parted->line),
+         cell + " is read as " + read + "; if its point parts thousands, write " + thousands});
+  }
 }
 
 }  // namespace
@@ -106,8 +191,18 @@ bool IsLeftOut(CsvQuantity quantity) {
   return quantity == CsvQuantity::kUnknown || quantity == CsvQuantity::kLeftOut;
 }
 
+char LimitSignOf(std::string_view cell) {
+  const std::string_view content = TrimBlanks(cell);
+  return content.starts_with('>') || content.starts_with('<') ? content.front() : '\0';
+}
+
 std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_t column) {
-  return ParseNumber(CellAt(row, column), table.decimal_comma);
+  std::string_view cell = TrimBlanks(CellAt(row, column));
+  const bool limit = column < table.columns.size() &&
+                     table.columns[column].quantity == CsvQuantity::kIlluminance &&
+                     LimitSignOf(cell) != '\0';
+  if (limit) cell.remove_prefix(1);
+  return ParseNumber(cell, table.decimal_comma);
 }
 
 bool IsTableUnderHeader(std::string_view text) {
@@ -143,6 +238,7 @@ Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) 
                        "; numbers with a decimal comma need ';' between the columns");
   }
   table.decimal_comma = HasDecimalComma(table, delimiter);
+  WarnOfThousands(table, delimiter);
   return table;
 }
 
@@ -169,12 +265,8 @@ Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
   std::erase_if(*rows, IsCommentOrEmpty);
   table.rows = *std::move(rows);
   table.decimal_comma = HasDecimalComma(table, delimiter);
-  const auto first =
-      std::ranges::find_if(table.rows, [&](const Row& row) { return IsRowOfNumbers(table, row); });
-  table.rows.erase(table.rows.begin(), first);
-  if (table.rows.empty()) {
-    return Refused("no_rows", table.name, "has no row of numbers in the columns named");
-  }
+  if (auto dropped = DropTitles(table); !dropped) return Propagate(std::move(dropped));
+  WarnOfThousands(table, delimiter);
   if (const Row* const wide = RowTooWide(table)) {
     return Refused("unknown_column", AtLine(table.name, wide->line),
                    "has " + std::to_string(wide->cells.size()) + " cells, and " +

@@ -20,13 +20,17 @@ struct CsvTable {
   std::vector<CsvColumn> columns;
   std::vector<Row> rows;
   bool decimal_comma = false;
+  Warnings warnings{};  // decimals_ambiguous, rows_skipped
 };
 
 // Whether a column holds words, whether nothing is wanted of it.
 [[nodiscard]] bool IsWord(CsvQuantity quantity);
 [[nodiscard]] bool IsLeftOut(CsvQuantity quantity);
 
-// Absent where the cell is no finite number.
+// '>' of a cell ">400", '<' of "< 40": light beyond the meter's range; else '\0'.
+[[nodiscard]] char LimitSignOf(std::string_view cell);
+
+// Absent where the cell is no finite number; in a column of illuminance, of a limit its number.
 [[nodiscard]] std::optional<double> NumberAt(const CsvTable& table, const Row& row,
                                              std::size_t column);
 
@@ -36,8 +40,10 @@ struct CsvTable {
 // Refused: no_rows, bad_row (more cells than columns, naming the line).
 [[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name);
 
-// What stands above the first row of numbers is a title; "-" leaves a column out. Refused: no_rows,
-// unknown_column (a name not understood, or more cells in a row than names).
+// What stands above the first row of numbers is a title; "-" leaves a column out. A title that
+// holds a number in a column of numbers is named (rows_skipped). Refused: no_rows, unknown_column
+// (a name not understood, or more cells in a row than names), bad_row (above the first row of
+// numbers, one that begins with a number and goes on with something else).
 [[nodiscard]] Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
                                               const std::vector<std::string>& names);
 

@@ -53,6 +53,31 @@ void UnixLineEnds(std::string& text) {
   text.resize(to);
 }
 
+constexpr std::string_view kDecimalDigits = "0123456789";
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+// ".250" or ",250" of a second, taken off the front, with a point; "" where there is none.
+std::string TakeFraction(std::string_view& text) {
+  const bool begins = text.size() > 1 && (text[0] == '.' || text[0] == ',') && IsDigit(text[1]);
+  if (!begins) return {};
+  const std::size_t end = std::min(text.find_first_not_of(kDecimalDigits, 1), text.size());
+  std::string fraction = "." + std::string(text.substr(1, end - 1));
+  text.remove_prefix(end);
+  return fraction;
+}
+
+// "Z" or "+02:00" where the whole text is a zone ("Z", "UTC", "+02", "+0200", "+02:00"), else "".
+std::string ZoneIn(std::string_view text) {
+  text = TrimBlanks(text);
+  if (text == "Z" || text == "z" || text == "UTC" || text == "GMT") return "Z";
+  if (!text.starts_with('+') && !text.starts_with('-')) return {};
+  std::string digits(text.substr(1));
+  if (digits.size() == 5 && digits[2] == ':') digits.erase(2, 1);
+  if (digits.size() == 2) digits += "00";
+  if (digits.size() != 4 || !std::ranges::all_of(digits, IsDigit)) return {};
+  return text.front() + digits.substr(0, 2) + ":" + digits.substr(2);
+}
+
 int IsBlank(unsigned char c) { return c == ' ' ? 1 : 0; }
 int IsLineEnd(unsigned char c) { return c == '\n' ? 1 : 0; }
 
@@ -171,13 +196,21 @@ double LastDigit(std::string_view printed) {
 std::string IsoTime(std::string_view text, DateOrder order) {
   std::array<int, 6> numbers{};
   std::size_t count = 0;
-  bool in_number = false;
-  for (const char c : text) {
-    const bool digit = c >= '0' && c <= '9';
-    if (digit && !in_number && count == numbers.size()) break;  // fractions of a second
-    if (digit && !in_number) ++count;
-    if (digit) numbers[count - 1] = std::min(numbers[count - 1] * 10 + (c - '0'), 100000);
-    in_number = digit;
+  bool colon = false;  // before the last number
+  while (true) {
+    const std::size_t start = text.find_first_of(kDecimalDigits);
+    if (start == std::string_view::npos) break;
+    // "10:00+02:00": a time to the minute.
+    constexpr std::size_t kToTheMinute = 5;
+    if (count == kToTheMinute && colon && !ZoneIn(text).empty()) break;
+    colon = start > 0 && text[start - 1] == ':';
+    text.remove_prefix(start);
+    int& number = numbers[count++];
+    while (!text.empty() && IsDigit(text.front())) {
+      number = std::min(number * 10 + (text.front() - '0'), 100000);
+      text.remove_prefix(1);
+    }
+    if (count == numbers.size()) break;
   }
   if (count < 5) return {};
   if (order == DateOrder::kDayFirst) std::swap(numbers[0], numbers[2]);
@@ -191,7 +224,9 @@ std::string IsoTime(std::string_view text, DateOrder order) {
   std::array<char, 32> buffer{};
   const int size = std::snprintf(buffer.data(), buffer.size(), "%04d-%02d-%02dT%02d:%02d:%02d",
                                  year, month, day, hour, minute, second);
-  return {buffer.data(), static_cast<std::size_t>(size)};
+  std::string iso(buffer.data(), static_cast<std::size_t>(size));
+  if (count == numbers.size()) iso += TakeFraction(text);
+  return iso + ZoneIn(text);
 }
 
 std::string AtLine(std::string_view name, int line) {

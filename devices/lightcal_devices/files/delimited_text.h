@@ -42,8 +42,9 @@ using RowVisitor = std::function<Result<void>(int line, std::span<const std::str
 // One unit of the last digit a number is printed with: "1,34E+00" -> 0.01, "3262" -> 1.
 [[nodiscard]] double LastDigit(std::string_view printed);
 
-// ISO 8601 from the whole numbers of a local date and time in the order year month day hour minute
-// second (or day month year ...), whatever separates them; "" where it is no valid date.
+// ISO 8601 from the whole numbers of a date and time in the order year month day hour minute second
+// (or day month year ...), whatever separates them, with the fraction of the second and the zone
+// ("Z", "+02:00", "-0500") where they follow; "" where it is no valid date.
 enum class DateOrder { kYearFirst, kDayFirst };
 [[nodiscard]] std::string IsoTime(std::string_view text, DateOrder order);
 

@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal_devices/files/csv_table.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
@@ -18,12 +20,13 @@ tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::siz
                                  std::string_view code) {
   return Refused(std::string(code), AtLine(table.name, row.line),
                  "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
-                     table.columns[column].written + " is no finite number");
+                     table.columns[column].written + " is no finite number" +
+                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : ""));
 }
 
 // A quantity whose unit is not said is never guessed.
 Result<Warnings> CheckColumns(const CsvTable& table) {
-  Warnings warnings;
+  Warnings warnings = table.warnings;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const CsvColumn& column = table.columns[i];
     if (column.quantity == CsvQuantity::kNeedsUnit) {
@@ -110,7 +113,7 @@ bool TakeNumber(Reading& reading, CsvQuantity quantity, double value) {
       return value >= 0.0;
     case CsvQuantity::kCct:
       if (value > 0.0) reading.cct = Kelvin(value);
-      return value >= 0.0;
+      return value == 0.0 || IsTemperatureOfLamp(Kelvin(value));
     case CsvQuantity::kDuv:
       reading.duv = value;
       return value > -1.0 && value < 1.0;
@@ -154,6 +157,10 @@ Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, 
   const double value = *number * column.scale;
   if (column.quantity == CsvQuantity::kX) taken.x = value;
   if (column.quantity == CsvQuantity::kY) taken.y = value;
+  if (column.quantity == CsvQuantity::kIlluminance) {
+    taken.reading.over_range = LimitSignOf(cell) == '>';
+    taken.reading.under_range = LimitSignOf(cell) == '<';
+  }
   if (TakeNumber(taken.reading, column.quantity, value)) return {};
   return Refused("bad_row", AtLine(table.name, row.line),
                  cell.substr(0, 40) + " is no possible " + column.written);

@@ -2,6 +2,7 @@
 // CSV with a header whose column names carry units: either one reading a row (distance_m,
 // illuminance_lx, ...) or one spectral sample a row (wavelength_nm, irradiance_W_m2_nm, ...).
 // Separator ',' ';' or tab; with ';' or tab numbers may have a decimal comma. '#' begins a comment.
+// An illuminance ">400" is light beyond the meter's range (over_range), "<40" below it.
 #pragma once
 
 #include <string>
@@ -18,13 +19,15 @@ namespace lightcal::devices::files {
 
 // All rows or none. Refused: units_ambiguous (a quantity without a unit, an unknown column of
 // numbers, the same quantity twice), bad_row (naming the line), no_rows, bad_spectrum.
-// A column of words that no one knows is left out with the warning column_ignored.
+// A column of words that no one knows is left out with the warning column_ignored; a point that may
+// part thousands warns as decimals_ambiguous.
 [[nodiscard]] Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name);
 
 // The same of a table whose columns a person names, in their order ("-" leaves one out): of a file
 // whose own header says nothing ("h,epsilon"), of one without a header, or of columns between
 // blanks (.dat, .prn). What stands above the first row of numbers is a title. Refused besides:
-// unknown_column (a name not understood, or more cells in a row than names).
+// unknown_column (a name not understood, or more cells in a row than names), bad_row (above the
+// first row of numbers, one that begins with a number). Warns besides: rows_skipped.
 [[nodiscard]] Result<ImportedFile> ReadCsvOfColumns(std::string_view text, std::string_view name,
                                                     const std::vector<std::string>& columns);
 

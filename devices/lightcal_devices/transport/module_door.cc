@@ -11,20 +11,14 @@ namespace lightcal::devices {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-// The folder of the file that this code was loaded from: the program's, or a module's that lightcal
-// is part of.
-fs::path OwnFolder() {
+std::string OwnFolder() {
   Dl_info own{};
   std::error_code ignored;
   if (dladdr(reinterpret_cast<const void*>(&OpenModule), &own) == 0 || own.dli_fname == nullptr) {
     return {};
   }
-  return fs::weakly_canonical(own.dli_fname, ignored).parent_path();
+  return fs::weakly_canonical(own.dli_fname, ignored).parent_path().string();
 }
-
-}  // namespace
 
 Result<void*> OpenModule(const std::string& name, const char* symbol, const std::string& code,
                          const std::string& what) {
@@ -33,7 +27,7 @@ Result<void*> OpenModule(const std::string& name, const char* symbol, const std:
   std::vector<std::string> places = {(beside / name).string(),
                                      (beside / LIGHTCAL_MODULE_DIR_FROM_BIN / name).string()};
   if (const fs::path own = OwnFolder(); own != beside) {  // part of a Python package
-    places.push_back((own / LIGHTCAL_MODULE_DIR_FROM_PYTHON / name).string());
+    places.push_back((own / kModulesFromPython / name).string());
   }
   places.push_back(name);
   std::string said;

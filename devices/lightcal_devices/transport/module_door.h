@@ -8,6 +8,11 @@
 
 namespace lightcal::devices {
 
+// The folder of the file that this code was loaded from: the program's, or of a Python module that
+// lightcal is part of; "" = nobody knows. There the modules lie in kModulesFromPython.
+[[nodiscard]] std::string OwnFolder();
+inline constexpr const char* kModulesFromPython = "../../../lightcal";
+
 // The function `symbol` of the module `name` ("lightcal_pictures.so"), looked for beside the
 // executable, then in ../<libdir>/lightcal from there, then where the system looks for libraries
 // (LD_LIBRARY_PATH, run path). The module is never closed: its libraries' threads outlive any

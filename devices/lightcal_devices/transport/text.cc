@@ -39,16 +39,19 @@ class LineTransport final : public Transport {
   }
 
   Result<Bytes> Read(std::size_t max, milliseconds timeout) override {
+    const bool stale = steady_clock::now() - last_ > kStaleAfter;
+    const bool paused = std::exchange(paused_, false);
     if (repeats_ && !joined_) {
       Join();
-    } else if (steady_clock::now() - last_ > kStaleAfter) {
-      DropOld();
+    } else if (stale || paused) {
+      DropOld(repeats_ && stale);
     }
     auto line = NextLine(max, timeout);
     last_ = steady_clock::now();
     return line;
   }
 
+  void Paused() override { paused_ = true; }
   [[nodiscard]] std::string Name() const override { return inner_->Name(); }
 
  private:
@@ -65,17 +68,19 @@ class LineTransport final : public Transport {
     in_the_middle_ = More(kJoinSilence).has_value();
   }
 
-  void DropOld() {
+  // All whole lines, or (`all` false) all but the last.
+  void DropOld(bool all) {
     std::size_t piled_up = held_.size();
     for (int i = 0; i < kMostPieces && More(milliseconds(0)); ++i) {
     }
     piled_up = held_.size() - piled_up;
     const auto is_end = [](std::byte byte) { return EndsLine(byte); };
     const auto last = std::find_if(held_.rbegin(), held_.rend(), is_end).base();
-    if (repeats_) {
+    // A full buffer of the kernel has holes.
+    const bool ran_over = repeats_ && piled_up + 1 >= kPieceBytes;
+    if (all || ran_over) {
       held_.erase(held_.begin(), last);
-      // A full buffer of the kernel has holes.
-      in_the_middle_ = in_the_middle_ || piled_up + 1 >= kPieceBytes;
+      in_the_middle_ = in_the_middle_ || ran_over;
       return;
     }
     // The last whole line: from its start, past the ends that stand after it.
@@ -105,6 +110,7 @@ class LineTransport final : public Transport {
   std::unique_ptr<Transport> inner_;
   bool repeats_;
   bool joined_ = false;
+  bool paused_ = false;
   bool in_the_middle_ = false;  // what comes next is the rest of a line
   Bytes held_;
   steady_clock::time_point last_ = steady_clock::now();

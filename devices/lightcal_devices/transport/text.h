@@ -14,11 +14,12 @@
 namespace lightcal::devices {
 
 // Cuts `inner`, a stream of bytes, into lines: each Read returns the next one without its end (LF,
-// CR or both), at most `max` bytes of it; blank lines are passed over. Where nobody read for longer
-// than kStaleAfter, what had piled up meanwhile is old light: a stream that `repeats` itself drops
-// every whole line of it, any other keeps the last. A stream that repeats may also be joined in the
-// middle of a line; unless it is silent for kJoinSilence at first, it is read from its next line
-// on. The end of the stream ends its last line.
+// CR or both), at most `max` bytes of it; blank lines are passed over. What piled up while it was
+// Paused, or where nobody read for longer than kStaleAfter, is old light: all but its last whole
+// line is dropped, and that too of a stream that `repeats` itself, after kStaleAfter or where the
+// kernel's buffer ran over. A stream that repeats may also be joined in the middle of a line; unless
+// it is silent for kJoinSilence at first, it is read from its next line on. The end of the stream
+// ends its last line.
 inline constexpr std::chrono::milliseconds kStaleAfter{2000};
 inline constexpr std::chrono::milliseconds kJoinSilence{50};
 [[nodiscard]] std::unique_ptr<Transport> OpenLines(std::unique_ptr<Transport> inner, bool repeats);

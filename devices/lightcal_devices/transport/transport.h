@@ -50,6 +50,8 @@ class Transport {
   // the verb fails as io.
   virtual Result<Bytes> Control(std::string_view verb, std::span<const std::byte> bytes,
                                 std::size_t max, std::chrono::milliseconds timeout);
+  // Whoever reads let time pass on purpose: what came meanwhile and was not asked for is old.
+  virtual void Paused() {}
   // For messages: "usb 0a41:7003 at 1-1".
   [[nodiscard]] virtual std::string Name() const = 0;
 };

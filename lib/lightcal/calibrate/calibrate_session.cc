@@ -53,6 +53,7 @@ Session AsSet(Session session, const CalibrationSettings& settings) {
     if (settings.full_angles && light.inner) light.inner = *light.inner * 0.5;
     if (settings.full_angles && light.outer) light.outer = *light.outer * 0.5;
   }
+  NameOnlyMeter(session);
   session.readings = ThinnedReadings(settings.profile.reading_stride, std::move(session.readings));
   for (CaptureDescription& capture : session.captures) capture.work = settings.profile.pictures;
   return session;

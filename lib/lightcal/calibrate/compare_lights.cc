@@ -29,8 +29,12 @@ double HalfWidthTowards(const Uncertain& u, double other) {
   return u.low ? u.value - *u.low : u.u95;
 }
 
+// What two solvers' ends of one problem differ by, of a half width.
+constexpr double kSolved = 1e-3;
+
 double Combined(double ua, double ub, double correlation) {
-  return std::sqrt(std::max(0.0, ua * ua + ub * ub - 2.0 * correlation * ua * ub));
+  const double common = std::sqrt(std::max(0.0, ua * ua + ub * ub - 2.0 * correlation * ua * ub));
+  return std::max(common, kSolved * std::max(ua, ub));
 }
 
 Change Judged(double difference, double size, double u95, bool u_known) {

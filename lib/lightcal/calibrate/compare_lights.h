@@ -51,7 +51,8 @@ struct LightComparison {
 //   u = sqrt(ua^2 + ub^2 - 2 r ua ub),     r the correlation of their errors, 0 = independent
 // is the 95 % half width of the difference of normal errors: of lamps that did not change, 1
 // quantity in 20 exceeds it. One meter's gain is common to both sides (r > 0): taking r = 0 then
-// calls too few changes, never too many. A position's three coordinates are judged together, by
+// calls too few changes, never too many; u is never below a thousandth of ua or ub, which is how
+// exactly a fit ends. A position's three coordinates are judged together, by
 // 2.795/1.960 times the u along the difference (chi-square with three degrees of freedom).
 [[nodiscard]] LightComparison CompareLights(const LightFile& a, const LightFile& b,
                                             double correlation);

@@ -59,7 +59,7 @@ void MeterCalibrations::Apply(Reading& reading, Warnings& warnings) const {
     if (reading.quality != MeterQuality::kBareSensor) return;
     warnings.push_back({"uncalibrated", reading.device,
                         "a bare sensor's lux are its maker's guess; compare it once with a lux "
-                        "meter and write the factor into meters.toml"});
+                        "meter and write factor and sigma_relative into meters.toml"});
     return;
   }
   reading.illuminance = Lux(reading.illuminance->value() * found->factor);

@@ -157,7 +157,8 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
   }
   if ((light.position_u95_m || light.uneven) && stated_position) {
     doubt.place =
-        light.located ? PlaceDoubtOf(*light.located) : PlaceDoubtOf(light, doubt.variance_ln);
+        light.located ? PlaceDoubtOf(*light.located)
+                      : PlaceDoubtOf(light, doubt.parts.empty() ? doubt.variance_ln : 0.0);
   }
   const auto radians = [](const std::optional<double>& u95_deg) {
     return RadiansFromDegrees(u95_deg.value_or(0.0) / kZ95).value();

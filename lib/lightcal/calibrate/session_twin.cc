@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "lightcal/calibrate/calibrate_session.h"
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/core/standard_normal.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/tradeoff/knobs.h"
 
 namespace lightcal {

@@ -18,6 +18,14 @@ enum class CctStatus {
   kNotAChromaticity,  // not finite, or y <= 0
 };
 
+// Colour temperatures that a lamp may have: nothing that shines for the eye is colder than 1000 K,
+// and above 100 000 K all are one blue.
+inline constexpr Kelvin kColdestLamp{1000.0};
+inline constexpr Kelvin kHottestLamp{100000.0};
+[[nodiscard]] constexpr bool IsTemperatureOfLamp(Kelvin temperature) {
+  return temperature >= kColdestLamp && temperature <= kHottestLamp;
+}
+
 // The point of the Planckian locus nearest in CIE 1960 uv, with
 //   locus: CIE 1931 2 deg, 1 nm sum 360-830 nm, c2 = 1.4388e-2 m K, n = 1.
 //   duv:   signed distance, positive above the locus (greenish).

@@ -2,8 +2,11 @@
 // Names of lights as parts of file names.
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
+
+#include "lightcal/core/numbers_text.h"
 
 namespace lightcal {
 
@@ -17,6 +20,13 @@ namespace lightcal {
     out += plain ? c : '_';
   }
   return out;
+}
+
+// With "_" behind it until no other of `taken` is one name with it to Windows and macOS, whatever
+// its case.
+[[nodiscard]] inline std::string DistinctFileName(std::string name, std::set<std::string>& taken) {
+  while (!taken.insert(LowerAscii(name)).second) name += "_";
+  return name;
 }
 
 }  // namespace lightcal

@@ -18,6 +18,14 @@ struct Uncertain {
   std::optional<double> high;
 };
 
+// Whether "value +- u95" tells it: its arms are alike to a quarter.
+[[nodiscard]] inline bool IsEven(const Uncertain& u) {
+  constexpr double kAlike = 1.25;
+  const double below = u.low ? u.value - *u.low : u.u95;
+  const double above = u.high ? *u.high - u.value : u.u95;
+  return below <= kAlike * above && above <= kAlike * below;
+}
+
 // The value exp(mean_ln) of a variable that is normal in its logarithm:
 //   low, high = value exp(-+ kZ95 sd_ln),  u95 = (high - low)/2 = value sinh(kZ95 sd_ln).
 [[nodiscard]] Uncertain UncertainFromLog(double mean_ln, double sd_ln);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/core/units_text.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <span>
 #include <string>
@@ -15,14 +17,13 @@ struct UnitFactor {
   double si_per_unit;
 };
 
-constexpr UnitFactor kLengthUnits[] = {{"", 1.0},      {"m", 1.0},       {"cm", 0.01},
-                                       {"mm", 0.001},  {"km", 1000.0},   {"in", 0.0254},
-                                       {"\"", 0.0254}, {"inch", 0.0254}, {"ft", 0.3048},
-                                       {"'", 0.3048}};
+constexpr UnitFactor kLengthUnits[] = {
+    {"", 1.0},      {"m", 1.0},     {"cm", 0.01},     {"mm", 0.001},  {"km", 1000.0},
+    {"in", 0.0254}, {"\"", 0.0254}, {"inch", 0.0254}, {"ft", 0.3048}, {"'", 0.3048}};
 constexpr UnitFactor kIlluminanceUnits[] = {
     {"", 1.0}, {"lx", 1.0}, {"lux", 1.0}, {"klx", 1000.0}, {"fc", kLuxPerFootcandle}};
-constexpr UnitFactor kDurationUnits[] = {
-    {"", 1.0}, {"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}};
+constexpr UnitFactor kDurationUnits[] = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0},
+                                         {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}};
 constexpr UnitFactor kTemperatureUnits[] = {{"", 1.0}, {"k", 1.0}};
 constexpr UnitFactor kAngleUnits[] = {{"", std::numbers::pi / 180.0},
                                       {"deg", std::numbers::pi / 180.0},
@@ -38,6 +39,12 @@ Result<double> ParseWith(std::string_view text, std::span<const UnitFactor> unit
   for (const UnitFactor& factor : units) {
     if (factor.unit == unit) return split->number * factor.si_per_unit;
     if (!factor.unit.empty()) known += (known.empty() ? "" : ", ") + std::string(factor.unit);
+  }
+  if (unit.size() > 1 && unit[0] == ',' && unit[1] >= '0' && unit[1] <= '9') {
+    std::string pointed(TrimBlanks(text));
+    pointed[pointed.find(',')] = '.';
+    return WrongUsage(std::string(text),
+                      "decimals have a point here, and thousands no sign: " + pointed);
   }
   return WrongUsage(std::string(text), "unknown unit \"" + std::string(split->unit) + "\" for " +
                                            std::string(what) + "; use one of: " + known);
@@ -56,8 +63,9 @@ Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text) {
   std::size_t end = 0;
   while (end < trimmed.size()) {
     const char c = trimmed[end];
-    const bool exponent = (c == 'e' || c == 'E') && end + 1 < trimmed.size() && end > 0 &&
-                          (std::string_view("+-0123456789").find(trimmed[end + 1]) != std::string_view::npos);
+    const bool exponent =
+        (c == 'e' || c == 'E') && end + 1 < trimmed.size() && end > 0 &&
+        (std::string_view("+-0123456789").find(trimmed[end + 1]) != std::string_view::npos);
     if (std::string_view("+-.0123456789/").find(c) == std::string_view::npos && !exponent) break;
     end += exponent ? 2 : 1;
   }
@@ -73,6 +81,12 @@ Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text) {
   }
   return WrongUsage(std::string(text),
                     "a number is needed here, with an optional unit, for example 0.5m or 192lx");
+}
+
+bool IsOverloadWord(std::string_view text) {
+  constexpr std::array<std::string_view, 6> kWords = {"ol",       "o.l.",      "over",
+                                                      "overload", "overrange", "over range"};
+  return std::ranges::find(kWords, LowerAscii(TrimBlanks(text))) != kWords.end();
 }
 
 Result<Metres> ParseLength(std::string_view text) {

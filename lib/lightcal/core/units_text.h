@@ -30,6 +30,11 @@ struct NumberWithUnit {
 };
 [[nodiscard]] Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text);
 
+// "OL", "Over": what meters show of light above their range, which says no number.
+[[nodiscard]] bool IsOverloadWord(std::string_view text);
+inline constexpr std::string_view kWriteALimit =
+    "light beyond the meter's range is written as a limit, the end of that range: >20000";
+
 inline constexpr double kLuxPerFootcandle = 1.0 / (0.3048 * 0.3048);
 
 }  // namespace lightcal

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -142,6 +143,46 @@ void WarnOfDetermination(double condition, const RobustEstimate& estimate, const
   }
 }
 
+// The part of all that the walls may be that throws back so much of a candela, or more.
+double ShareOfRooms(const std::vector<WallHypothesis>& walls, double distance_m,
+                    double lux_per_candela) {
+  const double x = std::log(distance_m / kWallReference_m);
+  double share = 0.0, whole = 0.0;
+  for (const WallHypothesis& one : walls) {
+    const WallPrior& prior = one.prior;
+    const double sd = std::hypot(prior.sd_ln_b, prior.sd_slope * x, prior.scatter);
+    const double z = std::log(lux_per_candela / WallsPerCandela(prior, distance_m)) / sd;
+    share += one.weight * 0.5 * std::erfc(z / std::numbers::sqrt2);
+    whole += one.weight;
+  }
+  return whole > 0.0 ? share / whole : 1.0;
+}
+
+// A card that takes little away, where walls would have to throw back what one room in a thousand
+// does, did not shade the meter.
+void WarnOfCards(const Candidate& likeliest, const std::vector<WallHypothesis>& walls,
+                 const Prepared& prepared, const Observations& observations,
+                 const std::string& light, Warnings& warnings) {
+  constexpr double kTakesLittle = 0.5;  // of the reading is left behind the card
+  constexpr double kNoRoom = 1e-3;
+  const Theta& theta = likeliest.estimate.theta;
+  const double candela = std::exp(theta[kLnIntensity] + LnUnitOfIntensity(prepared.scales));
+  const double ambient_lx = theta[kAmbient] * prepared.scales.illuminance_lx;
+  for (const Observation& row : observations.rows) {
+    if (!row.lit || !row.differenced || row.card_lx < kTakesLittle * row.raw_lx) continue;
+    const double left_lx = row.card_lx - ambient_lx;
+    if (!(left_lx > 0.0)) continue;
+    if (ShareOfRooms(walls, row.distance_m, left_lx / candela) >= kNoRoom) continue;
+    warnings.push_back({"card_missed", light,
+                        "reading " + std::to_string(row.index) + ": behind the card " +
+                            RoundedText(row.card_lx, 3) + " of " + RoundedText(row.raw_lx, 3) +
+                            " lx were left, more than walls throw back in all but one room of a "
+                            "thousand: did the card shade the whole meter? Read it again with the "
+                            "meter in the card's shadow"});
+    return;
+  }
+}
+
 // Whether a data sheet that agrees takes more than a twentieth off the readings' interval.
 bool TellsMore(const SheetIntensity& sheet, const LightEstimate& read) {
   constexpr double kLeastPart = 1.0 / 3.0;
@@ -157,6 +198,7 @@ void TellBySheet(const SheetIntensity& sheet, const WeighedCandidates& told, Lig
       LnInterval{out.theta[kLnIntensity] - half, out.theta[kLnIntensity] + half});
   std::vector<VariancePart> parts = std::move(out.variance_parts);
   out.variance_parts.clear();
+  out.diagnostics.prior.emplace_back("data_sheet");
   out.covariance = told.candidates.front().covariance;
   Mix(told.candidates, told.shares, out);
   out.in_room = InRoom(told.candidates, told.shares);
@@ -223,6 +265,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
       return Propagate(std::move(fits));
     }
   }
+  WarnOfCards(candidates.front(), model.walls, prepared, observations, light, out.warnings);
   KeepComparable(candidates);
   const std::vector<double> shares = SharesOf(candidates);
   Candidate& likeliest = candidates.front();
@@ -292,12 +335,14 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
 Result<void> CheckKnown(const LightEstimate& estimate, const std::string& light) {
   // Such an interval says nothing, and its ends overflow.
   constexpr double kMostSdOfLn = 3.5;
-  if (estimate.upper_limit) return {};
-  if (!std::isnormal(std::exp(estimate.theta[kLnIntensity]))) {
+  const bool holds = estimate.upper_limit ? std::isfinite(*estimate.upper_limit)
+                                          : std::isnormal(std::exp(estimate.theta[kLnIntensity]));
+  if (!holds) {
     return Refused("out_of_range", light,
                    "illuminance and distance give an intensity that no number can hold; check "
                    "their units");
   }
+  if (estimate.upper_limit) return {};
   if (SdOf(estimate.covariance, kLnIntensity) < kMostSdOfLn) return {};
   return Refused("underdetermined", light,
                  "the readings leave its strength open by more than a factor of 1000 each way: at "

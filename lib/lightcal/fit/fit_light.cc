@@ -121,9 +121,7 @@ Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescripti
   return {};
 }
 
-}  // namespace
-
-Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
+Result<FittedSession> FitSound(const Session& session, const FitSettings& settings) {
   FittedSession out;
   std::optional<Error> nothing_read;
   for (const LightDescription& described : session.lights) {
@@ -153,6 +151,14 @@ Result<FittedSession> FitSession(const Session& session, const FitSettings& sett
     return Refused("no_light", session.name, "the session describes no light");
   }
   return out;
+}
+
+}  // namespace
+
+Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
+  if (auto sound = CheckSession(session); !sound) return Propagate(std::move(sound));
+  const std::optional<Session> sound = SetFaultyAside(session);
+  return FitSound(sound ? *sound : session, settings);
 }
 
 }  // namespace lightcal

@@ -7,6 +7,7 @@
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/reading_model.h"
 #include "lightcal/fit/model/solve.h"
+#include "lightcal/fit/predicted_parts.h"
 #include "lightcal/light/wall_prior.h"
 
 namespace lightcal {
@@ -23,7 +24,7 @@ bool IsOn(const FittedLight& light, std::string_view effect) {
   });
 }
 
-fit::ReadingRow RowAt(const FittedLight& light, double distance_m) {
+fit::ReadingRow RowFacing(const FittedLight& light, double distance_m) {
   fit::ReadingRow row;
   row.distance = distance_m;
   if (IsOn(light, "finite_source")) {
@@ -134,6 +135,24 @@ std::vector<NormalPart> Read(std::vector<NormalPart> parts, double sigma_relativ
 
 }  // namespace
 
+namespace fit {
+
+PredictedParts PredictParts(const FittedLight& light, Metres distance) {
+  PredictedParts out;
+  const ReadingRow bare = RowFacing(light, distance.value());
+  for (const PartAtDistance& part : PartsAt(light, bare, distance.value())) {
+    if (!light.in_room.front().ln_b) {
+      out.whole.push_back(part.Alone());
+      continue;
+    }
+    out.walls.push_back(part.Walls());
+    out.whole.push_back(part.Whole(out.walls.back()));
+  }
+  return out;
+}
+
+}  // namespace fit
+
 Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres distance,
                                                 double sigma_relative) {
   const bool no_distance = light.illuminance_lx.has_value();
@@ -143,7 +162,7 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
   }
   const double d0 = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
   const double ambient = light.ambient_lx ? light.ambient_lx->value : 0.0;
-  const fit::ReadingRow row = RowAt(light, no_distance ? 1.0 : distance.value());
+  const fit::ReadingRow row = RowFacing(light, no_distance ? 1.0 : distance.value());
   if (!(distance.value() > 0.0) || !(row.distance + d0 > 0.0)) {
     return Refused("bad_distance", light.name,
                    "no illuminance is defined " + ShortestText(distance.value()) +
@@ -171,20 +190,11 @@ Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light,
                                                        double sigma_relative) {
   const auto alone = PredictIlluminance(light, distance, sigma_relative);
   if (!alone) return tl::unexpected(alone.error());
-  if (light.in_room.empty() || !light.in_room.front().ln_b) {
-    return std::optional<IlluminanceInRoom>();
-  }
-  const fit::ReadingRow bare = RowAt(light, distance.value());
-  std::vector<NormalPart> whole;
-  std::vector<NormalPart> walls;
-  for (const PartAtDistance& part : PartsAt(light, bare, distance.value())) {
-    walls.push_back(part.Walls());
-    whole.push_back(part.Whole(walls.back()));
-  }
-  if (whole.empty()) return std::optional<IlluminanceInRoom>();
-  return IlluminanceInRoom{UncertainFromLogMixture(whole),
-                           UncertainFromLogMixture(Read(whole, sigma_relative)),
-                           UncertainFromLogMixture(walls)};
+  const fit::PredictedParts parts = fit::PredictParts(light, distance);
+  if (parts.walls.empty()) return std::optional<IlluminanceInRoom>();
+  return IlluminanceInRoom{UncertainFromLogMixture(parts.whole),
+                           UncertainFromLogMixture(Read(parts.whole, sigma_relative)),
+                           UncertainFromLogMixture(parts.walls)};
 }
 
 }  // namespace lightcal

@@ -49,7 +49,11 @@ std::string CheckCandela(const IntensityGrid& grid) {
   double largest = 0.0;
   for (std::size_t i = 0; i < wanted; ++i) {
     if (!(grid.candela[i] >= 0.0 && grid.candela[i] <= kMostCandela)) {
-      return "intensity " + std::to_string(i + 1) + " is no lamp's number of candela, zero or more";
+      const std::size_t of_plane = grid.vertical_deg.size();
+      return "towards " + ShortestText(grid.horizontal_deg[i / of_plane]) +
+             " degrees horizontal, " + ShortestText(grid.vertical_deg[i % of_plane]) +
+             " vertical, " + ShortestText(grid.candela[i]) +
+             " is no lamp's number of candela, zero or more";
     }
     largest = std::max(largest, grid.candela[i]);
   }

@@ -119,9 +119,14 @@ class IntensityTable {
 [[nodiscard]] Radians LobeWidth(const IntensityTable& table, Radians c, double level,
                                 TableInterpolation way = TableInterpolation::kLinear);
 
-// Mean of the widths in the planes C0-C180 and C90-C270; the widths themselves.
+// Widths of the lobe in two sections square to each other, and their mean. Of a lamp that shines
+// along its axis, or to both sides of it (a batwing): in the planes C0-C180 and C90-C270 about the
+// axis, as LobeWidth. Of one that shines beside its axis alone (less than half the peak on the axis
+// and opposite to the peak): about the middle of its peak, away from the axis and across.
+// Source: CIE S 017, beam angle (about the direction of the largest intensity).
 struct LobeWidths {
-  Radians mean, c0, c90;
+  Radians mean, along, across;
+  bool beside_axis = false;
 };
 [[nodiscard]] LobeWidths LobeWidthsAt(const IntensityTable& table, double level);
 

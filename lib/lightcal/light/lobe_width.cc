@@ -22,15 +22,20 @@ Axes AxesOf(const IntensityTable& table) {
   return {{0.0, 0.0, up}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 }
 
+Vec3 TowardsPeak(const IntensityTable& table) {
+  const double c = table.peak().c.value();
+  const double gamma = table.peak().gamma.value();
+  return {std::sin(gamma) * std::cos(c), std::sin(gamma) * std::sin(c), -std::cos(gamma)};
+}
+
 // One half-plane, seen outwards from that direction.
 class HalfPlane {
  public:
-  HalfPlane(const IntensityTable& table, double c, TableInterpolation way)
-      : table_(table), way_(way) {
-    const Axes axes = AxesOf(table);
-    along_ = axes.along;
-    out_ = axes.c0 * std::cos(c) + axes.c90 * std::sin(c);
-  }
+  HalfPlane(const IntensityTable& table, const Axes& axes, double c, TableInterpolation way)
+      : table_(table),
+        way_(way),
+        along_(axes.along),
+        out_(axes.c0 * std::cos(c) + axes.c90 * std::sin(c)) {}
 
   [[nodiscard]] double At(double out) const {
     return table_.Towards(along_ * std::cos(out) + out_ * std::sin(out), way_).value();
@@ -67,27 +72,65 @@ class HalfPlane {
   Vec3 out_{};
 };
 
+double WidthAbout(const IntensityTable& table, const Axes& axes, double c, double limit,
+                  TableInterpolation way = TableInterpolation::kLinear) {
+  return HalfPlane(table, axes, c, way).EdgeAt(limit) +
+         HalfPlane(table, axes, c + std::numbers::pi, way).EdgeAt(limit);
+}
+
+// Whether the lamp shines beside its axis alone: neither the axis nor the direction opposite to the
+// peak about it (of a batwing the other wing) has half the peak.
+bool ShinesBeside(const IntensityTable& table, const Axes& axes) {
+  const double half = 0.5 * table.peak().intensity.value();
+  const Vec3 peak = TowardsPeak(table);
+  const Vec3 opposite = axes.along * (2.0 * Dot(peak, axes.along)) - peak;
+  return table.Towards(axes.along).value() < half && table.Towards(opposite).value() < half;
+}
+
+// About the middle of what is as bright as the peak: c0 leads away from the lamp's axis, c90
+// across.
+Axes AxesOfPeak(const IntensityTable& table, const Axes& lamp) {
+  const double top = table.peak().intensity.value() * (1.0 - 1e-9);
+  const auto about = [&](const Vec3& peak) -> Axes {
+    const Vec3 across = Cross(lamp.along, peak);
+    const Vec3 c90 = across * (1.0 / Length(across));
+    return {peak, Cross(c90, peak), c90};
+  };
+  Axes axes = about(TowardsPeak(table));
+  for (const double c : {0.0, 0.5 * std::numbers::pi}) {
+    const double out = HalfPlane(table, axes, c, TableInterpolation::kLinear).EdgeAt(top);
+    const double back =
+        HalfPlane(table, axes, c + std::numbers::pi, TableInterpolation::kLinear).EdgeAt(top);
+    const double turn = 0.5 * (out - back);
+    const Vec3 side = c == 0.0 ? axes.c0 : axes.c90;
+    axes = about(axes.along * std::cos(turn) + side * std::sin(turn));
+  }
+  return axes;
+}
+
 }  // namespace
 
 Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInterpolation way) {
   const double limit = level * table.peak().intensity.value();
-  return Radians(HalfPlane(table, c.value(), way).EdgeAt(limit) +
-                 HalfPlane(table, c.value() + std::numbers::pi, way).EdgeAt(limit));
+  return Radians(WidthAbout(table, AxesOf(table), c.value(), limit, way));
 }
 
 LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
+  const Axes axes = AxesOf(table);
+  const double limit = level * table.peak().intensity.value();
   if (table.symmetry() == TableSymmetry::kAxial) {  // all half-planes are alike
-    const double limit = level * table.peak().intensity.value();
-    const HalfPlane any(table, 0.0, TableInterpolation::kLinear);
+    const HalfPlane any(table, axes, 0.0, TableInterpolation::kLinear);
     // No node is dark, and neither is what lies beyond the last: a table may end at 90 degrees.
     const bool everywhere = table.least_cd() > limit && any.At(std::numbers::pi) > limit;
     const double edge = everywhere ? std::numbers::pi : any.EdgeAt(limit);
     const Radians whole(2.0 * edge);
-    return {whole, whole, whole};
+    return {whole, whole, whole, false};
   }
-  const Radians c0 = LobeWidth(table, Radians(0.0), level);
-  const Radians c90 = LobeWidth(table, Radians(0.5 * std::numbers::pi), level);
-  return {0.5 * (c0 + c90), c0, c90};
+  const bool beside = ShinesBeside(table, axes);
+  const Axes about = beside ? AxesOfPeak(table, axes) : axes;
+  const Radians along(WidthAbout(table, about, 0.0, limit));
+  const Radians across(WidthAbout(table, about, 0.5 * std::numbers::pi, limit));
+  return {0.5 * (along + across), along, across, beside};
 }
 
 }  // namespace lightcal

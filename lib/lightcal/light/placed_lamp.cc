@@ -190,7 +190,7 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
   };
   const double here = lux(lamp.source, lamp.pose);
   const bool everywhere = IsEverywhere(lamp.source);
-  const bool mixed = !doubt.place && !everywhere && !doubt.parts.empty();
+  const bool mixed = !everywhere && !doubt.parts.empty();
   const std::optional<double> of_parts =
       mixed ? VarianceOfParts(lamp, at, detail) : std::optional<double>();
   if (of_parts) variance += *of_parts;

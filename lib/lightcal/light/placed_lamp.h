@@ -61,7 +61,7 @@ struct LampDoubt {
   double variance_offset = 0.0;     // of d0 [m^2]
   double covariance = 0.0;          // of both [m]
   std::vector<LampPart> parts{};    // in the stead of these three, where one normal does not say it
-  std::optional<PlaceDoubt> place;  // variance_ln is in it
+  std::optional<PlaceDoubt> place;  // variance_ln is in it, but not beside parts
   double aim_rad = 0.0;             // of each of its two directions
   double inner_rad = 0.0, outer_rad = 0.0;
 };

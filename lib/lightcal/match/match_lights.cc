@@ -51,7 +51,7 @@ struct Front {
   bool whole = false;  // no further stack can belong among the first `count`
 };
 
-// The first `count` of the ranked stacks that none before them betters.
+// The first `count` of the ranked stacks within reach that none before them betters.
 Front FrontOf(const MatchScene& scene, const StackSearch& search, std::size_t count,
               std::size_t ranked) {
   std::vector<Match> all(search.best.size());
@@ -59,6 +59,7 @@ Front FrontOf(const MatchScene& scene, const StackSearch& search, std::size_t co
     all[static_cast<std::size_t>(i)] =
         scene.Describe(search.best[static_cast<std::size_t>(i)].gels);
   });
+  std::erase_if(all, [&](const Match& one) { return one.delta_uv > scene.request.reach; });
   std::ranges::sort(all, ComesFirst);
   Front front;
   for (Match& one : all) {
@@ -92,8 +93,9 @@ void AddBestOfOneGel(const MatchScene& scene, std::size_t count, std::vector<Mat
   const bool has_single =
       std::ranges::any_of(matches, [](const Match& match) { return match.gels.size() <= 1; });
   if (has_single || count < 2 || scene.gels.empty() || scene.request.most_gels < 1) return;
-  if (matches.size() == count) matches.pop_back();
   Match single = BestOfOneGel(scene);
+  if (single.delta_uv > scene.request.reach) return;
+  if (matches.size() == count) matches.pop_back();
   const auto after =
       std::ranges::find_if(matches, [&](const Match& match) { return ComesFirst(single, match); });
   matches.insert(after, std::move(single));
@@ -133,6 +135,7 @@ Result<MatchAnswer> MatchLights(const MatchRequest& request, std::span<const Gel
   }
   MatchAnswer answer;
   answer.matches = std::move(front.matches);
+  if (answer.matches.empty()) answer.matches.push_back(scene->Describe(search.nearest_uv));
   AddBestOfOneGel(*scene, count, answer.matches);
   answer.unfiltered = scene->Describe({});
   answer.stacks = search.stacks;

@@ -79,7 +79,7 @@ struct Match {
 
 struct MatchAnswer {
   // The front, best colour first: no stack listed is bettered in everything (colour, SSI, stops,
-  // number of gels) by another. The best of one gel always is among them.
+  // number of gels) by another. All are within `reach`; the best of one gel is among them if it is.
   std::vector<Match> matches;
   Match unfiltered;
   std::size_t stacks = 0;  // looked at
@@ -92,7 +92,8 @@ struct MatchAnswer {
 // Colour decides by the camera's difference, of many cameras by their median, of none by the
 // observer's; in steps of 0.05, within which fewer gels come first, then those that cost less
 // light. A stack is not listed where one before it has no more than 0.05 stops, 1 point of SSI or a
-// gel to lose against it; fewer than `count` are listed where the 4,000 nearest hold no more. The
+// gel to lose against it; fewer than `count` are listed where the 4,000 nearest hold no more within
+// `reach` (always the nearest). The
 // same inputs give the same answer on any number of threads. Refused: "unreachable" (the nearest of
 // all stacks is farther than `reach` in u'v': says which it is and what is left), "blind_view",
 // "bad_spectrum", "truncated_spectrum", "coarse_spectrum", "noisy_spectrum".

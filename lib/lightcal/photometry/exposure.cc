@@ -14,6 +14,11 @@ constexpr double kIncidentMeterConstant = 250.0;
 
 }  // namespace
 
+bool IsPossible(const CameraSettings& camera) {
+  const auto positive = [](double v) { return std::isfinite(v) && v > 0.0; };
+  return positive(camera.f_number) && positive(camera.shutter.value()) && positive(camera.iso);
+}
+
 Seconds ShutterFromAngle(Radians angle, double frames_per_second) {
   return Seconds(angle.value() / (2.0 * std::numbers::pi) / frames_per_second);
 }

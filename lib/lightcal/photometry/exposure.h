@@ -14,6 +14,9 @@ struct CameraSettings {
   double iso = 100.0;
 };
 
+// Whether a camera can be set so: all three finite and above 0.
+[[nodiscard]] bool IsPossible(const CameraSettings& camera);
+
 // N = f/D and back.   Source: ISO 517. The larger N, the smaller the hole.
 [[nodiscard]] constexpr double FNumber(Metres focal_length, Metres pupil_diameter) {
   return focal_length / pupil_diameter;

@@ -269,8 +269,7 @@ Result<Preset> ExportGdtf(const LightFile& lights, const std::string& stem,
     }
     auto described = FixtureOf(lamp, lights.provenance);
     if (!described) return Propagate(std::move(described));
-    std::string name = stem + "-" + FileNamePart(lamp.name);
-    while (!taken.insert(name).second) name += "_";
+    const std::string name = DistinctFileName(stem + "-" + FileNamePart(lamp.name), taken);
     std::string description = GdtfDescription(described->fixture);
     description.insert(description.find('\n') + 1, "<!-- Written by " + GeneratorName() + " -->\n");
     const std::array<PresetFile, 1> entries = {

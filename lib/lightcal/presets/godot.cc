@@ -275,6 +275,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
   }
   std::string text = "[gd_scene format=3]\n\n; " + preset_text::GeneratorOf(file) +
                      ", not executed in Godot by this run: schema-checked.\n"
+                     "; This scene ends with the line \"; end\".\n"
                      "; In project.godot, or lumens and lux are ignored:\n"
                      ";   [rendering]\n;   lights_and_shadows/use_physical_light_units=true\n";
   const bool world = options.rig || dome;
@@ -296,7 +297,7 @@ std::string GodotScene(const LightFile& file, const std::string& stem,
             "environment = SubResource(\"surroundings\")\n";
   }
   if (options.rig) text += RigNodes(rig);
-  return text;
+  return text + "\n; end\n";
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 
 #include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/presets/environment_picture.h"
-#include "lightcal/presets/export_presets.h"
+#include "lightcal/presets/export_targets.h"
 
 namespace lightcal {
 namespace {
@@ -148,7 +148,7 @@ Result<std::vector<PresetFile>> LearningRigs(const std::string& target,
     one.rig = true;
     one.more_rigs = std::move(rig.beside);
     one.environments = {rig.sky};
-    auto exported = ExportPresets(lights, {target, "json"}, stem, one);
+    auto exported = ExportTargets(lights, {target, "json"}, stem, one);
     if (!exported) return Propagate(std::move(exported));
     // The lights alone are nothing to render.
     std::erase_if(exported->files, [&](const PresetFile& file) {

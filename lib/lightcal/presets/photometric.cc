@@ -53,9 +53,7 @@ FilesOfLights Files(const LightFile& lights, const std::string& stem, std::strin
     if (!*table) continue;
     auto text = write(FileOf(lamp, **std::move(table), lights.provenance));
     if (!text) return Propagate(std::move(text));
-    std::string name = stem + "-" + FileNamePart(lamp.name);
-    // One name to Windows and macOS, whatever its case.
-    while (!taken.insert(LowerAscii(name)).second) name += "_";
+    const std::string name = DistinctFileName(stem + "-" + FileNamePart(lamp.name), taken);
     files.back() = PresetFile{name + "." + std::string(extension), std::move(*text)};
   }
   return files;

@@ -79,6 +79,9 @@ DerivedLight DerivedFrom(const Node& light) {
   constexpr std::size_t kLongest = 4;
   DerivedLight derived;
   derived.type = light.TextAt("type");
+  if (const Node* measured = light.Find("measured")) {
+    derived.substitution = measured->TextAt("substituted");
+  }
   for (const auto& [key, value] : light.members) {
     if (value.IsNumber()) derived.Put(key, value.number);
     const std::vector<Node>& items = value.items;

@@ -283,7 +283,7 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     if (auto measured = Measure(lamp, light); !measured) {
       return Propagate(std::move(measured));
     }
-    if (!light.substitution.empty()) {
+    if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {
       const bool shape_only = lamp.kind == LightKind::kSpot && light.form == LightForm::kSpot;
       warnings.push_back(
           {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});

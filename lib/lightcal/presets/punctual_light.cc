@@ -30,6 +30,15 @@ Vec3 UnitOr(const std::optional<Vec3>& v, const Vec3& fallback) {
 
 // ---- what kind of engine light, and what is lost ----
 
+}  // namespace
+
+bool IsSpotWithoutCone(const FittedLight& lamp) {
+  return lamp.kind == LightKind::kSpot && !lamp.distribution &&
+         !(lamp.outer_deg.value_or(0.0) > 0.0);
+}
+
+namespace {
+
 void BecomeSpot(PunctualLight& light, double inner_rad, double outer_rad) {
   light.type = PunctualType::kSpot;
   const double outer = std::min(outer_rad, std::numbers::pi / 2.0);
@@ -39,10 +48,13 @@ void BecomeSpot(PunctualLight& light, double inner_rad, double outer_rad) {
 void FromCone(const FittedLight& lamp, PunctualLight& light, Warnings& warnings) {
   if (!lamp.outer_deg || !(*lamp.outer_deg > 0.0)) {
     light.type = PunctualType::kPoint;
-    if (lamp.kind == LightKind::kSpot) {
+    if (IsSpotWithoutCone(lamp)) {
       warnings.push_back({"cone_unknown", lamp.name,
                           "the spot has no outer_deg: exported as a point of its axial intensity; "
                           "give outer_deg or measure off the axis"});
+      light.substitution =
+          "a spot of unknown cone exported as a point of its axial intensity: right on the axis "
+          "only";
     }
     return;
   }
@@ -125,7 +137,7 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
           "are hard";
       break;
   }
-  if (!light.substitution.empty()) {
+  if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {  // told as cone_unknown
     warnings.push_back({"substituted", lamp.name, light.substitution});
   }
 }

@@ -45,6 +45,9 @@ struct PunctualLight {
 // beyond; equal at ci = 2 sqrt(2) - 2, where both are 17.2 % of the axial intensity. Flux -10.5 %.
 inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
 
+// A spot whose cone nobody told: engines get a point of its axial intensity (cone_unknown).
+[[nodiscard]] bool IsSpotWithoutCone(const FittedLight& lamp);
+
 // Kinds without a punctual counterpart become the nearest one with the warning `substituted`:
 //   sphere       point            same beyond its surface; hard shadows
 //   tube         point            along its axis too bright, flux +27 %

@@ -131,6 +131,11 @@ void FieldReader::Integer(std::string_view key, int& out) {
   if (value != nullptr) out = IntegerOf(*value, key).value_or(out);
 }
 
+void FieldReader::Count(std::string_view key, int& out) {
+  Integer(key, out);
+  if (out < 0) Fail(key, std::string(key) + " = " + std::to_string(out) + ": must not be negative");
+}
+
 void FieldReader::Text(std::string_view key, std::string& out) {
   const Node* value = Take(key, Node::Kind::kText);
   if (value == nullptr) return;
@@ -185,6 +190,12 @@ void FieldReader::Integers(std::string_view key, std::vector<int>& out) {
   for (const Node& item : value->items) {
     if (const auto number = IntegerOf(item, key)) out.push_back(*number);
   }
+}
+
+void FieldReader::Counts(std::string_view key, std::vector<int>& out) {
+  Integers(key, out);
+  if (std::ranges::all_of(out, [](int number) { return number >= 0; })) return;
+  Fail(key, std::string(key) + " must hold no negative number");
 }
 
 void FieldReader::Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule) {

@@ -60,6 +60,8 @@ class FieldReader {
     if (const auto value = TakeNumber(key, rule)) out = RadiansFromDegrees(*value);
   }
   void Integer(std::string_view key, int& out);
+  // A whole number of things, or a place among them: not negative.
+  void Count(std::string_view key, int& out);
   void Text(std::string_view key, std::string& out);
   void Flag(std::string_view key, bool& out);
   void Truth(std::string_view key, bool& out) { Flag(key, out); }
@@ -90,6 +92,7 @@ class FieldReader {
   // [x, y] of a real colour: x >= 0, y > 0, x + y <= 1.
   void Chromaticity(std::string_view key, std::optional<Xy>& out);
   void Integers(std::string_view key, std::vector<int>& out);
+  void Counts(std::string_view key, std::vector<int>& out);
   void Numbers(std::string_view key, std::vector<double>& out, const NumberRule& rule);
   void Texts(std::string_view key, std::vector<std::string>& out);
   // A table of numbers and words under names of the person's own, each once: a fixture's state.

@@ -42,6 +42,7 @@ class FieldWriter {
   }
   void Degrees(std::string_view key, Radians value, const NumberRule& rule);
   void Integer(std::string_view key, int value) { Put(key, value); }
+  void Count(std::string_view key, int value) { Put(key, value); }
   void Text(std::string_view key, const std::string& value) {
     if (!value.empty()) Put(key, value);
   }
@@ -79,6 +80,7 @@ class FieldWriter {
   // As FieldReader::Controls; left out where there is none.
   void Controls(std::string_view key, const FixtureState& state);
   void Integers(std::string_view key, const std::vector<int>& values) { Put(key, values); }
+  void Counts(std::string_view key, const std::vector<int>& values) { Put(key, values); }
   void Texts(std::string_view key, const std::vector<std::string>& values) { Put(key, values); }
 
   template <class T, class Visit>

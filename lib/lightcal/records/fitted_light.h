@@ -71,6 +71,9 @@ struct ResidualRow {
   bool used = true;
   std::optional<double>
       walls_lx{};  // of predicted_lx, what came off the walls; where it was fitted
+  // Instead of predicted_lx of the same meter turned to the lamp, where the lamp shines brightest,
+  // as far away. Absent where it was so turned.
+  std::optional<double> facing_lx{};
 };
 
 // A lamp in its room, as one of the things that both may be: facing it a meter sees

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "lightcal/records/distribution_codec.h"
@@ -11,21 +12,13 @@
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/provenance_fields.h"
 #include "lightcal/records/spectral_fields.h"
+#include "lightcal/records/uncertain_fields.h"
 
 namespace lightcal {
 namespace records {
 namespace {
 
 constexpr std::array<std::string_view, 3> kEffectStateWords = {"off", "on", "fitted"};
-
-// One visitor per record, for both directions: what is written is what is read.
-constexpr auto kVisitUncertain = [](auto& archive, auto& uncertain) {
-  archive.Number("value", uncertain.value);
-  archive.Number("u95", uncertain.u95, kNotNegative);
-  archive.Number("low95", uncertain.low);
-  archive.Number("high95", uncertain.high);
-  archive.Require({"value", "u95"});
-};
 
 // Duv is a number with its interval beside it: "duv", "duv_u95".
 void VisitDuv(FieldReader& reader, std::optional<Uncertain>& duv) {
@@ -38,6 +31,9 @@ void VisitDuv(FieldReader& reader, std::optional<Uncertain>& duv) {
   if (duv) {
     duv = read;
     reader.Require({"duv_u95"});
+    CheckInterval(reader, "duv", read);
+  } else if (reader.Has("duv_u95")) {
+    reader.Require({"duv"});
   }
 }
 void VisitDuv(FieldWriter& writer, const std::optional<Uncertain>& duv) {
@@ -56,28 +52,28 @@ constexpr auto kVisitFamily = [](auto& archive, auto& family) {
 };
 
 constexpr auto kVisitBeam = [](auto& archive, auto& beam) {
-  archive.Object("axial_cd", beam.axial, kVisitUncertain);
-  archive.Object("beam_deg", beam.beam_deg, kVisitUncertain);
-  archive.Object("field_deg", beam.field_deg, kVisitUncertain);
+  archive.Object("axial_cd", beam.axial, kVisitAmount);
+  archive.Object("beam_deg", beam.beam_deg, kVisitAmount);
+  archive.Object("field_deg", beam.field_deg, kVisitAmount);
   archive.List("families", beam.families, kVisitFamily);
   archive.Number("falling_share", beam.falling_share, kNotNegative);
 };
 
 template <class Archive, class SomeColor>
 void VisitColor(Archive& archive, SomeColor& color) {
-  archive.Object("cct_K", color.cct_K, kVisitUncertain);
+  archive.Object("cct_K", color.cct_K, kVisitKelvin);
   VisitDuv(archive, color.duv);
   archive.Chromaticity("xy", color.xy);
 }
 
 template <class Archive, class SomeFit>
 void VisitFit(Archive& archive, SomeFit& fit) {
-  archive.Integer("readings", fit.readings);
-  archive.Integer("used", fit.used);
-  archive.Integers("rejected", fit.rejected);
+  archive.Count("readings", fit.readings);
+  archive.Count("used", fit.used);
+  archive.Counts("rejected", fit.rejected);
   archive.Number("rms_relative", fit.rms_relative, kNotNegative);
   archive.Number("chi2_dof", fit.chi2_dof, kNotNegative);
-  archive.Integer("degrees_of_freedom", fit.degrees_of_freedom);
+  archive.Count("degrees_of_freedom", fit.degrees_of_freedom);
   archive.Number("leave_one_out", fit.leave_one_out, kNotNegative);
   archive.Number("condition", fit.condition, kNotNegative);
   archive.Texts("learned", fit.learned);
@@ -101,6 +97,7 @@ constexpr auto kVisitEffect = [](auto& archive, auto& effect) {
   archive.Text("reason", effect.reason);
   archive.Text("key", effect.key);
   archive.Require({"name", "state", "bound", "cost_ns"});
+  CheckNamed(archive, effect.name);
 };
 
 constexpr auto kVisitBudgetPart = [](auto& archive, auto& part) {
@@ -109,10 +106,11 @@ constexpr auto kVisitBudgetPart = [](auto& archive, auto& part) {
   archive.Number("share", part.share, kNotNegative);
   archive.Text("halve", part.halve);
   archive.Require({"name", "sd_relative", "share"});
+  CheckNamed(archive, part.name);
 };
 
 constexpr auto kVisitResidual = [](auto& archive, auto& row) {
-  archive.Integer("index", row.index);
+  archive.Count("index", row.index);
   archive.Number("distance_m", row.distance_m);
   archive.Number("measured_lx", row.measured_lx);
   archive.Number("predicted_lx", row.predicted_lx);
@@ -120,6 +118,7 @@ constexpr auto kVisitResidual = [](auto& archive, auto& row) {
   archive.Number("sigma_relative", row.sigma_relative, kNotNegative);
   archive.Truth("used", row.used);
   archive.Number("walls_lx", row.walls_lx, kNotNegative);
+  archive.Number("facing_lx", row.facing_lx, kNotNegative);
   archive.Require({"index", "measured_lx", "predicted_lx", "relative", "sigma_relative", "used"});
 };
 
@@ -172,13 +171,13 @@ constexpr auto kVisitMeter = [](auto& archive, auto& meter) {
 
 constexpr auto kVisitState = [](auto& archive, auto& one) {
   archive.Controls("state", one.state);
-  archive.Object("intensity_cd", one.intensity_cd, kVisitUncertain);
-  archive.Object("illuminance_lx", one.illuminance_lx, kVisitUncertain);
-  archive.Group("relative", [&](auto& relative) { kVisitUncertain(relative, one.relative); });
+  archive.Object("intensity_cd", one.intensity_cd, kVisitAmount);
+  archive.Object("illuminance_lx", one.illuminance_lx, kVisitAmount);
+  archive.Group("relative", [&](auto& relative) { kVisitAmount(relative, one.relative); });
   archive.Number("repeatability", one.repeatability, kNotNegative);
   archive.Number("predicted_reference", one.predicted_reference, kNotNegative);
   archive.Group("color", [&](auto& color) { VisitColor(color, one.color); });
-  archive.Integer("readings", one.readings);
+  archive.Count("readings", one.readings);
   VisitSpectrumOf(archive, one.spectrum);
   VisitAmounts(archive, one.emitter_amounts);
   archive.Require({"state", "relative", "repeatability"});
@@ -202,10 +201,10 @@ void VisitRoom(FieldWriter& writer, const std::vector<LampInRoom>& in_room) {
 
 template <class Archive, class SomeLight>
 void VisitMeasures(Archive& archive, SomeLight& light) {
-  archive.Object("intensity_cd", light.intensity_cd, kVisitUncertain);
-  archive.Object("flux_lm", light.flux_lm, kVisitUncertain);
-  archive.Object("illuminance_lx", light.illuminance_lx, kVisitUncertain);
-  archive.Object("luminance_nits", light.luminance_nits, kVisitUncertain);
+  archive.Object("intensity_cd", light.intensity_cd, kVisitAmount);
+  archive.Object("flux_lm", light.flux_lm, kVisitAmount);
+  archive.Object("illuminance_lx", light.illuminance_lx, kVisitAmount);
+  archive.Object("luminance_nits", light.luminance_nits, kVisitAmount);
   archive.Object("distance_offset_m", light.distance_offset_m, kVisitUncertain);
   archive.Object("ambient_lx", light.ambient_lx, kVisitUncertain);
 }
@@ -244,8 +243,8 @@ constexpr auto kVisitStateGeometry = [](auto& archive, auto& one) {
   archive.Controls("state", one.state);
   archive.Word("kind", one.kind, kLightKindNames);
   archive.Object("distance_offset_m", one.distance_offset_m, kVisitUncertain);
-  archive.Object("flux_lm", one.flux_lm, kVisitUncertain);
-  archive.Object("luminance_nits", one.luminance_nits, kVisitUncertain);
+  archive.Object("flux_lm", one.flux_lm, kVisitAmount);
+  archive.Object("luminance_nits", one.luminance_nits, kVisitAmount);
   VisitCone(archive, one);
   VisitSizes(archive, one);
   VisitDistribution(archive, one.distribution);
@@ -303,7 +302,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   archive.List("residuals", light.residuals, kVisitResidual);
   archive.Array("covariance_lnI_d0_E0", light.covariance_lnI_d0_E0);
   archive.Object("meter", light.meter, kVisitMeter);
-  archive.Object("of_file", light.of_file, kVisitUncertain);
+  archive.Object("of_file", light.of_file, kVisitAmount);
   VisitRoom(archive, light.in_room);
   archive.Object("located", light.located, kVisitLocated);
   archive.Object("uneven", light.uneven, kVisitUneven);
@@ -313,6 +312,7 @@ constexpr auto kVisitLight = [](auto& archive, auto& light) {
   VisitSpectrumOf(archive, light.spectrum);
   VisitEmittersOf(archive, light);
   archive.Require({"name", "kind"});
+  CheckNamed(archive, light.name);
 };
 
 template <class Archive, class SomeFile>
@@ -331,7 +331,7 @@ constexpr auto kReadPresetLight = [](FieldReader& reader, FittedLight& light) {
     group.IgnoreRest();
   });
   reader.Group("color", [&](FieldReader& group) {
-    group.Object("cct_K", light.color.cct_K, kVisitUncertain);
+    group.Object("cct_K", light.color.cct_K, kVisitKelvin);
     group.Object("duv", light.color.duv, kVisitUncertain);
     group.Chromaticity("xy", light.color.xy);
     group.IgnoreRest();
@@ -391,6 +391,10 @@ Result<std::string> LightFileToJson(const LightFile& file) {
   return records::FiniteJson(DocumentOf(file));
 }
 
+// What an answer adds to the same document, of which nothing is read back.
+constexpr std::array<std::string_view, 7> kBesideLights = {
+    "warnings", "next_step", "next_steps", "files", "through", "predictions", "minutes"};
+
 static Result<LightFile> LightsOfDocument(std::string_view text, std::string_view where,
                                           std::string_view preset_schema) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -410,7 +414,7 @@ static Result<LightFile> LightsOfDocument(std::string_view text, std::string_vie
   reader.RequireSchema(kLightSchema, "light.json",
                        "fit the session again with this program, or update it");
   records::VisitFile(reader, file);
-  reader.Ignore("warnings");  // an answer may add them to the same document
+  for (const std::string_view key : kBesideLights) reader.Ignore(key);
   reader.Finish();
   if (reading.error) return tl::unexpected(*std::move(reading.error));
   return file;

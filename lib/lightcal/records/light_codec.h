@@ -24,7 +24,9 @@ inline constexpr std::string_view kLightSchema = "lightcal.light/1";
 // a value that is not finite is an error of the caller and fails: not_finite.
 [[nodiscard]] Result<std::string> LightFileToJson(const LightFile& file);
 
-// Fails: bad_light (syntax, wrong type, unknown schema version), unknown_key.
+// Reads an answer too that holds lights and more beside them (warnings, next_steps, files, ...: the
+// schema lists them), which is left out. Refused: bad_light (syntax, wrong type, unknown
+// schema version, light below 0, a value outside its own interval), unknown_key.
 [[nodiscard]] Result<LightFile> LightFileFromJson(std::string_view text, std::string_view where);
 
 // The same, or the lights of a lightcal.preset/1 (their measured values, not what engines get).

@@ -11,17 +11,25 @@ namespace {
 
 constexpr double kFluxTolerance = 0.05;
 
-// A header that promises other lumens than its own intensities carry.
+// A header that promises other lumens than its own intensities carry. Without an output ratio its
+// lamps' lumens are the most that can come out.
 void CheckFlux(ReadPhotometric& read, std::string_view where) {
   const PhotometricHeader& header = read.file.header;
-  if (!header.lamp_flux || !header.output_ratio) return;
-  const double promised = header.lamp_flux->value() * *header.output_ratio;
+  if (!header.lamp_flux) return;
+  const double lamps = header.lamp_flux->value();
+  const double promised = lamps * header.output_ratio.value_or(1.0);
   const double carried = read.file.table.Flux().value();
-  if (std::abs(carried - promised) <= kFluxTolerance * promised) return;
-  read.warnings.push_back({"flux_disagrees", std::string(where),
-                           "its intensities carry " + RoundedText(carried, 4) +
-                               " lm, its lamps and output ratio promise " +
-                               RoundedText(promised, 4) + " lm; the intensities are believed"});
+  if (carried - promised <= kFluxTolerance * promised &&
+      (!header.output_ratio || promised - carried <= kFluxTolerance * promised)) {
+    return;
+  }
+  read.warnings.push_back(
+      {"flux_disagrees", std::string(where),
+       "its intensities carry " + RoundedText(carried, 4) + " lm, " +
+           (header.output_ratio
+                ? "its lamps and output ratio promise " + RoundedText(promised, 4) + " lm"
+                : "more than its lamps' " + RoundedText(promised, 4) + " lm") +
+           "; the intensities are believed"});
 }
 
 }  // namespace
@@ -32,9 +40,9 @@ Result<ReadPhotometric> PhotometricFromText(std::string_view text, std::string_v
     return Refused("too_large", std::string(where),
                    "is larger than 32 MiB, which no lamp's file is");
   }
-  if (IsIes(text)) return IesFromText(text, where, tilt);
-  auto read = EulumdatFromText(text, where);
-  if (!read && read.error().code == "bad_photometric") {
+  const bool ies = IsIes(text);
+  auto read = ies ? IesFromText(text, where, tilt) : EulumdatFromText(text, where);
+  if (!ies && !read && read.error().code == "bad_photometric") {
     return Refused("unknown_format", std::string(where),
                    "is neither IES LM-63 (no TILT= line) nor EULUMDAT: " + read.error().message);
   }

@@ -2,9 +2,11 @@
 #include "lightcal/records/reading_codec.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 
+#include "lightcal/records/field_checker.h"
 #include "lightcal/records/field_writer.h"
 #include "lightcal/records/json_codec.h"
 #include "lightcal/records/session_codec.h"
@@ -48,50 +50,14 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Number("calibration_factor", reading.calibration_factor, kPositive);
 }
 
-// An archive that neither reads nor writes: the rules of the fields alone.
-class FieldChecker {
- public:
-  template <class Unit>
-  void Number(const char* key, const std::optional<Quantity<Unit>>& value,
-              const NumberRule& rule = kAnyNumber) {
-    if (value) Keep(key, FaultOfNumber(key, value->value(), rule));
-  }
-  void Number(const char* key, const std::optional<double>& value,
-              const NumberRule& rule = kAnyNumber) {
-    if (value) Keep(key, FaultOfNumber(key, *value, rule));
-  }
-  void Array(const char* key, const std::optional<Vec3>& values) {
-    for (const double value : values.value_or(Vec3{})) {
-      Keep(key, FaultOfNumber(key, value, kAnyNumber));
-    }
-  }
-  void Degrees(const char* key, Radians value, const NumberRule& rule) {
-    Keep(key, FaultOfNumber(key, DegreesFromRadians(value), rule));
-  }
-  void Text(const char* key, const std::string& value) { Keep(key, FaultOfText(key, value)); }
-  void Chromaticity(const char* key, const std::optional<Xy>& xy) {
-    if (xy) Keep(key, FaultOfChromaticity(key, *xy));
-  }
-  void Flag(const char* /*key*/, bool /*value*/) {}
-  void Controls(const char* key, const FixtureState& state) { Keep(key, FaultOfState(state)); }
-  template <class Enum, class Words>
-  void WordUnlessFirst(const char* /*key*/, Enum /*value*/, const Words& /*words*/) {}
+enum class Facing : std::uint8_t { kWritten, kUnlessSaid };  // of a meter whose position is known
 
-  [[nodiscard]] const std::optional<ReadingFault>& fault() const { return fault_; }
-
- private:
-  void Keep(const char* key, std::string message) {
-    if (!fault_ && !message.empty()) fault_ = ReadingFault{key, std::move(message)};
-  }
-
-  std::optional<ReadingFault> fault_;
-};
-
-std::optional<ReadingFault> FaultOfPlace(const Reading& reading) {
+std::optional<ReadingFault> FaultOfPlace(const Reading& reading, Facing facing) {
   if (reading.distance && (reading.position_m || reading.normal)) {
     return ReadingFault{"distance_m", "give distance_m, or position_m with normal, not both"};
   }
-  if (reading.position_m.has_value() != reading.normal.has_value()) {
+  const bool faces = facing == Facing::kUnlessSaid && !reading.normal;
+  if (!faces && reading.position_m.has_value() != reading.normal.has_value()) {
     return ReadingFault{
         reading.normal ? "normal" : "position_m",
         "position_m and normal belong together: where the meter stood and where it faced"};
@@ -110,8 +76,9 @@ std::optional<ReadingFault> FaultOfPlace(const Reading& reading) {
 }
 
 // Of fields that are right each by itself.
-std::optional<ReadingFault> FaultTogether(const Reading& reading) {
-  if (auto fault = FaultOfPlace(reading)) return fault;
+std::optional<ReadingFault> FaultTogether(const Reading& reading,
+                                          Facing facing = Facing::kWritten) {
+  if (auto fault = FaultOfPlace(reading, facing)) return fault;
   if (!reading.illuminance && !reading.cct && !reading.xy && reading.spectrum_file.empty()) {
     return ReadingFault{"light",
                         "nothing was measured: give illuminance_lx, xy, cct_K or spectrum"};
@@ -202,6 +169,12 @@ tl::expected<Reading, LineError> ReadingFromLine(std::string_view line, std::str
   ReadReading(reader, reading, keys);
   if (file.error) return tl::unexpected(LineError{*std::move(file.error)});
   return reading;
+}
+
+std::optional<ReadingFault> FaultInMemory(const Reading& reading) {
+  FieldChecker checker;
+  VisitReading(checker, reading);
+  return checker.fault() ? checker.fault() : FaultTogether(reading, Facing::kUnlessSaid);
 }
 
 }  // namespace records

@@ -3,6 +3,7 @@
 // room; ReadingToJson and ReadingFromJson are declared in session_codec.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,6 +26,10 @@ struct LitKeys {
 };
 // The same with those keys; a reading has light or lit.
 void ReadReading(FieldReader& reader, Reading& reading, LitKeys& keys);
+
+// FaultOf, of a reading that no file writes: a position without a normal is of a meter that faced
+// the lamp.
+[[nodiscard]] std::optional<ReadingFault> FaultInMemory(const Reading& reading);
 
 // One journal line; on failure also whether it is no JSON at all, and whether it merely stops
 // early.

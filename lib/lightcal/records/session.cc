@@ -43,6 +43,19 @@ const std::string& InstrumentOf(const Reading& reading) {
   return reading.meter.empty() ? reading.device : reading.meter;
 }
 
+void NameOnlyMeter(Session& session) {
+  if (session.meters.size() != 1) return;
+  for (auto* const rows : {&session.readings, &session.state_readings}) {
+    for (SessionReading& row : *rows) {
+      Reading& reading = row.reading;
+      const bool somebodys = !reading.meter.empty() || !reading.device.empty() ||
+                             reading.sigma_relative || reading.scale ||
+                             reading.quality == MeterQuality::kDerived;
+      if (reading.illuminance && !somebodys) reading.meter = session.meters.front().name;
+    }
+  }
+}
+
 std::string PathInSession(const Session& session, const std::string& name) {
   return (std::filesystem::path(session.directory) / name).string();
 }

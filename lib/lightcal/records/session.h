@@ -91,6 +91,7 @@ struct MeterDescription {
   std::optional<double> spectral_f1;
   std::optional<Metres> head_radius;
   std::optional<double> window_s{};  // how long one reading gathers its light
+  bool states_sigma{};               // sigma_relative is a person's word, not what is usual
 };
 
 // A reading with the place it was written, for messages and for `rejected`.
@@ -101,6 +102,7 @@ struct SessionReading {
   // places it was taken (-1: not known to be any other reading's).
   std::vector<std::string> others_lit{};
   int place = -1;
+  std::string fault{};  // why it is not used, "" = it is: of one that was set aside
 };
 
 // A reading that names every lamp that was lit, as written; SpreadLitReadings gives each light its
@@ -174,6 +176,20 @@ void VisitReadings(SomeSession& session, const Visit& visit) {
 // Refused: state_missing (a lit reading of a lamp with controls that does not say them),
 // state_controls (a reading that names other controls than the lamp's first).
 [[nodiscard]] Result<void> SplitStates(Session& session);
+
+// What a session must obey, whoever made it: what LoadSession demands of a file, of all but the
+// rows themselves, which FaultOf(Reading) judges.
+// Refused: bad_session (a room, a light or a meter that cannot be), duplicate_name, unknown_light,
+// unknown_meter (of a reading).
+[[nodiscard]] Result<void> CheckSession(const Session& session);
+// The session with each reading that has a fault (FaultOf, but a position without a normal is of a
+// meter that faced the lamp) in its place still, telling nothing; absent where none has. A distance
+// below 0 stays: whoever needs it refuses it.
+[[nodiscard]] std::optional<Session> SetFaultyAside(const Session& session);
+
+// Readings that name no meter, came from no device and have no sigma of their own are the session's
+// only [[meter]]'s, where it describes one.
+void NameOnlyMeter(Session& session);
 
 // Names in a session are relative to its directory.
 [[nodiscard]] std::string PathInSession(const Session& session, const std::string& name);

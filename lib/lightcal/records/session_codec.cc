@@ -11,6 +11,7 @@
 #include "lightcal/records/camera_frames_codec.h"
 #include "lightcal/records/capture_codec.h"
 #include "lightcal/records/reading_codec.h"
+#include "lightcal/records/session_rules.h"
 #include "lightcal/records/session_toml.h"
 #include "lightcal/records/toml_codec.h"
 
@@ -21,15 +22,16 @@ namespace {
 constexpr int kSessionVersion = 1;
 
 template <class Named>
-void CheckName(FieldReader& reader, const std::vector<Named>& all, std::string_view what) {
-  const std::string& name = all.back().name;
+void CheckName(FieldReader& reader, const std::vector<Named>& all) {
   if (reader.Failed()) return;
-  if (name.empty()) reader.Fail("name", "name must not be empty");
-  const auto same = std::ranges::count_if(all, [&](const Named& n) { return n.name == name; });
-  if (same > 1) {
-    reader.Fail("duplicate_name", "name",
-                std::string(what) + " " + Quoted(name) + " is described twice; rename one");
+  if (const auto fault = FaultOfName(all, all.size() - 1)) {
+    reader.Fail(fault->code, "name", fault->message);
   }
+}
+
+template <class Described>
+void FailTogether(FieldReader& reader, const Described& described) {
+  if (const auto fault = DisagreementIn(described)) reader.Fail(fault->key, fault->message);
 }
 
 std::optional<Vec3> UnitVector(FieldReader& reader, std::string_view key,
@@ -46,19 +48,14 @@ std::optional<Vec3> UnitVector(FieldReader& reader, std::string_view key,
   return scaled * (1.0 / Length(scaled));
 }
 
-// A pair of angles that the person gave the wrong way round.
-void CheckAngles(FieldReader& reader, LightDescription& light, std::string_view where,
-                 Warnings& warnings) {
-  if (light.beam && light.field && *light.field < *light.beam) {
-    reader.Fail("field_deg", "field_deg (10 % of the peak) is below beam_deg (50 %); swap them");
-  }
-  if (light.inner && light.outer && *light.outer < *light.inner) {
-    warnings.push_back({"cone_order", light.name,
-                        std::string(where) + ": inner_deg exceeds outer_deg; both are taken as " +
-                            "the outer half angle. Half angles are expected; write the smaller "
-                            "one as inner_deg"});
-    light.inner = light.outer;
-  }
+// Angles that the person gave the wrong way round.
+void CloseCone(LightDescription& light, std::string_view where, Warnings& warnings) {
+  if (!light.inner || !light.outer || *light.inner <= *light.outer) return;
+  warnings.push_back({"cone_order", light.name,
+                      std::string(where) + ": inner_deg exceeds outer_deg; both are taken as " +
+                          "the outer half angle. Half angles are expected; write the smaller "
+                          "one as inner_deg"});
+  light.inner = light.outer;
 }
 
 class SessionReader {
@@ -74,11 +71,11 @@ class SessionReader {
     if (session.room && !(session.room->size_m[0] > 0.0)) session.room.reset();
     reader.List("light", session.lights, [this](FieldReader& r, LightDescription& light) {
       ReadLight(r, light);
-      CheckName(r, out_.session.lights, "light");
+      CheckName(r, out_.session.lights);
     });
     reader.List("meter", session.meters, [this](FieldReader& r, MeterDescription& meter) {
       ReadMeter(r, meter);
-      CheckName(r, out_.session.meters, "meter");
+      CheckName(r, out_.session.meters);
     });
     std::vector<SessionReading> rows;
     reader.List("reading", rows, [this](FieldReader& r, SessionReading& row) { ReadRow(r, row); });
@@ -111,9 +108,7 @@ class SessionReader {
     bool dark = false;
     reader.Truth("outdoors", outdoors);
     reader.Truth("dark", dark);
-    reader.Array("size_m", room.size_m, kPositive);
-    reader.Number("reflectance", room.reflectance, kReflectanceRule);
-    reader.Number("reflectance_u95", room.reflectance_u95, kPositive);
+    VisitRoom(reader, room);
     reader.Number("haze_per_m", session.haze_per_metre, kNotNegative);
     if (outdoors) session.surroundings = Surroundings::kOutdoors;
     if (dark) session.surroundings = Surroundings::kDark;
@@ -130,106 +125,29 @@ class SessionReader {
   }
 
   void ReadLight(FieldReader& reader, LightDescription& light) {
-    reader.Text("name", light.name);
-    reader.Word("kind", light.kind, kLightKindNames);
-    reader.Word("fixture", light.fixture, kFixtureNames);
-    reader.Word("lamp_class", light.lamp_class, kLampClassWords);
-    ReadInTime(reader, light.in_time);
-    reader.Array("position_m", light.position_m);
-    reader.Array("aim", light.aim);
+    VisitLight(reader, light);
     light.aim = UnitVector(reader, "aim", light.aim);
-    reader.Array("axis", light.axis);
     light.axis = UnitVector(reader, "axis", light.axis);
-    ReadShape(reader, light);
-    reader.Number("electrical_W", light.electrical, kPositive);
-    reader.Number("flux_lm", light.flux, kPositive);
-    reader.Degrees("beam_deg", light.beam, kFullAngleRule);
-    reader.Degrees("field_deg", light.field, kFullAngleRule);
-    reader.Degrees("off_axis_sigma_deg", light.angle_sigma, kHalfAngleRule);
-    reader.Text("distribution", light.distribution_file);
     reader.List("at", light.at, &ReadAtState);
     reader.Require({"name", "kind"});
     reader.Finish();
-    CheckAngles(reader, light, where_, out_.warnings);
-    if (!light.distribution_file.empty() && light.kind != LightKind::kPhotometric) {
-      reader.Fail("distribution",
-                  "distribution names a photometric file, which goes with kind = \"photometric\"");
-    }
-    if (light.name.find('/') != std::string::npos) {
-      reader.Fail("name", "name = " + Quoted(light.name) +
-                              " holds a slash; names become parts of file names");
-    }
-  }
-
-  // Sizes and cone, of a light or of what it is at some of its states.
-  template <class Described>
-  static void ReadShape(FieldReader& reader, Described& light) {
-    reader.Number("diameter_m", light.diameter, kPositive);
-    std::optional<std::array<double, 2>> size;
-    reader.Array("size_m", size, kNotNegative);
-    if (size && (*size)[0] == 0.0 && (*size)[1] == 0.0) {
-      reader.Fail("size_m", "size_m = [0, 0] is no rect; one side of 0 makes it a line");
-    }
-    if (size) {
-      light.width = Metres((*size)[0]);
-      light.height = Metres((*size)[1]);
-    }
-    reader.Number("length_m", light.length, kPositive);
-    reader.Number("radius_m", light.radius, kPositive);
-    reader.Degrees("inner_deg", light.inner, kHalfAngleRule);
-    reader.Degrees("outer_deg", light.outer, kHalfAngleRule);
+    CloseCone(light, where_, out_.warnings);
+    FailTogether(reader, light);
   }
 
   static void ReadAtState(FieldReader& reader, StateDescription& one) {
-    reader.Controls("state", one.state);
-    reader.Word("kind", one.kind, kLightKindNames);
-    reader.Word("fixture", one.fixture, kFixtureNames);
-    ReadShape(reader, one);
+    VisitAtState(reader, one);
     reader.Require({"state"});
     reader.Finish();
-    constexpr std::array kOther = {LightKind::kDirectional, LightKind::kPhotometric,
-                                   LightKind::kDome};
-    if (one.kind && std::ranges::find(kOther, *one.kind) != kOther.end()) {
-      reader.Fail("kind",
-                  "kind of a [[light.at]] is one with a candela of its own: point, spot, "
-                  "sphere, disk, rect or tube");
-    }
-    if (one.inner && one.outer && *one.outer < *one.inner) {
-      reader.Fail("inner_deg", "inner_deg exceeds outer_deg; both are half angles: swap them");
-    }
-  }
-
-  static void ReadInTime(FieldReader& reader, LampInTime& lamp) {
-    reader.Number("minutes_on", lamp.minutes_on, kNotNegative);
-    reader.Number("flicker_hz", lamp.flicker_hz, kPositive);
-    reader.Number("flicker_depth", lamp.flicker_depth, kDepthRule);
-    reader.Number("pwm_duty", lamp.pwm_duty, kDutyRule);
-    if (lamp.flicker_depth && lamp.pwm_duty) {
-      reader.Fail("pwm_duty",
-                  "pwm_duty describes pulses and flicker_depth a smooth ripple; keep one");
-    }
+    FailTogether(reader, one);
   }
 
   static void ReadMeter(FieldReader& reader, MeterDescription& meter) {
-    reader.Text("name", meter.name);
-    reader.Number("sigma_relative", meter.sigma_relative, kSigmaRule);
-    reader.Number("calibration_relative", meter.calibration_relative, kErrorFractionRule);
-    reader.Number("cosine_f2", meter.cosine_f2, kErrorFractionRule);
-    reader.Number("spectral_f1", meter.spectral_f1, kErrorFractionRule);
-    reader.Number("head_radius_m", meter.head_radius, kPositive);
-    reader.Number("window_s", meter.window_s, kPositive);
+    VisitMeter(reader, meter);
+    meter.states_sigma = reader.Has("sigma_relative");
     reader.Require({"name"});
     reader.Finish();
-    if (meter.calibration_relative && *meter.calibration_relative > meter.sigma_relative) {
-      reader.Fail("calibration_relative",
-                  "calibration_relative exceeds sigma_relative, of which it is a part; give the "
-                  "meter's whole sigma_relative beside it");
-    }
-    if (meter.name == kDataSheetMeter) {
-      reader.Fail("name",
-                  "the name data_sheet is reserved for figures a manufacturer prints and "
-                  "needs no [[meter]]; choose another");
-    }
+    FailTogether(reader, meter);
   }
 
   void ReadRow(FieldReader& reader, SessionReading& row) {

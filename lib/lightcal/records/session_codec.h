@@ -25,7 +25,8 @@ struct LoadedSession {
 // A bad session.toml is refused: bad_session (syntax, NaN, wrong type, distance <= 0),
 // unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter;
 // the subject is "session.toml:LINE".
-// A missing path fails: not_found; one that is no file: unreadable. A session with no light is
+// A missing path fails: not_found; one that is no file: unreadable; a folder that this user may not
+// look into: no_permission. A session with no light is
 // refused: no_light (unless it calibrates a camera). Readings may be none: what that means is the
 // verb's question.
 [[nodiscard]] Result<LoadedSession> LoadSession(const std::string& path);
@@ -33,6 +34,9 @@ struct LoadedSession {
 // Where the journal of a session lies: DIR/readings.jsonl of a directory or of its session.toml,
 // NAME.readings.jsonl beside any other NAME.toml. The file may not exist yet.
 [[nodiscard]] std::string JournalPath(const std::string& session_path);
+
+// Whether permissions hide from this user what lies in a directory, a session.toml or none.
+[[nodiscard]] bool MayNotLookInto(const std::string& directory);
 
 // Where brackets are shot to: DIR/captures, or NAME.captures beside any other NAME.toml. What lies
 // there with a capture.json (tethered_shoot.h) belongs to the session.

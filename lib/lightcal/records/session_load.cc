@@ -74,16 +74,21 @@ Result<std::string> ReadRegular(const fs::path& path, const TextReader& read) {
 Result<std::string> ReadSessionFile(const SessionPaths& paths, const std::string& given,
                                     const TextReader& read) {
   std::error_code error;
-  if (fs::is_directory(given, error) && !fs::exists(paths.toml, error)) {
+  if (fs::exists(paths.toml, error)) return ReadRegular(paths.toml, read);
+  const bool hidden = error == std::errc::permission_denied;
+  const bool directory = fs::is_directory(given, error);
+  if (hidden || (directory && MayNotLookInto(given))) {
+    return Failed("no_permission", paths.directory.string(),
+                  "this user may not look into the directory; give read and search permission "
+                  "(chmod u+rx), or run as the user who owns it");
+  }
+  if (directory) {
     return Failed("not_found", given,
                   "no session.toml in this directory; create one that begins with lightcal = 1 "
                   "and describes a [[light]] with name and kind");
   }
-  if (!fs::exists(paths.toml, error)) {
-    return Failed("not_found", given,
-                  "no such session; give a directory that holds a session.toml, or a .toml file");
-  }
-  return ReadRegular(paths.toml, read);
+  return Failed("not_found", given,
+                "no such session; give a directory that holds a session.toml, or a .toml file");
 }
 
 // Takes the rows of a journal into a session.
@@ -182,6 +187,14 @@ class JournalReader {
 
 std::string JournalPath(const std::string& session_path) {
   return PathsOf(session_path).journal.string();
+}
+
+bool MayNotLookInto(const std::string& directory) {
+  std::error_code error;
+  if (fs::exists(fs::path(directory) / kSessionFile, error)) return false;
+  if (error == std::errc::permission_denied) return true;
+  fs::directory_iterator(directory, error);
+  return error == std::errc::permission_denied;
 }
 
 std::string CapturesPath(const std::string& session_path) {

@@ -43,12 +43,32 @@ std::optional<Uv1976> PointOf(const FittedColor& color) {
   return AtMired(1e6 / color.cct_K->value, color.duv ? color.duv->value : 0.0);
 }
 
-Window Around(Uv1976 centre) {
+Uv1976 NearestOnLocus(Uv1976 point) {
+  Uv1976 nearest = AtMired(kHottest_mired, 0.0);
+  const auto away = [&](Uv1976 c) { return std::hypot(c.u - point.u, c.v - point.v); };
+  for (int i = 1; i <= kLocusSteps; ++i) {
+    const Uv1976 here =
+        AtMired(kHottest_mired + (kColdest_mired - kHottest_mired) * i / kLocusSteps, 0.0);
+    if (away(here) < away(nearest)) nearest = here;
+  }
+  return nearest;
+}
+
+// The light in the middle; of one far off the locus as much as shows both, where colours are.
+Window Around(Uv1976 light) {
+  constexpr double kAirAround = 1.3;
   const PlotArea& area = Svg::Area();
-  const double half_width = kHalfHeight * (area.right - area.left) / (area.bottom - area.top);
-  return {
-      {AxisScale::kLinear, centre.u - half_width, centre.u + half_width, area.left, area.right},
-      {AxisScale::kLinear, centre.v - kHalfHeight, centre.v + kHalfHeight, area.bottom, area.top}};
+  const double aspect = (area.right - area.left) / (area.bottom - area.top);
+  const Uv1976 locus = NearestOnLocus(light);
+  const double needed = 0.5 * kAirAround *
+                        std::max(std::abs(locus.v - light.v), std::abs(locus.u - light.u) / aspect);
+  const bool far = 2.0 * needed > kHalfHeight;
+  const double half = far ? std::max(needed, kHalfHeight) : kHalfHeight;
+  Uv1976 centre = far ? Uv1976{0.5 * (light.u + locus.u), 0.5 * (light.v + locus.v)} : light;
+  centre = {std::max(centre.u, half * aspect), std::max(centre.v, half)};
+  return {{AxisScale::kLinear, centre.u - half * aspect, centre.u + half * aspect, area.left,
+           area.right},
+          {AxisScale::kLinear, centre.v - half, centre.v + half, area.bottom, area.top}};
 }
 
 // What the colours around here look like, roughly: one gradient across, one up and down over it.

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lightcal/report/figures.h"
 #include "lightcal/records/light_curve.h"
+#include "lightcal/report/figures.h"
 #include "lightcal/report/readings.h"
 #include "lightcal/report/svg.h"
 #include "lightcal/report/text.h"
@@ -86,7 +86,8 @@ std::string DistanceFigure(const FittedLight& light, std::string_view id) {
   const Axis y = IlluminanceAxis(rows, *curve, x);
   Svg svg(std::string(id), "Illuminance against distance",
           "Readings, the fitted model and its 95 % band, both axes logarithmic");
-  svg.Axes(x, y, "distance from the reference point (m)", "illuminance (lx)");
+  svg.Axes(x, y, "distance from the reference point (m)",
+           SomeTurned(rows) ? "illuminance facing the lamp (lx)" : "illuminance (lx)");
   svg.BeginPlot();
   DrawModel(svg, *curve, x, y);
   for (const ResidualRow& row : rows) {

@@ -134,7 +134,8 @@ void DrawKey(Svg& svg, const IntensityTable& table, bool two_planes) {
   right(top, Figure(std::round(table.Flux().value() * 10.0) / 10.0) + " lm, peak " +
                  Fixed(table.peak().intensity.value(), 1) + " cd");
   right(top + 18.0, "beam " + Fixed(DegreesFromRadians(beam.mean), 1) + "°, field " +
-                        Fixed(DegreesFromRadians(LobeWidthsAt(table, 0.1).mean), 1) + "°");
+                        Fixed(DegreesFromRadians(LobeWidthsAt(table, 0.1).mean), 1) + "°" +
+                        (beam.beside_axis ? " about the peak" : ""));
 }
 
 // heading: drawn above the diagram; "" where the page has one.

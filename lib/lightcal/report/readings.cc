@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/report/readings.h"
 
+#include <algorithm>
+
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/text.h"
 
@@ -14,11 +16,22 @@ std::vector<ResidualRow> RowsWithDistance(const FittedLight& light) {
   return rows;
 }
 
+double FacingLux(const ResidualRow& row) {
+  if (!row.facing_lx || !(row.predicted_lx > 0.0)) return row.measured_lx;
+  return row.measured_lx * *row.facing_lx / row.predicted_lx;
+}
+
+bool SomeTurned(const std::vector<ResidualRow>& rows) {
+  return std::ranges::any_of(rows,
+                             [](const ResidualRow& row) { return row.facing_lx.has_value(); });
+}
+
 std::string TooltipOf(const ResidualRow& row) {
   std::string text = "reading " + std::to_string(row.index) + ": ";
   if (row.distance_m) text += Figure(*row.distance_m) + " m, ";
-  return text + RoundedText(row.measured_lx, 5) + " lx, " + SignedPercent(row.relative) +
-         (row.used ? "" : ", rejected");
+  text += RoundedText(row.measured_lx, 5) + " lx";
+  if (row.facing_lx) text += " (facing the lamp " + RoundedText(FacingLux(row), 4) + " lx)";
+  return text + ", " + SignedPercent(row.relative) + (row.used ? "" : ", rejected");
 }
 
 }  // namespace lightcal::report

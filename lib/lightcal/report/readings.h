@@ -12,6 +12,12 @@ namespace lightcal::report {
 // The rows that can stand on a distance axis, in order.
 [[nodiscard]] std::vector<ResidualRow> RowsWithDistance(const FittedLight& light);
 
+// What the reading would be, turned to the lamp where it shines brightest: measured times facing_lx
+// over predicted_lx; as it was read where it was so turned.
+[[nodiscard]] double FacingLux(const ResidualRow& row);
+// Whether some of them were not.
+[[nodiscard]] bool SomeTurned(const std::vector<ResidualRow>& rows);
+
 // "reading 0: 0.5 m, 3 221 lx, +1.00 %"; numbered as in `rejected` and session.toml, from 0.
 [[nodiscard]] std::string TooltipOf(const ResidualRow& row);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightcal/light/wall_prior.h"
+#include "lightcal/records/light_curve.h"
 #include "lightcal/report/figures.h"
 #include "lightcal/report/label_placement.h"
 #include "lightcal/report/readings.h"
@@ -29,14 +30,39 @@ double WallsTimesSquare(const LampInRoom& one, double distance_m) {
   return std::exp(ln) * distance_m * distance_m;
 }
 
-// A point lamp's own E d^2, its light starting d0 behind the reference point.
-double LampTimesSquare(const FittedLight& light, double distance_m) {
-  const double d0 = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
-  const double part = distance_m / (distance_m + d0);
-  return light.intensity_cd->value * part * part;
+// The lamp's own E d^2: below its intensity near where its light starts d0 behind the reference
+// point, or where it is large.
+class LampCurve {
+ public:
+  explicit LampCurve(const FittedLight& light)
+      : curve_(*LightCurve::Of(light)),
+        ambient_lx_(light.ambient_lx ? light.ambient_lx->value : 0.0) {}
+
+  [[nodiscard]] double At(double distance_m) const {
+    return (curve_.LuxAt(distance_m) - ambient_lx_) * distance_m * distance_m;
+  }
+  // Where a curve out to `farthest` starts: before the lamp's light does, E d^2 means nothing.
+  [[nodiscard]] double NearestFor(double farthest_m) const {
+    return std::max(0.02 * farthest_m, 0.05 * farthest_m + curve_.nearest_m());
+  }
+
+ private:
+  LightCurve curve_;
+  double ambient_lx_;
+};
+
+// Evenly, from where the curve starts.
+std::vector<double> DistancesFor(const LampCurve& lamp, const Axis& x) {
+  std::vector<double> distances;
+  const double nearest = lamp.NearestFor(x.high);
+  for (int i = 0; i <= kRoomSteps; ++i) {
+    distances.push_back(nearest + (x.high - nearest) * i / kRoomSteps);
+  }
+  return distances;
 }
 
-// A reading as people multiply it in a spreadsheet.
+// A reading as people multiply it in a spreadsheet; one that was turned, or beside the axis, as if
+// it faced the lamp.
 struct Dot {
   const ResidualRow* row;
   double distance_m, value, factor;
@@ -48,42 +74,43 @@ std::vector<Dot> DotsOf(const std::vector<ResidualRow>& rows) {
     const double d = *row.distance_m;
     if (!(row.measured_lx > 0.0)) continue;
     dots.push_back(
-        {&row, d, row.measured_lx * d * d, std::exp(std::min(kZ95 * row.sigma_relative, 3.0))});
+        {&row, d, FacingLux(row) * d * d, std::exp(std::min(kZ95 * row.sigma_relative, 3.0))});
   }
   return dots;
 }
 
-void DrawBand(Svg& svg, const Uncertain& u, const Axis& x, const Axis& y) {
-  const double low = std::max(0.0, u.low.value_or(u.value - u.u95));
-  const double high = std::min(y.high, u.high.value_or(u.value + u.u95));
-  svg.Path("band",
-           {{x.from_px, y.At(low)},
-            {x.to_px, y.At(low)},
-            {x.to_px, y.At(high)},
-            {x.from_px, y.At(high)}},
-           true);
-  svg.Line("zero", {x.from_px, y.At(u.value)}, {x.to_px, y.At(u.value)});
+void DrawBand(Svg& svg, const Uncertain& u, const LampCurve& lamp, const Axis& x, const Axis& y) {
+  const double low = std::max(0.0, u.low.value_or(u.value - u.u95)) / u.value;
+  const double high = u.high.value_or(u.value + u.u95) / u.value;
+  std::vector<PagePoint> line;
+  std::vector<PagePoint> outline;
+  std::vector<PagePoint> back;
+  for (const double d : DistancesFor(lamp, x)) {
+    const double value = lamp.At(d);
+    line.emplace_back(x.At(d), y.At(std::min(y.high, value)));
+    outline.emplace_back(x.At(d), y.At(low * value));
+    back.emplace_back(x.At(d), y.At(std::min(y.high, high * value)));
+  }
+  outline.insert(outline.end(), back.rbegin(), back.rend());
+  svg.Path("band", outline, true);
+  svg.Path("model", line);
 }
 
-void DrawWedge(Svg& svg, const FittedLight& light, const LampInRoom& one, const Axis& x,
+void DrawWedge(Svg& svg, const LampCurve& lamp, const LampInRoom& one, const Axis& x,
                const Axis& y) {
   std::vector<PagePoint> outline;
   std::vector<PagePoint> back;
-  const double nearest =
-      std::max(0.02 * x.high,
-               light.distance_offset_m ? 0.05 * x.high - light.distance_offset_m->value : 0.0);
-  for (int i = 0; i <= kRoomSteps; ++i) {
-    const double d = nearest + (x.high - nearest) * i / kRoomSteps;
-    const double lamp = LampTimesSquare(light, d);
-    outline.emplace_back(x.At(d), y.At(lamp + WallsTimesSquare(one, d)));
-    back.emplace_back(x.At(d), y.At(lamp));
+  for (const double d : DistancesFor(lamp, x)) {
+    const double alone = lamp.At(d);
+    outline.emplace_back(x.At(d), y.At(alone + WallsTimesSquare(one, d)));
+    back.emplace_back(x.At(d), y.At(alone));
   }
   outline.insert(outline.end(), back.rbegin(), back.rend());
   svg.Path("wedge", outline, true);
 }
 
-void DrawDot(Svg& svg, const Dot& dot, const FittedLight& light, const LampInRoom* room,
-             const Axis& x, const Axis& y) {
+void DrawDot(Svg& svg, const Dot& dot, const LampCurve& lamp, const LampInRoom* room, const Axis& x,
+             const Axis& y) {
   const PagePoint at{x.At(dot.distance_m), y.At(dot.value)};
   if (!dot.row->used) {
     svg.Cross("rejected", at, 5.0, TooltipOf(*dot.row));
@@ -91,8 +118,7 @@ void DrawDot(Svg& svg, const Dot& dot, const FittedLight& light, const LampInRoo
   }
   // A card took the room away: from where the reading stood to what the lamp alone gives.
   if (room != nullptr && !dot.row->walls_lx) {
-    const double above =
-        LampTimesSquare(light, dot.distance_m) + WallsTimesSquare(*room, dot.distance_m);
+    const double above = lamp.At(dot.distance_m) + WallsTimesSquare(*room, dot.distance_m);
     svg.Line("guide", {at.first, y.At(std::min(above, y.high))}, at);
   }
   svg.Line("whisker", {at.first, y.At(dot.value / dot.factor)},
@@ -133,6 +159,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   const Uncertain& u = *light.intensity_cd;
   const std::vector<Dot> dots = DotsOf(rows);
   const LampInRoom* const room = LikeliestOf(light);
+  const LampCurve lamp(light);
   double farthest = 0.0;
   double most = std::min(u.high.value_or(u.value + u.u95), 3.0 * u.value);
   for (const Dot& dot : dots) {
@@ -143,7 +170,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   constexpr double kAirAround = 1.12;
   farthest *= kAirAround;
   if (room != nullptr) {
-    const double whole = LampTimesSquare(light, farthest) + WallsTimesSquare(*room, farthest);
+    const double whole = lamp.At(farthest) + WallsTimesSquare(*room, farthest);
     most = std::max(most, std::min(whole, 2.0 * most));
   }
   const Axis x{AxisScale::kLinear, 0.0, farthest, Svg::Area().left, Svg::Area().right};
@@ -151,11 +178,12 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   Svg svg(
       std::string(id), "What the room adds",
       "Illuminance times distance squared: flat for a lamp alone, rising with the walls' light");
-  svg.Axes(x, y, "distance (m)", "lux × metres² (cd)");
+  svg.Axes(x, y, "distance (m)",
+           SomeTurned(rows) ? "lux facing the lamp × metres² (cd)" : "lux × metres² (cd)");
   svg.BeginPlot();
-  if (room != nullptr) DrawWedge(svg, light, *room, x, y);
-  DrawBand(svg, u, x, y);
-  for (const Dot& dot : dots) DrawDot(svg, dot, light, room, x, y);
+  if (room != nullptr) DrawWedge(svg, lamp, *room, x, y);
+  DrawBand(svg, u, lamp, x, y);
+  for (const Dot& dot : dots) DrawDot(svg, dot, lamp, room, x, y);
   svg.EndPlot();
   const double right = x.to_px - 8.0;
   NameLamp(svg, u, dots, x, y);
@@ -164,8 +192,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
     const double walls = WallsTimesSquare(*room, d);
     constexpr double kRoomForWords = 22.0;  // px
     if (y.At(0.0) - y.At(walls) > kRoomForWords) {
-      svg.Text("note halo", {right, y.At(LampTimesSquare(light, d) + 0.6 * walls) + 4.0}, "end",
-               "your room");
+      svg.Text("note halo", {right, y.At(lamp.At(d) + 0.6 * walls) + 4.0}, "end", "your room");
     }
   }
   return svg.Finish();

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "lightcal/core/numbers_text.h"
 
@@ -123,11 +124,22 @@ int DecimalsOf(const Uncertain& u, double scale) {
   if (u.u95 > 0.0) return DecimalsFor(u.u95 * scale);
   return u.value == 0.0 ? 0 : DecimalsFor(std::abs(u.value * scale)) + 2;
 }
+// A small end beside a large one keeps two digits of its own.
+std::string EndsOf(const Uncertain& u, double scale, int decimals) {
+  const auto text = [&](double end) {
+    return Fixed(end, end == 0.0 ? decimals : std::max(decimals, DecimalsFor(std::abs(end))));
+  };
+  return text(u.low.value_or(u.value - u.u95) * scale) + " … " +
+         text(u.high.value_or(u.value + u.u95) * scale);
+}
 }  // namespace
 
 std::string PlusMinus(const Uncertain& u, std::string_view unit, double scale) {
   const int decimals = DecimalsOf(u, scale);
   std::string text = Fixed(u.value * scale, decimals);
+  if (u.u95 > 0.0 && !IsEven(u)) {
+    return WithUnit(std::move(text), unit) + ", " + EndsOf(u, scale, decimals);
+  }
   if (u.u95 > 0.0) text += " ±\u00A0" + Fixed(u.u95 * scale, decimals);
   return WithUnit(text, unit);
 }
@@ -135,14 +147,19 @@ std::string PlusMinus(const Uncertain& u, std::string_view unit, double scale) {
 std::string RelativePlusMinus(const Uncertain& u) {
   if (!(u.u95 > 0.0) || u.value == 0.0) return "";
   const double percent = std::abs(u.u95 / u.value) * 100.0;
-  return "± " + Fixed(percent, DecimalsFor(percent)) + "\u00A0%";
+  if (IsEven(u)) return "± " + Fixed(percent, DecimalsFor(percent)) + "\u00A0%";
+  const auto arm = [&](double end) {
+    const double part = (end / u.value - 1.0) * 100.0;
+    const int decimals = part == 0.0 ? 0 : std::max(0, DecimalsFor(std::abs(part)));
+    return (part > 0.0 ? "+" : "") + Fixed(part, decimals);
+  };
+  return arm(u.low.value_or(u.value - u.u95)) + " … " + arm(u.high.value_or(u.value + u.u95)) +
+         "\u00A0%";
 }
 
 std::string Interval(const Uncertain& u, std::string_view unit) {
   const int decimals = DecimalsOf(u, 1.0);
-  return WithUnit(Fixed(u.low.value_or(u.value - u.u95), decimals) + " … " +
-                      Fixed(u.high.value_or(u.value + u.u95), decimals),
-                  unit);
+  return WithUnit(EndsOf(u, 1.0, decimals), unit);
 }
 
 std::string Percent(const std::optional<double>& relative) {

@@ -23,9 +23,10 @@ namespace lightcal::report {
 // Decimals that show an uncertainty with two significant digits; negative for large ones.
 [[nodiscard]] int DecimalsFor(double u95);
 
-// "12 570 ± 500 lm"; without an uncertainty four significant digits. scale multiplies both.
+// "12 570 ± 500 lm"; of an interval with uneven arms "1260 lm, 11 … 1330"; without an uncertainty
+// four significant digits. scale multiplies all.
 [[nodiscard]] std::string PlusMinus(const Uncertain& u, std::string_view unit, double scale = 1.0);
-// "± 4.0 %" of the value; "" when there is no uncertainty.
+// "± 4.0 %" of the value, of uneven arms "−99 … +5.6 %"; "" when there is no uncertainty.
 [[nodiscard]] std::string RelativePlusMinus(const Uncertain& u);
 // "961 … 1041 cd", the ends of the interval.
 [[nodiscard]] std::string Interval(const Uncertain& u, std::string_view unit);

@@ -2,7 +2,8 @@
 // node page.mjs NODE_MODULES PAGE.html [--screenshots FOLDER] < lines
 // Opens the page from the disk in headless chromium, on a phone and on a screen, does what a person
 // does with it, and answers every line of words as the page calculates it. Prints one JSON document:
-// { ready_ms, answers, otherwise, session, candela, refused, saved, requests, errors }; otherwise: the lines
+// { ready_ms, answers, otherwise, session, candela, refused, saved, thousands, rooms, unsaved,
+//   requests, errors }; otherwise: the lines
 // that the screen answers with other bytes than the phone.
 import fs from 'node:fs';
 import path from 'node:path';
@@ -63,6 +64,31 @@ try {
     await tab.tap('#save-preset');
     await tab.waitForFunction(() => document.querySelector('#lamp-saved').textContent !== '');
     result.saved = await tab.$eval('#lamp-saved', (p) => p.textContent);
+    // What may part thousands is asked back, a decimal comma is none of that.
+    const typed = async (field, text) => {
+      await tab.$eval(field, (input) => { input.value = ''; });
+      await tab.type(field, text);
+    };
+    const lux = '#readings li:last-child [name=lux]';
+    await typed(lux, '1,200');
+    await tab.waitForSelector('#lamp-answer .fault', { timeout: 20000 });
+    result.thousands = await tab.$eval('#lamp-answer .fault', (p) => p.textContent);
+    await typed(lux, '12,5');
+    await tab.waitForSelector('#candela', { timeout: 20000 });
+    // A room as it was measured.
+    await tab.select('#room', 'size');
+    await tab.waitForSelector('#size', { visible: true });
+    result.rooms = {};
+    for (const room of ['5m,4.4m,2.8m', '16ft,13ft,8ft', '5, 4, 2.6, 0.7']) {
+      await typed('#size', room);
+      result.rooms[room] = await tab.evaluate(() => window.lightcal.sessionText());
+    }
+    await typed('#name', 'a/b');
+    await tab.$eval('#save-session', (button) => button.click());
+    await tab.waitForFunction(() => document.querySelector('#lamp-saved').textContent.startsWith('Not saved'));
+    result.unsaved = await tab.$eval('#lamp-saved', (p) => p.textContent);
+    await typed('#name', 'key');
+    await tab.select('#room', '');
     await tab.type('#readings li:last-child [name=metres]', 'x');
     await tab.waitForSelector('#lamp-answer .fault', { timeout: 20000 });
     result.refused = await tab.$eval('#lamp-answer .fault', (p) => p.textContent);

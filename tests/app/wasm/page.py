@@ -12,6 +12,7 @@ import random
 import subprocess
 import sys
 import tempfile
+import tomllib
 
 from module_answers import WITHIN, color, difference, exposure, quick
 
@@ -61,6 +62,16 @@ def main():
             faults.append(f"a distance of letters is answered with {seen['refused']}")
         if ".preset.json" not in seen["saved"]:
             faults.append(f"saving a preset says {seen['saved']}")
+        if "1200lx" not in seen["thousands"]:
+            faults.append(f"1,200 lx is answered with {seen['thousands']}")
+        if "slash" not in seen["unsaved"]:
+            faults.append(f"saving a lamp named a/b says {seen['unsaved']}")
+        sizes = {"5m,4.4m,2.8m": [5, 4.4, 2.8], "16ft,13ft,8ft": [4.8768, 3.9624, 2.4384],
+                 "5, 4, 2.6, 0.7": [5, 4, 2.6]}
+        for room, size in sizes.items():
+            told = tomllib.loads(seen["rooms"][room])["room"]["size_m"]
+            if told != size:
+                faults.append(f"a room of {room} is saved as {told}")
         if seen["otherwise"]:
             faults.append(f"the screen answers otherwise than the phone: {seen['otherwise']}")
         worst = 0.0
@@ -84,9 +95,9 @@ def main():
         if abs(candela / seen["candela"] - 1) > WITHIN:
             faults.append(f"the page shows {seen['candela']} cd, its session gives {candela}")
         # Lights that the page carries along, whatever their names hold.
-        quick_json = lightcal("quick", "203lx@0.5m", "--name", "a </script> lamp", "--json")
+        quick_json = lightcal("quick", "203lx@0.5m", "--json")
         light = json.loads(quick_json.stdout)
-        light = {key: light[key] for key in ("schema", "lights", "provenance")}
+        light["lights"][0]["name"] = "a </script> lamp"
         (home / "lamp.json").write_text(json.dumps(light), encoding="utf-8")
         carried = lightcal("export", "lamp.json", "--to", "page", "-o", "out", cwd=home)
         assert carried.returncode == 0, carried.stderr

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "lightcal/calibrate/calibrate_session.h"
+#include "lightcal/calibrate/export_presets.h"
 #include "lightcal/calibrate/merge_bracket.h"
-#include "lightcal/presets/export_presets.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal_devices/disk_sources.h"
 

@@ -71,12 +71,22 @@ TEST(LastDigit, IsOneUnitOfTheLastPrintedPlace) {
 
 TEST(IsoTime, ReadsBothOrdersAndRefusesWhatIsNoDate) {
   EXPECT_EQ(IsoTime("2017/01/20_08:38:02", DateOrder::kYearFirst), "2017-01-20T08:38:02");
-  EXPECT_EQ(IsoTime("2026-11-21T14:03:00.250Z", DateOrder::kYearFirst), "2026-11-21T14:03:00");
   EXPECT_EQ(IsoTime("17.07.2024 16:33:11", DateOrder::kDayFirst), "2024-07-17T16:33:11");
   EXPECT_EQ(IsoTime("31/02/2023 08:00:00", DateOrder::kDayFirst), "");
   EXPECT_EQ(IsoTime("01/01/2023 25:00:00", DateOrder::kDayFirst), "");
   EXPECT_EQ(IsoTime("yesterday", DateOrder::kDayFirst), "");
   EXPECT_EQ(IsoTime("99999999999/1/1 1:1:1", DateOrder::kYearFirst), "");
+}
+
+TEST(IsoTime, KeepsTheZoneAndTheFractionOfTheSecond) {
+  const auto iso = [](std::string_view text) { return IsoTime(text, DateOrder::kYearFirst); };
+  EXPECT_EQ(iso("2026-11-21T14:03:00.250Z"), "2026-11-21T14:03:00.250Z");
+  EXPECT_EQ(iso("2026-11-28T10:00:00+02:00"), "2026-11-28T10:00:00+02:00");
+  EXPECT_EQ(iso("2026-11-28 10:00:00,5 -0530"), "2026-11-28T10:00:00.5-05:30");
+  EXPECT_EQ(iso("2026-11-28T10:00+02"), "2026-11-28T10:00:00+02:00");
+  EXPECT_EQ(iso("2026-11-28 10:00:00 UTC"), "2026-11-28T10:00:00Z");
+  EXPECT_EQ(iso("2026-11-28-10-00-30"), "2026-11-28T10:00:30");
+  EXPECT_EQ(IsoTime("15/03/2021 3:44:14 p.m.", DateOrder::kDayFirst), "2021-03-15T03:44:14");
 }
 
 }  // namespace

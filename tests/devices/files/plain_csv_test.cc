@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "lightcal_devices/files/plain_csv.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@ namespace lightcal::devices {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
@@ -124,6 +127,64 @@ TEST_P(RefusedRow, RefusesTheWholeFileAndNamesTheLine) {
 
 TEST(PlainCsv, LineNumbersCountCommentsEmptyLinesAndQuotedLineEnds) {
   EXPECT_EQ(Refusal("# note\n\nlight,lux\n\"a\nb\",5\nc,oops\n").subject, "table.csv:6");
+}
+
+Result<ImportedFile> ReadColumns(const std::string& text, const std::vector<std::string>& names) {
+  return files::ReadCsvOfColumns(text, "table.csv", names);
+}
+
+TEST(PlainCsv, ARowOfDataWithASlipAboveTheNumbersIsNoTitle) {
+  const std::vector<std::string> names = {"distance_m", "illuminance_lx"};
+  const auto slip = ReadColumns("distance,E\n0.5,4O0\n0.7,OL\n1,120\n2,30\n", names);
+  ASSERT_FALSE(slip);
+  EXPECT_EQ(slip.error().code, "bad_row");
+  EXPECT_EQ(slip.error().subject, "table.csv:2");
+  EXPECT_THAT(slip.error().message, HasSubstr("4O0"));
+  const auto thousands = ReadColumns("d;E\n0,1;12.000\n0,5;480\n1;120\n", names);
+  ASSERT_FALSE(thousands);
+  EXPECT_THAT(thousands.error().message, HasSubstr("12.000"));
+}
+
+TEST(PlainCsv, ATitleThatHoldsANumberIsNamedAndOneOfWordsIsNot) {
+  const std::vector<std::string> names = {"distance_m", "illuminance_lx"};
+  const auto serial = ReadColumns("Serial,12345\nd,E\n1,120\n", names);
+  ASSERT_TRUE(serial);
+  ASSERT_THAT(serial->warnings, SizeIs(1));
+  EXPECT_EQ(serial->warnings[0].code, "rows_skipped");
+  EXPECT_THAT(serial->warnings[0].subject, HasSubstr("line 1"));
+  EXPECT_THAT(ReadColumns("Lux meter\nd,E\n1,120\n", names)->warnings, SizeIs(0));
+}
+
+TEST(PlainCsv, ALimitIsLightBeyondTheRange) {
+  const ImportedFile file = Read("distance_m,lux\n0.5,>400\n1,120\n4,< 10\n");
+  ASSERT_THAT(file.readings, SizeIs(3));
+  EXPECT_TRUE(file.readings[0].over_range);
+  EXPECT_DOUBLE_EQ(file.readings[0].illuminance->value(), 400.0);
+  EXPECT_FALSE(file.readings[1].over_range || file.readings[1].under_range);
+  EXPECT_TRUE(file.readings[2].under_range);
+  for (const char* word : {"OL", "Over"}) {
+    const Error error = Refusal("distance_m,lux\n0.5," + std::string(word) + "\n1,120\n");
+    EXPECT_EQ(error.code, "bad_row");
+    EXPECT_THAT(error.message, HasSubstr(">20000"));
+  }
+}
+
+TEST(PlainCsv, APointThatMayPartThousandsIsNamed) {
+  const auto codes = [](const std::string& text) {
+    std::vector<std::string> out;
+    for (const Warning& warning : Read(text).warnings) out.push_back(warning.code);
+    return out;
+  };
+  EXPECT_THAT(codes("distance_m;lux\n1;1.200\n2;300\n4;75\n"), ElementsAre("decimals_ambiguous"));
+  EXPECT_THAT(codes("distance_m;lux\n1;1.200\n2;0.305\n4;0.075\n"), SizeIs(0));
+  EXPECT_THAT(codes("distance_m,lux\n1,1.200\n2,300\n"), SizeIs(0));
+  EXPECT_THAT(codes("distance_m;lux\n0.5;1.5\n1;2\n"), SizeIs(0));
+}
+
+TEST(PlainCsv, AColourTemperatureThatNoLampHasIsRefused) {
+  EXPECT_EQ(Refusal("distance_m,lux,cct_K\n1,120,29000000\n").code, "bad_row");
+  EXPECT_EQ(Refusal("distance_m,lux,cct_K\n1,120,290\n").code, "bad_row");
+  EXPECT_FALSE(Read("distance_m,lux,cct_K\n1,120,0\n").readings[0].cct.has_value());
 }
 
 }  // namespace

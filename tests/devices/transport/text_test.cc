@@ -98,6 +98,30 @@ TEST(TextSource, OldLinesOfAPortAreOldLight) {
   instrument.join();
 }
 
+TEST(TextSource, OfWhatCameInAPauseTheLastLineIsReadFirst) {
+  const Fifo fifo;
+  const auto lines = OpenTextSource(fifo.path);
+  const auto program = OpenTextSource("!echo 1; sleep 0.05; echo 2");
+  PseudoTerminal terminal;
+  const auto port = OpenTextSource(terminal.path());
+  fifo.Write("1\n");
+  EXPECT_EQ(Line(**lines), "1");
+  fifo.Write("2\n3\n4\n5");
+  (*lines)->Paused();
+  EXPECT_EQ(Line(**lines), "4");
+  fifo.Write("\n6\n");
+  EXPECT_EQ(Line(**lines), "5") << "no pause, nothing old";
+  (*lines)->Paused();
+  EXPECT_EQ(Line(**lines), "6") << "one line is the newest";
+  EXPECT_EQ(Line(**port, milliseconds(10)), "(timeout)");
+  terminal.Send("1\n2\n3\n");
+  (*port)->Paused();
+  EXPECT_EQ(Line(**port), "3");
+  EXPECT_EQ(Line(**program), "1");
+  (*program)->Paused();
+  EXPECT_EQ(Line(**program), "2") << "what a slow program prints once";
+}
+
 TEST(TextSource, AnUnpluggedPortIsSaid) {
   PseudoTerminal terminal;
   const auto source = OpenTextSource(terminal.path());

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/transport/framing.h"
@@ -13,8 +14,6 @@ namespace lightcal::devices::text {
 namespace {
 
 constexpr double kHighestLx = 1e6;
-constexpr double kLowestCctKelvin = 1000.0;
-constexpr double kHighestCctKelvin = 100000.0;
 
 tl::unexpected<Error> BadLine(std::string_view line, const std::string& what) {
   return Failed(std::string(kBadReply), "\"" + EscapedBytes(AsBytes(line)) + "\"",
@@ -44,15 +43,20 @@ Result<std::optional<TextReading>> DecodeLine(std::string_view given) {
   const std::string_view line = TrimBlanks(given);
   if (line.empty() || IsComment(line)) return std::nullopt;
   const std::size_t end = FirstFieldEnd(line);
-  const auto illuminance = ParseIlluminance(TrimBlanks(line.substr(0, end)));
+  std::string_view first = TrimBlanks(line.substr(0, end));
+  if (IsOverloadWord(first)) return BadLine(line, "says no number; " + std::string(kWriteALimit));
+  const bool over_range = first.starts_with('>');
+  const bool under_range = first.starts_with('<');
+  if (over_range || under_range) first.remove_prefix(1);
+  const auto illuminance = ParseIlluminance(first);
   if (!illuminance) return BadLine(line, "is no illuminance");
   if (illuminance->value() < 0.0 || illuminance->value() > kHighestLx) {
     return BadLine(line, "is no possible illuminance");
   }
-  TextReading reading{*illuminance, std::nullopt};
+  TextReading reading{*illuminance, std::nullopt, over_range, under_range};
   if (end == std::string_view::npos) return reading;
   const auto cct = ParseTemperature(TrimBlanks(line.substr(end + 1)));
-  if (!cct || cct->value() < kLowestCctKelvin || cct->value() > kHighestCctKelvin) {
+  if (!cct || !IsTemperatureOfLamp(*cct)) {
     return BadLine(line, "holds something else than a colour temperature after its illuminance");
   }
   reading.cct = *cct;

@@ -15,12 +15,14 @@ inline constexpr std::size_t kLongestLineBytes = 256;
 struct TextReading {
   Lux illuminance{0.0};
   std::optional<Kelvin> cct;
+  bool over_range = false;   // the light is at least illuminance
+  bool under_range = false;  // at most
 };
 
 // "192", "192 lx", "17.8fc", "1.2klx", and with a colour temperature "192,5600", "192lx;5600K",
 // "192 5600K": illuminance, then CCT from 1000 to 100000 K. A line that is blank or begins with
-// '#',
-// ';' or "//" is no reading and no error.
+// '#', ';' or "//" is no reading and no error. ">20000" is light beyond the meter's range, "<0.1"
+// below it.
 // Fails: bad_reply, with what is wrong; a number that is negative or above a million lux too.
 [[nodiscard]] Result<std::optional<TextReading>> DecodeLine(std::string_view line);
 

@@ -94,6 +94,8 @@ Result<MeterReading> TextMeter::Measure(const Cancellation& cancellation) {
   reading.sigma_relative = kind_.sigma;
   reading.illuminance = text->illuminance;
   reading.cct = text->cct;
+  reading.over_range = text->over_range;
+  reading.under_range = text->under_range;
   if (bad_lines > 0) {
     result.warnings.push_back({"bad_lines", transport_.Name(),
                                std::to_string(bad_lines) +

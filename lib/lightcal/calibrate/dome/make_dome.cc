@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lightcal/calibrate/dome/dome_light_file.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/core/matrix3.h"
 #include "lightcal/imaging/panorama/reduce_dome.h"
@@ -31,6 +32,16 @@ Matrix3 Adapted(const Matrix3& xyz, Xy from, Xy to) {
     out[2][c] = adapted.Z;
   }
   return out;
+}
+
+Result<void> CheckSettings(const DomeSettings& settings) {
+  if (settings.plate && !IsPossible(*settings.plate)) {
+    return Refused("not_positive", "plate", "f-number, time and ISO speed are above 0");
+  }
+  if (settings.white && CctFromXy(*settings.white).status == CctStatus::kNotAChromaticity) {
+    return Refused("bad_chromaticity", "white", "no light has this chromaticity");
+  }
+  return {};
 }
 
 double SamplesPerNit(const std::optional<CameraSettings>& plate) {
@@ -135,6 +146,7 @@ RgbPrimaries PrimariesOfOutput(const MeasuredDome& measured, const DomeSettings&
 
 Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request, const Sources& sources,
                           const DomeSettings& settings) {
+  if (auto ok = CheckSettings(settings); !ok) return Propagate(std::move(ok));
   MadeDome made;
   const std::size_t found = measured.lights.size();
   made.extracted =

@@ -54,7 +54,8 @@ struct MadeDome {
   Warnings warnings;          // those of `measured` left out: fewer_lights, and what a fit warns of
 };
 
-// Refused: as LightFileOfDome. Fails: as Sources::sha256.
+// Refused: not_positive (a plate no camera takes), bad_chromaticity (of the white), and as
+// LightFileOfDome. Fails: as Sources::sha256.
 [[nodiscard]] Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request,
                                         const Sources& sources, const DomeSettings& settings);
 

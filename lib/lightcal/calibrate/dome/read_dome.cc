@@ -205,6 +205,9 @@ Result<void> TakePlate(const GreyPlate& plate, const DomeInputRequest& request,
 }  // namespace
 
 Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& sources) {
+  if (request.files.empty()) {
+    return Refused("no_pictures", "dome", "names no picture; give the panorama, or its views");
+  }
   if (request.find_aims) return ReadAimedViews(request, sources);
   std::vector<DomeInput> pictures;
   for (const std::string& file : request.files) {

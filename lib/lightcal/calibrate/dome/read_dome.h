@@ -19,8 +19,9 @@ namespace lightcal {
 
 // One lat-long panorama as it is, or views composed to one. Warned: clip_unused (of files whose
 // aims are known).
-// Refused: as ReadAimedViews where aims are to be found, else as Sources::read_masked_frame,
-// LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a pixel no scene has).
+// Refused: no_pictures (no file); as ReadAimedViews where aims are to be found, else as
+// Sources::read_masked_frame, LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a
+// pixel no scene has).
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request,
                                               const Sources& sources);
 

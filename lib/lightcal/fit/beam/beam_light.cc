@@ -170,6 +170,13 @@ void AddInfluences(const ForwardModel& model, const BeamRows& rows, LightEstimat
   }
 }
 
+// What a row's direct light would be at the peak of the beam, the meter facing the lamp.
+double FacingDirect(const BeamRow& row, const BeamProfile& profile, double peak_cd) {
+  const Vec3 aim{profile.aim[0], profile.aim[1], 1.0};
+  const Vec3 from = row.from_lamp + aim * (profile.theta[1] / Length(aim));
+  return peak_cd / Dot(from, from);
+}
+
 void FillEstimate(const Observations& observations, const BeamRows& rows,
                   const BeamProfile& profile, LightEstimate& out) {
   constexpr std::array<int, 4> kPlaces = {kLnIntensity, kDistanceOffset, kLnWalls, kWallsSlope};
@@ -214,6 +221,10 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
     residual.distance_m = o.distance_m;
     residual.measured_lx = o.measured_lx;
     residual.predicted_lx = profile.predicted_lx[i] + (o.measured_lx - row.measured);
+    if (row.normal || row.gain != 1.0 || o.position_m || o.off_axis_rad != 0.0) {
+      residual.facing_lx = residual.predicted_lx - (profile.predicted_lx[i] - profile.walls_lx[i]) +
+                           FacingDirect(row, profile, *most);
+    }
     const double ratio = row.measured / std::max(profile.predicted_lx[i], 1e-300);
     residual.relative = ratio - 1.0;
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;

@@ -18,7 +18,6 @@ namespace {
 // Beyond |Duv| = .05 a CCT names no colour temperature (CIE 15:2018 9.4), but the chromaticity that
 // a meter wrote as CCT and Duv is one still: that of a lamp behind a green gel.
 constexpr double kFarthestDuv = 0.1;
-constexpr double kColdestLocus = 1000.0;
 
 double SigmaXy(ColorSource source) {
   switch (source) {
@@ -99,8 +98,11 @@ ColorReading FromWall(const ColorOffWall& wall, CctMethod method) {
 std::string FaultOfTemperature(const Reading& reading) {
   const double kelvin = reading.cct->value();
   if (!std::isfinite(kelvin)) return "it is no number";
-  if (kelvin < kColdestLocus) {
+  if (kelvin < kColdestLamp.value()) {
     return "nothing that shines for the eye is colder than 1000 K: is a digit missing?";
+  }
+  if (!IsTemperatureOfLamp(*reading.cct)) {
+    return "no lamp is hotter than 100 000 K: is there a digit too many?";
   }
   const double duv = reading.duv.value_or(0.0);
   const Xy xy = XyFromCct(*reading.cct, std::clamp(duv, -1.0, 1.0));

@@ -81,6 +81,17 @@ bool RejectOne(Kept& kept) {
 
 // ---- the answer ----
 
+// ResidualRow::facing_lx, in the solver's unit.
+std::optional<double> FacingOf(PlacedRow row, const std::optional<Vec3>& aim, double tilt_rad,
+                               const PlacedTheta& theta) {
+  if (tilt_rad == 0.0 && !(row.position && (row.normal || aim))) return std::nullopt;
+  row.normal.reset();
+  row.direct_gain = 1.0;
+  double lux = 0.0;
+  if (!PlacedIlluminance(row, std::nullopt, theta.data(), &lux)) return std::nullopt;
+  return lux;
+}
+
 void FillResiduals(const Observations& observations, const PlacedProblem& all, const Kept& kept,
                    LightEstimate& out) {
   const PlacedTheta& theta = kept.solutions.front().theta;
@@ -107,6 +118,8 @@ void FillResiduals(const Observations& observations, const PlacedProblem& all, c
         row.position ? Length(*row.position - LampOf(theta)) * all.frame.length_m : o.distance_m;
     residual.measured_lx = o.measured_lx;
     residual.predicted_lx = predicted;
+    residual.facing_lx = FacingOf(row, all.estimation.aim, o.tilt_rad, theta);
+    if (residual.facing_lx) *residual.facing_lx *= all.frame.lux;
     residual.relative = o.measured_lx / predicted - 1.0;
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
     residual.used = std::ranges::find(kept.rejected, all.observation[i]) == kept.rejected.end();

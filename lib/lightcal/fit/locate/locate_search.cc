@@ -96,7 +96,7 @@ void AddWalls(const Observations& observations, const WallPrior& prior, PlacedPr
     walls.constant = 2.0 * std::log(unit);
     walls.ln_unit = std::log(unit / kWallReference_m);
     row.walls = walls;
-    seeing.push_back({lit_row, &*row.walls, &o});
+    if (!o.over_range) seeing.push_back({lit_row, &*row.walls, &o});
   }
   if (seeing.empty()) return;
   ShareScatter(std::move(seeing));

@@ -68,6 +68,29 @@ std::optional<Vec3> NormalOf(const PlacedEstimation& estimation) {
   return sum * (1.0 / length);
 }
 
+// Not under the floor, which lies no higher than the lowest reading nor above z = 0, and not where
+// a reading stands already.
+class FreePlaces {
+ public:
+  FreePlaces(const PlacedEstimation& estimation, const PlacedFrame& frame) {
+    for (const PlacedRow& row : estimation.rows) {
+      if (!row.position) continue;
+      taken_.push_back(frame.origin + *row.position * frame.length_m);
+      floor_m_ = std::min(floor_m_, taken_.back()[2]);
+    }
+  }
+  [[nodiscard]] bool Has(const Vec3& place_m) const {
+    constexpr double kRounding_m = 0.006;
+    return place_m[2] >= floor_m_ - kRounding_m &&
+           std::ranges::none_of(
+               taken_, [&](const Vec3& one) { return Length(one - place_m) < kRounding_m; });
+  }
+
+ private:
+  std::vector<Vec3> taken_;
+  double floor_m_ = 0.0;
+};
+
 Vec3 Rounded(const Vec3& metres, double reach_m) {
   const double per_metre = reach_m < 1.0 ? 1000.0 : 100.0;
   const auto round = [&](double x) { return std::round(x * per_metre) / per_metre; };
@@ -153,8 +176,10 @@ std::optional<Placement> BestPlacement(const PlacedEstimation& estimation,
   Judge judge(estimation, solutions, separate);
   std::optional<Placement> best;
   double least = std::numeric_limits<double>::infinity();
+  const FreePlaces places(estimation, frame);
   for (const Vec3& candidate : CandidatesOf(estimation, layout)) {
     const Vec3 metres = Rounded(frame.origin + candidate * frame.length_m, reach_m);
+    if (!places.Has(metres)) continue;
     const double score = judge.Score((metres - frame.origin) * (1.0 / frame.length_m));
     // Equal but for rounding: the first, so that the answer does not depend on the last digit.
     if (!(score < least * (1.0 - 1e-6))) continue;

@@ -25,8 +25,9 @@ struct Placement {
 // The best of a grid over the layout's own extent (in its plane where all meters lie in one, with
 // their normal), in whole centimetres (millimetres for layouts below a metre): least geometric mean
 // of the position's standard deviation over `solutions`, all of which the readings so far allow,
-// among the places whose reading tells each solution from the first by five sigma (`separate`).
-// Nothing when no place of the grid sees the lamp.
+// among the places whose reading tells each solution from the first by five sigma (`separate`), no
+// lower than z = 0 or the lowest reading, and where none stands. Nothing when no place of the grid
+// sees the lamp.
 [[nodiscard]] std::optional<Placement> BestPlacement(const PlacedEstimation& estimation,
                                                      std::span<const PlacedTheta> solutions,
                                                      bool separate, const PlacedFrame& frame);

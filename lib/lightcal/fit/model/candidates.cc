@@ -13,6 +13,7 @@
 #include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/merged_rows.h"
+#include "lightcal/fit/model/misfit.h"
 #include "lightcal/fit/model/shared_scatter.h"
 #include "lightcal/fit/model/starts.h"
 
@@ -166,10 +167,41 @@ Result<void> ChooseRobustly(std::vector<Candidate>& candidates) {
   return {};
 }
 
+// The one reading without which the others ask for an offset that its prior allows: "; without
+// reading 0 (302 lx at 0.5 m) they do not, ..."; empty where none or several are.
+std::string ReadingThatAsks(const Estimation& stated, const Prepared& prepared,
+                            const Observations& observations) {
+  constexpr double kNoConflict = 1.0;  // prior standard deviations
+  constexpr std::size_t kFewest = 3, kMost = 40;
+  const ParameterRule& rule = stated.rules[kDistanceOffset];
+  std::string found;
+  int lit = 0;
+  for (int i = 0; i < prepared.own_rows; ++i) {
+    lit += stated.rows[static_cast<std::size_t>(i)].direct_gain > 0.0 ? 1 : 0;
+  }
+  if (lit < static_cast<int>(kFewest) || stated.rows.size() > kMost) return found;
+  for (int i = 0; i < prepared.own_rows; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (!(stated.rows[at].direct_gain > 0.0)) continue;
+    Estimation rest = stated;
+    rest.rows = Without(stated.rows, {i});
+    const Result<Theta> theta = SolveSettled(rest);
+    if (!theta) continue;
+    const double pull = std::abs((*theta)[kDistanceOffset] - rule.prior_mean);
+    if (pull > kNoConflict * rule.prior_sd) continue;
+    if (!found.empty()) return "";
+    const auto own = static_cast<std::size_t>(prepared.observation[at]);
+    found = "; without " + NameOfReading(observations.rows[own]) +
+            " they do not, so look at its digits";
+  }
+  return found;
+}
+
 // Readings that ask for an offset beyond two standard deviations of its prior widen it, and leave
 // the other hypotheses out.
 Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& prepared,
-                         const std::string& light, Warnings& warnings) {
+                         const Observations& observations, const std::string& light,
+                         Warnings& warnings) {
   Candidate& first = candidates.front();
   ParameterRule& rule = first.estimation.rules[kDistanceOffset];
   if (!rule.free) return {};
@@ -189,6 +221,7 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
   };
   if (pull(first.estimate.theta) <= kPriorConflict * rule.prior_sd) return {};
   const double stated = rule.prior_sd;
+  const std::string odd = ReadingThatAsks(first.estimation, prepared, observations);
   rule.prior_sd = 100.0 * stated;
   Result<RobustEstimate> unguided = again(first.estimation);
   if (!unguided) return Propagate(std::move(unguided));
@@ -198,8 +231,8 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
        "the readings ask for a distance offset of " +
            RoundedText(unguided->theta[kDistanceOffset] * prepared.scales.length_m, 3) +
            " m, more than two standard deviations of its prior (" +
-           RoundedText(stated * prepared.scales.length_m, 3) +
-           " m); the prior was widened: check the distances and the lamp's reference point"});
+           RoundedText(stated * prepared.scales.length_m, 3) + " m)" + odd +
+           "; the prior was widened: check the distances and the lamp's reference point"});
   Result<RobustEstimate> estimate = again(first.estimation);
   if (!estimate) return Propagate(std::move(estimate));
   first.estimate = *std::move(estimate);
@@ -224,7 +257,7 @@ Result<std::vector<Candidate>> SolveCandidates(const Prepared& prepared, const F
   Result<std::vector<Candidate>> solved = SolveInQuestion(prepared, model, observations);
   if (!solved) return solved;
   if (auto chosen = ChooseRobustly(*solved); !chosen) return Propagate(std::move(chosen));
-  if (auto widened = WidenOffset(*solved, prepared, light, warnings); !widened) {
+  if (auto widened = WidenOffset(*solved, prepared, observations, light, warnings); !widened) {
     return Propagate(std::move(widened));
   }
   return solved;

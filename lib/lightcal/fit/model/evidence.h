@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/fit/model/least_squares.h"
+#include "lightcal/fit/model/reading_model.h"
 
 namespace lightcal::fit {
 
@@ -27,6 +28,10 @@ template <class P>
   for (std::size_t i = 0; i < problem.rows.size(); ++i) {
     const auto& row = problem.rows[i];
     const double residual = ResidualAt(problem, i, theta.data());
+    if (row.form == RowForm::kCensored) {  // a limit: what lies within it has its whole probability
+      ln -= 0.5 * residual * residual;
+      continue;
+    }
     if (!row.walls || row.walls->rows == 1) {
       ln -= 0.5 * residual * residual + std::log(row.sigma);
       continue;

@@ -73,7 +73,7 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     if (observation.tilt_rad > kTurned_rad) {
       row.walls->scatter = std::hypot(prior.scatter, kTurnedScatter);
     }
-    seeing.push_back({lit_row, &*row.walls, &observation});
+    if (!observation.over_range) seeing.push_back({lit_row, &*row.walls, &observation});
   }
   if (seeing.empty()) return out;
   ShareScatter(std::move(seeing));

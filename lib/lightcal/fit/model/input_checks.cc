@@ -18,20 +18,21 @@ namespace {
 struct UnitSlip {
   double ln_ratio;   // of E d^2 in the two groups
   double tolerance;  // room for a distance offset, ambient light and the readings' own sigma
-  std::string_view ratio;
   std::string_view question_high;  // when the odd rows are too high
   std::string_view question_low;
 };
 constexpr std::array<UnitSlip, 6> kSlips = {{
-    {2.375874, 0.22, "10.76", "are their distances in feet, the others' in metres?",
-     "is their illuminance in footcandles, or the others' distance in feet?"},
-    {4.605170, 0.35, "100", "is their distance ten times too large?",
+    {2.375874, 0.22,
+     "are their distances in feet, the others' in metres, or did a decimal point slip?",
+     "is their illuminance in footcandles, the others' distance in feet, or did a decimal point "
+     "slip?"},
+    {4.605170, 0.35, "is their distance ten times too large?",
      "is their illuminance in a larger unit, or their distance ten times too small?"},
-    {6.907755, 0.45, "1 000", "is their illuminance in lx, the others' in klx?",
+    {6.907755, 0.45, "is their illuminance in lx, the others' in klx?",
      "is their illuminance in klx?"},
-    {7.345862, 0.2, "1 550", "is their distance in inches?", "is the others' distance in inches?"},
-    {9.210340, 0.6, "10 000", "is their distance in cm?", "is the others' distance in cm?"},
-    {13.815511, 0.7, "1 000 000", "is their distance in mm?", "is the others' distance in mm?"},
+    {7.345862, 0.2, "is their distance in inches?", "is the others' distance in inches?"},
+    {9.210340, 0.6, "is their distance in cm?", "is the others' distance in cm?"},
+    {13.815511, 0.7, "is their distance in mm?", "is the others' distance in mm?"},
 }};
 
 // Longer than what is lit with one lamp: a number in cm or inches taken for metres.
@@ -160,7 +161,14 @@ Result<void> CheckUnits(const Observations& observations, const std::string& lig
     const bool high_is_odd = sorted.size() - cut <= cut;
     const std::string odd =
         high_is_odd ? RowList(sorted, cut, sorted.size()) : RowList(sorted, 0, cut);
-    const std::string ratio(slip.ratio);
+    const std::string ratio = RoundedText(std::exp(apart), 3);
+    if (CountDistinctDistances(observations.rows) == 1) {
+      return Refused("units_ambiguous", light,
+                     odd + " (counted from 0): about " +
+                         (high_is_odd ? ratio + " times" : "1/" + ratio + " of") +
+                         " what the others read at the same distance: was the lamp set otherwise, "
+                         "or did a decimal point slip? Correct it, or take it back");
+    }
     return Refused(
         "units_ambiguous", light,
         odd +

@@ -108,11 +108,6 @@ bool RejectedAsNoBlunders(const std::vector<ReadAt>& places) {
   return 2 * count >= all || (most >= 2 && most == count && 4 * count > all);
 }
 
-std::string NameOf(const Observation& o) {
-  return "reading " + std::to_string(o.index) + " (" + RoundedText(o.raw_lx, 4) + " lx at " +
-         RoundedText(o.distance_m, 4) + " m)";
-}
-
 // The one reading without which the rest agree.
 std::optional<std::string> OneReading(const Estimation& all, const Prepared& prepared,
                                       const Observations& observations) {
@@ -129,7 +124,7 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
     const double ratio = all.rows[at].measured / RowIlluminance(all.rows[at], theta->data());
     const double foot = std::abs(std::log(ratio / kSquareFoot));
     const std::string apart =
-        NameOf(o) + " alone contradicts the others, by a factor of " + RoundedText(ratio, 3);
+        NameOfReading(o) + " alone contradicts the others, by a factor of " + RoundedText(ratio, 3);
     if (foot < 0.1) return apart + ": was its distance read in feet?";
     return apart + ": read it again, or was it another lamp's?";
   }
@@ -174,7 +169,7 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
     if (far.measured > near.measured || brighter_from_here) {
       const auto at =
           static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(places[i].row)]);
-      return "from " + NameOf(observations.rows[at]) +
+      return "from " + NameOfReading(observations.rows[at]) +
              " on there is more light than one lamp gives: does another shine too? Switch it off, "
              "or read the same places once with this lamp off";
     }
@@ -183,6 +178,11 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
 }
 
 }  // namespace
+
+std::string NameOfReading(const Observation& o) {
+  return "reading " + std::to_string(o.index) + " (" + RoundedText(o.raw_lx, 4) + " lx at " +
+         RoundedText(o.distance_m, 4) + " m)";
+}
 
 double ChiSquaredTail(double chi_squared, double dof) {
   const double spread = 2.0 / (9.0 * dof);

@@ -15,6 +15,9 @@ namespace lightcal::fit {
 // Hilferty 1931). dof >= 1/2.
 [[nodiscard]] double ChiSquaredTail(double chi_squared, double dof);
 
+// "reading 2 (58 lx at 1 m)", counted from 0 over the light's.
+[[nodiscard]] std::string NameOfReading(const Observation& o);
+
 // Refused: model_misfit, where readings at three distances or more contradict every lamp under its
 // priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where half
 // of them or neighbours on one side had to be thrown out, or where the offset they ask for

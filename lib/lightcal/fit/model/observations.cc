@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/reading_geometry.h"
+#include "lightcal/records/display_step.h"
 
 namespace lightcal::fit {
 namespace {
@@ -35,6 +37,7 @@ std::string RowName(const SessionReading& row, int index) {
 }
 
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
+constexpr double kApart = 4.0;    // standard deviations that no two readings of one light lie apart
 
 // Nothing else shines in a picture of the lamp itself; a meter beside the camera sees the room.
 bool ShowsTheLampAlone(const Reading& reading) {
@@ -58,6 +61,7 @@ class Collector {
     }
     if (auto separated = SubtractOthers(); !separated) return Propagate(std::move(separated));
     if (auto taken = SubtractShadows(); !taken) return Propagate(std::move(taken));
+    if (auto off = CheckOff(); !off) return Propagate(std::move(off));
     SubtractOff();
     FillSigmas();
     out_.by_camera = instruments_.size() == 1 && !out_.rows.empty() && out_.rows[0].picture;
@@ -66,18 +70,21 @@ class Collector {
   }
 
  private:
+  Result<void> Reject(const SessionReading& row, int index, const std::string& fault) {
+    out_.rejected.push_back(index);
+    out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
+    return {};
+  }
+
   Result<void> Add(const SessionReading& row, int index) {
     const Reading& reading = row.reading;
+    if (!row.fault.empty()) return Reject(row, index, row.fault);
     if (!reading.illuminance) return {};  // a colour reading
     const bool lit = reading.lamp == LampState::kOn && !reading.shadow_card;
     auto geometry = GeometryOfReading(light_, reading, RowName(row, index), lit);
     if (!geometry) return tl::unexpected(std::move(geometry).error());
     const std::string fault = FaultOfReading(light_, reading, *geometry, lit);
-    if (!fault.empty()) {
-      out_.rejected.push_back(index);
-      out_.warnings.push_back({"row_rejected", RowName(row, index), fault});
-      return {};
-    }
+    if (!fault.empty()) return Reject(row, index, fault);
     if (reading.shadow_card) ++out_.shadow_readings;
     Observation observation;
     observation.index = index;
@@ -96,7 +103,8 @@ class Collector {
     observation.instrument = InstrumentIndex(reading);
     const double sigma = SigmaOf(reading);
     relative_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
-                         reading.shadow_card, !lit && !observation.placed, &row});
+                         LastDigitOf(observation.instrument, reading, lit), reading.shadow_card,
+                         !lit && !observation.placed, &row});
     out_.rows.push_back(observation);
     return {};
   }
@@ -106,6 +114,20 @@ class Collector {
     if (reading.under_range) return kUnderRangeSigma;
     return std::max(kLeastSigma, instruments_.size() == 1 ? RepeatabilityRelative(session_, reading)
                                                           : SigmaRelative(session_, reading));
+  }
+
+  // 1 sigma of a display's last digit, absolute; behind a card what that hides holds it.
+  double LastDigitOf(int instrument, const Reading& reading, bool lit) {
+    if (!lit || reading.under_range || reading.over_range) return 0.0;
+    const auto [known, fresh] = display_step_lx_.try_emplace(instrument, 0.0);
+    if (fresh) known->second = DisplayStepOf(session_, reading);
+    const double step = known->second;
+    return reading.illuminance->value() < kStepsEnough * step ? SigmaOfDisplay(step) : 0.0;
+  }
+
+  // Of what row i shows.
+  [[nodiscard]] double SigmaLx(std::size_t i) const {
+    return std::hypot(out_.rows[i].raw_lx * relative_[i].sigma, relative_[i].last_digit_lx);
   }
 
   int InstrumentIndex(const Reading& reading) {
@@ -182,11 +204,11 @@ class Collector {
     for (const std::size_t j : candidates) {
       if (!of(j)) continue;
       const Observation& other = out_.rows[j];
-      double relative = relative_[j].sigma;
-      if (other.instrument != row.instrument) relative = std::hypot(relative, other.calibration);
+      const double scales =
+          other.instrument != row.instrument ? other.raw_lx * other.calibration : 0.0;
       constexpr double kSquarable_lx = 1e-150;
       const double sigma = std::max(
-          {std::abs(other.raw_lx) * relative, kLeastSigma * std::abs(row.raw_lx), kSquarable_lx});
+          {std::hypot(SigmaLx(j), scales), kLeastSigma * std::abs(row.raw_lx), kSquarable_lx});
       weights += 1.0 / (sigma * sigma);
       sum += other.raw_lx / (sigma * sigma);
     }
@@ -194,7 +216,7 @@ class Collector {
     row.measured_lx = row.raw_lx - sum / weights;
     row.card_lx = sum / weights;
     row.card_sigma_lx = 1.0 / std::sqrt(weights);
-    row.sigma_lx = std::hypot(row.raw_lx * relative_[i].sigma, row.card_sigma_lx);
+    row.sigma_lx = std::hypot(SigmaLx(i), row.card_sigma_lx);
     return true;
   }
 
@@ -239,16 +261,73 @@ class Collector {
     return {};
   }
 
+  [[nodiscard]] static bool SeesOtherLight(const Observation& row) {
+    return !row.data_sheet && !row.of_luminance;
+  }
+
+  // The least that the lamp gives at reading i by what it gives nearer: a quarter of it by the
+  // square of the distance, as offsets and walls leave more.
+  [[nodiscard]] double LeastByNearer(std::size_t i, double most_off_lx) const {
+    constexpr double kLeastPart = 0.25;
+    const Observation& row = out_.rows[i];
+    const auto alike = [&](const Observation& o) {
+      return o.lit && !o.over_range && SeesOtherLight(o) && !o.position_m && o.tilt_rad == 0.0 &&
+             o.off_axis_rad == row.off_axis_rad;
+    };
+    double least = 0.0;
+    if (!alike(row)) return least;
+    for (std::size_t k = 0; k < out_.rows.size(); ++k) {
+      const Observation& nearer = out_.rows[k];
+      if (!alike(nearer) || !(nearer.distance_m < row.distance_m)) continue;
+      const double lux = nearer.raw_lx - kApart * SigmaLx(k) - most_off_lx;
+      const double square = std::pow(nearer.distance_m / row.distance_m, 2.0);
+      least = std::max(least, kLeastPart * square * lux);
+    }
+    return least;
+  }
+
+  // A lamp only adds: with it off a meter shows no more at a reading's own place.
+  Result<void> CheckOff() const {
+    if (!HasDistanceLaw(light_.kind)) return {};
+    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
+      return !out_.rows[j].lit && !relative_[j].shadow && !relative_[j].no_place;
+    });
+    double most_off_lx = 0.0;
+    for (const std::size_t j : off) most_off_lx = std::max(most_off_lx, out_.rows[j].raw_lx);
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.over_range || row.ambient_subtracted || !SeesOtherLight(row)) continue;
+      for (const std::size_t j : off) {
+        const Observation& dark = out_.rows[j];
+        if (dark.instrument != row.instrument || !SamePlace(row, j)) continue;
+        const double apart = kApart * std::hypot(SigmaLx(i), SigmaLx(j));
+        const double lamp_lx = row.raw_lx - dark.raw_lx;
+        if (lamp_lx >= -apart && lamp_lx + apart >= LeastByNearer(i, most_off_lx)) continue;
+        return Refused("dark_above_lit", light_.name,
+                       "reading " + std::to_string(dark.index) +
+                           ": with the lamp off the meter "
+                           "showed " +
+                           RoundedText(dark.raw_lx, 4) + " lx, with it on at the same place " +
+                           RoundedText(row.raw_lx, 4) + ", which leaves " +
+                           (lamp_lx > 0.0 ? "less than the lamp gives there by its nearer reading"
+                                          : "nothing for the lamp") +
+                           ": were the two taken for one another, or did daylight change between "
+                           "them? Read both again, one after the other");
+      }
+    }
+    return {};
+  }
+
   // Whether what was read with the lamp off differs from place to place, beyond three standard
   // deviations of each reading.
   [[nodiscard]] bool Differ(const std::vector<std::size_t>& off) const {
-    constexpr double kApart = 3.0;
+    constexpr double kDiffer = 3.0;
     double least = std::numeric_limits<double>::infinity();
     double most = 0.0;
     for (const std::size_t j : off) {
       const double lux = out_.rows[j].raw_lx;
-      least = std::min(least, lux * (1.0 + kApart * relative_[j].sigma));
-      most = std::max(most, lux * (1.0 - kApart * relative_[j].sigma));
+      least = std::min(least, lux + kDiffer * SigmaLx(j));
+      most = std::max(most, lux - kDiffer * SigmaLx(j));
     }
     return most > least;
   }
@@ -317,13 +396,14 @@ class Collector {
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       Observation& row = out_.rows[i];
       if (row.differenced || row.ambient_subtracted) continue;
-      const double proportional = std::abs(row.raw_lx) * relative_[i].sigma;
-      row.sigma_lx = row.lit && row.raw_lx > 0.0 ? proportional : std::hypot(proportional, floor);
+      const double own = SigmaLx(i);
+      row.sigma_lx = row.lit && row.raw_lx > 0.0 ? own : std::hypot(own, floor);
     }
   }
 
   struct Extra {
-    double sigma = 0.0;  // relative
+    double sigma = 0.0;          // relative
+    double last_digit_lx = 0.0;  // 1 sigma
     bool shadow = false;
     bool no_place = false;  // an off or shadow reading without a distance
     const SessionReading* source = nullptr;
@@ -332,7 +412,8 @@ class Collector {
   const Session& session_;
   const LightDescription& light_;
   Observations out_;
-  std::vector<Extra> relative_;  // beside out_.rows
+  std::vector<Extra> relative_;            // beside out_.rows
+  std::map<int, double> display_step_lx_;  // of each instrument
   std::vector<std::string> instruments_;
 };
 
@@ -382,7 +463,7 @@ bool IsCardOf(const SessionReading& row, const Reading& reading) {
 int CountDistinctDistances(const std::vector<Observation>& rows) {
   std::vector<double> distances;
   for (const Observation& row : rows) {
-    if (row.lit) distances.push_back(row.distance_m);
+    if (row.lit && !row.over_range) distances.push_back(row.distance_m);
   }
   std::sort(distances.begin(), distances.end());
   int count = 0;

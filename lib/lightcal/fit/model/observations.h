@@ -67,16 +67,17 @@ struct Observations {
   Warnings warnings;
 };
 
-// Sorts the session's readings of `light`. A row that is not finite, has a distance of 0, lies
-// inside the lamp or faces away is rejected with the warning row_rejected. Refused:
-// negative_distance, no_distance, not_separated (other lamps were lit in every reading of this one,
-// and none of them was taken with this one off). A reading with other lamps lit counts by its
-// difference from one at the same place with this lamp off and the same others lit; every other one
-// by its difference from one behind a card at the same place, if there is one, or, where other
-// light differs from place to place, from one there with the lamp off. Where one
-// instrument took every reading, sigmas are its repeatability and `calibration` is to be added
-// after the fit; beside another's they hold both. Where the lamp has no position, readings that
-// give theirs keep a distance of 1 until locate.h finds it.
+// Sorts the session's readings of `light`. A row that was set aside (SetFaultyAside), lies inside
+// the lamp or faces away is rejected with the warning row_rejected. Refused: negative_distance,
+// no_distance, not_separated (other lamps were lit in every reading of this one, and none of them
+// was taken with this one off), dark_above_lit (a card's or a lamp-off reading above the lit one at
+// its place, or a lamp-off reading that leaves the lamp less than its nearer readings allow). A
+// reading with other lamps lit counts by its difference from one at the same place with this lamp
+// off and the same others lit; every other one by its difference from one behind a card at the same
+// place, if there is one, or, where other light differs from place to place, from one there with
+// the lamp off. Where one instrument took every reading, sigmas are its repeatability and
+// `calibration` is to be added after the fit; beside another's they hold both. Where the lamp has
+// no position, readings that give theirs keep a distance of 1 until locate.h finds it.
 [[nodiscard]] Result<Observations> CollectObservations(const Session& session,
                                                        const LightDescription& light);
 
@@ -95,6 +96,7 @@ struct Observations {
 [[nodiscard]] bool SamePlace(const Reading& a, const Reading& b);
 // Whether `row` is what was read behind the card where `reading` was, nothing else lit.
 [[nodiscard]] bool IsCardOf(const SessionReading& row, const Reading& reading);
+// Of lit readings that are no mere limit (over_range).
 [[nodiscard]] int CountDistinctDistances(const std::vector<Observation>& rows);
 
 }  // namespace lightcal::fit

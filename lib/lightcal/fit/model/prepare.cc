@@ -105,8 +105,6 @@ ReadingRow CardRowOf(const Observation& observation, const Scales& scales) {
 }
 
 void AddCardRows(const Observations& observations, Prepared& out) {
-  const bool some_open = std::ranges::any_of(
-      observations.rows, [](const Observation& o) { return o.lit && !o.differenced; });
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
     const Observation& observation = observations.rows[i];
     if (!observation.lit || !observation.differenced) continue;
@@ -114,7 +112,7 @@ void AddCardRows(const Observations& observations, Prepared& out) {
     if (own == out.observation.end()) continue;
     WidenByCard(observation, kCardHides, out.scales.illuminance_lx,
                 out.estimation.rows[static_cast<std::size_t>(own - out.observation.begin())]);
-    if (!some_open || !(observation.card_sigma_lx > 0.0)) continue;
+    if (!(observation.card_sigma_lx > 0.0)) continue;
     out.estimation.rows.push_back(CardRowOf(observation, out.scales));
     out.observation.push_back(static_cast<int>(i));
   }

@@ -32,7 +32,7 @@ struct Prepared {
 // Rows with their gains and sigmas, and which parameters are free under which prior: d0 from two
 // distinct distances on, E0 where lamp-off readings tell it, or four distinct distances where no
 // wall shines, the scale of the instrument that read most beside another's. What a card hid the
-// lamp from measures the walls for the readings without a card.
+// lamp from measures the walls.
 [[nodiscard]] Prepared Prepare(const Observations& observations, const ForwardModel& model);
 
 }  // namespace lightcal::fit

@@ -42,6 +42,17 @@ double RelativeTo(double predicted, double measured) {
   return measured == 0.0 ? 0.0 : std::copysign(kMost, measured);
 }
 
+// ResidualRow::facing_lx, in the solver's unit.
+std::optional<double> FacingOf(ReadingRow row, const Observation& o, const Theta& theta) {
+  if (o.tilt_rad == 0.0 && !o.off_axis && o.table_part == 1.0) return std::nullopt;
+  constexpr double kAlike = 1e-9;
+  const double turned = RowIlluminance(row, theta.data());
+  row.off_axis.reset();
+  row.direct_gain = 1.0;
+  const double facing = RowIlluminance(row, theta.data());
+  return std::abs(facing - turned) > kAlike * facing ? std::optional(facing) : std::nullopt;
+}
+
 }  // namespace
 
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
@@ -88,6 +99,9 @@ void NameLearned(const Estimation& estimation, const Covariance& covariance, boo
   }
   (learned(kAmbient) ? diagnostics.learned : diagnostics.prior).emplace_back("ambient");
   if (learned(kLnScale)) diagnostics.learned.emplace_back("instrument_scale");
+  if (std::ranges::any_of(estimation.rows, &ReadingRow::data_sheet)) {
+    diagnostics.prior.emplace_back("data_sheet");
+  }
   if (!estimation.rules[kLnWalls].free) return;
   (learned(kLnWalls) ? diagnostics.learned : diagnostics.prior).emplace_back("room_bounce");
 }
@@ -139,6 +153,8 @@ void FillResiduals(const RobustEstimate& estimate, const Estimation& all, const 
                           WallsPerCandela(row, estimate.theta.data()) *
                           ScaleOfRow(row, estimate.theta.data()) * prepared.scales.illuminance_lx;
     }
+    residual.facing_lx = FacingOf(row, o, estimate.theta);
+    if (residual.facing_lx) *residual.facing_lx *= prepared.scales.illuminance_lx;
     residual.relative = RelativeTo(predicted, o.measured_lx);
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
     residual.used = std::find(estimate.rejected.begin(), estimate.rejected.end(),

@@ -14,7 +14,8 @@ namespace lightcal::fit {
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
                 const Observations& observations, const std::string& light, Warnings& warnings);
 
-// Which of the parameters the readings decided, which their priors.
+// Which of the parameters the readings decided, which their priors; data_sheet among these where
+// the maker's figures are rows of the estimate.
 void NameLearned(const Estimation& estimation, const Covariance& covariance, bool distance_law,
                  FitDiagnostics& diagnostics);
 

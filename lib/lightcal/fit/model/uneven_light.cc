@@ -47,6 +47,15 @@ std::optional<Vec3> MiddleOf(const Observations& observations, const Vec3& lamp)
   return sum * (1.0 / count);
 }
 
+// By readings whose places are known.
+std::optional<UnevenLight> UnevenByPlaces(const Observations& observations,
+                                          const LightDescription& light) {
+  const std::optional<Vec3> sd = GradientOf(light);
+  if (!sd || !light.position_m) return std::nullopt;
+  const std::optional<Vec3> middle = MiddleOf(observations, *light.position_m);
+  return middle ? std::optional(UnevenLight{*sd, *middle}) : std::nullopt;
+}
+
 // The mean of unit vectors that are one is as long as they are.
 bool OfOneDirection(const Vec3& middle) {
   return Length(middle) > 1.0 - 0.5 * kOneDirection * kOneDirection;
@@ -67,10 +76,12 @@ std::optional<Vec3> GradientOf(const LightDescription& light) {
 
 std::optional<UnevenLight> UnevenOf(const Observations& observations,
                                     const LightDescription& light) {
+  if (auto placed = UnevenByPlaces(observations, light)) return placed;
   const std::optional<Vec3> sd = GradientOf(light);
-  if (!sd || !light.position_m) return std::nullopt;
-  const std::optional<Vec3> middle = MiddleOf(observations, *light.position_m);
-  return middle ? std::optional(UnevenLight{*sd, *middle}) : std::nullopt;
+  const bool read = std::ranges::any_of(observations.rows, &Observation::lit);
+  if (!sd || !light.position_m || !read) return std::nullopt;
+  const double length = light.aim ? Length(*light.aim) : 0.0;
+  return UnevenLight{*sd, length > 0.0 ? *light.aim * (1.0 / length) : Vec3{}};
 }
 
 bool TakenToShineEvenly(const Observations& observations, const LightDescription& light) {
@@ -86,7 +97,7 @@ std::string SayThatItShinesEvenly(const std::string& light) {
 }
 
 std::vector<double> UnevenTowards(const Observations& observations, const LightDescription& light) {
-  const std::optional<UnevenLight> uneven = UnevenOf(observations, light);
+  const std::optional<UnevenLight> uneven = UnevenByPlaces(observations, light);
   if (!uneven || OfOneDirection(uneven->middle)) return {};
   const auto directions = DirectionsOf(observations, *light.position_m);
   // Each reading is of the first direction that it is near to: a sphere has some hundred of them.

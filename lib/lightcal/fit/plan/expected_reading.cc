@@ -7,6 +7,7 @@
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/plan/reading_candidates.h"
+#include "lightcal/fit/predicted_parts.h"
 
 namespace lightcal::fit {
 namespace {
@@ -105,6 +106,31 @@ Lux ExpectedIlluminance(const Session& session, const FittedLight* now,
   }
   if (!planned.position_m) return Lux(candela);
   return Lux(candela * LuxPerCandelaAt(session.lights.front(), now, planned) + ambient);
+}
+
+std::optional<std::array<Lux, 3>> LikelyIlluminances(const Session& session, const FittedLight* now,
+                                                     const PlannedReading& planned,
+                                                     const Reading& like) {
+  const bool told = planned.distance && !planned.off_axis && now != nullptr && now->intensity_cd &&
+                    !now->distribution && planned.action != PlannedAction::kLampOff;
+  if (!told) return std::nullopt;
+  const bool card = planned.action == PlannedAction::kShadowCard;
+  const PredictedParts predicted = PredictParts(*now, *planned.distance);
+  std::vector<NormalPart> parts = card ? predicted.walls : predicted.whole;
+  if (parts.empty()) return std::nullopt;
+  // What the meter's calibration makes of the lamp it makes of the next reading too.
+  const bool same = now->meter && now->meter->name == InstrumentOf(like);
+  const double shared = same ? now->meter->calibration_relative : 0.0;
+  const double own = std::hypot(RepeatabilityRelative(session, like),
+                                same ? 0.0 : CalibrationRelative(session, like));
+  for (NormalPart& part : parts) {
+    part.sd = std::sqrt(std::max(0.0, part.sd * part.sd - shared * shared) + own * own);
+  }
+  const double beside = card ? AmbientOf(now) : 0.0;
+  const auto at = [&](double probability) {
+    return Lux(std::exp(QuantileOf(parts, probability)) + beside);
+  };
+  return std::array<Lux, 3>{at(1.0 / 6.0), at(0.5), at(5.0 / 6.0)};
 }
 
 }  // namespace lightcal::fit

@@ -2,6 +2,9 @@
 // What a meter will show where nobody has read yet. Internal to plan_readings.cc.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "lightcal/core/units.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/reading_plan.h"
@@ -14,5 +17,12 @@ namespace lightcal::fit {
 // for it and not known.
 [[nodiscard]] Lux ExpectedIlluminance(const Session& session, const FittedLight* now,
                                       const PlannedReading& planned);
+
+// Three that are equally probable (its quantiles at 1/6, 1/2 and 5/6), of a reading by the meter of
+// `like`; absent where `now` is one normal, for readings off the axis and by places.
+[[nodiscard]] std::optional<std::array<Lux, 3>> LikelyIlluminances(const Session& session,
+                                                                   const FittedLight* now,
+                                                                   const PlannedReading& planned,
+                                                                   const Reading& like);
 
 }  // namespace lightcal::fit

@@ -13,6 +13,7 @@
 #include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/plan/reading_trial.h"
+#include "lightcal/records/display_step.h"
 
 namespace lightcal {
 namespace {
@@ -38,16 +39,19 @@ Reading LikeTheLast(const Session& session) {
   return like;
 }
 
-// Of the meter: a tenth of a lux, as of most that people own, or the finest digit that its readings
-// show.
-double LastDigit(const Session& session) {
-  double digit = 0.1;
-  for (const SessionReading& row : session.readings) {
-    if (!row.reading.illuminance || row.reading.meter == kDataSheetMeter) continue;
-    const double lux = row.reading.illuminance->value();
-    while (digit > 1e-6 && std::abs(lux / digit - std::round(lux / digit)) > 1e-6) digit *= 0.1;
-  }
-  return digit;
+// Of the meter: a tenth of a lux, as of most that people own, or less where its readings show it.
+double LastDigit(double display_step_lx) {
+  constexpr double kOfMost_lx = 0.1;
+  return display_step_lx > 0.0 ? std::min(display_step_lx, kOfMost_lx) : kOfMost_lx;
+}
+
+// The display's step where it counts in a reading, so that planned ones keep it; else 0.
+double CoarseStep(const Session& session, const Reading& like) {
+  const double step = DisplayStepOf(session, like);
+  const bool counts = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
+    return IsLit(row.reading) && row.reading.illuminance->value() < kStepsEnough * step;
+  });
+  return counts ? step : 0.0;
 }
 
 // What is to be small: the interval of the intensity and, of a beam, that of its angle.
@@ -80,7 +84,8 @@ class Planner {
         reach_m_(reach_m),
         only_angles_(only_angles),
         like_(LikeTheLast(session_)),
-        last_digit_lx_(LastDigit(session_)) {}
+        last_digit_lx_(LastDigit(DisplayStepOf(session_, like_))),
+        coarse_step_lx_(CoarseStep(session_, like_)) {}
 
   void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
 
@@ -223,7 +228,7 @@ class Planner {
   }
 
   [[nodiscard]] fit::KnownSoFar Known() const {
-    return {session_, settings_, like_, now_ ? &*now_ : nullptr};
+    return {session_, settings_, like_, now_ ? &*now_ : nullptr, coarse_step_lx_};
   }
 
   // None where that gives no interval, or no meter could read it.
@@ -333,6 +338,7 @@ class Planner {
   bool only_angles_;
   Reading like_;
   double last_digit_lx_;
+  double coarse_step_lx_;
   std::vector<PlannedReading> skip_;
   std::optional<FittedLight> now_;
   std::optional<PlannedReading> stands_;  // where the meter does
@@ -385,14 +391,14 @@ Result<ReadingPlan> PlanReadings(const Session& session, const std::string& ligh
                                  std::optional<double> reach_m) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, reach_m.value_or(fit::kFarthestReach)).Plan(steps);
+  return Planner(*std::move(alone), settings, reach_m.value_or(LadderWishes{}.reach_m)).Plan(steps);
 }
 
 Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
                               const FitSettings& settings) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, fit::kFarthestReach, true).Plan(1);
+  return Planner(*std::move(alone), settings, LadderWishes{}.reach_m, true).Plan(1);
 }
 
 Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,

@@ -23,13 +23,14 @@ struct ReadingPlan {
 
 // c-optimal: of the readings a person could take next the one after which the interval of the
 // intensity is shortest, found by taking each in thought (at the illuminance the present estimate
-// predicts, by the meter used last) and fitting again; then the next on top of it. Candidates are
-// distances in geometric steps from 0.25 m to 10 m (`reach_m`, where a meter cannot stand so far
-// from the lamp) within a factor sqrt(8) of those taken, places
-// round those taken, across a spot's beam and on the axis of a lamp whose place and aim are known,
-// angles off the axis of a lamp that was read off its axis (there what counts is the product of
-// both intervals, the intensity's and the beam angle's), a shadow card where a reading stands, the
-// lamp off. Before any reading the plan is that of a lamp of its data sheet, or of any: relative
+// predicts, by the meter used last; where lamp and room may be several things at three equally
+// probable ones, whose median width counts) and fitting again; then the next on top of it.
+// Candidates are distances in geometric steps from 0.25 m to `reach_m` (4 m; no farther than a
+// stated room goes, as far as was read) within a factor sqrt(8) of those taken, places round those
+// taken, across a spot's beam and on the axis of a lamp whose place and aim are known, angles off
+// the axis of a lamp that was read off its axis (there what counts is the product of both
+// intervals, the intensity's and the beam angle's), a shadow card where a reading stands, the lamp
+// off. Before any reading the plan is that of a lamp of its data sheet, or of any: relative
 // uncertainty does not depend on its strength. Refused: as FitSession (what the refusal asks for
 // comes first), unknown_light.
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "lightcal/fit/model/observations.h"
@@ -30,9 +31,33 @@ double SizeOf(const LightDescription& light) {
   return size;
 }
 
+double UnitOfLength(double metres) { return metres < 1.0 ? 0.01 : 0.1; }
 double RoundedLength(double metres) {
-  const double unit = metres < 1.0 ? 0.01 : 0.1;
+  const double unit = UnitOfLength(metres);
   return std::round(metres / unit) * unit;
+}
+// Rounded, but no longer than `most`.
+double RoundedWithin(double metres, double most) {
+  const double rounded = RoundedLength(std::min(metres, most));
+  const double unit = UnitOfLength(metres);
+  return rounded > most * (1.0 + 1e-9) ? std::floor(most / unit + 1e-9) * unit : rounded;
+}
+
+// How far a meter can stand from a lamp in that room: along its aim where both are known.
+double ReachIn(const Vec3& size_m, const LightDescription& light) {
+  const auto& from = light.position_m;
+  if (!from || !IsInRoom(*from, size_m)) return Length(size_m);
+  const Vec3 low{-0.5 * size_m[0], -0.5 * size_m[1], 0.0};
+  const Vec3 high = low + size_m;
+  double along = std::numeric_limits<double>::infinity();
+  Vec3 farthest{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    farthest[k] = std::max((*from)[k] - low[k], high[k] - (*from)[k]);
+    if (!light.aim || (*light.aim)[k] == 0.0) continue;
+    const double wall = (*light.aim)[k] > 0.0 ? high[k] : low[k];
+    along = std::min(along, (wall - (*from)[k]) / (*light.aim)[k]);
+  }
+  return light.aim ? along * Length(*light.aim) : Length(farthest);
 }
 
 // What readings of one light could come next.
@@ -46,6 +71,7 @@ class Candidates {
         dark_(session.surroundings == Surroundings::kDark),
         reach_(reach_m) {
     for (const SessionReading& row : session.readings) Note(row.reading);
+    if (room_) reach_ = std::min(reach_, ReachIn(room_->size_m, light));
     for (const double d : distances_) reach_ = std::max(reach_, d);
     for (const Place& place : places_) {
       floor_m_ = std::min(floor_m_.value_or(0.0), place.position[2]);
@@ -128,7 +154,8 @@ class Candidates {
     }
     for (double d : distances) {
       const bool taken = std::find(distances_.begin(), distances_.end(), d) != distances_.end();
-      if (!taken) d = RoundedLength(std::clamp(d, clear, std::max(clear, reach_)));
+      if (!taken && clear > reach_) continue;
+      if (!taken) d = RoundedWithin(std::max(d, clear), reach_);
       const bool listed = std::any_of(out.begin(), out.end(), [d](const PlannedReading& other) {
         return other.action == PlannedAction::kRead && other.distance &&
                SameDistance(other.distance->value(), d);

@@ -9,8 +9,6 @@
 
 namespace lightcal::fit {
 
-inline constexpr double kFarthestReach = 10.0;  // metres
-
 // Of the session's first (only) light, as plan_readings.h says; `fitted` is what is known of it.
 // None stands farther than `reach_m`, unless one already does.
 [[nodiscard]] std::vector<PlannedReading> ReadingCandidates(const Session& session,

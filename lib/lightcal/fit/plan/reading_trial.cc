@@ -24,7 +24,8 @@ std::optional<double> PredictedOfLast(const FittedLight& light) {
 
 std::optional<ReadingTrial> TryAt(const KnownSoFar& known, PlannedReading planned, double lux) {
   if (!(lux >= 0.0)) return std::nullopt;
-  planned.expected = Lux(lux);
+  const double step = known.display_step_lx;
+  planned.expected = Lux(step > 0.0 ? std::round(lux / step) * step : lux);
   Session with = known.session;
   with.readings.push_back(PlannedRow(planned, known.like));
   const std::optional<FittedLight> light = FitAlone(with, known.settings);
@@ -72,8 +73,34 @@ std::optional<FittedLight> FitAlone(const Session& session, const FitSettings& s
 }
 
 std::optional<ReadingTrial> TryExpected(const KnownSoFar& known, const PlannedReading& planned) {
-  return TryAt(known, planned, ExpectedIlluminance(known.session, known.now, planned).value());
+  const auto likely = LikelyIlluminances(known.session, known.now, planned, known.like);
+  const Lux expected =
+      likely ? (*likely)[1] : ExpectedIlluminance(known.session, known.now, planned);
+  auto trial = TryAt(known, planned, expected.value());
+  if (trial) trial->likely = likely;
+  return trial;
 }
+
+namespace {
+
+// Each width of the three trials is the median of theirs.
+ReadingTrial MedianOf(const std::optional<ReadingTrial>& low, ReadingTrial middle,
+                      const std::optional<ReadingTrial>& high) {
+  const auto median = [&](double PlannedReading::* width) {
+    constexpr double kAll = std::numeric_limits<double>::infinity();
+    std::array<double, 3> all = {low ? low->planned.*width : kAll, middle.planned.*width,
+                                 high ? high->planned.*width : kAll};
+    std::ranges::sort(all);
+    return all[1];
+  };
+  const double relative = median(&PlannedReading::u95_relative);
+  const double stops = median(&PlannedReading::u95_stops);
+  middle.planned.u95_relative = relative;
+  middle.planned.u95_stops = stops;
+  return middle;
+}
+
+}  // namespace
 
 bool IsNearlySettled(const ReadingTrial& trial) {
   constexpr double kPredictsItself = 0.01;
@@ -83,6 +110,12 @@ bool IsNearlySettled(const ReadingTrial& trial) {
 std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial first) {
   constexpr double kSlowest = 0.97;
   constexpr int kMostFits = 2;
+  if (first.likely) {
+    const auto at = [&](std::size_t k) {
+      return TryAt(known, first.planned, (*first.likely)[k].value());
+    };
+    return MedianOf(at(0), first, at(2));
+  }
   std::optional<ReadingTrial> trial = std::move(first);
   double former_off = 0.0;
   for (int i = 0; i < kMostFits && trial && trial->ln_off != 0.0; ++i) {

@@ -2,6 +2,7 @@
 // A reading that nobody has taken yet, tried in thought: what a fit with it would leave open.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "lightcal/fit/fit_light.h"
@@ -11,12 +12,14 @@
 namespace lightcal::fit {
 
 // What is known before the reading: a session of one light, a reading by the meter that would take
-// the next, and the light as the session's readings give it (null: not at all).
+// the next, the light as the session's readings give it (null: not at all), and the step by
+// which that meter will show the next (0: none that counts).
 struct KnownSoFar {
   const Session& session;
   const FitSettings& settings;
   const Reading& like;
   const FittedLight* now = nullptr;
+  double display_step_lx = 0.0;
 };
 
 // A reading at an illuminance (planned.expected), and what a fit with it makes of both: u95 of the
@@ -24,6 +27,7 @@ struct KnownSoFar {
 struct ReadingTrial {
   PlannedReading planned;
   double ln_off = 0.0;  // of what the fit predicts for it over what it was taken at; 0: not told
+  std::optional<std::array<Lux, 3>> likely{};  // what it may show (LikelyIlluminances)
 };
 
 // 95 % of a beam's full angle, degrees, the larger side; none where there is no beam to be known.
@@ -40,7 +44,8 @@ struct ReadingTrial {
 [[nodiscard]] std::optional<FittedLight> FitAlone(const Session& session,
                                                   const FitSettings& settings);
 
-// At what the fit so far expects. None where that is nothing, or the fit with it fails.
+// At what the fit so far expects, the middle one of what it may show. None where that is nothing,
+// or the fit with it fails.
 [[nodiscard]] std::optional<ReadingTrial> TryExpected(const KnownSoFar& known,
                                                       const PlannedReading& planned);
 
@@ -51,9 +56,11 @@ struct ReadingTrial {
 // interval: .139 among 865 that were tried; those further off, up to .69.
 inline constexpr double kMostBySettling = 0.15;
 
-// At the illuminance at which the reading would change nothing: what a fit with it predicts for it,
-// and again. Where it tells much, the second answer is still drawn to the first guess, and the
-// limit of the series is taken (Aitken, in logarithms). None where a fit fails.
+// What the reading leaves open, whatever it shows: the median of what each of `likely` leaves, one
+// that no fit explains leaving all. Of a lamp that one normal says, at the illuminance at which the
+// reading would change nothing: what a fit with it predicts for it, and again. Where it tells much,
+// the second answer is still drawn to the first guess, and the limit of the series is taken
+// (Aitken, in logarithms). None where a fit fails.
 [[nodiscard]] std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial trial);
 
 }  // namespace lightcal::fit

@@ -124,6 +124,9 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
 Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest& request,
                                                       const Bracket& bracket,
                                                       const FrameLoader& load, Warnings& warnings) {
+  if (bracket.frames.empty()) {
+    return Refused("no_frames", "bracket", "holds no frame; open one or more pictures of a scene");
+  }
   const auto labels = LabelsOf(bracket.frames, request.anchor.has_value());
   if (!labels) return tl::unexpected(labels.error());
   if (request.camera) {

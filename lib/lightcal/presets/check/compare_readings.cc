@@ -20,8 +20,9 @@ std::vector<const Reading*> ReadingsOf(const Session& session, const std::string
   return out;
 }
 
-// A lamp as the session has it. A lamp that is turned somewhere has its effective source behind the
-// place its distances count from, by its offset; of any other that is a radius.
+// A lamp where its readings found it, else as the session has it. A lamp that is turned somewhere
+// has its effective source behind the place its distances count from, by its offset; of any other
+// that is a radius.
 struct MeteredLamp {
   const LightDescription& description;
   const FittedLight& fitted;
@@ -33,9 +34,10 @@ struct MeteredLamp {
 
 MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
   MeteredLamp lamp{description, fitted};
-  lamp.place_m = description.position_m.value_or(Vec3{});
+  lamp.place_m = fitted.position_m.value_or(description.position_m.value_or(Vec3{}));
   const LightKind kind = description.kind;
-  if (description.aim && kind != LightKind::kDome) lamp.aim = *description.aim;
+  const auto aim = fitted.aim ? fitted.aim : description.aim;
+  if (aim && kind != LightKind::kDome) lamp.aim = *aim;
   if (!description.aim && kind == LightKind::kTube && description.axis) {
     lamp.aim = AxesOfAim(*description.axis).c0;  // any that is square to it
   }

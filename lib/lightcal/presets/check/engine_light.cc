@@ -29,8 +29,7 @@ double Cone(const EngineLight& light, double cosine) {
 
 double Window(const EngineLight& light, double d) {
   if (!(light.range_m > 0.0)) return 1.0;
-  const double edge = Clamp01(1.0 - std::pow(d / light.range_m, 4));
-  return edge * edge;
+  return std::pow(Clamp01(1.0 - std::pow(d / light.range_m, 4)), light.window_power);
 }
 
 // Sum over small pieces of L cos cos dA/d^2.

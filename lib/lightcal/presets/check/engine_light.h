@@ -38,7 +38,8 @@ struct EngineLight {
   ConeLaw law = ConeLaw::kSquared;
   double cone_power = 1.0;
   double decay = 2.0;                    // light falls with 1/d^decay
-  double range_m = 0.0;                  // of the window (1 - (d/range)^4)^2, clamped; 0 = none
+  double range_m = 0.0;                  // of the window (1 - (d/range)^4)^p, clamped; 0 = none
+  double window_power = 2.0;             // p: 1 of KHR_lights_punctual
   double width_m = 0.0, height_m = 0.0;  // a tube: its length and its diameter
   bool round = false;
   // Instead of a cone: intensity over that on the axis, at the middles of even steps of half a

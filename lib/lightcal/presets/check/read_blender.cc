@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The preset inside a <stem>.blender.py, by what Cycles makes of its numbers.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string_view>
 
 #include "lightcal/presets/check/json_reader_parts.h"
+#include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
@@ -61,9 +64,20 @@ EngineLight FromBlender(const Json& json, double lumens_per_watt) {
   return light;
 }
 
+// The script runs itself with its last statement; without it nothing comes into the scene.
+void RequireItsCall(std::string_view text) {
+  const std::size_t guard = std::min(text.rfind("__main__"), text.size());
+  if (text.substr(guard).find("run(") == std::string_view::npos) {
+    ThrowCutOff("the call of run() that ends the script");
+  }
+  const std::size_t line = text.rfind('\n', guard);
+  RequireClosed(text.substr(line == std::string_view::npos ? 0 : line), kPythonSyntax);
+}
+
 }  // namespace
 
 std::vector<EngineLight> ReadBlender(const std::string& text, const FileText& /*beside*/) {
+  RequireItsCall(text);
   const Json root = Json::parse(ObjectFrom(text, text.find("json.loads(r'''")));
   std::vector<EngineLight> lights;
   for (const Json& json : root.at("lights")) {

@@ -24,6 +24,7 @@ EngineLight FromGltf(const Json& node, const Json& definition) {
   light.emitted = definition.value("intensity", 1.0);
   if (definition.contains("color")) light.emitted *= LuminanceFrom(definition["color"]);
   light.range_m = definition.value("range", 0.0);
+  light.window_power = 1.0;
   const std::string type = definition.at("type").get<std::string>();
   light.kind = type == "spot"          ? EngineLightKind::kSpot
                : type == "directional" ? EngineLightKind::kSun

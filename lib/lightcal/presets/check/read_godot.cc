@@ -7,14 +7,19 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
 namespace {
+
+constexpr std::string_view kGodotEndsWith = "; This scene ends with the line \"; end\".";
+constexpr std::string_view kGodotEnd = "\n; end";
 
 struct Section {
   std::string kind, type, name;  // "node", "OmniLight3D", "key"
@@ -44,6 +49,27 @@ std::string Attribute(std::string_view line, const std::string& word) {
   return out;
 }
 
+bool IsLight(const Section& section) {
+  return section.kind == "node" &&
+         (section.type == "OmniLight3D" || section.type == "SpotLight3D" ||
+          section.type == "DirectionalLight3D");
+}
+
+// A scene has no end of its own: ours says in its head by which line it ends, or, of before it did,
+// says of each light at its end what was measured. The editor, which writes whole files, drops our
+// comments; of any other file the last line is whole.
+void RequireLastLine(const std::string& text, const Section& last) {
+  constexpr std::string_view kCloses = "\n]})\"";
+  if (text.find(kGodotEndsWith) != std::string::npos) {
+    if (text.find(kGodotEnd) == std::string::npos) ThrowCutOff("its last line, \"; end\",");
+  } else if (text.find("\n; lightcal ") != std::string::npos && IsLight(last) &&
+             !last.values.contains("metadata/lightcal")) {
+    ThrowCutOff("what ends its light \"" + last.name + "\"");
+  } else if (kCloses.find(text.back()) == std::string_view::npos) {
+    ThrowCutOff("the end of its last line");
+  }
+}
+
 std::vector<Section> SectionsOf(const std::string& text) {
   std::vector<Section> sections;
   std::string key;  // of a dictionary that is still open
@@ -68,6 +94,8 @@ std::vector<Section> SectionsOf(const std::string& text) {
   if (sections.empty() || sections.front().kind != "gd_scene") {
     throw std::runtime_error("it has no [gd_scene]");
   }
+  if (!key.empty()) ThrowCutOff("the } of " + key);
+  RequireLastLine(text, sections.back());
   return sections;
 }
 
@@ -177,8 +205,7 @@ std::vector<EngineLight> ReadGodot(const std::string& text, const FileText& /*be
   const std::vector<Section> sections = SectionsOf(text);
   const double exposure = ExposureIn(sections);
   for (const Section& section : sections) {
-    if (section.kind == "node" && (section.type == "OmniLight3D" || section.type == "SpotLight3D" ||
-                                   section.type == "DirectionalLight3D")) {
+    if (IsLight(section)) {
       lights.push_back(FromNode(section));
     }
     constexpr double kSky = 2.0;  // background_mode: what a picture lights is not in this text

@@ -2,8 +2,11 @@
 // The preset inside a <stem>.three.js, by what three.js makes of its numbers.
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
+#include <string_view>
 
 #include "lightcal/presets/check/json_reader_parts.h"
+#include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
@@ -55,9 +58,21 @@ EngineLight FromThree(const Json& json) {
   return light;
 }
 
+// Functions follow the preset, and the last ends with its brace.
+void RequireWhole(const std::string& text) {
+  const std::size_t preset = text.find("export const preset");
+  if (preset == std::string::npos) throw std::runtime_error("it exports no preset");
+  RequireClosed(std::string_view(text).substr(preset), kJavaScriptSyntax);
+  if (text.find("function buildThree") == std::string::npos) ThrowCutOff("buildThree()");
+  if (!text.ends_with('\n') && !text.ends_with('}') && !text.ends_with(';')) {
+    ThrowCutOff("the end of its last statement");
+  }
+}
+
 }  // namespace
 
 std::vector<EngineLight> ReadThree(const std::string& text, const FileText& /*beside*/) {
+  RequireWhole(text);
   return EachLight(Json::parse(ObjectFrom(text, text.find("export const preset"))), &FromThree);
 }
 

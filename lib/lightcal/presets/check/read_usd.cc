@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
@@ -80,6 +81,7 @@ class Variants {
 // goes on with one that was there.
 std::vector<Prim> PrimsOf(const std::string& text) {
   if (!text.starts_with("#usda")) throw std::runtime_error("it does not begin with #usda");
+  RequireClosed(text, kUsdaSyntax);
   std::vector<Prim> prims(1);  // the layer's own metadata
   std::size_t current = 0;
   Variants variants;

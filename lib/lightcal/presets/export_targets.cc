@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lightcal/presets/export_presets.h"
+#include "lightcal/presets/export_targets.h"
 
 #include <algorithm>
 #include <array>
@@ -102,7 +102,7 @@ Result<std::vector<std::optional<RigPlace>>> RigsOf(const LightFile& lights,
 
 }  // namespace
 
-Result<ExportedPresets> ExportPresets(const LightFile& all_lights,
+Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
                                       const std::vector<std::string>& targets,
                                       const std::string& stem, const PresetOptions& asked) {
   auto chosen = ChosenTargets(targets);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights as the files of several engines at once: names and texts, nothing is written.
+// Lights as the files of several engines at once, where all that `options` are to hold is known. Of
+// lights as they were fitted or read ask ExportPresets (calibrate/export_presets.h), which adds what
+// their controls do.
 #pragma once
 
 #include <string>
@@ -23,9 +25,9 @@ struct ExportedPresets {
 // left out. With options.into: the lamps it names onto lights that are there, every target named
 // (none named = every one that can).   Wrong usage: an unknown target (names the nearest).
 // Refused: into_unsupported, and as CheckInto; else refuses and fails as Exporter.
-[[nodiscard]] Result<ExportedPresets> ExportPresets(const LightFile& lights,
-                                                    const std::vector<std::string>& targets = {},
-                                                    const std::string& stem = "lights",
-                                                    const PresetOptions& options = {});
+[[nodiscard]] Result<ExportedPresets> ExportTargets(const LightFile& lights,
+                                                    const std::vector<std::string>& targets,
+                                                    const std::string& stem,
+                                                    const PresetOptions& options);
 
 }  // namespace lightcal
