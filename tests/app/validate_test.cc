@@ -93,9 +93,9 @@ TEST(ValidateCommand, RefusesWhatIsCutOff) {
   command.emplace_back("--json");
   const CliResult result = RunLightcal(command);
   EXPECT_EQ(result.exit_code, 3);
-  for (const json& file : json::parse(result.out)["files"]) {
-    EXPECT_FALSE(file["ok"]) << file;
-  }
+  const json judged = json::parse(result.out)["files"];
+  EXPECT_EQ(judged.size(), files.size());
+  for (const json& file : judged) EXPECT_FALSE(file["ok"]) << file;
   const CliResult check = RunLightcal(
       {"check", folder.path() + "/50/three_real_lights.blender.py", "--session", session});
   EXPECT_EQ(check.exit_code, 3);
