@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 
 namespace lightcal::devices::files {
 namespace {
@@ -189,11 +190,6 @@ bool IsWord(CsvQuantity quantity) {
 
 bool IsLeftOut(CsvQuantity quantity) {
   return quantity == CsvQuantity::kUnknown || quantity == CsvQuantity::kLeftOut;
-}
-
-char LimitSignOf(std::string_view cell) {
-  const std::string_view content = TrimBlanks(cell);
-  return content.starts_with('>') || content.starts_with('<') ? content.front() : '\0';
 }
 
 std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_t column) {

@@ -27,9 +27,6 @@ struct CsvTable {
 [[nodiscard]] bool IsWord(CsvQuantity quantity);
 [[nodiscard]] bool IsLeftOut(CsvQuantity quantity);
 
-// '>' of a cell ">400", '<' of "< 40": light beyond the meter's range; else '\0'.
-[[nodiscard]] char LimitSignOf(std::string_view cell);
-
 // Absent where the cell is no finite number; in a column of illuminance, of a limit its number.
 [[nodiscard]] std::optional<double> NumberAt(const CsvTable& table, const Row& row,
                                              std::size_t column);

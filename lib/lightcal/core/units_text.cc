@@ -89,6 +89,11 @@ bool IsOverloadWord(std::string_view text) {
   return std::ranges::find(kWords, LowerAscii(TrimBlanks(text))) != kWords.end();
 }
 
+char LimitSignOf(std::string_view text) {
+  const std::string_view content = TrimBlanks(text);
+  return content.starts_with('>') || content.starts_with('<') ? content.front() : '\0';
+}
+
 Result<Metres> ParseLength(std::string_view text) {
   return Wrap<Metres>(ParseWith(text, kLengthUnits, "a length"));
 }

@@ -32,6 +32,9 @@ struct NumberWithUnit {
 
 // "OL", "Over": what meters show of light above their range, which says no number.
 [[nodiscard]] bool IsOverloadWord(std::string_view text);
+// '>' of ">400", '<' of "< 40": a limit instead of a number, the end of the meter's range that the
+// light lies beyond; else '\0'.
+[[nodiscard]] char LimitSignOf(std::string_view text);
 inline constexpr std::string_view kWriteALimit =
     "light beyond the meter's range is written as a limit, the end of that range: >20000";
 

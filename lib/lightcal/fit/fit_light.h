@@ -44,9 +44,9 @@ struct FittedSession {
 // (locate.h). A light that was never read answers from its data sheet (everything a prior), or,
 // beside others that were read, is left out with the warning no_readings. A reading with a fault
 // (FaultOf) is rejected and counted, with the warning row_rejected, as in a journal. Refused: as
-// CheckSession, and no_readings, no_valid_readings, over_range, units_ambiguous (readings apart by a ratio of units),
-// increasing_with_distance, negative_distance, underdetermined (a strength open by a factor of 1000
-// each way), out_of_range, bad_beam, bad_effects, and as LocateLamp.
+// CheckSession, and no_readings, no_valid_readings, over_range, units_ambiguous (readings apart by
+// a ratio of units), increasing_with_distance, negative_distance, underdetermined (a strength open
+// by a factor of 1000 each way), out_of_range, bad_beam, bad_effects, and as LocateLamp.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval

@@ -41,6 +41,29 @@ fit::ReadingRow RowFacing(const FittedLight& light, double distance_m) {
   return row;
 }
 
+const std::optional<Uncertain>& StrengthOf(const FittedLight& light) {
+  return light.illuminance_lx ? light.illuminance_lx : light.intensity_cd;
+}
+
+double OffsetOf(const FittedLight& light) {
+  return light.distance_offset_m ? light.distance_offset_m->value : 0.0;
+}
+
+// Of a meter that faces a lamp of some strength and stands before its effective source.
+Result<fit::ReadingRow> RowBefore(const FittedLight& light, Metres distance) {
+  const std::optional<Uncertain>& strength = StrengthOf(light);
+  if (!strength || !(strength->value > 0.0)) {
+    return Refused("no_intensity", light.name, "the light has no intensity to predict from");
+  }
+  const fit::ReadingRow row = RowFacing(light, light.illuminance_lx ? 1.0 : distance.value());
+  if (!(distance.value() > 0.0) || !(row.distance + OffsetOf(light) > 0.0)) {
+    return Refused("bad_distance", light.name,
+                   "no illuminance is defined " + ShortestText(distance.value()) +
+                       " m from the lamp: its effective source lies there or beyond");
+  }
+  return row;
+}
+
 // Standard deviation of ln I of an estimate that has no covariance: a data sheet's.
 double SdOfLog(const Uncertain& u) {
   if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
@@ -155,22 +178,11 @@ PredictedParts PredictParts(const FittedLight& light, Metres distance) {
 
 Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres distance,
                                                 double sigma_relative) {
-  const bool no_distance = light.illuminance_lx.has_value();
-  const auto& strength = no_distance ? light.illuminance_lx : light.intensity_cd;
-  if (!strength || !(strength->value > 0.0)) {
-    return Refused("no_intensity", light.name, "the light has no intensity to predict from");
-  }
-  const double d0 = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
-  const double ambient = light.ambient_lx ? light.ambient_lx->value : 0.0;
-  const fit::ReadingRow row = RowFacing(light, no_distance ? 1.0 : distance.value());
-  if (!(distance.value() > 0.0) || !(row.distance + d0 > 0.0)) {
-    return Refused("bad_distance", light.name,
-                   "no illuminance is defined " + ShortestText(distance.value()) +
-                       " m from the lamp: its effective source lies there or beyond");
-  }
-  if (light.in_room.size() > 1 && !no_distance) {
+  const auto row = RowBefore(light, distance);
+  if (!row) return tl::unexpected(row.error());
+  if (light.in_room.size() > 1 && !light.illuminance_lx) {
     std::vector<NormalPart> alone;
-    for (const PartAtDistance& part : PartsAt(light, row, distance.value())) {
+    for (const PartAtDistance& part : PartsAt(light, *row, distance.value())) {
       alone.push_back(part.Alone());
     }
     if (!alone.empty()) {
@@ -178,9 +190,11 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
                                   UncertainFromLogMixture(Read(alone, sigma_relative))};
     }
   }
-  const fit::Theta theta = {std::log(strength->value), d0, ambient};
-  const fit::RowDerivative at = fit::DifferentiateRow(row, theta);
-  const double variance = VarianceOfLog(light, *strength, at.gradient);
+  const Uncertain& strength = *StrengthOf(light);
+  const double ambient = light.ambient_lx ? light.ambient_lx->value : 0.0;
+  const fit::Theta theta = {std::log(strength.value), OffsetOf(light), ambient};
+  const fit::RowDerivative at = fit::DifferentiateRow(*row, theta);
+  const double variance = VarianceOfLog(light, strength, at.gradient);
   return PredictedIlluminance{
       UncertainFromLog(-at.residual, std::sqrt(variance)),
       UncertainFromLog(-at.residual, std::sqrt(variance + sigma_relative * sigma_relative))};
@@ -188,8 +202,7 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
 
 Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light, Metres distance,
                                                        double sigma_relative) {
-  const auto alone = PredictIlluminance(light, distance, sigma_relative);
-  if (!alone) return tl::unexpected(alone.error());
+  if (auto before = RowBefore(light, distance); !before) return Propagate(std::move(before));
   const fit::PredictedParts parts = fit::PredictParts(light, distance);
   if (parts.walls.empty()) return std::optional<IlluminanceInRoom>();
   return IlluminanceInRoom{UncertainFromLogMixture(parts.whole),

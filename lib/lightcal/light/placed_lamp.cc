@@ -190,9 +190,7 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
   };
   const double here = lux(lamp.source, lamp.pose);
   const bool everywhere = IsEverywhere(lamp.source);
-  const bool mixed = !everywhere && !doubt.parts.empty();
-  const std::optional<double> of_parts =
-      mixed ? VarianceOfParts(lamp, at, detail) : std::optional<double>();
+  const std::optional<double> of_parts = VarianceOfParts(lamp, at, detail);
   if (of_parts) variance += *of_parts;
   if (!of_parts && !doubt.place) variance += here * here * doubt.variance_ln;
   if (doubt.variance_offset > 0.0 && !everywhere && !of_parts) {

@@ -93,10 +93,10 @@ struct MatchAnswer {
 // observer's; in steps of 0.05, within which fewer gels come first, then those that cost less
 // light. A stack is not listed where one before it has no more than 0.05 stops, 1 point of SSI or a
 // gel to lose against it; fewer than `count` are listed where the 4,000 nearest hold no more within
-// `reach` (always the nearest). The
-// same inputs give the same answer on any number of threads. Refused: "unreachable" (the nearest of
-// all stacks is farther than `reach` in u'v': says which it is and what is left), "blind_view",
-// "bad_spectrum", "truncated_spectrum", "coarse_spectrum", "noisy_spectrum".
+// `reach` (always the nearest). The same inputs give the same answer on any number of threads.
+// Refused: "unreachable" (the nearest of all stacks is farther than `reach` in u'v': says which it
+// is and what is left), "blind_view", "bad_spectrum", "truncated_spectrum", "coarse_spectrum",
+// "noisy_spectrum".
 [[nodiscard]] Result<MatchAnswer> MatchLights(const MatchRequest& request,
                                               std::span<const Gel> gels);
 

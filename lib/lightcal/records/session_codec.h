@@ -26,9 +26,8 @@ struct LoadedSession {
 // unknown_key (names the nearest known key), duplicate_name, unknown_light, unknown_meter;
 // the subject is "session.toml:LINE".
 // A missing path fails: not_found; one that is no file: unreadable; a folder that this user may not
-// look into: no_permission. A session with no light is
-// refused: no_light (unless it calibrates a camera). Readings may be none: what that means is the
-// verb's question.
+// look into: no_permission. A session with no light is refused: no_light (unless it calibrates a
+// camera). Readings may be none: what that means is the verb's question.
 [[nodiscard]] Result<LoadedSession> LoadSession(const std::string& path);
 
 // Where the journal of a session lies: DIR/readings.jsonl of a directory or of its session.toml,

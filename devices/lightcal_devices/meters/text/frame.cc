@@ -45,15 +45,14 @@ Result<std::optional<TextReading>> DecodeLine(std::string_view given) {
   const std::size_t end = FirstFieldEnd(line);
   std::string_view first = TrimBlanks(line.substr(0, end));
   if (IsOverloadWord(first)) return BadLine(line, "says no number; " + std::string(kWriteALimit));
-  const bool over_range = first.starts_with('>');
-  const bool under_range = first.starts_with('<');
-  if (over_range || under_range) first.remove_prefix(1);
+  const char limit = LimitSignOf(first);
+  if (limit != '\0') first.remove_prefix(1);
   const auto illuminance = ParseIlluminance(first);
   if (!illuminance) return BadLine(line, "is no illuminance");
   if (illuminance->value() < 0.0 || illuminance->value() > kHighestLx) {
     return BadLine(line, "is no possible illuminance");
   }
-  TextReading reading{*illuminance, std::nullopt, over_range, under_range};
+  TextReading reading{*illuminance, std::nullopt, limit == '>', limit == '<'};
   if (end == std::string_view::npos) return reading;
   const auto cct = ParseTemperature(TrimBlanks(line.substr(end + 1)));
   if (!cct || !IsTemperatureOfLamp(*cct)) {

@@ -89,6 +89,8 @@ struct Observations {
 // Whether the light's illuminance follows a distance at all (not for directional and dome).
 [[nodiscard]] bool HasDistanceLaw(LightKind kind);
 
+// Readings within this many metres of each other stand in one place.
+inline constexpr double kSamePlace_m = 0.005;
 // Readings within a thousandth of each other stand at one distance.
 [[nodiscard]] bool SameDistance(double a_m, double b_m);
 // Whether two readings were taken at one place, as they say: within 5 mm and not turned otherwise,

@@ -46,8 +46,7 @@ double LastDigit(double display_step_lx) {
 }
 
 // The display's step where it counts in a reading, so that planned ones keep it; else 0.
-double CoarseStep(const Session& session, const Reading& like) {
-  const double step = DisplayStepOf(session, like);
+double CoarseStep(const Session& session, double step) {
   const bool counts = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
     return IsLit(row.reading) && row.reading.illuminance->value() < kStepsEnough * step;
   });
@@ -84,8 +83,9 @@ class Planner {
         reach_m_(reach_m),
         only_angles_(only_angles),
         like_(LikeTheLast(session_)),
-        last_digit_lx_(LastDigit(DisplayStepOf(session_, like_))),
-        coarse_step_lx_(CoarseStep(session_, like_)) {}
+        display_step_lx_(DisplayStepOf(session_, like_)),
+        last_digit_lx_(LastDigit(display_step_lx_)),
+        coarse_step_lx_(CoarseStep(session_, display_step_lx_)) {}
 
   void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
 
@@ -337,6 +337,7 @@ class Planner {
   double reach_m_;
   bool only_angles_;
   Reading like_;
+  double display_step_lx_;
   double last_digit_lx_;
   double coarse_step_lx_;
   std::vector<PlannedReading> skip_;

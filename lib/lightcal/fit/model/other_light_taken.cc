@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lightcal/fit/model/other_light_taken.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "lightcal/core/numbers_text.h"
+
+namespace lightcal::fit {
+namespace {
+
+// A meter's reading of nothing is known to half a percent of the dimmest reading that counts: its
+// resolution and dark offset. Relative, so that the fit has no scale of its own.
+constexpr double kDarkFloor = 0.005;
+// A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
+// bounce differs from place to place.
+constexpr double kSigmaElsewhere = 0.3;
+constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
+constexpr double kApart = 4.0;    // standard deviations that no two readings of one light lie apart
+
+class OtherLight {
+ public:
+  OtherLight(const LightDescription& light, Observations& out, std::vector<ReadingBehind> behind)
+      : light_(light), out_(out), behind_(std::move(behind)) {}
+
+  Result<void> Take() {
+    if (auto separated = SubtractOthers(); !separated) return separated;
+    if (auto taken = SubtractShadows(); !taken) return taken;
+    if (auto off = CheckOff(); !off) return off;
+    SubtractOff();
+    FillSigmas();
+    return {};
+  }
+
+ private:
+  // Of what row i shows.
+  [[nodiscard]] double SigmaLx(std::size_t i) const {
+    return std::hypot(out_.rows[i].raw_lx * behind_[i].sigma, behind_[i].last_digit_lx);
+  }
+
+  // Readings with other lamps lit become differences; what they were subtracted from goes.
+  Result<void> SubtractOthers() {
+    std::vector<bool> gone(out_.rows.size(), false);
+    const std::vector<std::size_t> off =
+        RowsWhere([&](std::size_t j) { return !out_.rows[j].lit; });
+    int separated = 0;
+    int mixed = 0;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const std::vector<std::string>& others = behind_[i].source->others_lit;
+      if (others.empty()) continue;
+      if (!out_.rows[i].lit) {
+        gone[i] = true;
+        continue;
+      }
+      ++mixed;
+      const auto lamp_off = [&](std::size_t j) {
+        const SessionReading& reading = *behind_[j].source;
+        return reading.others_lit == others && reading.place == behind_[i].source->place;
+      };
+      gone[i] = out_.rows[i].over_range || !Subtract(i, off, lamp_off);
+      out_.rows[i].ambient_subtracted = !gone[i];
+      separated += gone[i] ? 0 : 1;
+    }
+    const bool alone = std::any_of(out_.rows.begin(), out_.rows.end(), [&](const Observation& o) {
+      return o.lit && behind_[&o - out_.rows.data()].source->others_lit.empty();
+    });
+    if (mixed > 0 && separated == 0 && !alone) {
+      return Refused("not_separated", light_.name,
+                     "other lamps were lit in every reading of this one; read the same place once "
+                     "more with it off and the same others lit");
+    }
+    Keep(gone);
+    return {};
+  }
+
+  void Keep(const std::vector<bool>& gone) {
+    std::vector<Observation> kept;
+    std::vector<ReadingBehind> kept_extra;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (gone[i]) continue;
+      kept.push_back(out_.rows[i]);
+      kept_extra.push_back(behind_[i]);
+    }
+    out_.rows = std::move(kept);
+    behind_ = std::move(kept_extra);
+  }
+
+  template <class Where>
+  [[nodiscard]] std::vector<std::size_t> RowsWhere(const Where& where) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
+      if (where(j)) rows.push_back(j);
+    }
+    return rows;
+  }
+
+  // Takes the mean of those readings among `candidates` that are `of` row i, weighted by their
+  // sigmas, from it. False: there is none.
+  template <class Of>
+  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
+    Observation& row = out_.rows[i];
+    double weights = 0.0;
+    double sum = 0.0;
+    for (const std::size_t j : candidates) {
+      if (!of(j)) continue;
+      const Observation& other = out_.rows[j];
+      const double scales =
+          other.instrument != row.instrument ? other.raw_lx * other.calibration : 0.0;
+      constexpr double kSquarable_lx = 1e-150;
+      const double sigma = std::max(
+          {std::hypot(SigmaLx(j), scales), kLeastSigma * std::abs(row.raw_lx), kSquarable_lx});
+      weights += 1.0 / (sigma * sigma);
+      sum += other.raw_lx / (sigma * sigma);
+    }
+    if (!(weights > 0.0)) return false;
+    row.measured_lx = row.raw_lx - sum / weights;
+    row.card_lx = sum / weights;
+    row.card_sigma_lx = 1.0 / std::sqrt(weights);
+    row.sigma_lx = std::hypot(SigmaLx(i), row.card_sigma_lx);
+    return true;
+  }
+
+  Result<void> SubtractShadows() {
+    if (out_.shadow_readings == 0) return {};
+    std::vector<bool> consumed(out_.rows.size(), false);
+    const std::vector<std::size_t> shadows =
+        RowsWhere([&](std::size_t j) { return behind_[j].shadow; });
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.over_range || row.ambient_subtracted) continue;
+      const auto shadow = [&](std::size_t j) {
+        const bool here = SamePlace(row, j);
+        if (here) consumed[j] = true;
+        return here;
+      };
+      if (!Subtract(i, shadows, shadow)) continue;
+      out_.rows[i].differenced = out_.rows[i].behind_card = true;
+      // One meter, one place, seconds apart: no repeatability explains so much.
+      if (row.measured_lx < -std::max(kSwapped * row.raw_lx, row.sigma_lx)) {
+        return Refused("dark_above_lit", light_.name,
+                       "reading " + std::to_string(row.index) +
+                           ": behind the card the meter showed " +
+                           RoundedText(row.raw_lx - row.measured_lx, 4) + " lx, without it " +
+                           RoundedText(row.raw_lx, 4) + ": were the two taken for one another?");
+      }
+      if (row.measured_lx < 0.0) WarnOfNegative(row);
+    }
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      if (consumed[i]) {
+        out_.subtracted.push_back(out_.rows[i].index);
+        continue;
+      }
+      if (!behind_[i].shadow) continue;
+      out_.warnings.push_back({"shadow_unmatched", light_.name,
+                               "a shadow-card reading has no lamp-on reading at its distance; it "
+                               "counts as ambient light, within 30 %"});
+      out_.rows[i].behind_card = !behind_[i].no_place;
+      behind_[i].sigma = std::hypot(behind_[i].sigma, kSigmaElsewhere);
+    }
+    Keep(consumed);
+    return {};
+  }
+
+  [[nodiscard]] static bool SeesOtherLight(const Observation& row) {
+    return !row.data_sheet && !row.of_luminance;
+  }
+
+  // The least that the lamp gives at reading i by what it gives nearer: a quarter of it by the
+  // square of the distance, as offsets and walls leave more.
+  [[nodiscard]] double LeastByNearer(std::size_t i, double most_off_lx) const {
+    constexpr double kLeastPart = 0.25;
+    const Observation& row = out_.rows[i];
+    const auto alike = [&](const Observation& o) {
+      return o.lit && !o.over_range && SeesOtherLight(o) && !o.position_m && o.tilt_rad == 0.0 &&
+             o.off_axis_rad == row.off_axis_rad;
+    };
+    double least = 0.0;
+    if (!alike(row)) return least;
+    for (std::size_t k = 0; k < out_.rows.size(); ++k) {
+      const Observation& nearer = out_.rows[k];
+      if (!alike(nearer) || !(nearer.distance_m < row.distance_m)) continue;
+      const double lux = nearer.raw_lx - kApart * SigmaLx(k) - most_off_lx;
+      const double square = std::pow(nearer.distance_m / row.distance_m, 2.0);
+      least = std::max(least, kLeastPart * square * lux);
+    }
+    return least;
+  }
+
+  // A lamp only adds: with it off a meter shows no more at a reading's own place.
+  Result<void> CheckOff() const {
+    if (!HasDistanceLaw(light_.kind)) return {};
+    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
+      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
+    });
+    double most_off_lx = 0.0;
+    for (const std::size_t j : off) most_off_lx = std::max(most_off_lx, out_.rows[j].raw_lx);
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.over_range || row.ambient_subtracted || !SeesOtherLight(row)) continue;
+      for (const std::size_t j : off) {
+        const Observation& dark = out_.rows[j];
+        if (dark.instrument != row.instrument || !SamePlace(row, j)) continue;
+        const double apart = kApart * std::hypot(SigmaLx(i), SigmaLx(j));
+        const double lamp_lx = row.raw_lx - dark.raw_lx;
+        if (lamp_lx >= -apart && lamp_lx + apart >= LeastByNearer(i, most_off_lx)) continue;
+        return Refused("dark_above_lit", light_.name,
+                       "reading " + std::to_string(dark.index) +
+                           ": with the lamp off the meter "
+                           "showed " +
+                           RoundedText(dark.raw_lx, 4) + " lx, with it on at the same place " +
+                           RoundedText(row.raw_lx, 4) + ", which leaves " +
+                           (lamp_lx > 0.0 ? "less than the lamp gives there by its nearer reading"
+                                          : "nothing for the lamp") +
+                           ": were the two taken for one another, or did daylight change between "
+                           "them? Read both again, one after the other");
+      }
+    }
+    return {};
+  }
+
+  // Whether what was read with the lamp off differs from place to place, beyond three standard
+  // deviations of each reading.
+  [[nodiscard]] bool Differ(const std::vector<std::size_t>& off) const {
+    constexpr double kDiffer = 3.0;
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0.0;
+    for (const std::size_t j : off) {
+      const double lux = out_.rows[j].raw_lx;
+      least = std::min(least, lux + kDiffer * SigmaLx(j));
+      most = std::max(most, lux - kDiffer * SigmaLx(j));
+    }
+    return most > least;
+  }
+
+  // Other light that is one everywhere is a parameter. Where it differs from place to place, what
+  // was read with the lamp off at a reading's own place is taken from that, and tells of one light
+  // everywhere only for readings that have none. One that shows more than the lamp's reading is
+  // left to the checks.
+  void SubtractOff() {
+    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
+      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
+    });
+    if (!Differ(off)) return;
+    std::vector<bool> consumed(out_.rows.size(), false);
+    bool some_open = false;
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Observation& row = out_.rows[i];
+      if (!row.lit) continue;
+      const auto off_here = [&](std::size_t j) {
+        const bool here = out_.rows[j].raw_lx < row.raw_lx && SamePlace(row, j);
+        if (here) consumed[j] = true;
+        return here;
+      };
+      if (row.differenced || row.ambient_subtracted) {
+        std::ranges::for_each(off, off_here);
+      } else if (!row.over_range) {
+        row.ambient_subtracted = Subtract(i, off, off_here);
+      }
+      some_open = some_open || !(row.differenced || row.ambient_subtracted);
+    }
+    if (some_open) return;
+    for (std::size_t j = 0; j < consumed.size(); ++j) {
+      if (consumed[j]) out_.subtracted.push_back(out_.rows[j].index);
+    }
+    Keep(consumed);
+  }
+
+  // Cutting it at 0 would make the lamp brighter than it is.
+  void WarnOfNegative(const Observation& row) {
+    out_.warnings.push_back(
+        {"negative_difference", light_.name,
+         "reading " + std::to_string(row.index) + " (" + RoundedText(row.raw_lx, 4) +
+             " lx) shows less than its shadow-card reading; the difference of " +
+             RoundedText(row.measured_lx, 3) +
+             " lx is kept with its sign: read again where the lamp is brighter"});
+  }
+
+  [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
+    if (!HasDistanceLaw(light_.kind)) return true;
+    const std::optional<Vec3>& there = out_.rows[j].position_m;
+    if (row.position_m && there) return Length(*row.position_m - *there) < kSamePlace_m;
+    return !behind_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m) &&
+           row.off_axis_rad == out_.rows[j].off_axis_rad;
+  }
+
+  void FillSigmas() {
+    double dimmest = std::numeric_limits<double>::infinity();
+    double brightest = 0.0;
+    for (const Observation& row : out_.rows) {
+      if (row.lit && row.raw_lx > 0.0) dimmest = std::min(dimmest, row.raw_lx);
+      brightest = std::max(brightest, std::abs(row.raw_lx));
+    }
+    // With no positive reading at all, the meter's last digit: 0.1 lx.
+    const double floor =
+        std::isfinite(dimmest) ? kDarkFloor * dimmest : std::max(brightest, 0.1 / std::sqrt(12.0));
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      Observation& row = out_.rows[i];
+      if (row.differenced || row.ambient_subtracted) continue;
+      const double own = SigmaLx(i);
+      row.sigma_lx = row.lit && row.raw_lx > 0.0 ? own : std::hypot(own, floor);
+    }
+  }
+
+  const LightDescription& light_;
+  Observations& out_;
+  std::vector<ReadingBehind> behind_;
+};
+
+}  // namespace
+
+Result<void> TakeOtherLight(const LightDescription& light, std::vector<ReadingBehind> behind,
+                            Observations& observations) {
+  return OtherLight(light, observations, std::move(behind)).Take();
+}
+
+}  // namespace lightcal::fit
