@@ -50,7 +50,6 @@ Result<Xyz> TypedXyz(const ColorOptions& options) {
     values[i] = *number;
   }
   const auto [x, y, z] = values;
-  // IsPhysicalXy of x and y, before they are rounded.
   if (!(x >= 0.0 && y > 0.0 && z >= 0.0)) {
     return Refused("bad_chromaticity", "--xyz",
                    "no light has a value below 0, nor Y at 0; check the dark level");

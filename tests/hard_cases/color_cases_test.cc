@@ -118,6 +118,10 @@ TEST(HardCaseC, C05WithoutLightThereIsNoColour) {
 }
 
 TEST(HardCaseC, C06XAndYThatAddToNothingAreRefusedOrDefined) {
+  // A deep red, as a meter rounds it or is off by .002.
+  EXPECT_EQ(OfXy(0.7347, 0.2654).exit_code, 0);
+  EXPECT_EQ(OfXy(0.7360, 0.2670).exit_code, 0);
+  ExpectRefused(OfXy(0.7400, 0.2700), "bad_chromaticity");
   ExpectRefused(OfXy(0.0, 0.0), "bad_chromaticity");
   ExpectRefused(OfXy(0.3, -0.3), "bad_chromaticity");
   ExpectRefused(OfXy(-0.3, 0.3), "bad_chromaticity");  // imaginary, as files refuse it

@@ -111,6 +111,7 @@ std::vector<BadSession> BadSessions() {
       {"ColdCct", kReading + "cct_K = 0\n", "bad_session", 7, "above 0"},
       {"DuvAlone", kWholeReading + "duv = 0.01\n", "bad_session", 8, "cct_K"},
       {"ImpossibleXy", kReading + "xy = [0.7, 0.4]\n", "bad_session", 7, "no CIE 1931"},
+      {"XyBeyondAMetersError", kReading + "xy = [0.74, 0.27]\n", "bad_session", 7, "1.005"},
       {"BlackXy", kReading + "xy = [0.3, 0]\n", "bad_session", 7, "y > 0"},
       {"OverRangeOfNothing", kReading + "cct_K = 3000\nover_range = true\n", "bad_session", 8,
        "illuminance_lx"},

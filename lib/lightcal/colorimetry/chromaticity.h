@@ -13,9 +13,12 @@ struct Xyz {  // CIE 1931 2-degree tristimulus values
 struct Xy {  // CIE 1931: x = X/(X+Y+Z), y = Y/(X+Y+Z)
   double x = 0.0, y = 0.0;
 };
-// What a real light may have, and a little more: no tristimulus value is negative, Y is not 0.
+// What a real light may have, and a little more: no tristimulus value is negative, Y is not 0; but
+// for how far off a meter of .005 reads a deep red, whose Z is 0 (0.7347, 0.2653 rounds to more than
+// 1 with either digit).
 [[nodiscard]] constexpr bool IsPhysicalXy(Xy c) {
-  return c.x >= 0.0 && c.y > 0.0 && c.x + c.y <= 1.0;
+  constexpr double kOffByAMeter = 0.005;
+  return c.x >= 0.0 && c.y > 0.0 && c.x + c.y <= 1.0 + kOffByAMeter;
 }
 struct Uv1960 {  // CIE 1960 UCS, the plane in which CCT and Duv are defined
   double u = 0.0, v = 0.0;

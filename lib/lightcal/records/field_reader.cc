@@ -39,7 +39,7 @@ std::string FaultOfText(std::string_view key, std::string_view value) {
 std::string FaultOfChromaticity(std::string_view key, Xy xy) {
   if (IsPhysicalXy(xy)) return "";
   return std::string(key) + " = [" + NumberText(xy.x) + ", " + NumberText(xy.y) +
-         "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1";
+         "] is no CIE 1931 chromaticity: x >= 0, y > 0, x + y <= 1 (1.005 as a meter reads it)";
 }
 
 std::string Quoted(std::string_view text) {

@@ -9,6 +9,9 @@ lightcal: CIE 1931 matching functions (CIE table), Planck's law, and how such la
   kinks      pieces of line, and a lamp that does not go out
   bicolour   two banks crossed or both full in the middle, each dimmed as above, colour drifting
   rgbw       red, green, blue and white mixed to each label by their largest white share
+  scurve     what desks and fixtures call an S-curve, of no common equation: a smooth step, a raised
+             cosine, a logistic or a part of one beside a straight line; read at two levels and full,
+             or more
 """
 import csv
 import pathlib
@@ -23,6 +26,7 @@ NM, CMF = ROWS[:, 0], ROWS[:, 1:4]
 C2 = 1.4388e7  # nm K
 
 KINDS = ["tungsten", "pwm", "current", "kinks", "bicolour", "rgbw"]
+APART = ["scurve"]  # judged when asked for, so that the others keep their seeds
 
 
 def planck(kelvin):
@@ -84,6 +88,13 @@ def dimmed(random, kind):
     if kind == "current":
         offset, power = random.uniform(-0.04, 0.08), random.uniform(0.88, 1.0)
         return lambda d: max(offset + (1 - offset) * d, 1e-4)**power, random.normal(0, 0.01)
+    if kind == "scurve":
+        steep, line, start = random.uniform(5, 9), random.uniform(0, 0.3), random.uniform(0, 0.04)
+        low, high = 1 / (1 + np.exp(steep / 2)), 1 / (1 + np.exp(-steep / 2))
+        step = [lambda d: d * d * (3 - 2 * d), lambda d: 0.5 - 0.5 * np.cos(np.pi * d),
+                lambda d: (1 / (1 + np.exp(-steep * (d - 0.5))) - low) / (high - low),
+                lambda d: line * d + (1 - line) * d * d * (3 - 2 * d)][random.integers(4)]
+        return lambda d: step(max(d - start, 0) / (1 - start)), random.normal(0, 0.002)
     curve, floor = pieces(random, random.integers(1, 4), 0.15), random.uniform(0, 0.06)
     return lambda d: floor + (1 - floor) * curve(d), random.normal(0, 0.002)
 
@@ -151,7 +162,7 @@ class Fixture:
         self.xyz = xyz
         levels = [85, 75, 65, 55, 45, 38, 32, 27] if kind == "tungsten" else [
             75, 50, 35, 25, 18, 12, 8, 5]
-        count = int(random.integers(4, len(levels) + 1))
+        count = int(random.integers(2 if kind == "scurve" else 4, len(levels) + 1))
         self.levels = sorted([100] + list(random.choice(levels, count, replace=False)))
         self.labels = [None]
         self.read_at = [(level, None) for level in self.levels]

@@ -19,6 +19,9 @@ struct TargetScale {
 };
 constexpr std::array<TargetScale, 3> kScales = {
     {{1.0, 1.0, 1.0, 0.0, 0.5}, {0.2, 0.4, 0.3, 0.3, 0.3}, {0.05, 0.03, 0.05, 0.002, 0.004}}};
+// How far an S-curve's two ends differ, and how often a dimmer has one beside each of the others.
+constexpr double kPowerOfS = 0.15;
+constexpr double kWeightOfS = 0.3;
 constexpr double kOtherLength = 0.45;  // of a control's range
 
 const TargetScale& ScaleOf(CurveTarget target) { return kScales[static_cast<std::size_t>(target)]; }
@@ -46,6 +49,23 @@ double RestOfLevel(const LevelForm& form, const Rests& rests, const Seen& a, con
     return Matern(a.labels[i] - b.labels[i], rests.level_length);
   }
   return Kinks(a.labels[i], b.labels[i], std::exp(a.ln_level), std::exp(b.ln_level));
+}
+
+// ln S(y) but for a constant, and its derivative by the zero.
+struct OfLevel {
+  double ln = 0.0;
+  double by_zero = 0.0;
+};
+OfLevel FormedLevel(double label, const LevelForm& form) {
+  constexpr double kLeast = 1e-6;
+  if (form.bend == 1.0) {
+    const double above = std::max(kLeast, label + form.zero);
+    return {std::log(above), 1.0 / above};
+  }
+  const double y = std::clamp((label + form.zero) / (1.0 + form.zero), kLeast, 1.0);
+  const double up = std::pow(y, form.bend);
+  const double s = up / (up + std::pow(1.0 - y, form.bend));
+  return {std::log(s), form.bend * (1.0 - s) / (y * (1.0 + form.zero))};
 }
 
 }  // namespace
@@ -92,9 +112,9 @@ Seen ControlPrior::See(const std::vector<double>& labels, const LevelForm& form)
     const bool formed = static_cast<int>(i) == form.control;
     double along = Plain(i, labels[i]);
     if (formed) {
-      const double above = std::max(1e-6, labels[i] + form.zero);
-      along = out.ln_level = std::log(above);
-      out.by_zero = form.power / above;
+      const OfLevel level = FormedLevel(labels[i], form);
+      along = out.ln_level = level.ln;
+      out.by_zero = form.power * level.by_zero;
       out.mean += form.power * out.ln_level;
     } else if (kinds_[i] == ControlKind::kLevel) {
       if (target_ == CurveTarget::kLnLight) out.mean += along;
@@ -179,12 +199,20 @@ std::vector<LevelForm> ControlPrior::Forms() const {
   for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kLnStep) {
     const double above = std::exp(ln);
     LevelForm form{
-        static_cast<int>(formed_), above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
+        static_cast<int>(formed_), 1.0, above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
     forms.push_back(form);
     form.power = 2.0;
     form.power_sd = 1.2;
     form.weight = 0.5;
     forms.push_back(form);
+  }
+  constexpr double kLnStepOfS = 0.4;
+  for (double ln = std::log(0.1 * smallest); ln < std::log(2.0 * smallest); ln += kLnStepOfS) {
+    const double above = std::exp(ln);
+    for (const double bend : {1.25, 1.5, 1.75, 2.1}) {
+      forms.push_back({static_cast<int>(formed_), bend, above - least_, 0.5 * kLnStepOfS * above,
+                       1.0, kPowerOfS, kWeightOfS});
+    }
   }
   return forms;
 }

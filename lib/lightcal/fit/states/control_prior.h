@@ -14,9 +14,12 @@ namespace lightcal::fit {
 // Colour against a level: the logarithm's zero, so that a label of 0 has a place.
 inline constexpr double kLevelFloor = 0.03;
 
-// ln E = power ln(x + zero) of one level; the zero within step, the power within power_sd.
+// ln E = power ln S(y), y = (x + zero) / (1 + zero) of one level x; the zero within step, the power
+// within power_sd. S(y) = y^bend / (y^bend + (1 - y)^bend): y itself, or an S-curve about its
+// middle (a smooth step y^2 (3 - 2y) and a raised cosine have a bend of 1.5 to 1.7 everywhere).
 struct LevelForm {
   int control = -1;
+  double bend = 1.0;
   double zero = kLevelFloor;
   double step = 0.0;
   double power = 0.0, power_sd = 0.0;
@@ -45,7 +48,8 @@ class ControlPrior {
   ControlPrior(std::vector<ControlKind> kinds, CurveTarget target,
                const std::vector<CurvePoint>& points);
 
-  // Zeros a fifth of (x_min + zero) apart; within a step the likeliest is found by the solve.
+  // Zeros a fifth of (x_min + zero) apart, and bends of S-curves; within a step the likeliest is
+  // found by the solve.
   [[nodiscard]] std::vector<LevelForm> Forms() const;
   // Every combination of the rests' sizes and lengths, weighted.
   [[nodiscard]] std::vector<Rests> AllRests() const;
