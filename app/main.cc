@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -72,6 +73,9 @@ int Main(int argc, char** argv) {
 }  // namespace lightcal::app
 
 int main(int argc, char** argv) {
+  // A file at the limit of its size is a write that fails, as on a full disk; programs that are
+  // started keep the signal's own way.
+  std::signal(SIGXFSZ, [](int) {});
   try {
     return lightcal::app::Main(argc, argv);
   } catch (const std::exception& e) {

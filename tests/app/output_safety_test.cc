@@ -93,6 +93,22 @@ TEST_F(OutputSafety, WhatStandardOutputCannotTakeIsSaidWhateverItsLength) {
   }
 }
 
+TEST_F(OutputSafety, AFileAtTheLimitOfItsSizeIsAWriteThatFails) {
+  const std::vector<std::string> words = {"/bin/sh",
+                                          "-c",
+                                          "ulimit -f 1; exec \"$0\" \"$@\"",
+                                          LIGHTCAL_BINARY,
+                                          "fit",
+                                          session_,
+                                          "-o",
+                                          InFolder("light.json")};
+  const auto before = Contents();
+  const CliResult result = RunProgram(words);
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_THAT(result.err, HasSubstr("File too large"));
+  EXPECT_EQ(Contents(), before);
+}
+
 TEST_F(OutputSafety, InputsOfOtherCommandsToo) {
   ASSERT_EQ(RunLightcal({"fit", session_, "-o", InFolder("light.json")}).exit_code, 0);
   ExpectNothingChanged({"report", InFolder("light.json"), "-o", InFolder("light.json"), "--force"},

@@ -233,6 +233,16 @@ TEST(QuickAnswer, ADisplaysStepsAreNoLamp) {
   }
 }
 
+// 32.3 cd in the dark are 3.00 and .75 fc, by a display of whole footcandles 3 and 1; in lux, whose
+// digits say nothing of the steps, 60 +- 7 cd that start .37 m behind the mark.
+TEST(QuickAnswer, FootcandlesHaveStepsToo) {
+  const json lamp =
+      json::parse(Said({"quick", "--room", "dark", "--json", "3fc@1m", "1fc@2m"}))["lights"][0];
+  EXPECT_LT(lamp["intensity_cd"]["low95"], 32.3) << lamp["intensity_cd"];
+  EXPECT_GT(lamp["intensity_cd"]["high95"], 32.3) << lamp["intensity_cd"];
+  EXPECT_NEAR(double(lamp["intensity_cd"]["value"]), 32.3, 8.0);
+}
+
 // ---- many ----
 
 std::string TwoHundredLamps() {

@@ -255,6 +255,17 @@ TEST(StatedGeometry, AnInnerAngleThatNobodySaysIsOpen) {
   }
 }
 
+TEST(StatedGeometry, AFieldAngleAloneIsSaidToTellNothing) {
+  const std::string angle = "kind = \"spot\"\nfield_deg = 70\n";
+  const TempDir dir;
+  const auto said = [&](const std::string& lamp) {
+    dir.Write("session.toml", SessionOf(kDark, lamp, {{AtDistance(2.0), 250.0}}));
+    return RunLightcal({"fit", dir.path(), "--force"}).err;
+  };
+  EXPECT_THAT(said(angle), testing::HasSubstr("field_deg"));
+  EXPECT_THAT(said(angle + "beam_deg = 40\n"), testing::Not(testing::HasSubstr("field_deg")));
+}
+
 // As bright at the widest angle that was read as in the middle: where the beam ends nobody knows.
 TEST(StatedGeometry, ABeamWhoseEdgeWasNotReadIsOpen) {
   const std::vector<Read> readings = AcrossCone(33.0, 36.0, {10.0, 20.0, 30.0, -30.0});

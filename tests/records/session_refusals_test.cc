@@ -47,6 +47,8 @@ std::vector<BadSession> BadSessions() {
       {"UnknownKeyAtTop", "nmae = \"x\"\n" + kLight, "unknown_key", 1, "\"name\""},
       {"UnknownTable", kLight + "[[lights]]\nname = \"b\"\n", "unknown_key", 5, "\"light\""},
       {"UnknownKeyInLight", kLight + "diametre_m = 1\n", "unknown_key", 5, "\"diameter_m\""},
+      {"InnerAlone", "lightcal = 1\n[[light]]\nname = \"a\"\nkind = \"spot\"\ninner_deg = 20\n",
+       "bad_session", 5, "outer_deg"},
       {"UnknownKeyInMeter", kMeter + "sigma = 0.1\n", "unknown_key", 7, "sigma_relative"},
       {"UnknownKeyInRoom", kLight + "[room]\nsize_m = [1, 1, 1]\nreflectence = 0.1\n",
        "unknown_key", 7, "\"reflectance\""},

@@ -77,6 +77,12 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
       return **std::move(shaped);
     }
   }
+  if (light.field && !light.beam) {
+    session_out.warnings.push_back(
+        {"field_alone", light.name,
+         "field_deg (a tenth of the middle) says little of a beam by itself and changed nothing: "
+         "give beam_deg (half of it) too, or readings off the axis"});
+  }
   if (!light.outer) {
     return fit::FitByDistance(session, light, *std::move(observations), settings, std::move(out),
                               session_out);

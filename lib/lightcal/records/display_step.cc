@@ -2,13 +2,19 @@
 #include "lightcal/records/display_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <utility>
+
+#include "lightcal/core/units_text.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kFinestStep_lx = 1e-6;
+// Displays show tenths and hundredths of lux, or of footcandles; files may hold more digits.
+constexpr std::array<std::pair<double, double>, 3> kUnitAndFinest = {
+    {{1.0, 1e-3}, {kLuxPerFootcandle, 1e-3}, {1.0, 1e-5}}};
 
 bool ByDisplay(const Reading& reading) {
   return !reading.scale && reading.meter != kDataSheetMeter &&
@@ -42,9 +48,12 @@ double DisplayStepOf(const Session& session, const Reading& like) {
   for (const double coarse : {10.0, 5.0}) {
     if (shown.size() >= kEnough && all_of(coarse)) return coarse;
   }
-  double step = 1.0;
-  while (step > kFinestStep_lx && !all_of(step)) step *= 0.1;
-  return step > kFinestStep_lx ? step : 0.0;
+  for (const auto& [unit, finest] : kUnitAndFinest) {
+    double step = 1.0;
+    while (step > 0.5 * finest && !all_of(step * unit)) step *= 0.1;
+    if (step > 0.5 * finest) return step * unit;
+  }
+  return 0.0;
 }
 
 double SigmaOfDisplay(double step) { return step / std::sqrt(12.0); }

@@ -100,6 +100,11 @@ std::optional<ReadingFault> DisagreementIn(const LightDescription& light) {
     return ReadingFault{"name", "name = " + Quoted(light.name) +
                                     " holds a slash; names become parts of file names"};
   }
+  if (light.inner && !light.outer) {
+    return ReadingFault{"inner_deg",
+                        "inner_deg is where a cone begins to fall that outer_deg ends; give both, "
+                        "or neither and read off the axis"};
+  }
   return FaultOfShape(light);
 }
 
