@@ -172,7 +172,7 @@ Result<ExportedPresets> PresetsOfInput(const std::string& input, const ExportOpt
   const fs::path named = of_folder ? whole.parent_path().filename()
                          : folder  ? whole.filename()
                                    : fs::path(input).stem();
-  const fs::path beside = folder ? fs::path(input) : fs::path(input).parent_path();
+  const fs::path beside = fs::path(LightFileAt(input).value_or(input)).parent_path();
   return PresetsOfLights(
       {*std::move(lights), named.string(), beside.string(), fs::path(input).filename().string()},
       options, preset, console);

@@ -29,17 +29,18 @@ Result<std::string> LightFileBelow(const std::string& path) {
 
 }  // namespace
 
-Result<LightFile> LightsIn(const std::string& path) {
+Result<std::string> LightFileAt(const std::string& path) {
   std::error_code error;
-  std::string file = path;
-  if (fs::is_directory(path, error) || fs::path(path).extension() == ".toml") {
-    auto found = LightFileBelow(path);
-    if (!found) return Propagate(std::move(found));
-    file = *std::move(found);
-  }
-  const auto text = ReadInputFile(file);
+  const bool below = fs::is_directory(path, error) || fs::path(path).extension() == ".toml";
+  return below ? LightFileBelow(path) : path;
+}
+
+Result<LightFile> LightsIn(const std::string& path) {
+  const auto file = LightFileAt(path);
+  if (!file) return tl::unexpected(file.error());
+  const auto text = ReadInputFile(*file);
   if (!text) return tl::unexpected(text.error());
-  return LightFileOrPresetFromJson(*text, file);
+  return LightFileOrPresetFromJson(*text, *file);
 }
 
 }  // namespace lightcal::app

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 
@@ -11,6 +12,7 @@
 #include "commands.h"
 #include "lamp_words.h"
 #include "light_input.h"
+#include "lightcal/calibrate/environments.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
@@ -18,6 +20,7 @@
 #include "lightcal/light/illuminance_map.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/records/session.h"
+#include "lightcal_devices/disk_sources.h"
 #include "lightcal_devices/files/delimited_text.h"
 #include "simulate/lamp_places.h"
 #include "typed_reading.h"
@@ -87,7 +90,7 @@ RatioAnswer RatioOf(const RatioSide& key, const RatioSide& fill) {
 }
 
 Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
-                         const std::vector<std::string>& names) {
+                         const std::string& folder, const std::vector<std::string>& names) {
   const auto position = ParsePoint("--at", options.at);
   if (!position) return tl::unexpected(position.error());
   const auto chosen = ChooseLights(lights, names);
@@ -97,7 +100,10 @@ Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
   const auto places = ParseLampPlaces(options.places, all);
   if (!places) return tl::unexpected(places.error());
   Warnings warnings;
-  const auto lamps = PlaceLamps(*chosen, nullptr, *places, warnings);
+  const auto picture = [&](const FittedLight& light) {
+    return LoadEnvironment(light, folder, devices::DiskSources());
+  };
+  const auto lamps = PlaceLamps(*chosen, nullptr, *places, picture, warnings);
   if (!lamps) return tl::unexpected(lamps.error());
   const IlluminancePredictor predictor(*lamps, MapSettings{});
   const auto normal = ParseMeterNormal(options.normal);
@@ -206,9 +212,11 @@ Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
       return WrongUsage("--fill", "\"" + name + "\" is the key already");
     }
   }
-  auto key = SideOf(options, *lights, options.key);
+  const std::string folder =
+      std::filesystem::path(LightFileAt(what.front()).value_or("")).parent_path().string();
+  auto key = SideOf(options, *lights, folder, options.key);
   if (!key) return Propagate(std::move(key));
-  auto fill = SideOf(options, *lights, options.fill);
+  auto fill = SideOf(options, *lights, folder, options.fill);
   if (!fill) return Propagate(std::move(fill));
   return std::pair(*std::move(key), *std::move(fill));
 }

@@ -9,11 +9,13 @@
 #include "calibration_options.h"
 #include "commands.h"
 #include "input_files.h"
+#include "lightcal/calibrate/environments.h"
 #include "lightcal/calibrate/lux_in_room.h"
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/light_codec.h"
+#include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
 #include "simulate/lamp_places.h"
 #include "simulate/map_files.h"
@@ -39,6 +41,7 @@ struct SimulateOptions {
 
 struct Input {
   LightFile lights;
+  std::string folder;  // of the light.json
   std::optional<Session> session;
   std::string title;
 };
@@ -49,7 +52,8 @@ Result<Input> ReadInput(const SimulateOptions& options, double tolerance, Consol
     if (!text) return tl::unexpected(text.error());
     auto lights = LightFileFromJson(*text, options.input);
     if (!lights) return Propagate(std::move(lights));
-    return Input{std::move(*lights), std::nullopt, fs::path(options.input).stem().string()};
+    return Input{std::move(*lights), fs::path(options.input).parent_path().string(), std::nullopt,
+                 fs::path(options.input).stem().string()};
   }
   // The fit has its own gate; --effects is about the prediction.
   CalibrationSettings settings;
@@ -58,7 +62,7 @@ Result<Input> ReadInput(const SimulateOptions& options, double tolerance, Consol
   if (!calibrated) return Propagate(std::move(calibrated));
   const std::string title =
       calibrated->session.name.empty() ? calibrated->session.stem : calibrated->session.name;
-  return Input{std::move(calibrated->lights), std::move(calibrated->session), title};
+  return Input{std::move(calibrated->lights), "", std::move(calibrated->session), title};
 }
 
 // Which effects a prediction has, and what the person said of them.
@@ -234,7 +238,11 @@ Result<std::vector<PlacedLamp>> LampsAsked(const SimulateOptions& options, const
   const auto places = ParseLampPlaces(options.places, *chosen);
   if (!places) return tl::unexpected(places.error());
   Warnings warnings;
-  auto lamps = PlaceLamps(*chosen, input.session ? &*input.session : nullptr, *places, warnings);
+  const auto picture = [&](const FittedLight& light) {
+    return LoadEnvironment(light, input.folder, devices::DiskSources());
+  };
+  auto lamps =
+      PlaceLamps(*chosen, input.session ? &*input.session : nullptr, *places, picture, warnings);
   if (lamps) console.Warn(warnings);
   return lamps;
 }

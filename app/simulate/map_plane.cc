@@ -42,7 +42,7 @@ bool FacesPlus(const Where& where, const std::vector<PlacedLamp>& lamps) {
   int plus = 0;
   int minus = 0;
   for (const PlacedLamp& lamp : lamps) {
-    if (std::holds_alternative<EvenSky>(lamp.source)) continue;
+    if (IsSky(lamp.source)) continue;
     const double side = std::holds_alternative<SunSource>(lamp.source)
                             ? -lamp.pose.frame.z[where.axis]
                             : lamp.pose.position_m[where.axis] - where.at;

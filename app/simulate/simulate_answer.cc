@@ -185,7 +185,7 @@ Node PlaneNode(const Simulated& s) {
 }
 
 Node LampNode(const PlacedLamp& lamp) {
-  const bool aimed = !std::holds_alternative<EvenSky>(lamp.source);
+  const bool aimed = !IsSky(lamp.source);
   return {{"name", lamp.name},
           {"position_m", IsEverywhere(lamp.source) ? Node() : Node(lamp.pose.position_m)},
           {"aim", aimed ? Node(lamp.pose.frame.z) : Node()}};

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 #include <numbers>
+#include <sstream>
 
 #include "dome_pictures.h"
 
@@ -245,6 +246,43 @@ TEST_F(DomeCommand, TheLightsBecomePresets) {
   EXPECT_EQ(exported.exit_code, 0) << exported.err;
   const json gltf = json::parse(ReadFile(folder_.path() + "/presets/light.gltf"));
   EXPECT_EQ(gltf["extensions"]["KHR_lights_punctual"]["lights"][0]["type"], "directional");
+}
+
+// What a meter shows however it is turned: the picture's, by brute force. It was an even
+// hemisphere's, half of the upward light to every side and nothing from below.
+TEST_F(DomeCommand, SimulateLooksIntoThePicture) {
+  const SkyScene scene = SunnyScene();
+  const std::string file = WritePicture(folder_, "sky.exr", Photograph(scene), 1.0, true);
+  DomeJson(file, out_, {"--extract", "1"});
+  for (const Ray& normal : {kUp, RayAt(0, 0), RayAt(90, 0), RayAt(180, 0), RayAt(-90, 0),
+                            RayAt(30, 45), RayAt(-120, -30), Ray{0, 0, -1}}) {
+    std::ostringstream turned;
+    turned << "--normal=" << normal[0] << "," << normal[1] << "," << normal[2];
+    const json seen = json::parse(
+        RunLightcal({"simulate", out_ + "/light.json", "--at", "0,0,0", turned.str(), "--json"})
+            .out)["points"][0]["illuminance_lx"];
+    const double truth = TrueLux(scene, normal);
+    EXPECT_NEAR(double(seen["value"]) / truth, 1.0, 0.01) << turned.str();
+  }
+}
+
+// One reading that looks up says little of the sides: half a lobby's light came from them.
+TEST_F(DomeCommand, ASkyThatNobodySawIsUnsureToItsSides) {
+  folder_.Write("session.toml",
+                "lightcal = 1\n[[light]]\nname = \"sky\"\nkind = \"dome\"\n[[reading]]\n"
+                "light = \"sky\"\nilluminance_lx = 1000\nsigma_relative = 0.02\n");
+  const auto seen = [&](const std::string& normal) {
+    return json::parse(
+        RunLightcal({"simulate", folder_.path(), "--at", "0,0,0", "--normal=" + normal, "--json"})
+            .out)["points"][0]["illuminance_lx"];
+  };
+  EXPECT_NEAR(double(seen("0,0,1")["value"]), 1000.0, 1.0);
+  EXPECT_LT(double(seen("0,0,1")["u95"]), 80.0);
+  // The hall of sample_data's lobby.hdr, whose upward light is 1000 lx.
+  for (const double truth : {962.0, 789.0, 729.0, 974.0}) {
+    EXPECT_NEAR(double(seen("1,0,0")["value"]), truth, double(seen("1,0,0")["u95"]));
+  }
+  EXPECT_NEAR(double(seen("0,0,-1")["value"]), 452.0, double(seen("0,0,-1")["u95"]));
 }
 
 // L_max of f/8, 1/60 s, ISO 100 is 120 N^2/(t S) = 4608 cd/m^2.

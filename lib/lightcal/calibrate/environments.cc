@@ -69,16 +69,21 @@ Result<std::shared_ptr<const EnvironmentPicture>> PictureOf(const EnvironmentFil
 
 }  // namespace
 
+Result<std::shared_ptr<const EnvironmentPicture>> LoadEnvironment(const FittedLight& light,
+                                                                  const std::string& folder,
+                                                                  const Sources& sources) {
+  if (!light.environment) return std::shared_ptr<const EnvironmentPicture>();
+  const auto path = std::filesystem::path(folder) / light.environment->file;
+  return PictureOf(*light.environment, path.string(), sources);
+}
+
 Result<std::vector<std::shared_ptr<const EnvironmentPicture>>> LoadEnvironments(
     const LightFile& lights, const std::string& folder, const Sources& sources) {
   std::vector<std::shared_ptr<const EnvironmentPicture>> pictures;
   for (const FittedLight& light : lights.lights) {
-    pictures.emplace_back();
-    if (!light.environment) continue;
-    const auto path = std::filesystem::path(folder) / light.environment->file;
-    auto picture = PictureOf(*light.environment, path.string(), sources);
+    auto picture = LoadEnvironment(light, folder, sources);
     if (!picture) return Propagate(std::move(picture));
-    pictures.back() = *std::move(picture);
+    pictures.push_back(*std::move(picture));
   }
   return pictures;
 }

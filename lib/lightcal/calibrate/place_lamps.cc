@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/uncertain.h"
 
@@ -95,6 +96,32 @@ LampSource SourceOf(const FittedLight& light, Warnings& warnings) {
   return PointSource{};
 }
 
+// Of parts of some 3 degrees: each sends its light from where its own middle of it lies.
+Result<LampSource> SkyOf(const EnvironmentPicture& picture, const FittedLight& light) {
+  constexpr int kColumns = 128;
+  const int w = picture.small_width, h = picture.small_height;
+  const int step = std::max(1, w / kColumns);
+  const int across = (w + step - 1) / step;
+  std::vector<Vec3> flux(static_cast<std::size_t>(across) * ((h + step - 1) / step));
+  const double* rgb = picture.small.data();
+  for (int y = 0; y < h; ++y) {
+    const double omega = PixelSolidAngle(y, w, h);
+    for (int x = 0; x < w; ++x, rgb += 3) {
+      Vec3& part = flux[static_cast<std::size_t>(y / step) * across + x / step];
+      const double nits = LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb);
+      part = part + PixelDirection(x, y, w, h) * (nits * omega);
+    }
+  }
+  double upward = 0.0;
+  for (const Vec3& part : flux) upward += std::max(0.0, part[2]);
+  if (!(upward > 0.0)) {
+    return Refused("bad_environment", light.environment->file,
+                   "is dark above, where its illuminance is measured");
+  }
+  for (Vec3& part : flux) part = part * (1.0 / upward);
+  return LampSource(SeenSky{std::make_shared<const std::vector<Vec3>>(std::move(flux))});
+}
+
 // Standard deviation of ln strength of an estimate that has no covariance.
 double SdOfLog(const Uncertain& u) {
   if (u.low && u.high && *u.low > 0.0) return std::log(*u.high / *u.low) / (2.0 * kZ95);
@@ -156,8 +183,8 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
     doubt.variance_offset = offset * offset;
   }
   if ((light.position_u95_m || light.uneven) && stated_position) {
-    doubt.place =
-        light.located ? PlaceDoubtOf(*light.located)
+    doubt.place = light.located
+                      ? PlaceDoubtOf(*light.located)
                       : PlaceDoubtOf(light, doubt.parts.empty() ? doubt.variance_ln : 0.0);
   }
   const auto radians = [](const std::optional<double>& u95_deg) {
@@ -186,7 +213,8 @@ SourceFrame FrameOfTable(const Vec3& aim, const Vec3& along) {
 
 class Placer {
  public:
-  Placer(const Session* session, const LampPlaces& places) : session_(session), places_(places) {}
+  Placer(const Session* session, const LampPlaces& places, const PictureOfDome& picture)
+      : session_(session), places_(places), picture_(picture) {}
 
   Result<PlacedLamp> Place(const FittedLight& light, Warnings& warnings) const {
     const auto strength = StrengthOf(light);
@@ -209,13 +237,14 @@ class Placer {
     }
     PlacedLamp lamp;
     lamp.name = light.name;
-    if (light.kind == LightKind::kDome && light.environment) {
-      warnings.push_back({"dome_taken_even", light.name,
-                          "its picture is not looked into here: it is taken for a hemisphere that "
-                          "shines alike from everywhere, right on a meter that looks up alone; "
-                          "{MakeDome} says what the picture gives to every side"});
-    }
     lamp.source = SourceOf(light, warnings);
+    if (light.kind == LightKind::kDome && light.environment) {
+      const auto seen = picture_(light);
+      if (!seen) return tl::unexpected(seen.error());
+      auto sky = *seen ? SkyOf(**seen, light) : Result<LampSource>(EvenSky{});
+      if (!sky) return Propagate(std::move(sky));
+      lamp.source = *std::move(sky);
+    }
     lamp.strength = strength->value;
     lamp.pose.position_m = position.value_or(Vec3{});
     // A tube known by its axis alone: any direction square to it serves as z.
@@ -242,6 +271,7 @@ class Placer {
  private:
   const Session* session_;
   const LampPlaces& places_;
+  const PictureOfDome& picture_;
 };
 
 }  // namespace
@@ -266,8 +296,8 @@ Result<std::vector<const FittedLight*>> ChooseLights(const LightFile& file,
 
 Result<std::vector<PlacedLamp>> PlaceLamps(const std::vector<const FittedLight*>& lights,
                                            const Session* session, const LampPlaces& places,
-                                           Warnings& warnings) {
-  const Placer placer(session, places);
+                                           const PictureOfDome& picture, Warnings& warnings) {
+  const Placer placer(session, places, picture);
   std::vector<PlacedLamp> lamps;
   for (const FittedLight* light : lights) {
     auto lamp = placer.Place(*light, warnings);

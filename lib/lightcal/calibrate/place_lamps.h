@@ -4,12 +4,14 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/placed_lamp.h"
+#include "lightcal/presets/environment_picture.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
@@ -21,6 +23,10 @@ struct LampPlaces {
   ByLight position_m, aim, axis;
 };
 
+// The picture of a dome, null where it has none (LoadEnvironment).
+using PictureOfDome =
+    std::function<Result<std::shared_ptr<const EnvironmentPicture>>(const FittedLight&)>;
+
 // The lights named (none: all), in the file's order.  Refused: unknown_light, no_lights.
 [[nodiscard]] Result<std::vector<const FittedLight*>> ChooseLights(
     const LightFile& file, const std::vector<std::string>& names);
@@ -28,9 +34,11 @@ struct LampPlaces {
 // session, where there is one, adds the axes of rects and tubes, which a light.json does not hold.
 // A disk, rect, spot or photometric light without an aim shines straight down (aim_unknown); a spot
 // without a cone shines evenly (cone_unknown), a flat lamp or tube without a size is a point of its
-// kind (size_unknown).   Refused: position_unknown, no_intensity.
+// kind (size_unknown). A dome sends to every side what its picture shows; without one it is a sky
+// that nobody saw. Refused: position_unknown, no_intensity, bad_environment (a picture dark above,
+// by which its illuminance is measured), and as `picture`.
 [[nodiscard]] Result<std::vector<PlacedLamp>> PlaceLamps(
     const std::vector<const FittedLight*>& lights, const Session* session, const LampPlaces& places,
-    Warnings& warnings);
+    const PictureOfDome& picture, Warnings& warnings);
 
 }  // namespace lightcal

@@ -12,6 +12,8 @@
 namespace lightcal {
 namespace {
 
+constexpr double kGround = 0.25;  // reflectance under a sky that nobody saw
+
 template <class Source>
 constexpr bool kHasLadder =
     std::is_same_v<Source, DiskSource> || std::is_same_v<Source, RectSource> ||
@@ -56,6 +58,15 @@ double TablePart(const TableSource& source, const Vec3& in_frame) {
   return table.Towards({in_frame[0], in_frame[1], -in_frame[2]}) / table.peak().intensity;
 }
 
+// How a sky that nobody saw differs from EvenSky, 1 sigma over E_up: upright planes differ by where
+// windows and clouds are, what comes from below by the ground.
+double DoubtOfUnseen(const Vec3& normal) {
+  constexpr double kUpright = 0.25;
+  constexpr double kDownward = 0.15;
+  const double upright = std::sqrt(std::max(0.0, 1.0 - normal[2] * normal[2]));
+  return std::hypot(kUpright * upright, kDownward * 0.5 * (1.0 - normal[2]));
+}
+
 template <class Source>
 double DirectLux(const Source& source, const LampPose& pose, const SurfacePoint& at,
                  const SourceDetail& detail) {
@@ -64,7 +75,11 @@ double DirectLux(const Source& source, const LampPose& pose, const SurfacePoint&
     return detail.point_only ? DirectionalFactor(at.normal, toward)
                              : SunFactor(at.normal, toward, source.angular_radius);
   } else if constexpr (std::is_same_v<Source, EvenSky>) {
-    return 0.5 * (1.0 + at.normal[2]);
+    return 0.5 * ((1.0 + at.normal[2]) + kGround * (1.0 - at.normal[2]));
+  } else if constexpr (std::is_same_v<Source, SeenSky>) {
+    double sum = 0.0;
+    for (const Vec3& flux : *source.flux) sum += std::max(0.0, Dot(at.normal, flux));
+    return sum;
   } else {
     const Receiver<double> receiver = ReceiverOf<Source>(pose, at);
     if constexpr (kHasLadder<Source>) {
@@ -164,12 +179,16 @@ double SolidAngleOf(const LampSource& source) {
   return 4.0 * std::numbers::pi;
 }
 
+bool IsSky(const LampSource& source) {
+  return std::holds_alternative<EvenSky>(source) || std::holds_alternative<SeenSky>(source);
+}
+
 bool IsEverywhere(const LampSource& source) {
-  return std::holds_alternative<SunSource>(source) || std::holds_alternative<EvenSky>(source);
+  return std::holds_alternative<SunSource>(source) || IsSky(source);
 }
 
 std::optional<Vec3> DirectionToLamp(const PlacedLamp& lamp, const Vec3& position_m) {
-  if (std::holds_alternative<EvenSky>(lamp.source)) return std::nullopt;
+  if (IsSky(lamp.source)) return std::nullopt;
   const bool sun = std::holds_alternative<SunSource>(lamp.source);
   const Vec3 way = sun ? lamp.pose.frame.z * -1.0 : lamp.pose.position_m - position_m;
   const double length = Length(way);
@@ -233,6 +252,10 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
     };
     add(doubt.inner_rad, [&](double by) { return cone(by, 0.0); });
     add(doubt.outer_rad, [&](double by) { return cone(0.0, by); });
+  }
+  if (std::holds_alternative<EvenSky>(lamp.source)) {
+    const double unseen = lamp.strength * DoubtOfUnseen(at.normal);
+    variance += unseen * unseen;
   }
   return std::sqrt(std::max(0.0, variance));
 }

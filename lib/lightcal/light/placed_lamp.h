@@ -19,15 +19,22 @@ namespace lightcal {
 struct SunSource {
   double angular_radius = 0.0;
 };
-// A sky of one luminance over dark ground: E = E_up (1 + n_z)/2.
+// A sky that nobody saw: of one luminance over a ground of reflectance .25 (Liu and Jordan 1963),
+//   E = E_up ((1 + n_z) + .25 (1 - n_z))/2;  its doubt holds how far real skies and halls are from
+//   it.
 struct EvenSky {};
+// A sky and the ground under it, as a picture shows them: what each part sends, L w dOmega, over
+// the whole's illuminance of an upward plane, E = E_up sum of max(0, n . flux).
+struct SeenSky {
+  std::shared_ptr<const std::vector<Vec3>> flux;
+};
 // The shape of a measured distribution; its frame is that of AxesOfAim (frame.x, frame.y,
 // -frame.z).
 struct TableSource {
   std::shared_ptr<const IntensityTable> table;
 };
 using LampSource = std::variant<PointSource, SphereSource, DiskSource, RectSource, TubeSource,
-                                SpotSource, TableSource, SunSource, EvenSky>;
+                                SpotSource, TableSource, SunSource, EvenSky, SeenSky>;
 
 // frame.z is the aim. offset_m is d0, how far behind position_m the effective source lies: against
 // the aim for flat lamps and spots, away from the axis for a tube, away from the surface for
@@ -97,6 +104,8 @@ struct SurfacePoint {
 // The integral over all directions of the intensity far away, relative to its peak [sr].
 [[nodiscard]] double SolidAngleOf(const LampSource& source);
 
+// A dome's: it has no direction.
+[[nodiscard]] bool IsSky(const LampSource& source);
 // Sun and sky: the same everywhere, no distance law, no walls.
 [[nodiscard]] bool IsEverywhere(const LampSource& source);
 
