@@ -6,6 +6,7 @@ import tempfile
 
 import numpy as np
 
+from predicted import predicted
 from sessions import HEAD, Lamp, binomial, fit_all, fit_session, knows_fixture, summary
 from traced_table import DISTANCES, draw_of_205, draw_offset, read_table
 
@@ -194,4 +195,5 @@ def misfit(lightcal, sessions):
         print(f"misfit: {case}: {told}", flush=True)
 
 
-MODES = {"dark": dark, "located": located, "typed": typed, "meters": meters, "misfit": misfit}
+MODES = {"dark": dark, "located": located, "typed": typed, "meters": meters, "misfit": misfit,
+         "predicted": predicted}
