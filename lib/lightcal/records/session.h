@@ -60,7 +60,7 @@ struct LightDescription {
   LampInTime in_time{};
   std::optional<Vec3> position_m;
   std::optional<Vec3> aim;               // unit length after loading
-  std::optional<Vec3> axis;              // of a tube's length or a rect's width, unit length
+  std::optional<Vec3> axis;              // of a tube's length, a rect's width, a table's C0; unit
   std::optional<Metres> diameter;        // sphere, disk
   std::optional<Metres> width, height;   // rect
   std::optional<Metres> length, radius;  // tube
@@ -70,7 +70,7 @@ struct LightDescription {
   std::optional<Radians> beam, field;    // data sheet: full angles at 50 % and 10 % of the peak
   // 1 sigma of the angles off its axis that readings say, and of the axis they are counted from.
   std::optional<Radians> angle_sigma{};
-  std::string distribution_file{};       // photometric: an IES or EULUMDAT file, "" = none named
+  std::string distribution_file{};  // photometric: an IES or EULUMDAT file, "" = none named
   // What that file holds, type C about the aim; whoever loads the session fills it.
   std::optional<IntensityTable> distribution{};
   std::vector<StateDescription> at{};
