@@ -376,6 +376,28 @@ TEST(SimulateCommand, WallsGiveWhatASumOverThemGives) {
   }
 }
 
+// What the walls throw back is as unsure as all the light of the lamp: its strength's u95, and,
+// where it may shine more to one side than to where it was read from, that.
+TEST(SimulateCommand, WallsAreAsUnsureAsTheLampsWholeLight) {
+  const TempDir folder;
+  const auto u95_of_walls = [&](const json& light) {
+    const std::string file = folder.Write("l.json", LightFile({light}));
+    const json walls = LightcalJson("simulate", {file, "--room", "5,4,2.6", "--at=0,0,1",
+                                                 "--normal=0,0,-1"})["points"][0]["lights"][0];
+    EXPECT_EQ(walls["direct_lx"], 0.0);
+    return walls["illuminance_lx"]["u95"].get<double>() / walls["bounce_lx"].get<double>();
+  };
+  json lamp = Light("b", "point", 700.0, {0.0, 0.0, 1.5});
+  lamp["intensity_cd"]["u95"] = 7.0;
+  const double surest = u95_of_walls(lamp);
+  lamp["intensity_cd"]["u95"] = 140.0;
+  const double unsure = u95_of_walls(lamp);
+  EXPECT_NEAR(unsure * unsure - surest * surest, 0.2 * 0.2 - 0.01 * 0.01, 1e-4);
+  lamp["uneven"] = {{"gradient_sd", {0.3, 0.3, 0.3}}, {"middle", {0.0, 0.0, -0.9}}};
+  const double uneven = u95_of_walls(lamp);
+  EXPECT_NEAR(uneven * uneven - unsure * unsure, std::pow(1.959964 * 0.3 * 0.9, 2), 1e-4);
+}
+
 TEST(SimulateCommand, TheGateStaysWithinItsTolerance) {
   const TempDir folder;
   for (const Kind& kind : Kinds()) {

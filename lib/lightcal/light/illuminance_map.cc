@@ -68,7 +68,7 @@ std::vector<LampLux> IlluminancePredictor::At(const SurfacePoint& at,
     account.points[static_cast<std::size_t>(form)] = 1;
     if (bounce) {
       part.bounce_lx = lamp.Walls().At(at);
-      part.u95_lx += lamp.Walls().u95_relative() * part.bounce_lx;
+      part.u95_lx += lamp.WallsU95Relative() * part.bounce_lx;
       account.points[static_cast<std::size_t>(MapForm::kBounce)] = 1;
       account.bounce_evaluated = 1;
     }

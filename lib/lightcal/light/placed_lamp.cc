@@ -260,4 +260,27 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
   return std::sqrt(std::max(0.0, variance));
 }
 
+double DoubtOfLnFlux(const PlacedLamp& lamp) {
+  const LampDoubt& doubt = lamp.doubt;
+  double variance = doubt.place ? 0.0 : doubt.variance_ln;
+  if (!doubt.parts.empty()) {
+    std::vector<NormalPart> parts;
+    for (const LampPart& part : doubt.parts) {
+      parts.push_back({part.weight, part.ln_strength, std::sqrt(part.variance_ln)});
+    }
+    const double sd = UncertainFromLogMixture(parts).u95 / kZ95;
+    variance = sd * sd / (lamp.strength * lamp.strength);
+  }
+  if (!doubt.place) return std::sqrt(variance);
+  constexpr int n = PlaceDoubt::kCount;
+  const Vec3& middle = doubt.place->middle;
+  const std::array<double, n> by = {1.0, 0.0, 0.0, 0.0, -middle[0], -middle[1], -middle[2]};
+  const double uneven = Dot(doubt.place->gradient, middle);
+  variance += uneven * uneven;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) variance += by[i] * by[j] * doubt.place->covariance[i * n + j];
+  }
+  return std::sqrt(std::max(0.0, variance));
+}
+
 }  // namespace lightcal

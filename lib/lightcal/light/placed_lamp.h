@@ -118,4 +118,9 @@ struct SurfacePoint {
 [[nodiscard]] double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at,
                                 const SourceDetail& detail = {});
 
+// The same of the logarithm of all the light that it sends, which the walls throw back: its
+// strength and, of a lamp that may shine more to one side, that side: ln flux = ln strength - g .
+// middle.
+[[nodiscard]] double DoubtOfLnFlux(const PlacedLamp& lamp);
+
 }  // namespace lightcal

@@ -69,6 +69,10 @@ const WallLight& PredictedLamp::Walls() const {
   return *fine_->walls;
 }
 
+double PredictedLamp::WallsU95Relative() const {
+  return std::hypot(Walls().u95_relative(), kZ95 * DoubtOfLnFlux(lamp_));
+}
+
 double PredictedLamp::BounceOverDirect(std::span<const SurfacePoint> points) const {
   double worst = 0.0;
   for (const SurfacePoint& at : points) {

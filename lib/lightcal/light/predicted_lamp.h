@@ -36,6 +36,8 @@ class PredictedLamp {
 
   // The fine walls, built when first asked for.
   [[nodiscard]] const WallLight& Walls() const;
+  // 95 % interval of their light, relative: theirs and the lamp's own.
+  [[nodiscard]] double WallsU95Relative() const;
   // Largest bound of the walls' light over direct light at the points, relative.
   [[nodiscard]] double BounceOverDirect(std::span<const SurfacePoint> points) const;
   // Its two parts: the largest bound at the points [lx], and what `lux` is at most of direct light.

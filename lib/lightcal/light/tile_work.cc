@@ -169,7 +169,7 @@ class TileWork {
     const WallLight& walls = lamp_.Walls();
     out_.account.points[static_cast<std::size_t>(MapForm::kBounce)] += r.points();
     out_.account.bounce_evaluated += r.points();
-    AtEach(r, [&, u95 = walls.u95_relative()](const SurfacePoint& at, double, double) {
+    AtEach(r, [&, u95 = lamp_.WallsU95Relative()](const SurfacePoint& at, double, double) {
       const double lux = walls.At(at);
       return std::pair(lux, lux * u95);
     });
@@ -193,7 +193,7 @@ class TileWork {
     }
     out_.account.points[static_cast<std::size_t>(MapForm::kBounceBetween)] += r.points();
     const TileOf tile(r, out_);
-    const double u95 = walls.u95_relative();
+    const double u95 = lamp_.WallsU95Relative();
     kernels::AddSmooth(tile.get(), lux.data(), {u95, u95, u95, u95});
   }
 
