@@ -218,6 +218,15 @@ TEST(QuickAnswer, CardsAtEveryReadingForetellTheRoom) {
   EXPECT_GT(at["in_room_lx"]["low95"], at["model_lx"]["value"]);
 }
 
+// A beam that was read across throws light on walls too: at 3 m of a reflector of 990 cd some 3 lx.
+TEST(QuickAnswer, AMeterBeforeABeamSeesTheWallsToo) {
+  const json at =
+      json::parse(Said({"quick", "900lx@1m", "450lx@1m,15deg", "60lx@1m,30deg", "240lx@2m",
+                        "--fixture", "reflector", "--at", "3m", "--json"}))["predictions"][0];
+  EXPECT_GT(at["in_room_lx"]["value"], at["model_lx"]["value"]);
+  EXPECT_LT(at["in_room_lx"]["value"], 1.15 * double(at["model_lx"]["value"]));
+}
+
 // 39 cd that start 2 cm behind the mark, in the dark: 37.5, 9.56, 4.28, 2.41 and 1.55 lx by a
 // display of whole lux, cut off, and by one of five, rounded.
 TEST(QuickAnswer, ADisplaysStepsAreNoLamp) {

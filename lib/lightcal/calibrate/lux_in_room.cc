@@ -9,8 +9,9 @@
 namespace lightcal {
 namespace {
 
-constexpr double kFacing = 0.98;     // cosine from which on a meter faces the lamp
-constexpr double kOtherWalls = 0.4;  // 1 sigma of ln E_walls
+constexpr double kFacing = 0.98;      // cosine from which on a meter faces the lamp
+constexpr double kLikeOnAxis = 0.02;  // what a lamp gives there differs from its axis by no more
+constexpr double kOtherWalls = 0.4;   // 1 sigma of ln E_walls
 
 // The whole with what a point may shine more or less that way than where it was read.
 Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double direct_lx,
@@ -23,6 +24,20 @@ Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double d
   out.high = whole.value * std::exp(std::hypot(std::log(*whole.high / whole.value), pattern));
   out.u95 = std::hypot(whole.u95, pattern * whole.value);
   return out;
+}
+
+// Whether the meter faces the lamp where it shines as on its axis.
+bool FacesAxis(const PlacedLamp& placed, double direct_lx, const SurfacePoint& at,
+               const Vec3& way) {
+  const double distance = Length(way);
+  if (!(Dot(way, at.normal) > kFacing * distance)) return false;
+  if (std::holds_alternative<PointSource>(placed.source) ||
+      std::holds_alternative<SphereSource>(placed.source)) {
+    return true;
+  }
+  const Vec3& aim = placed.pose.frame.z;
+  const double on_axis = LuxOf(placed, {placed.pose.position_m + aim * distance, aim * -1.0});
+  return std::abs(direct_lx - on_axis) < kLikeOnAxis * on_axis;
 }
 
 }  // namespace
@@ -39,10 +54,7 @@ std::optional<Uncertain> LuxInRoom(const FittedLight& light, const PlacedLamp& p
   }
   const auto room = PredictInRoom(light, Metres(distance), 0.0);
   if (!room || !*room) return std::nullopt;
-  const bool even = std::holds_alternative<PointSource>(placed.source) ||
-                    std::holds_alternative<SphereSource>(placed.source);
-  const bool on_axis = even || -Dot(placed.pose.frame.z, way) > kFacing * distance;
-  if (Dot(way, at.normal) > kFacing * distance && on_axis) {
+  if (FacesAxis(placed, alone.direct_lx, at, way)) {
     return WithPattern((*room)->whole_lx, light, alone.direct_lx, way);
   }
   const Uncertain& walls = (*room)->walls_lx;

@@ -177,6 +177,26 @@ double FacingDirect(const BeamRow& row, const BeamProfile& profile, double peak_
   return peak_cd / Dot(from, from);
 }
 
+// On its axis, among its walls.
+LampInRoom InRoom(const BeamProfile& profile, const WallPrior& walls, double ambient_lx) {
+  LampInRoom one;
+  one.ln_intensity = profile.theta[0];
+  one.distance_offset_m = profile.theta[1];
+  one.ambient_lx = ambient_lx;
+  one.ln_b = profile.theta[2];
+  one.slope = profile.theta[3];
+  one.bend = walls.bend;
+  one.scatter = walls.scatter;
+  constexpr std::array<std::size_t, 4> kPlaces = {0, 1, 3, 4};  // of (ln I, d0, E0, ln b, slope)
+  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+    for (std::size_t j = 0; j < kPlaces.size(); ++j) {
+      one.covariance[kPlaces[i] * LampInRoom::kCount + kPlaces[j]] =
+          profile.covariance[i * kPlaces.size() + j];
+    }
+  }
+  return one;
+}
+
 void FillEstimate(const Observations& observations, const BeamRows& rows,
                   const BeamProfile& profile, LightEstimate& out) {
   constexpr std::array<int, 4> kPlaces = {kLnIntensity, kDistanceOffset, kLnWalls, kWallsSlope};
@@ -193,6 +213,9 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
   out.theta[kLnIntensity] = std::log(*most);
   out.covariance[0] = sd * sd;
   out.theta[kAmbient] = AmbientOfOff(observations);
+  if (rows.readings.walls) {
+    out.in_room = {InRoom(profile, *rows.readings.walls, out.theta[kAmbient])};
+  }
 
   FitDiagnostics& d = out.diagnostics;
   d.readings = observations.readings;
@@ -313,12 +336,16 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
              "are wider by that: check the aim, or the beam is not round"});
   }
   for (double& c : out.estimate.covariance) c *= factor * factor;
+  for (LampInRoom& one : out.estimate.in_room) {
+    for (double& c : one.covariance) c *= factor * factor;
+  }
   out.gamma_deg = profile.gamma_deg;
   for (const double sd : profile.part_sd) out.part_sd.push_back(factor * sd);
   AddParts(profile, out.estimate);
   const double own = out.estimate.covariance[0];
   AddInfluences(model, rows, out.estimate);
   const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));
+  for (LampInRoom& one : out.estimate.in_room) one.covariance[0] += added * added;
   out.flux_lm = profile.flux_lm;
   WidenInLn(out.flux_lm, factor, added);
   out.beam.axial = profile.axial_cd;
