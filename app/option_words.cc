@@ -46,6 +46,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"merge.exposures", "--exposures"},
     {"merge.iso", "--iso"},
     {"merge.noise", "--noise"},
+    {"merge.response", "--response"},
     {"merge.space", "--space"},
     {"meter.count", "-n"},
     {"meter.device", "--device"},

@@ -25,12 +25,15 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
     sources += (sources.empty() ? "" : " ") + frame.info.file;
     if (frame.ratio_ev) sources += "@" + RoundedText(*frame.ratio_ev, 6) + "EV";
   }
-  return {{"generator", GeneratorName()},
-          {"quantity", quantity},
-          {"frames", sources},
-          {"scale_source", std::string(WordOf(merged.scale_source))},
-          {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
-          {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
+  std::vector<std::pair<std::string, std::string>> attributes = {
+      {"generator", GeneratorName()},
+      {"quantity", quantity},
+      {"frames", sources},
+      {"scale_source", std::string(WordOf(merged.scale_source))},
+      {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
+      {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
+  if (!merged.response_source.empty()) attributes.emplace_back("response", merged.response_source);
+  return attributes;
 }
 
 OutputWriter PictureWriter(const MergeOptions& options, const BracketMergeRequest& request,
@@ -112,12 +115,19 @@ Result<void> RunMerge(const MergeOptions& options, Console& console) {
   const BracketMergeRequest* const request = &opened->request;
   std::vector<PlannedOutput> planned = {{options.output, "exr"}};
   if (request->want_sigma) planned.push_back({options.sigma, "exr"});
+  if (!options.response_output.empty()) planned.push_back({options.response_output, "csv"});
   if (auto free = CheckOutputs(planned, options.force); !free) return free;
   const auto merged = MergeOpened(*opened, console);
   if (!merged) return tl::unexpected(merged.error());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<OutputWriter> outputs = {PictureWriter(options, *request, *merged)};
   if (request->want_sigma) outputs.push_back(SigmaWriter(options, *merged));
+  if (!options.response_output.empty()) {
+    if (merged->response.signal_of_code[0].empty()) {
+      return Refused("no_codes", "--save-response", "these frames are no codes: nothing bent them");
+    }
+    outputs.push_back(WriterOf({options.response_output, ResponseToText(merged->response)}));
+  }
   if (auto written = WriteOutputsWith(outputs, options.force); !written) return written;
   console.Print(Table(*merged));
   console.PrintDocument(DocumentOf(*merged));
@@ -156,6 +166,12 @@ Run BuildMerge(CLI::App& parser) {
                   "SCALE,OFFSET of the sensor's noise [NoiseProfile of the files, else measured]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  parser.add_option(
+      "--response", o.response,
+      "Of PNG or JPEG codes: srgb (what programs write, no camera's own JPEG), linear, "
+      "or a table of code,red,green,blue [recovered from two frames and more]");
+  parser.add_option("--save-response", o.response_output,
+                    "Also write that table here (.csv), for pictures of the same camera and style");
   parser.add_option("--camera", o.camera,
                     "Profile of the camera, by lightcal camera: its scale, noise, lens, black");
   parser.add_option("--nd", o.nd, "The filter of the profile that the frames were taken through");

@@ -137,6 +137,11 @@ Result<BracketMergeRequest> RequestOf(const MergeOptions& options, const Sources
   if (!colors) return tl::unexpected(colors.error());
   request.space = colors->space;
   request.white = colors->white;
+  if (!options.response.empty()) {
+    auto response = ReadResponse(options.response, options.response, sources);
+    if (!response) return Propagate(std::move(response));
+    request.response = *std::move(response);
+  }
   if (auto added = AddCamera(options, sources, request); !added) return Propagate(std::move(added));
   return request;
 }
@@ -251,6 +256,7 @@ Node DocumentOf(const MergedBracket& merged) {
             {"offset", merged.plan.noise.front().offset},
             {"fixed_pattern", merged.plan.fixed_pattern},
             {"curve_misfit", merged.plan.encoded ? Node(merged.plan.encoded->misfit) : Node()}}},
+          {"response", Node::UnlessEmpty(merged.response_source)},
           {"aligned_to", Node::UnlessEmpty(merged.aligned_to)},
           {"crop", crop ? Node{crop->x, crop->y, crop->width, crop->height} : Node()},
           {"masked_pixels", merged.masked_pixels > 0 ? Node(merged.masked_pixels) : Node()},

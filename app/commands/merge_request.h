@@ -15,7 +15,7 @@ namespace lightcal::app {
 
 struct MergeOptions {
   std::vector<std::string> frames;
-  std::string output, sigma;
+  std::string output, sigma, response, response_output;
   std::vector<std::string> exposures;
   std::string f_number, t_stop, iso;
   std::string anchor, anchor_sigma = "5%";

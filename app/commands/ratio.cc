@@ -103,7 +103,7 @@ Result<RatioSide> SideOf(const RatioOptions& options, const LightFile& lights,
   const auto picture = [&](const FittedLight& light) {
     return LoadEnvironment(light, folder, devices::DiskSources());
   };
-  const auto lamps = PlaceLamps(*chosen, nullptr, *places, picture, warnings);
+  const auto lamps = PlaceLamps(*chosen, *places, picture, warnings);
   if (!lamps) return tl::unexpected(lamps.error());
   const IlluminancePredictor predictor(*lamps, MapSettings{});
   const auto normal = ParseMeterNormal(options.normal);

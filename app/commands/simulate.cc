@@ -241,8 +241,7 @@ Result<std::vector<PlacedLamp>> LampsAsked(const SimulateOptions& options, const
   const auto picture = [&](const FittedLight& light) {
     return LoadEnvironment(light, input.folder, devices::DiskSources());
   };
-  auto lamps =
-      PlaceLamps(*chosen, input.session ? &*input.session : nullptr, *places, picture, warnings);
+  auto lamps = PlaceLamps(*chosen, *places, picture, warnings);
   if (lamps) console.Warn(warnings);
   return lamps;
 }

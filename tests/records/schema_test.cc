@@ -94,6 +94,7 @@ camera = "camera.json"
 nd = "nd3"
 use = "card"
 rows_s = 0.01
+response = "style.csv"
 lens_glare = 0.01
 reflectance = 0.18
 reflectance_sigma_relative = 0.02

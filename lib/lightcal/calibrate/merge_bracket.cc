@@ -3,6 +3,14 @@
 
 namespace lightcal {
 
+Result<ResponseCurves> ReadResponse(const std::string& name, const std::string& path,
+                                    const Sources& sources) {
+  if (IsResponseWord(name)) return ResponseNamed(name);
+  const auto text = sources.read_text(path);
+  if (!text) return tl::unexpected(text.error());
+  return ResponseFromText(*text, path);
+}
+
 Result<MergedBracket> MergeBracket(const Bracket& bracket, const Sources& sources,
                                    const BracketMergeRequest& request) {
   return MergeFrames(bracket, sources.load_masked_frame, request);

@@ -8,9 +8,15 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/bracket/merge_frames.h"
+#include "lightcal/records/response_curves.h"
 #include "lightcal/records/sources.h"
 
 namespace lightcal {
+
+// The response of codes that `name` is a word for, or the table in the file at `path`.
+// Refused: bad_response. Fails: not_found, unreadable.
+[[nodiscard]] Result<ResponseCurves> ReadResponse(const std::string& name, const std::string& path,
+                                                  const Sources& sources);
 
 // The frames of a bracket that was opened before.   Refused: as MergeFrames.
 [[nodiscard]] Result<MergedBracket> MergeBracket(const Bracket& bracket, const Sources& sources,

@@ -213,8 +213,8 @@ SourceFrame FrameOfTable(const Vec3& aim, const Vec3& along) {
 
 class Placer {
  public:
-  Placer(const Session* session, const LampPlaces& places, const PictureOfDome& picture)
-      : session_(session), places_(places), picture_(picture) {}
+  Placer(const LampPlaces& places, const PictureOfDome& picture)
+      : places_(places), picture_(picture) {}
 
   Result<PlacedLamp> Place(const FittedLight& light, Warnings& warnings) const {
     const auto strength = StrengthOf(light);
@@ -226,9 +226,7 @@ class Placer {
                      "{place.position} " +
                          light.name + "=x,y,z (metres, Z up), or give position_m in its session");
     }
-    const LightDescription* stated = session_ ? FindLight(*session_, light.name) : nullptr;
-    const Vec3 axis =
-        Find(places_.axis, light.name, stated ? stated->axis : std::nullopt).value_or(Vec3{});
+    const Vec3 axis = Find(places_.axis, light.name, light.axis).value_or(Vec3{});
     auto aim = Find(places_.aim, light.name, light.aim);
     if (!aim && NeedsAim(light)) {
       warnings.push_back({"aim_unknown", light.name,
@@ -269,7 +267,6 @@ class Placer {
   }
 
  private:
-  const Session* session_;
   const LampPlaces& places_;
   const PictureOfDome& picture_;
 };
@@ -295,9 +292,9 @@ Result<std::vector<const FittedLight*>> ChooseLights(const LightFile& file,
 }
 
 Result<std::vector<PlacedLamp>> PlaceLamps(const std::vector<const FittedLight*>& lights,
-                                           const Session* session, const LampPlaces& places,
-                                           const PictureOfDome& picture, Warnings& warnings) {
-  const Placer placer(session, places, picture);
+                                           const LampPlaces& places, const PictureOfDome& picture,
+                                           Warnings& warnings) {
+  const Placer placer(places, picture);
   std::vector<PlacedLamp> lamps;
   for (const FittedLight* light : lights) {
     auto lamp = placer.Place(*light, warnings);

@@ -13,7 +13,6 @@
 #include "lightcal/light/placed_lamp.h"
 #include "lightcal/presets/environment_picture.h"
 #include "lightcal/records/fitted_light.h"
-#include "lightcal/records/session.h"
 
 namespace lightcal {
 
@@ -31,14 +30,13 @@ using PictureOfDome =
 [[nodiscard]] Result<std::vector<const FittedLight*>> ChooseLights(
     const LightFile& file, const std::vector<std::string>& names);
 
-// session, where there is one, adds the axes of rects and tubes, which a light.json does not hold.
 // A disk, rect, spot or photometric light without an aim shines straight down (aim_unknown); a spot
 // without a cone shines evenly (cone_unknown), a flat lamp or tube without a size is a point of its
 // kind (size_unknown). A dome sends to every side what its picture shows; without one it is a sky
 // that nobody saw. Refused: position_unknown, no_intensity, bad_environment (a picture dark above,
 // by which its illuminance is measured), and as `picture`.
 [[nodiscard]] Result<std::vector<PlacedLamp>> PlaceLamps(
-    const std::vector<const FittedLight*>& lights, const Session* session, const LampPlaces& places,
+    const std::vector<const FittedLight*>& lights, const LampPlaces& places,
     const PictureOfDome& picture, Warnings& warnings);
 
 }  // namespace lightcal

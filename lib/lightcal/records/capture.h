@@ -55,7 +55,8 @@ struct CaptureDescription {
   std::string light;   // name of the [[light]]
   std::string frames;  // files or a wildcard, relative to the session
   std::string camera;  // its profile or spectral sensitivities, relative to the session; "" = none
-  std::string nd;      // the profile's filter that the frames were taken through; "" = none
+  std::string response;  // of codes: a word (kResponseWords) or a table's file; "" = recovered
+  std::string nd;        // the profile's filter that the frames were taken through; "" = none
   double reflectance = 0.0;
   double reflectance_sigma = kSigmaReflectance;  // relative
   std::optional<Metres> distance;  // from the lamp's reference point to the card (source: to the

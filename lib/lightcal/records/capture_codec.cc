@@ -76,7 +76,7 @@ struct HeardBy {
 };
 constexpr unsigned kPatches = Uses({CaptureUse::kCard, CaptureUse::kSource, CaptureUse::kWall});
 constexpr unsigned kLenses = Uses({CaptureUse::kSource, CaptureUse::kDome, CaptureUse::kBall});
-constexpr std::array<HeardBy, 16> kHeard = {{
+constexpr std::array<HeardBy, 17> kHeard = {{
     {"reflectance", Uses({CaptureUse::kCard, CaptureUse::kWall})},
     {"reflectance_sigma_relative", Uses({CaptureUse::kCard, CaptureUse::kWall})},
     {"tilt_deg", Uses({CaptureUse::kCard})},
@@ -86,6 +86,7 @@ constexpr std::array<HeardBy, 16> kHeard = {{
     {"f_number", kPatches},
     {"iso", kPatches},
     {"camera", kPatches},
+    {"response", kPatches},
     {"nd", kPatches},
     {"spectrum", kPatches},
     {"rows_s", kPatches},
@@ -139,6 +140,7 @@ void ReadCapture(FieldReader& reader, CaptureDescription& capture) {
   reader.Text("light", capture.light);
   reader.Text("frames", capture.frames);
   reader.Text("camera", capture.camera);
+  reader.Text("response", capture.response);
   reader.Text("nd", capture.nd);
   reader.Word("use", capture.use, kCaptureUseWords);
   reader.Number("reflectance", capture.reflectance, kCardRule);

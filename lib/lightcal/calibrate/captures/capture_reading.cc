@@ -87,6 +87,12 @@ Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescrip
   request.want_sigma = true;
   request.work = capture.work;
   request.camera = *std::move(use);
+  if (!capture.response.empty()) {
+    auto response =
+        ReadResponse(capture.response, PathInSession(session, capture.response), sources);
+    if (!response) return Propagate(std::move(response));
+    request.response = *std::move(response);
+  }
   const bool profiled = request.camera && request.camera->profile->color;
   if (color->has_colour || profiled) request.space = RgbSpace::kSrgb;
   auto merged = MergeBracket(bracket, sources, request);
@@ -179,6 +185,9 @@ void AddCapture(const Session& session, const CaptureDescription& capture,
   for (const MergedFrame& frame : merged.frames) evidence.AddFile(frame.info.file);
   for (const std::string& name : {capture.camera, capture.spectrum_file}) {
     if (!name.empty()) evidence.AddFile(PathInSession(session, name));
+  }
+  if (!capture.response.empty() && !IsResponseWord(capture.response)) {
+    evidence.AddFile(PathInSession(session, capture.response));
   }
   if (capture.anchor_illuminance || merged.scale_source == ScaleSource::kCamera) return;
   if (IsMetered(session, capture.light) || FollowsItsLike(session, capture)) return;

@@ -86,7 +86,7 @@ Warnings LeaveOut(BracketMotion& motion, PreparedFrames& prepared) {
 }
 
 Result<void> Interpolate(const BracketMotion& motion, std::span<const double> labels,
-                         PreparedFrames& prepared) {
+                         bool stated_response, PreparedFrames& prepared) {
   const int width = prepared.signals.front().width, height = prepared.signals.front().height;
   FrameAlignment alignment;
   alignment.interpolated = alignment.evidence = true;
@@ -104,7 +104,7 @@ Result<void> Interpolate(const BracketMotion& motion, std::span<const double> la
   alignment.y = region.y;
   alignment.width = region.width;
   alignment.height = region.height;
-  if (IsEncoded(prepared)) {
+  if (IsEncoded(prepared) && !stated_response) {
     auto response = CurveInPlace(CodesOf(prepared, labels), motion, region);
     if (!response) return Propagate(std::move(response));
     prepared.response = std::move(*response);
@@ -181,7 +181,7 @@ Result<void> AlignPrepared(MergeRequest merge, std::span<const double> labels,
     return PlanAgain(std::move(merge), prepared);
   }
   const Warnings left_out = LeaveOut(*motion, prepared);
-  if (auto done = Interpolate(*motion, labels, prepared); !done) return done;
+  if (auto done = Interpolate(*motion, labels, merge.stated_response, prepared); !done) return done;
   if (auto planned = PlanAgain(std::move(merge), prepared); !planned) return planned;
   Append(left_out, prepared.planned.warnings);
   return {};

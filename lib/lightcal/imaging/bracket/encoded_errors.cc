@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
@@ -14,7 +15,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kMostMisfit = 0.05;
 constexpr double kLeastOfLevel = 50.0;  // samples
 constexpr double kLowestLevel = 0.01;   // below, codes are cut off at black
 constexpr double kHighestLevel = 0.85;  // above, they fill up
@@ -83,7 +83,7 @@ double CurveMisfit(const SampledSignals& signals, int channels, const MergePlan&
     }
   }
   // The difference of two frames holds the misfit of both.
-  return std::min(kMostMisfit, kSdPerMad * MedianSize(std::move(misfits)) / std::sqrt(2.0));
+  return kSdPerMad * MedianSize(std::move(misfits)) / std::sqrt(2.0);
 }
 
 double SharedNoise(const SampledSignals& signals, int channels, const MergePlan& plan) {
@@ -165,6 +165,17 @@ ScatterOfPlaces MeasurePlaces(const BracketMerger& merger, const FrameDone& done
 }
 
 }  // namespace
+
+void CheckStatedCurve(EncodedErrors& errors, const std::string& file, Warnings& warnings) {
+  if (errors.misfit > kMostMisfit) {
+    warnings.push_back({"response_disagrees", file,
+                        "under the stated response the frames differ by " +
+                            PercentText(std::sqrt(2.0) * errors.misfit) +
+                            " where they show the same light; it is another camera's or setting's: "
+                            "leave it out, two frames and more tell their own"});
+  }
+  errors.misfit = std::max(errors.misfit, kLeastStatedMisfit);
+}
 
 EncodedErrors MeasureEncodedErrors(const BracketMerger& merger, const SampledSignals& signals,
                                    const FrameDone& done) {

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
+#include "lightcal/core/result.h"
 #include "lightcal/imaging/bracket/sampled.h"
 #include "lightcal/imaging/bracket/signal.h"
 
@@ -43,13 +45,21 @@ inline constexpr double kHiddenDetail = 1.0 / 3.0;
 
 // m, of each frame: what neighbouring frames' means of a level differ by beyond noise, in the
 // middle of levels and channels (the darkest codes, and a channel bent by a style of colours, may
-// be worse). With two frames the curve takes all of it and 0 is left. At most 5 %.
+// be worse). With two frames a recovered curve takes all of it and 0 is left.
 [[nodiscard]] double CurveMisfit(const SampledSignals& signals, int channels,
                                  const MergePlan& plan);
 
 // r, from the residuals of neighbouring frames, 0 to 1; 0 of one channel.
 [[nodiscard]] double SharedNoise(const SampledSignals& signals, int channels,
                                  const MergePlan& plan);
+
+// A curve found from the frames is off by this at most, whatever they differ by; one that was
+// stated instead by this at least, 1 sigma: what recovered ones are off by where others are known.
+inline constexpr double kMostMisfit = 0.05, kLeastStatedMisfit = 0.02;
+
+// Widens m to kLeastStatedMisfit. Warns: response_disagrees, where the frames contradict the curve
+// by more than kMostMisfit.
+void CheckStatedCurve(EncodedErrors& errors, const std::string& file, Warnings& warnings);
 
 // All of it, of the frames and the plan that the merger has. `done` as in signal.h.
 [[nodiscard]] EncodedErrors MeasureEncodedErrors(const BracketMerger& merger,

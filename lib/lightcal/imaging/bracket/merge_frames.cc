@@ -125,6 +125,8 @@ Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& loa
   merged.scale_u95_relative = kZ95 * scale->sd_relative;
   merged.plan = merger->plan();
   merged.noise_source = (*prepared)->planned.noise_source;
+  merged.response = (*prepared)->response;
+  if (merged.plan.encoded) merged.response_source = request.response ? "stated" : "recovered";
 
   const std::size_t pixels =
       static_cast<std::size_t>(merged.width) * static_cast<std::size_t>(merged.height);

@@ -17,6 +17,7 @@
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/bracket.h"
 #include "lightcal/records/masked_picture.h"
+#include "lightcal/records/response_curves.h"
 #include "lightcal/records/scale_source.h"
 
 namespace lightcal {
@@ -35,8 +36,9 @@ inline constexpr double kInterpolatedNoise = 2.0;
 struct BracketMergeRequest {
   std::optional<SpotReading> anchor;
   std::optional<NoiseProfile> noise;
-  std::optional<RgbSpace> space;  // absent: luminance alone
-  std::optional<Xy> white;        // what becomes the space's white
+  std::optional<ResponseCurves> response;  // of codes; absent: recovered from the frames
+  std::optional<RgbSpace> space;           // absent: luminance alone
+  std::optional<Xy> white;                 // what becomes the space's white
   bool want_sigma = false;
   std::optional<KnownCamera> camera;   // what is known of it; an anchor or noise above comes first
   std::optional<MismatchFactor> lamp;  // corrects luminance by the camera's scale for the lamp
@@ -73,6 +75,8 @@ struct MergedBracket {
   double clipped_fraction = 0.0;  // of the samples, in every frame
   MergePlan plan;
   NoiseSource noise_source = NoiseSource::kEstimated;
+  ResponseCurves response;      // of codes; empty of other frames
+  std::string response_source;  // "stated", "recovered"; "" of other frames
   Warnings warnings;
 };
 
@@ -81,7 +85,8 @@ using FrameLoader = std::function<Result<MaskedPicture>(const FrameInfo& info, S
 
 // Refused: no_frames (an empty bracket), no_exposure_metadata (a frame without exposure time; ISO
 // or f-number unknown and no anchor), bad_anchor (outside the picture, clipped or black there),
-// no_colour (a space asked of a picture without), and as CheckKnownCamera, CorrectionsOf, `load`,
+// no_colour (a space asked of a picture without), no_codes (a response stated of
+// other frames than codes), and as CheckKnownCamera, CorrectionsOf, `load`,
 // RecoverResponse, PlanMerge, MeasureAlignment, MergePicture. An anchor's place is in the pixels of
 // the shortest frame.
 [[nodiscard]] Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& load,

@@ -53,6 +53,23 @@ double VarianceAt(const NoiseProfile& noise, double signal) {
   return noise.scale * signal + noise.offset;
 }
 
+// Of codes that nothing else tells of: a middling sensor's, and an error of one code in 8 bits
+// (rounding, compression), by the steps of the curve in the dark and at middle grey.
+NoiseProfile NoiseOfCodes(const ResponseCurves& response, int channels) {
+  constexpr float kGrey = 0.18F;
+  const auto& curve = response.signal_of_code[channels == 3 ? 1 : 0];
+  NoiseProfile noise = kMiddlingNoise;
+  if (curve.size() > 256) return noise;
+  const auto step = [&](std::size_t code) { return double{curve[code + 1]} - curve[code]; };
+  const auto grey =
+      static_cast<std::size_t>(std::ranges::lower_bound(curve, kGrey) - curve.begin());
+  const double dark = step(1) * step(1);
+  noise.offset += dark;
+  noise.scale +=
+      std::max(0.0, (std::pow(step(std::max<std::size_t>(grey, 1) - 1), 2) - dark) / kGrey);
+  return noise;
+}
+
 // Noise of every frame in the merge's order, and where it is from.
 Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& request,
                          std::span<const SignalFrame> frames, PlannedMerge& planned) {
@@ -87,7 +104,9 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   planned.plan.noise.assign(
       n, estimate.value_or(NoiseOfMean(kMiddlingNoise, request.samples_averaged)));
   if (estimate) return {};
-  if (n == 1) {
+  if (n == 1 && frames[0].response != nullptr) {
+    planned.plan.noise.assign(1, NoiseOfCodes(*frames[0].response, frames[0].channels));
+  } else if (n == 1) {
     return Refused("one_frame", frames[0].name,
                    "a single frame does not show its own noise, and its file does not name it; "
                    "give more frames or a DNG with NoiseProfile");
@@ -95,7 +114,8 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   planned.noise_source = NoiseSource::kAssumed;
   planned.warnings.push_back({"noise_assumed", frames[0].name,
                               "no two frames share enough to show their noise; that of a middling "
-                              "sensor is assumed"});
+                              "sensor" +
+                                  std::string(n == 1 ? ", or a code," : "") + " is assumed"});
   return {};
 }
 
@@ -302,8 +322,13 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   };
   planned.plan.fixed_pattern = EstimateFixedPattern(*merger, done);
   if (frames.front().response != nullptr) {
-    planned.plan.encoded =
-        std::make_shared<const EncodedErrors>(MeasureEncodedErrors(*merger, signals, done));
+    auto errors = MeasureEncodedErrors(*merger, signals, done);
+    if (request.stated_response) {
+      CheckStatedCurve(errors, frames.front().name, planned.warnings);
+    } else {
+      errors.misfit = std::min(errors.misfit, kMostMisfit);
+    }
+    planned.plan.encoded = std::make_shared<const EncodedErrors>(std::move(errors));
   }
   return planned;
 }

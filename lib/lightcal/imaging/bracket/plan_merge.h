@@ -19,7 +19,8 @@ struct MergeRequest {
   std::vector<double> label_exposure;
   // Encoded frames: their response was found with the labels, so the labels stand.
   bool keep_labels = false;
-  std::optional<NoiseProfile> noise;                     // known for all frames; else
+  bool stated_response = false;       // or it was not found from the frames, but stated
+  std::optional<NoiseProfile> noise;  // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files
   // Samples are means of n x n (AverageFrame): what is known of noise and pixels above, or assumed,

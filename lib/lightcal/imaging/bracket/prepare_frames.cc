@@ -119,6 +119,17 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
   return {};
 }
 
+constexpr double kHighestCodeOf8Bits = 255.0;
+
+// The one that is stated, or what the frames tell.
+Result<ResponseCurves> ResponseOf(const BracketMergeRequest& request, std::span<const Frame> frames,
+                                  std::span<const double> labels) {
+  if (!request.response) return RecoverResponse(frames, labels);
+  const FrameInfo& info = frames.front().info;
+  const double top = info.levels ? double{info.levels->white[0]} : kHighestCodeOf8Bits;
+  return ResponseOfCodes(*request.response, static_cast<int>(top), std::min(info.channels, 3));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest& request,
@@ -158,10 +169,15 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   merge.noise = request.noise;
   merge.keep_labels = !request.work.measure_ratios;
   if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
-    auto response = RecoverResponse(prepared->frames, *labels);
+    auto response = ResponseOf(request, prepared->frames, *labels);
     if (!response) return Propagate(std::move(response));
     prepared->response = std::move(*response);
     merge.keep_labels = true;
+    merge.stated_response = request.response.has_value();
+  } else if (request.response) {
+    return Refused("no_codes", bracket.frames.front().file,
+                   "holds what its sensor saw, or linear values: there is no response to state; "
+                   "leave {merge.response} out");
   }
   for (const Frame& frame : prepared->frames) {
     auto signal = SignalOf(frame, &prepared->response);

@@ -248,7 +248,8 @@ tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why
   return Refused("no_response", file,
                  why +
                      "; shoot RAW, or two to five frames 1 to 2 EV apart that show the same "
-                     "parts well exposed");
+                     "parts well exposed, or state a curve that was kept from such a bracket "
+                     "({merge.response}, or response in a [[capture]])");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
+#include "lightcal/records/response_curves.h"
 
 namespace lightcal {
 
@@ -26,11 +27,6 @@ inline constexpr int kLanes = 48;
 
 // A clip above this is none: scene-linear files that do not show one.
 inline constexpr float kClipUnknownFrom = 1e30F;
-
-// Code -> signal for each channel, increasing; what RecoverResponse finds.
-struct ResponseCurves {
-  std::array<std::vector<float>, 3> signal_of_code;
-};
 
 // One frame of a bracket. Looks at the frame's samples: the Frame must outlive it.
 struct SignalFrame {
