@@ -97,5 +97,40 @@ TEST(WallPrior, AWallBehindABulbIsBetweenAnOrdinaryPlaceAndACorner) {
   EXPECT_GT(slope_with_wall, steepest.prior.slope - steepest.prior.sd_slope);
 }
 
+// A room s times as large gives a meter s times as far 1/s^2 of the light: all solid angles are the
+// same.
+TEST(WallPrior, OfALargerRoomIsTheOrdinaryOnesScaled) {
+  const Vec3 largest{8.0, 7.0, 3.0};  // 202 m^2: no traced room is larger
+  for (const LightKind kind : {LightKind::kSphere, LightKind::kDisk, LightKind::kSpot}) {
+    LampSpread lamp;
+    lamp.kind = kind;
+    const auto ordinary = WallPriors(lamp, StatedRoom{largest, 0.4, 0.04});
+    for (const double s : {1.5, 4.0, 20.0}) {
+      const auto larger = WallPriors(lamp, StatedRoom{largest * s, 0.4, 0.04});
+      ASSERT_EQ(larger.size(), ordinary.size());
+      for (std::size_t i = 0; i < larger.size(); ++i) {
+        for (const double d : {0.5, 3.0, 6.0}) {
+          EXPECT_NEAR(WallsPerCandela(larger[i].prior, s * d) * s * s /
+                          WallsPerCandela(ordinary[i].prior, d),
+                      1.0, 1e-9);
+        }
+      }
+    }
+  }
+}
+
+// Nobody says how large a room is in which a lamp is read 60 m away; it is no ordinary one.
+TEST(WallPrior, WallsAddNoMoreToALongerThrow) {
+  for (const LightKind kind : {LightKind::kPoint, LightKind::kSphere, LightKind::kSpot}) {
+    LampSpread lamp;
+    lamp.kind = kind;
+    const auto share = [&](double d) {
+      return d * d * WallsPerCandela(WallPriors(lamp, {}, Metres(d)).back().prior, d);
+    };
+    for (const double d : {7.0, 20.0, 60.0, 300.0}) EXPECT_NEAR(share(d) / share(6.0), 1.0, 1e-9);
+    EXPECT_LT(share(3.0), share(6.0));
+  }
+}
+
 }  // namespace
 }  // namespace lightcal

@@ -2,9 +2,11 @@
 #include "lightcal/light/wall_prior.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <span>
 
 namespace lightcal {
 namespace {
@@ -33,6 +35,8 @@ constexpr double kSdOfFar = 1.2;
 // A bulb's over a floor alone, which lies .8 to 2.5 m below it: - 1.22 to - .33 by integration.
 constexpr double kSlopeOfFar = -0.65;
 constexpr double kOrdinaryRoom = 0.0088;  // f, 1/m^2
+// Ordinary rooms' largest: their surface, and what is read in them.
+constexpr double kLargestRoom_m2 = 202.0, kFarthestInRoom_m = 6.0;
 // Below these fluxes over intensity a lamp lights its room as a panel, as a beam does.
 constexpr double kLeastOfBulb = 7.0;
 constexpr double kLeastOfPanel = 2.0;
@@ -48,7 +52,11 @@ WallPrior InRoom(const Family& family, double flux, const StatedRoom& room) {
 WallPrior PriorOf(const Family& family, std::optional<double> flux,
                   const std::optional<StatedRoom>& room) {
   const bool beam = family.flux == 0.0;
-  if (beam && !flux) return family.prior;
+  if (beam && !flux) {  // its angle is the larger doubt, which holds what is not known of the room
+    WallPrior prior = family.prior;
+    if (room) prior.ln_b += PartOfRoom(*room).ln;
+    return prior;
+  }
   if (room) return InRoom(family, flux.value_or(family.flux), *room);
   WallPrior prior = family.prior;
   if (beam) {
@@ -127,15 +135,33 @@ std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrio
           {kCorner * kOrdinary, corner}};
 }
 
-// A panel whose size nobody said is 10 to 50 cm wide and high. The likeliest place is weighed with
-// each size, the others with the middle one.
-std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places) {
+// What a lamp of unstated size may measure; 0 = as small as a point.
+struct PossibleSize {
+  double weight, width_m, height_m;
+};
+// A film panel is 10 to 50 cm wide and high; an office's is 60 x 60 or 120 x 30.
+constexpr std::array<PossibleSize, 5> kPanelSizes = {{{0.35, 0.30, 0.26},
+                                                      {0.28, 0.16, 0.13},
+                                                      {0.29, 0.46, 0.40},
+                                                      {0.05, 0.60, 0.60},
+                                                      {0.03, 1.20, 0.30}}};
+// Boxes and cloths, of which small ones tell as points do.
+constexpr std::array<PossibleSize, 5> kSoftboxSizes = {{{0.40, 0.0, 0.0},
+                                                        {0.21, 0.45, 0.40},
+                                                        {0.19, 0.65, 0.60},
+                                                        {0.13, 0.90, 0.60},
+                                                        {0.07, 1.25, 0.85}}};
+
+// The likeliest place is weighed with each size, the others with the first.
+std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places,
+                                       std::span<const PossibleSize> sizes) {
   std::vector<WallHypothesis> out;
-  for (const WallHypothesis& place : places) {
-    const bool first = out.empty();
-    if (first) out.push_back({0.30 * place.weight, place.prior, 0.16, 0.13});
-    out.push_back({(first ? 0.38 : 1.0) * place.weight, place.prior, 0.30, 0.26});
-    if (first) out.push_back({0.32 * place.weight, place.prior, 0.46, 0.40});
+  for (const PossibleSize& size : sizes) {
+    const WallHypothesis& place = places.front();
+    out.push_back({size.weight * place.weight, place.prior, size.width_m, size.height_m});
+  }
+  for (const WallHypothesis& place : std::span(places).subspan(1)) {
+    out.push_back({place.weight, place.prior, sizes[0].width_m, sizes[0].height_m});
   }
   return out;
 }
@@ -155,33 +181,51 @@ std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
     }
     return places;
   };
-  std::vector<WallHypothesis> any = shines_all_round(0.42, Fixture::kBulb);
-  std::ranges::copy(shines_all_round(0.065, Fixture::kSoftbox), std::back_inserter(any));
+  std::vector<WallHypothesis> any = shines_all_round(0.383, Fixture::kBulb);
+  std::ranges::copy(shines_all_round(0.058, Fixture::kSoftbox), std::back_inserter(any));
+  const WallPrior all_round = PriorOf(kBulb, {}, room);
   const WallPrior panel = PriorOf(kPanel, {}, room);
   const WallPrior beam = PriorOf(kBeam, {}, room);
-  any.push_back({0.10, panel, 0.12, 0.09, offset_of(Fixture::kCobBare)});
-  any.push_back({0.055, panel, 0.25, 0.19, offset_of(Fixture::kPanel)});
-  any.push_back({0.04, panel, 0.42, 0.32, offset_of(Fixture::kPanel)});
-  any.push_back({0.035, panel, 0.0, 0.0, offset_of(Fixture::kSoftbox)});
-  any.push_back({0.03, panel, 0.30, 0.24, offset_of(Fixture::kSoftbox)});
-  any.push_back({0.145, beam, 0.0, 0.0, offset_of(Fixture::kReflector)});
-  any.push_back({0.11, beam, 0.0, 0.0, offset_of(Fixture::kFresnel)});
+  // A globe, from its glass; tubes, broadside.
+  any.push_back({0.025, all_round, 0.0, 0.0, OffsetPart{1.0, 0.12, 0.05}});
+  any.push_back({0.020, all_round, 1.20, 0.03, offset_of(Fixture::kBulb)});
+  any.push_back({0.012, all_round, 0.60, 0.03, offset_of(Fixture::kBulb)});
+  any.push_back({0.093, panel, 0.12, 0.09, offset_of(Fixture::kCobBare)});
+  any.push_back({0.053, panel, 0.25, 0.19, offset_of(Fixture::kPanel)});
+  any.push_back({0.038, panel, 0.42, 0.32, offset_of(Fixture::kPanel)});
+  any.push_back({0.018, panel, 0.60, 0.60, offset_of(Fixture::kPanel)});
+  any.push_back({0.033, panel, 0.0, 0.0, offset_of(Fixture::kSoftbox)});
+  any.push_back({0.029, panel, 0.30, 0.24, offset_of(Fixture::kSoftbox)});
+  any.push_back({0.015, panel, 0.90, 0.60, offset_of(Fixture::kPanel)});
+  any.push_back({0.125, beam, 0.0, 0.0, offset_of(Fixture::kReflector)});
+  any.push_back({0.098, beam, 0.0, 0.0, offset_of(Fixture::kFresnel)});
   return any;
 }
 
-}  // namespace
-
-RoomPart PartOfRoom(const StatedRoom& room) {
-  const double rho = std::clamp(room.reflectance, 0.02, 0.95);
+double AreaOf(const StatedRoom& room) {
   const Vec3& s = room.size_m;
-  const double area = 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
-  return {kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom),
-          kRoomPower * room.reflectance_sigma / (rho * (1.0 - rho))};
+  return 2.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]);
 }
 
-std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
-                                       const std::optional<StatedRoom>& room) {
-  if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return {};
+// How many times as large as an ordinary one the room is.
+double ScaleOf(const std::optional<StatedRoom>& room, Metres farthest) {
+  const double stated = room ? std::sqrt(AreaOf(*room) / kLargestRoom_m2) : 1.0;
+  return std::max({1.0, stated, farthest.value() / kFarthestInRoom_m});
+}
+
+// At `farthest`, which tells most of its walls, it is as unsure as the ordinary room at farthest/s.
+WallPrior Enlarged(WallPrior prior, double scale, Metres farthest) {
+  const double ln = std::log(scale);
+  const double x = std::log(std::max(farthest.value(), kFarthestInRoom_m) / kWallReference_m);
+  prior.ln_b += ln * (prior.bend * ln - prior.slope - 2.0);
+  prior.slope -= 2.0 * prior.bend * ln;
+  prior.sd_slope *= std::min(1.0, std::abs(x - ln) / x);
+  return prior;
+}
+
+// In an ordinary room, or in the largest one of the stated room's shape.
+std::vector<WallHypothesis> OrdinaryPriors(const LampSpread& lamp,
+                                           const std::optional<StatedRoom>& room) {
   std::optional<double> flux = lamp.flux_over_intensity;
   if (lamp.beam && lamp.beam->value() > 0.0) flux = FluxOfBeam(*lamp.beam);
   if (flux) {
@@ -189,12 +233,35 @@ std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
     return WithOtherPlaces(family, PriorOf(family, flux, room));
   }
   if (lamp.kind == LightKind::kPoint && lamp.fixture == Fixture::kPanel) {
-    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)));
+    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)), kPanelSizes);
+  }
+  if (lamp.kind == LightKind::kPoint && lamp.fixture == Fixture::kSoftbox) {
+    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)), kSoftboxSizes);
   }
   if (const Family* family = FamilyOf(lamp)) {
     return WithOtherPlaces(*family, PriorOf(*family, {}, room));
   }
   return OfAnyMake(room);
+}
+
+}  // namespace
+
+RoomPart PartOfRoom(const StatedRoom& room) {
+  const double rho = std::clamp(room.reflectance, 0.02, 0.95);
+  const double area = std::min(AreaOf(room), kLargestRoom_m2);
+  return {kRoomPower * std::log(rho / (area * (1.0 - rho)) / kOrdinaryRoom),
+          kRoomPower * room.reflectance_sigma / (rho * (1.0 - rho))};
+}
+
+std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
+                                       const std::optional<StatedRoom>& room, Metres farthest) {
+  if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return {};
+  std::vector<WallHypothesis> walls = OrdinaryPriors(lamp, room);
+  const double scale = ScaleOf(room, farthest);
+  if (scale > 1.0) {
+    for (WallHypothesis& one : walls) one.prior = Enlarged(one.prior, scale, farthest);
+  }
+  return walls;
 }
 
 std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls) {

@@ -55,16 +55,21 @@ struct StatedRoom {
 };
 
 // What a stated room makes of an ordinary one's light from walls, ln and 1 sigma: (f/.0088)^.7 with
-// f = rho/(A (1 - rho)), .0088 being an ordinary room's, by what is not known of rho.
+// f = rho/(A (1 - rho)), .0088 being an ordinary room's, by what is not known of rho. A room larger
+// than any of these counts as the largest of its shape.
 struct RoomPart {
   double ln = 0.0, sd = 0.0;
 };
 [[nodiscard]] RoomPart PartOfRoom(const StatedRoom& room);
 
 // From 1,500 path-traced ordinary rooms (tests/tools/traced_rooms): b of the lamp's flux over
-// intensity, in a stated room b = k flux/I times its part. Empty for kinds without a distance.
+// intensity, in a stated room b = k flux/I times its part. A room that is larger than all of these,
+// by what is stated or because `farthest` is read in it, is such a room s times as large, where
+//   E_walls(d) = E_walls of the ordinary room(d/s) / s^2.
+// Empty for kinds without a distance.
 [[nodiscard]] std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
-                                                     const std::optional<StatedRoom>& room);
+                                                     const std::optional<StatedRoom>& room,
+                                                     Metres farthest = Metres(0.0));
 
 // One normal of all that a lamp may be, its bend and scatter the first one's. Absent of none.
 [[nodiscard]] std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls);

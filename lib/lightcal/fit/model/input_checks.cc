@@ -220,6 +220,10 @@ void CheckRoom(const Session& session, const LightDescription& light, Warnings& 
     if (row.reading.light != light.name) continue;
     const auto& place = row.reading.position_m;
     if (place && !IsInRoom(*place, size)) add("reading " + std::to_string(index));
+    const auto& distance = row.reading.distance;
+    if (distance && distance->value() > Length(size)) {
+      add("reading " + std::to_string(index) + " at " + RoundedText(distance->value(), 3) + " m");
+    }
     ++index;
   }
   if (outside.empty()) return;
@@ -229,8 +233,7 @@ void CheckRoom(const Session& session, const LightDescription& light, Warnings& 
            RoundedText(0.5 * size[0], 3) + " to " + RoundedText(0.5 * size[0], 3) + " m in x, -" +
            RoundedText(0.5 * size[1], 3) + " to " + RoundedText(0.5 * size[1], 3) +
            " m in y, 0 to " + RoundedText(size[2], 3) +
-           " m in z; for its walls' light it counts as just inside: correct the positions or "
-           "size_m"});
+           " m in z; its walls' light is a guess: correct the places, the distances or size_m"});
 }
 
 Result<void> CheckLengths(const Session& session, const LightDescription& light,
@@ -277,7 +280,8 @@ Result<void> CheckLengths(const Session& session, const LightDescription& light,
   if (suspect.empty()) return {};
   warnings.push_back(
       {"units_suspect", light.name,
-       suspect + ": a number without a unit is metres; write 120cm or 20in for others"});
+       suspect +
+           ": is that so? A number without a unit is metres; write 120cm or 20in for others"});
   return {};
 }
 

@@ -163,6 +163,20 @@ std::optional<double> FluxOverIntensity(const LightDescription& light) {
   return SolidAngleOfSpot(cone, SpotFalloff::kSquaredLinear).value();
 }
 
+// The largest distance that somebody stood from the lamp.
+Metres FarthestRead(const Session& session, const LightDescription& light) {
+  double farthest = 0.0;
+  for (const SessionReading& row : session.readings) {
+    const Reading& reading = row.reading;
+    if (reading.light != light.name || reading.meter == kDataSheetMeter) continue;
+    if (reading.distance) farthest = std::max(farthest, reading.distance->value());
+    if (reading.position_m && light.position_m) {
+      farthest = std::max(farthest, Length(*reading.position_m - *light.position_m));
+    }
+  }
+  return Metres(farthest);
+}
+
 // What is known beforehand of the walls' light and of where the lamp's starts.
 void AddPriors(const Session& session, const LightDescription& light,
                const Observations& observations, Scene& scene) {
@@ -206,7 +220,7 @@ std::optional<StatedRoom> StatedRoomOf(const Session& session) {
 
 std::vector<WallHypothesis> WallPriorsOf(const Session& session, const LightDescription& light) {
   return WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)},
-                    StatedRoomOf(session));
+                    StatedRoomOf(session), FarthestRead(session, light));
 }
 
 Scene SceneOfSession(const Session& session, const LightDescription& light,
