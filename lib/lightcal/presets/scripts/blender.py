@@ -4,7 +4,8 @@
 # it replaces its own and leaves all else as it is; one undo takes them back. NAME.rig.blender.py
 # makes a scene of its own with cards, camera and exposure, and takes
 #   [--render out.png|out.exr] [--samples N]  as well.
-# Exported with --into it makes nothing: it sets lights that are there, by name, or refuses.
+# Exported with --into it makes nothing: it sets lights that are there, by name, or refuses. Their type
+# becomes the lamp's, for another shows another lamp: a SPOT's cone cuts what shines beyond it.
 # Lights are watts of W = lm/683 (as Blender's glTF importer has it): every radiance of the scene is
 # cd/m2 divided by 683, and the rig's exposure brings the white card to 1.0 (reflectance 1).
 import json
@@ -75,40 +76,34 @@ def discard(lamp):
                 bpy.data.texts.remove(text)
 
 
-def energy_for(lamp, light):
-    """Watts of a light of this type that shines with the lamp's candela, or lux, along its axis."""
-    energy, kind = light['energy_W'], light['type']
-    if kind in ('SUN', 'IES'):
-        return energy
-    if kind == 'AREA' and lamp.type != 'AREA':
-        energy *= 4  # pi cd to 4 pi cd
-    if lamp.type == 'AREA':
-        if kind != 'AREA':
-            energy /= 4
-        if bpy.app.version < (4, 0):
-            energy *= 4 / math.pi  # before 4.0 an area light of P watts has P/4 on its axis
-    return energy
+def type_of(light):
+    """Blender's type that shows this lamp. A photometric file shines all round: a cone would cut it."""
+    return 'POINT' if light['type'] == 'IES' else light['type']
 
 
 def set_figures(lamp, light):
-    """Intensity, colour, cone, distribution and size, as far as the lamp has them."""
+    """All that shapes the light of a lamp whose type is type_of(light)."""
     kind = light['type']
     lamp.color = light['color']
-    if kind == 'AREA' and lamp.type == 'AREA':
+    lamp.energy = light['energy_W']
+    if kind == 'AREA':
         lamp.shape = light['shape']
-        lamp.size = light['size_m'][0]
-        if light['shape'] == 'RECTANGLE':
-            lamp.size_y = light['size_m'][1]
+        lamp.size, lamp.size_y = light['size_m']
+        lamp.spread = math.pi  # all of its half space
+        if hasattr(lamp, 'cycles'):
+            lamp.cycles.is_portal = False  # portals give no light of their own
+        if bpy.app.version < (4, 0):
+            lamp.energy *= 4 / math.pi  # before 4.0 an area light of P watts has P/4 on its axis
     elif kind == 'SUN':
         lamp.angle = light['angle_rad']
-    elif lamp.type in ('POINT', 'SPOT') and light.get('radius_m', 0) > 0:
+    else:
         lamp.shadow_soft_size = light['radius_m']
-    if kind == 'SPOT' and lamp.type == 'SPOT':
+    if kind == 'SPOT':
         # Before 4.0 a spot is a disc, which its own cosine dims.
         cone = light['before_4_0'] if bpy.app.version < (4, 0) else light
         lamp.spot_size = cone['spot_size_rad']
         lamp.spot_blend = cone['spot_blend']
-    lamp.energy = energy_for(lamp, light)
+        lamp.use_square = False
     if hasattr(lamp, 'exposure'):
         lamp.exposure = 0.0
     if hasattr(lamp, 'normalize'):
@@ -175,15 +170,12 @@ def set_knobs(lamp, controls):
 
 def add_light(collection, light, mine=None):
     """A light, in the place of ours of an earlier run where there is one."""
-    kind = light['type']
-    lamp = bpy.data.lights.new(light['name'], 'POINT' if kind == 'IES' else kind)
+    lamp = bpy.data.lights.new(light['name'], type_of(light))
     if mine:
         earlier, mine.data = mine.data, lamp
         name = earlier.name
         discard(earlier)
         lamp.name = name
-    if kind not in ('AREA', 'SUN'):
-        lamp.shadow_soft_size = light['radius_m']
     set_figures(lamp, light)
     thing = placed(light['name'], lamp, collection, light['axes'], light['position_m'], mine)
     thing[LAMP] = light['name']
@@ -376,7 +368,7 @@ def matches(pattern, name):
 
 
 def figures(lamp):
-    text = '%.4g W, colour %.3f %.3f %.3f' % (lamp.energy, *lamp.color)
+    text = '%s, %.4g W, colour %.3f %.3f %.3f' % (lamp.type, lamp.energy, *lamp.color)
     if lamp.type == 'SPOT':
         text += ', cone %.4g deg, blend %.3g' % (math.degrees(lamp.spot_size), lamp.spot_blend)
     if lamp.type in ('POINT', 'SPOT'):
@@ -390,13 +382,10 @@ def figures(lamp):
 
 def why_not(thing, light, chosen):
     """What keeps this light from being set, and what to do; '' = nothing."""
-    lamp, kind = thing.data, light['type']
+    lamp, kind = thing.data, type_of(light)
     if (kind == 'SUN') != (lamp.type == 'SUN'):
         return ('is a %s, and "%s" was measured in %s: make it a %s, or leave it out'
-                % (lamp.type, light['name'], 'lux' if kind == 'SUN' else 'candela',
-                   'SUN' if kind == 'SUN' else 'POINT or SPOT'))
-    if kind == 'IES' and lamp.type == 'AREA':
-        return 'is an AREA, which takes no photometric file: make it a POINT or a SPOT'
+                % (lamp.type, light['name'], 'lux' if kind == 'SUN' else 'candela', kind))
     if lamp.library or lamp.override_library:
         return 'is linked from another file: open that file, or make it local (Object > Relations)'
     others = [o.name for o in bpy.data.objects if o.data == lamp and o not in chosen]
@@ -404,6 +393,23 @@ def why_not(thing, light, chosen):
         return ('shares its light with "%s", which would change too: make it single user '
                 '(Object > Relations), or name both' % others[0])
     return ''
+
+
+def say_what_else_shapes(thing, was, light):
+    """What of the scene turns, bends or moves the light that was set."""
+    lamp, name = thing.data, thing.name
+    if was == 'POINT' and light['type'] != 'POINT':
+        print('lightcal: %s: shone all round, and shines along its -Z now: see that it aims' % name)
+    scale = thing.matrix_world.to_scale()
+    if lamp.type in ('SPOT', 'AREA') and max(abs(s - 1) for s in scale) > 1e-3:
+        print('lightcal: %s: is scaled by %.3g, %.3g, %.3g, and so are its face and cone: apply the '
+              'scale (Object > Apply)' % (name, *scale))
+    moved = lamp.animation_data
+    curves = list(moved.drivers) + list(getattr(moved.action, 'fcurves', [])) if moved else []
+    paths = sorted({c.data_path for c in curves if not any(
+        'lightcal_' in v.targets[0].data_path for v in (c.driver.variables if c.driver else []))})
+    if paths:
+        print('lightcal: %s: has keys or drivers on %s, which move it again' % (name, ', '.join(paths)))
 
 
 def set_lights_that_are_there():
@@ -432,12 +438,11 @@ def set_lights_that_are_there():
     if problems:
         raise RuntimeError('lightcal: nothing set: ' + '; '.join(problems))
     for thing, lamp in taken.items():
-        before = figures(thing.data)
-        set_figures(thing.data, lights[lamp])
+        before, was = figures(thing.data), thing.data.type
+        thing.data.type = type_of(lights[lamp])
+        set_figures(thing.data.type_recast(), lights[lamp])
         print('lightcal: %s: %s -> %s   (%s)' % (thing.name, before, figures(thing.data), lamp))
-        if lights[lamp]['type'] == 'SPOT' and thing.data.type != 'SPOT':
-            print('lightcal: %s: a %s has no cone: right on the axis of "%s" alone; a SPOT has one'
-                  % (thing.name, thing.data.type, lamp))
+        say_what_else_shapes(thing, was, lights[lamp])
     return scene
 
 
