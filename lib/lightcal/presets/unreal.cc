@@ -222,6 +222,9 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
                                  "a .t3d imports no picture: run the script"});
     }
     data["lights"].push_back(LightJson((*forms)[i], unreal.back(), (*ies)[i], picture));
+    if (!options.into.empty()) {  // the light that is there may be a spot
+      data["lights"].back()["cone_deg"] = Array(UnrealSpotOf((*forms)[i]));
+    }
     PutControls(options, lights.lights[i], (*forms)[i], unreal.back(), data["lights"].back());
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);

@@ -45,17 +45,24 @@ double BakeColor(const EmittedColor& color, UnrealLight& out) {
 }
 
 void PutUnrealCone(const PresetLight& light, DerivedLight& out, Warnings& warnings) {
-  const double outer = DegreesFromRadians(light.cone.cone.outer);
-  const double inner = DegreesFromRadians(light.cone.cone.inner);
-  out.Put("inner_cone_angle", std::min(inner, kWidestOuter_deg));
-  out.Put("outer_cone_angle", std::min(outer, kWidestOuter_deg));
-  if (outer > kWidestOuter_deg) {
+  const auto [inner, outer] = UnrealSpotOf(light);
+  out.Put("inner_cone_angle", inner);
+  out.Put("outer_cone_angle", outer);
+  if (DegreesFromRadians(light.cone.cone.outer) > kWidestOuter_deg) {
     warnings.push_back(
         {"cone_clipped", light.name(), "Unreal's cones end at 88.9 degrees: exported with that"});
   }
 }
 
 }  // namespace
+
+std::array<double, 2> UnrealSpotOf(const PresetLight& light) {
+  const bool refitted = light.form == LightForm::kSpot;
+  if (!refitted && light.form != LightForm::kRect) return {kWidestOuter_deg, kWidestOuter_deg};
+  const SpotCone& cone = refitted ? light.cone.cone : light.punctual.cone;
+  return {std::min(DegreesFromRadians(cone.inner), kWidestOuter_deg),
+          std::min(DegreesFromRadians(cone.outer), kWidestOuter_deg)};
+}
 
 UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
                             Warnings& warnings) {

@@ -2,6 +2,7 @@
 // The numbers a light has in Unreal Engine 5: what unreal.cc writes to both of its files.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,10 @@ struct UnrealLight {
 // bits hold.   Source: Unreal 5.6 LightComponent, MakeFromColorTemperature.
 [[nodiscard]] UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
                                           Warnings& warnings);
+
+// Inner and outer angle [degrees] of a spot that shows this lamp: its cone; of a face the nearest
+// one; else the widest, for a cone cuts what shines all round or has a photometric file.
+[[nodiscard]] std::array<double, 2> UnrealSpotOf(const PresetLight& light);
 
 // Unreal's FRotator [degrees] of the object whose forward (+X), right (+Y) and up (+Z) axes point
 // along these unit vectors of Unreal's world:

@@ -173,6 +173,29 @@ class UnrealInto(unittest.TestCase):
         self.set_lights(scene, NAMES, [('key', 'PropLamp_3')])
         self.assertIsNone(held['PropLamp_3']['ies_texture'])
 
+    def test_a_cone_that_was_there_cuts_no_lamp_of_another_class(self):
+        scene = stage()
+        for actor in scene.actors():
+            if isinstance(actor.root, unreal.SpotLightComponent):
+                actor.root.set_editor_property('inner_cone_angle', 0.0)
+                actor.root.set_editor_property('outer_cone_angle', 22.0)
+            if isinstance(actor.root, unreal.RectLightComponent):
+                actor.root.set_editor_property('barn_door_length', 20.0)
+        rows = [('key', 'PropLamp_1'), ('luminaire', 'PropLamp_4'), ('panel', 'PropLamp_7'), ('key', 'PropLamp_2'),
+                ('panel', 'PropLamp_3'), ('green spot', 'PropLamp_6')]
+        self.set_lights(scene, NAMES, rows)
+        held = {actor.label: actor.root.held for actor in scene.actors()}
+        for label, inner in (('PropLamp_1', 88.9), ('PropLamp_4', 88.9),  # the engine's widest
+                             ('PropLamp_7', math.degrees(math.acos(2 * math.sqrt(2) - 2)))):  # nearest to a cosine
+            self.assertAlmostEqual(held[label]['inner_cone_angle'], inner, delta=1e-6, msg=label)
+            self.assertAlmostEqual(held[label]['outer_cone_angle'], 88.9, delta=1e-6, msg=label)
+        self.assertEqual(held['PropLamp_2']['barn_door_length'], 0.0)
+        for row, said in zip(rows, ('dark beyond 88.9 degrees', 'dark beyond 88.9 degrees', 'within 17 %',
+                                    'right on the axis alone', 'right on the axis alone', 'right on the axis alone')):
+            self.assertTrue([w for w in scene.warnings if row[1] + ' ' in w and said in w and row[0] in w],
+                            (row, scene.warnings))
+        self.assertEqual(len(scene.warnings), len(rows))
+
     def test_it_refuses_as_a_whole_and_says_what_to_do(self):
         for rows, said in (([('key', 'PropLamp_0'), ('key', 'Chandelier_*')],
                             'no light of the level is called "Chandelier_*"; it has PropLamp_0, PropLamp_1,'),
@@ -236,11 +259,17 @@ class Unity(unittest.TestCase):
                     self.assertEqual(twice['has'], once['has'])
                     self.assertEqual((once['untold'], once['undo']), ([], ['lightcal set']))
                     self.assertEqual(len([line for line in once['log'] if ' -> ' in line]), len(named))
+                    # A light's type becomes the lamp's, or its old cone would cut it.
+                    types = {l.split()[0]: l.split()[7] for l in once['has'] if l.startswith('PropLamp_')}
+                    self.assertEqual([types[n] for n in ('PropLamp_0', 'PropLamp_10', 'PropLamp_11', 'PropLamp_4',
+                                                         'PropLamp_5')],
+                                     ['Point'] * 3 + ['Spot', 'Rectangle' if pipeline == 'hdrp' else 'Spot'])
                     if pipeline == 'hdrp':
-                        # 1000 cd of a 2700 K lamp by a colour of luminance .517; onto 2 x .5 m as nits.
-                        self.assertIn('Nits', [l for l in once['has'] if l.startswith('PropLamp_11 ')][0])
+                        # 1000 cd of a 2700 K lamp by a colour of luminance .517.
+                        self.assertIn('Candela', [l for l in once['has'] if l.startswith('PropLamp_11 ')][0] +
+                                      ''.join(l for l in once['log'] if ' PropLamp_11:' in l))
                         self.assertRegex([l for l in once['log'] if ' PropLamp_0:' in l][0],
-                                         r'intensity .* -> intensity 193[45][.0-9]* Candela')
+                                         r'intensity .* -> Point, intensity 193[45][.0-9]* Candela')
 
     def test_into_refuses_as_a_whole(self):
         for rows, said in (([('key', 'PropLamp_0'), ('key', 'Chandelier_*')],
@@ -287,6 +316,9 @@ class Godot(unittest.TestCase):
             self.assertIn(name, known)
         for suffix in re.findall(r'prefix \+ "(\w+)"', script):
             self.assertLessEqual({'omni' + suffix, 'spot' + suffix}, known)
+        # A lamp that shines all round takes the widest spot, not the cone that was there.
+        self.assertIn('lamp.get("spot_angle", 90.0)', script)
+        self.assertNotIn('light.spot_angle', script)
         self.assertNotIn('add_child', script)
         self.assertNotIn('position', script)
 

@@ -145,7 +145,6 @@ namespace Lightcal
             Put(thing, root, lamp);
             Light light = thing.AddComponent<Light>();
             Emission e = hdrp ? lamp.hdrp : lamp.urp;
-            light.type = (LightType)Enum.Parse(typeof(LightType), e.type);
             light.shadows = LightShadows.Soft;
             if (hdrp && thing.GetComponent(hdLight) == null) thing.AddComponent(hdLight);
             SetFigures(light, lamp, e, hdrp, hdLight);
@@ -159,20 +158,22 @@ namespace Lightcal
             Undo.RegisterCreatedObjectUndo(thing, lamp.name);
         }
 
-        // Intensity, colour, cone and size, as far as the lamp and this type of light have them.
+        // Type, intensity, colour, cone and size: a light of another type shows another lamp, and a cone
+        // that stays cuts what shines beyond it.
         static void SetFigures(Light light, Lamp lamp, Emission e, bool hdrp, Type hdLight)
         {
+            light.type = (LightType)Enum.Parse(typeof(LightType), e.type);
             // The colour's luminance is in the intensity already: no colour temperature on top.
             light.useColorTemperature = false;
             light.color = new Color(lamp.color_linear[0], lamp.color_linear[1],
                                     lamp.color_linear[2]).gamma;
             if (e.range_m > 0) light.range = e.range_m;
-            if (light.type == LightType.Spot && e.type == "Spot")
+            if (light.type == LightType.Spot)
             {
                 light.spotAngle = e.spot_angle_deg;
                 light.innerSpotAngle = e.inner_spot_angle_deg;
             }
-            if (light.type == LightType.Rectangle && e.type == "Rectangle")
+            if (light.type == LightType.Rectangle)
             {
                 light.areaSize = new Vector2(e.area_width_m, e.area_height_m);
             }
@@ -190,14 +191,14 @@ namespace Lightcal
         static string Figures(Light light, bool hdrp, Type hdLight)
         {
             Color c = light.color;
-            string text = "intensity " + light.intensity;
+            string text = light.type + ", intensity " + light.intensity;
             if (hdrp)
             {
 #if UNITY_6000_0_OR_NEWER
                 text += " " + light.lightUnit;
 #else
                 Component data = light.GetComponent(hdLight);
-                if (data != null) text = "intensity " + Get(data, "intensity") + " " + Get(data, "lightUnit");
+                if (data != null) text = light.type + ", intensity " + Get(data, "intensity") + " " + Get(data, "lightUnit");
 #endif
             }
             text += ", colour " + c.r + " " + c.g + " " + c.b + ", range " + light.range;
@@ -266,6 +267,7 @@ namespace Lightcal
                 Light light = pair.Key;
                 Emission e = hdrp ? pair.Value.hdrp : pair.Value.urp;
                 string before = Figures(light, hdrp, hdLight);
+                LightType was = light.type;
                 List<UnityEngine.Object> parts = new List<UnityEngine.Object> { light };
                 if (hdrp)
                 {
@@ -281,10 +283,10 @@ namespace Lightcal
                 }
                 Debug.Log("lightcal: " + light.gameObject.name + ": " + before + " -> " +
                           Figures(light, hdrp, hdLight) + "   (" + pair.Value.name + ")");
-                if (e.type == "Spot" && light.type != LightType.Spot)
+                if (was == LightType.Point && light.type != was)
                 {
-                    Debug.LogWarning("lightcal: " + light.gameObject.name + " has no cone: right on the " +
-                                     "axis of \"" + pair.Value.name + "\" alone");
+                    Debug.LogWarning("lightcal: " + light.gameObject.name + " shone all round, and shines " +
+                                     "along its forward axis now: see that it aims");
                 }
             }
             Undo.CollapseUndoOperations(Undo.GetCurrentGroup());
@@ -296,39 +298,26 @@ namespace Lightcal
             return type == LightType.Rectangle ? "Nits" : "Candela";
         }
 
-        // In cd, lx or nits: what a light of this type is given, of the lamp's own figure.
-        static float IntensityFor(Light light, Emission e)
-        {
-            float area = light.areaSize.x * light.areaSize.y;
-            if (light.type == LightType.Rectangle && e.type != "Rectangle") return e.intensity / area;
-            if (light.type != LightType.Rectangle && e.type == "Rectangle")
-            {
-                return e.intensity * e.area_width_m * e.area_height_m;
-            }
-            return e.intensity;
-        }
-
         static void SetPhysical(Light light, Emission e, Type hdLight)
         {
             Component data = light.GetComponent(hdLight);
-            if (e.type == "Directional") Set(data, "angularDiameter", e.angular_diameter_deg);
+            if (light.type == LightType.Directional) Set(data, "angularDiameter", e.angular_diameter_deg);
             if (e.radius_m > 0) Set(data, "shapeRadius", e.radius_m);
             // HDRP's own inner cone, in percent of the outer angle, 0 by default: Light.innerSpotAngle
             // counts from the version on that has this no more.
-            if (light.type == LightType.Spot && e.type == "Spot" &&
-                hdLight.GetProperty("innerSpotPercent") != null)
+            if (light.type == LightType.Spot && hdLight.GetProperty("innerSpotPercent") != null)
             {
                 Set(data, "innerSpotPercent", e.inner_spot_percent);
             }
 #if UNITY_6000_0_OR_NEWER
             light.lightUnit = (LightUnit)Enum.Parse(typeof(LightUnit), UnitOf(light.type));
-            light.intensity = IntensityFor(light, e);
+            light.intensity = e.intensity;
 #else
-            if (light.type == LightType.Rectangle) Set(data, "type", "Area");
+            Set(data, "type", light.type == LightType.Rectangle ? "Area" : e.type);
             if (light.type == LightType.Rectangle) Call(data, "SetAreaLightSize", light.areaSize);
             Type units = Find("UnityEngine.Rendering.HighDefinition.LightUnit");
             MethodInfo set = hdLight.GetMethod("SetIntensity", new Type[] { typeof(float), units });
-            set.Invoke(data, new object[] { IntensityFor(light, e), Enum.Parse(units, UnitOf(light.type)) });
+            set.Invoke(data, new object[] { e.intensity, Enum.Parse(units, UnitOf(light.type)) });
 #endif
         }
 

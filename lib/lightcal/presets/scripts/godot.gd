@@ -50,20 +50,30 @@ static func figures_for(light: Light3D, lamp: Dictionary) -> Array:
 		return rows + [["light_intensity_lux", lamp.light_intensity_lux],
 			["light_angular_distance", lamp.light_angular_distance]]
 	# Lumens are 4 pi cd of an omni and pi cd of a spot, whatever its cone; on its axis a spot keeps
-	# 1 - .0001^(1 / attenuation) of them.
+	# 1 - .0001^(1 / attenuation) of them. A lamp that shines all round takes the widest and flattest
+	# spot: the cone that was there would cut it.
 	var spot := light is SpotLight3D
 	var prefix := "spot" if spot else "omni"
 	var sr := 4.0 * PI
+	var attenuation: float = lamp.get("spot_angle_attenuation", 0.01)
 	if spot:
-		var attenuation: float = lamp.get("spot_angle_attenuation", light.spot_angle_attenuation)
 		sr = PI / (1.0 - pow(0.0001, 1.0 / attenuation))
 	rows += [["light_intensity_lumens", lamp.candela * sr],
 		[prefix + "_range", lamp.range], [prefix + "_attenuation", 2.0]]
 	if lamp.get("light_size", 0.0) > 0.0:
 		rows.append(["light_size", lamp.light_size])
-	if spot and lamp.has("spot_angle"):
-		rows += [["spot_angle", lamp.spot_angle], ["spot_angle_attenuation", lamp.spot_angle_attenuation]]
+	if spot:
+		rows += [["spot_angle", lamp.get("spot_angle", 90.0)], ["spot_angle_attenuation", attenuation]]
 	return rows
+
+
+# What this light shows otherwise than the lamp; "" = nothing.
+static func strays(light: Light3D, lamp: Dictionary) -> String:
+	if light is SpotLight3D and lamp.type == "OmniLight3D":
+		return "is a spot, dark beyond 90 degrees from its aim; an OmniLight3D shows all of \"%s\"" % lamp.name
+	if light is OmniLight3D and lamp.type == "SpotLight3D":
+		return "has no cone: right on the axis of \"%s\" alone; a SpotLight3D has one" % lamp.name
+	return ""
 
 
 # {"problems": [text], "taken": {light: lamp}}
@@ -117,6 +127,9 @@ func _run() -> void:
 	for light in planned.taken:
 		var rows := figures_for(light, lamp_of(planned.taken[light]))
 		say_before_and_after(light, rows, planned.taken[light])
+		var what := strays(light, lamp_of(planned.taken[light]))
+		if what != "":
+			push_warning("lightcal: ", light.name, " ", what)
 		for row in rows:
 			undo.add_do_property(light, row[0], row[1])
 			undo.add_undo_property(light, row[0], light.get(row[0]))

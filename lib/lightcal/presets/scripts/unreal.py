@@ -110,8 +110,8 @@ def add_light(item):
 
 
 def fitting(component, item):
-    """Those of the lamp's figures that a light of this class has. A size that was not measured is
-    left as it is."""
+    """The lamp's figures as a light of this class has them. A size that was not measured is left as
+    it is, for it changes no intensity here."""
     names = ["intensity"]
     if item["use_temperature"]:
         names.append("temperature")
@@ -119,13 +119,31 @@ def fitting(component, item):
         names.append("light_source_angle")
     else:
         names.append("attenuation_radius")
-    if isinstance(component, unreal.SpotLightComponent):
-        names += ["inner_cone_angle", "outer_cone_angle"]
     if isinstance(component, unreal.PointLightComponent) and item["properties"].get("source_radius"):
         names.append("source_radius")
     if isinstance(component, unreal.RectLightComponent):
-        names += ["source_width", "source_height", "barn_door_length"]
-    return {name: item["properties"][name] for name in names if name in item["properties"]}
+        names += ["source_width", "source_height"]
+    found = {name: item["properties"][name] for name in names if name in item["properties"]}
+    if isinstance(component, unreal.SpotLightComponent):
+        # Its own cone would cut a lamp of another class.
+        found["inner_cone_angle"], found["outer_cone_angle"] = item["cone_deg"]
+    if isinstance(component, unreal.RectLightComponent):
+        found["barn_door_length"] = 0.0
+    return found
+
+
+def strays(component, item):
+    """What a light of this class shows otherwise than the lamp; "" = nothing."""
+    spot = isinstance(component, unreal.SpotLightComponent)
+    if item["class"] == "PointLight" and spot:
+        return "is a spot, dark beyond %.4g degrees from its aim; a point light shows all of" % (
+            item["cone_deg"][1])
+    if isinstance(component, COMPONENTS[item["class"]][1]):
+        return ""
+    if item["class"] == "RectLight" and spot:
+        return "has no face: off its axis within 17 % of the axial intensity; a rect light shows"
+    return "has no such beam: right on the axis alone; a %s shows" % (
+        "spot light" if item["class"] == "SpotLight" else "light of class " + item["class"])
 
 
 def set_figures(component, item, properties):
@@ -430,9 +448,8 @@ def set_lights_that_are_there():
                     component.set_editor_property("ies_texture", None)  # it would shape this lamp
                 set_figures(component, item, fitting(component, item))
                 unreal.log("lightcal: %s: %s -> %s   (%s)" % (label, before, figures(component), lamp))
-                if item["class"] == "SpotLight" and not isinstance(component, unreal.SpotLightComponent):
-                    unreal.log_warning('lightcal: %s has no cone: right on the axis of "%s" alone'
-                                       % (label, lamp))
+                if strays(component, item):
+                    unreal.log_warning('lightcal: %s %s "%s"' % (label, strays(component, item), lamp))
 
 
 if "into" in DATA:
