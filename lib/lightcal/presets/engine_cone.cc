@@ -11,16 +11,26 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/punctual_light.h"
 
 namespace lightcal {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDark = 1e-3;  // of the axial intensity: where a beam ends
+// Godot's: at 90 degrees some versions of 4 cull a spot by the tangent of that angle, negative in
+// single precision (light_get_aabb), and a shadow's camera has no width; 89 leaves 1.7 % of a
+// cosine's rim.
+constexpr double kWidestPower = 89.0 * kDegree;
+constexpr double kHardShare = 0.9999;  // the inner angle of an edge, over the outer
+constexpr double kDark = 1e-3;         // of the axial intensity: where a beam ends
 constexpr double kBeyond = 5.0 * kDegree;
 constexpr double kLeastRim = 1e-4;  // Godot's shader takes no smaller u
 constexpr int kBeamSteps = 300, kRestSteps = 60, kTurns = 24;
+
+double WidestOf(EngineConeLaw law) {
+  return law == EngineConeLaw::kPower ? kWidestPower : kRightAngle;
+}
 
 double Clamped(double v) { return std::clamp(v, 0.0, 1.0); }
 double SmoothStepOf(double t) { return t * t * (3.0 - 2.0 * t); }
@@ -69,11 +79,11 @@ double FactorAt(const ConeTerms& cone, double angle, double cosine) {
 using ConePlace = std::array<double, 2>;
 
 ConeTerms TermsAt(EngineConeLaw law, const ConePlace& at) {
-  const double outer = std::clamp(at[0], 1e-3, kRightAngle);
+  const double outer = std::clamp(at[0], 1e-3, WidestOf(law));
   if (law == EngineConeLaw::kPower) {
     return TermsOf(law, 0.0, outer, std::exp(std::clamp(at[1], -1.4, 4.6)));
   }
-  return TermsOf(law, outer * std::clamp(at[1], 0.0, 0.9999), outer, 1.0);
+  return TermsOf(law, outer * std::clamp(at[1], 0.0, kHardShare), outer, 1.0);
 }
 
 struct Sample {
@@ -117,9 +127,9 @@ double CostOf(const std::vector<Sample>& samples, EngineConeLaw law, const ConeP
   constexpr double kFluxFirst = 50.0;
   // Only there the angles are what was asked for.
   const double outside =
-      std::max(0.0, at[0] - kRightAngle) + std::max(0.0, 0.005 - at[0]) +
+      std::max(0.0, at[0] - WidestOf(law)) + std::max(0.0, 0.005 - at[0]) +
       (law == EngineConeLaw::kPower ? std::max(0.0, std::abs(at[1] - 1.6) - 3.0)
-                                    : std::max(0.0, -at[1]) + std::max(0.0, at[1] - 0.9999));
+                                    : std::max(0.0, -at[1]) + std::max(0.0, at[1] - kHardShare));
   const ConeErrors errors = ErrorsOf(samples, TermsAt(law, at));
   return errors.worst + kFluxFirst * std::max(0.0, std::abs(errors.flux - 1.0) - kConeFluxError) +
          10.0 * outside;
@@ -198,7 +208,7 @@ ConePlace BestPlace(EngineConeLaw law, const BeamProfile& beam,
                     const std::vector<Sample>& samples) {
   constexpr int kOuters = 20, kOthers = 10;
   constexpr std::size_t kSeeds = 3;
-  const double widest = std::min(kRightAngle, 1.3 * EndOf(beam));
+  const double widest = std::min(WidestOf(law), 1.3 * EndOf(beam));
   const std::vector<Sample> few = Thinned(samples);
   const auto roughly = [&](const ConePlace& at) { return CostOf(few, law, at); };
   const auto cost = [&](const ConePlace& at) { return CostOf(samples, law, at); };
@@ -240,6 +250,18 @@ BeamProfile ProfileOf(const SpotCone& cone) {
     const double angle = end * i / (2 * kBeamSteps);
     beam.angle_rad.push_back(angle);
     beam.mean.push_back(SpotAttenuation(Radians(angle), cone, SpotFalloff::kSquaredLinear));
+  }
+  beam.least = beam.most = beam.mean;
+  return beam;
+}
+
+BeamProfile LambertianProfile() {
+  BeamProfile beam;
+  beam.lambertian = true;
+  for (int i = 0; i <= 2 * kBeamSteps; ++i) {
+    const double angle = (kRightAngle + kBeyond) * i / (2 * kBeamSteps);
+    beam.angle_rad.push_back(angle);
+    beam.mean.push_back(std::max(0.0, std::cos(angle)));
   }
   beam.least = beam.most = beam.mean;
   return beam;
@@ -287,10 +309,34 @@ double AxisFactor(const EngineCone& cone) {
   return TermsOf(cone.law, cone.cone.inner.value(), cone.cone.outer.value(), cone.power).axis;
 }
 
+namespace {
+
+// Absent: the law has none.
+std::optional<ConeTerms> TermsOfLambertian(EngineConeLaw law) {
+  switch (law) {
+    case EngineConeLaw::kSquared:
+      return TermsOf(law, std::acos(kLambertianInnerCosine), kRightAngle, 1.0);
+    case EngineConeLaw::kSmoothTimesCosine:
+      return TermsOf(law, kHardShare * kRightAngle, kRightAngle, 1.0);
+    case EngineConeLaw::kPower:
+      return TermsOf(law, 0.0, kWidestPower, 1.0);
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
 EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam) {
   const std::vector<Sample> samples = SamplesOf(beam);
-  if (!beam.squared) return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
-  const double inner = beam.squared->inner.value(), outer = beam.squared->outer.value();
+  if (beam.lambertian) {
+    if (const auto closed = TermsOfLambertian(law)) return JudgedCone(*closed, samples);
+  }
+  if (!beam.squared && !beam.lambertian) {
+    return JudgedCone(TermsAt(law, BestPlace(law, beam, samples)), samples);
+  }
+  const double inner = beam.lambertian ? 0.0 : beam.squared->inner.value();
+  const double outer = beam.lambertian ? 0.0 : beam.squared->outer.value();  // 0: the cosine
   if (law == EngineConeLaw::kSquared) return JudgedCone(TermsOf(law, inner, outer, 1.0), samples);
   // Flat lamps without number stand for the same cone in engines of few laws: each is searched
   // once.

@@ -32,10 +32,13 @@ struct BeamProfile {
   std::vector<double> angle_rad;
   std::vector<double> mean, least, most;  // round about the axis
   std::optional<SpotCone> squared;        // where it is the kSquared law itself
+  bool lambertian = false;                // where it is the cosine, dark behind
 };
 
 // A spot of the squared-linear law, to 5 degrees beyond its outer angle.
 [[nodiscard]] BeamProfile ProfileOf(const SpotCone& cone);
+// A flat source far away, to 5 degrees behind it.
+[[nodiscard]] BeamProfile LambertianProfile();
 // A table about its aim (gamma = 0), over the whole sphere. Absent: dark along its aim.
 [[nodiscard]] std::optional<BeamProfile> ProfileOf(const IntensityTable& table);
 
@@ -54,8 +57,10 @@ struct EngineCone {
 [[nodiscard]] double AxisFactor(const EngineCone& cone);
 
 // The cone of that law that keeps the intensity on the axis, then the flux (to kConeFluxError),
-// then has the least worst error; 0 <= inner < outer <= 90 degrees. To about 0.1 % of the axial
-// intensity.
+// then has the least worst error; 0 <= inner < outer <= 90 degrees (89 of kPower). To about 0.1 %
+// of the axial intensity. Of a Lambertian beam the closed forms: kPower 1 and kSmoothTimesCosine
+// are the cosine itself, kSquared has the least worst error, whatever its flux
+// (kLambertianInnerCosine).
 inline constexpr double kConeFluxError = 0.022;
 [[nodiscard]] EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam);
 // The same where the engine's inner angle is this share of its outer one, whatever it is told.

@@ -83,16 +83,31 @@ bool TakeSquareForDisk(const FittedLight& lamp, const EngineForms& forms, Preset
   return true;
 }
 
-// The engine's own cone for what its spot stands for; says what is left.
+bool IsFlat(LightKind kind) { return kind == LightKind::kDisk || kind == LightKind::kRect; }
+
+// A flat source whose engine has no face, or whose size nobody stated.
+std::string FlatAsSpot(const std::string& error) {
+  return "a flat source as the engine's own spot: right on the axis beyond 5 times its size, " +
+         (error.empty() ? "off the axis as well" : error) + ", shadows are hard";
+}
+
+// The engine's own cone for the lamp, not for what another engine's spot makes of it; says what is
+// left.
 void RefitSpot(const FittedLight& lamp, EngineConeLaw law, const LearntEngine* engine,
                PresetLight& light) {
   light.cone.cone = light.punctual.cone;
+  const bool flat = IsFlat(lamp.kind);
   light.beam = lamp.distribution ? ProfileOf(lamp.distribution->table)
+               : flat            ? LambertianProfile()
                                  : std::optional(ProfileOf(light.punctual.cone));
   if (!light.beam) return;
   const LearntCone* const learnt = engine != nullptr ? engine->ConeWrittenFor(law) : nullptr;
   light.cone = learnt != nullptr ? learnt->ToWrite(*light.beam) : RefitCone(law, *light.beam);
   const std::string error = ConeErrorText(light.cone);
+  if (flat) {
+    light.substitution = FlatAsSpot(error);
+    return;
+  }
   if (error.empty() || (law == EngineConeLaw::kSquared && learnt == nullptr)) return;
   light.substitution =
       std::string(lamp.distribution ? "a measured distribution, round about its aim"

@@ -123,8 +123,7 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
       BecomeSpot(light, std::acos(kLambertianInnerCosine), std::numbers::pi / 2.0);
       light.substitution =
           "a flat source exported as a 90-degree spot: right on the axis beyond 5 times its size, "
-          "off "
-          "the axis within 17 % of the axial intensity, flux 11 % low, shadows are hard";
+          "off the axis within 17 % of the axial intensity, flux 10 % low, shadows are hard";
       break;
     case LightKind::kPhotometric:
       FromDistribution(lamp, light, warnings);

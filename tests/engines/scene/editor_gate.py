@@ -317,7 +317,7 @@ class Godot(unittest.TestCase):
         for suffix in re.findall(r'prefix \+ "(\w+)"', script):
             self.assertLessEqual({'omni' + suffix, 'spot' + suffix}, known)
         # A lamp that shines all round takes the widest spot, not the cone that was there.
-        self.assertIn('lamp.get("spot_angle", 90.0)', script)
+        self.assertIn('lamp.get("spot_angle", 89.0)', script)
         self.assertNotIn('light.spot_angle', script)
         self.assertNotIn('add_child', script)
         self.assertNotIn('position', script)

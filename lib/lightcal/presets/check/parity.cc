@@ -102,20 +102,28 @@ std::optional<Lit> LitBy(const EngineLight& light, const ParityPlace& place) {
 
 // ---- off the axis ----
 
-// A beam as it was measured, and directions in it.
+// A beam as it was measured, or a flat source, and directions in it.
 struct Beam {
   PresetLight light;
   double end_rad = 0.0;
 };
 
 std::optional<Beam> BeamOf(const FittedLight& lamp) {
-  if (lamp.kind != LightKind::kSpot && lamp.kind != LightKind::kPhotometric) return std::nullopt;
+  const bool flat = lamp.kind == LightKind::kDisk || lamp.kind == LightKind::kRect;
+  if (!flat && lamp.kind != LightKind::kSpot && lamp.kind != LightKind::kPhotometric) {
+    return std::nullopt;
+  }
   LightFile alone;
   alone.lights = {lamp};
   Warnings said_by_export;
-  auto lights = PresetLightsFrom(alone, {.table = true}, {}, said_by_export);
+  auto lights =
+      PresetLightsFrom(alone, flat ? kEveryForm : EngineForms{.table = true}, {}, said_by_export);
   if (!lights) return std::nullopt;
   const PresetLight& light = lights->front();
+  if (flat) {  // one whose size nobody stated has no form
+    if (light.form != LightForm::kDisk && light.form != LightForm::kRect) return std::nullopt;
+    return Beam{std::move(lights->front()), RadiansFromDegrees(95.0).value()};
+  }
   const auto beam = light.table ? ProfileOf(*light.table) : light.beam;
   if (!beam) return std::nullopt;
   constexpr double kDark = 1e-3;
@@ -166,7 +174,7 @@ std::optional<OffAxis> OffAxisIn(const EngineExport& exported, std::size_t index
   if (!beam) return std::nullopt;
   if (EmissionLaw* emission = exported.engine->emission) {
     const Emission made = emission(exported.derived[index], lamp.kind, place.axial_part);
-    if (made.table) return OffAxis{};
+    if (made.table || made.shape.outline != AxialShape::Outline::kPoint) return OffAxis{};
     return WorstOffAxis(*beam, place.separation_m,
                         [&](const Vec3& /*point*/, const Vec3& /*normal*/, double cosine) {
                           const double part = made.cone ? ConeAt(*made.cone, cosine) : 1.0;
@@ -175,6 +183,7 @@ std::optional<OffAxis> OffAxisIn(const EngineExport& exported, std::size_t index
   }
   const auto read = std::ranges::find(exported.read_back, lamp.name, &EngineLight::name);
   if (read == exported.read_back.end() || !read->placed) return std::nullopt;
+  if (read->kind == EngineLightKind::kFlat) return OffAxis{};
   return WorstOffAxis(*beam, place.separation_m,
                       [&](const Vec3& point, const Vec3& normal, double /*cosine*/) {
                         return LuxAt(*read, point, normal);

@@ -50,8 +50,8 @@ static func figures_for(light: Light3D, lamp: Dictionary) -> Array:
 		return rows + [["light_intensity_lux", lamp.light_intensity_lux],
 			["light_angular_distance", lamp.light_angular_distance]]
 	# Lumens are 4 pi cd of an omni and pi cd of a spot, whatever its cone; on its axis a spot keeps
-	# 1 - .0001^(1 / attenuation) of them. A lamp that shines all round takes the widest and flattest
-	# spot: the cone that was there would cut it.
+	# 1 - .0001^(1 / attenuation) of them. A lamp that shines all round takes a wide and flat spot, for
+	# the cone that was there would cut it; at 90 degrees some versions of 4 cull a spot wrongly.
 	var spot := light is SpotLight3D
 	var prefix := "spot" if spot else "omni"
 	var sr := 4.0 * PI
@@ -63,14 +63,14 @@ static func figures_for(light: Light3D, lamp: Dictionary) -> Array:
 	if lamp.get("light_size", 0.0) > 0.0:
 		rows.append(["light_size", lamp.light_size])
 	if spot:
-		rows += [["spot_angle", lamp.get("spot_angle", 90.0)], ["spot_angle_attenuation", attenuation]]
+		rows += [["spot_angle", lamp.get("spot_angle", 89.0)], ["spot_angle_attenuation", attenuation]]
 	return rows
 
 
 # What this light shows otherwise than the lamp; "" = nothing.
 static func strays(light: Light3D, lamp: Dictionary) -> String:
 	if light is SpotLight3D and lamp.type == "OmniLight3D":
-		return "is a spot, dark beyond 90 degrees from its aim; an OmniLight3D shows all of \"%s\"" % lamp.name
+		return "is a spot, dark beyond 89 degrees from its aim; an OmniLight3D shows all of \"%s\"" % lamp.name
 	if light is OmniLight3D and lamp.type == "SpotLight3D":
 		return "has no cone: right on the axis of \"%s\" alone; a SpotLight3D has one" % lamp.name
 	return ""
