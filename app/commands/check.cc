@@ -270,6 +270,10 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
     return Refused("bad_preset", options.preset,
                    "gives no finite illuminance at a reading; look at its numbers");
   }
+  if (const PresetTarget* target = TargetOfFile(options.preset);
+      target != nullptr && target->name == "blender") {
+    console.Warn(OldBlenderSpheres(calibrated->session, calibrated->lights));
+  }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<Node> readings;
   std::vector<std::vector<std::string>> table;

@@ -14,6 +14,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/blender_sphere.h"
 #include "lightcal/presets/control_knobs.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/into_scene.h"
@@ -22,6 +24,7 @@
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/scripts.h"
+#include "lightcal/records/light_curve.h"
 
 namespace lightcal {
 namespace {
@@ -36,6 +39,27 @@ constexpr EngineForms kBlender{.sphere = true,
                                .dome = true,
                                .cone = EngineConeLaw::kSmooth,
                                .spots_by_table = true};
+
+// Says what versions before 4.0 make of a sphere; aloud where a reading was taken so close that
+// this is seen.
+void NoteOldSphere(const FittedLight& lamp, PresetLight& light, Warnings& warnings) {
+  constexpr double kSeen = 0.005;  // Cycles' renders are held to half a per cent
+  if (light.form != LightForm::kSphere) return;
+  const double diameter_m = 2.0 * light.radius_m;
+  const auto low = [&](double diameters) {
+    const double lack = LackOfOldBlenderSphere(light.radius_m, diameters * diameter_m);
+    return RoundedText(100.0 * lack, 2) + " %";
+  };
+  light.substitution =
+      "before Blender 4.0 a sphere is a disc that faces each point it lights: " + low(1.0) +
+      " low at one diameter from its centre, " + low(2.0) + " at two, " + low(5.0) + " at five (" +
+      RoundedText(5.0 * diameter_m, 3) + " m); from 4.0 on right everywhere";
+  const bool seen = std::ranges::any_of(lamp.residuals, [&](const ResidualRow& row) {
+    const double d = row.distance_m.value_or(0.0) + SurfaceRadius_m(lamp);
+    return row.distance_m && LackOfOldBlenderSphere(light.radius_m, d) > kSeen;
+  });
+  if (seen) warnings.push_back({"near_field", light.name(), light.substitution});
+}
 
 const char* BlenderType(LightForm form) {
   switch (form) {
@@ -184,8 +208,11 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   Preset preset;
   EngineForms able = kBlender;
   able.spots_by_table = options.into.empty();  // a light that is there has a cone of its own
-  const auto forms = PresetLightsFrom(lights, able, options, preset.warnings);
+  auto forms = PresetLightsFrom(lights, able, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
+  for (std::size_t i = 0; i < forms->size(); ++i) {
+    NoteOldSphere(lights.lights[i], (*forms)[i], preset.warnings);
+  }
   const Rig rig = BuildRig(lights, *forms, options.rig_place);
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();

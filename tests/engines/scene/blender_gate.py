@@ -157,21 +157,34 @@ class IntoWhateverIsThere(unittest.TestCase):
             'luminaire': (lambda c: c ** 8, 0.01), 'green spot': (spot_law(15.0, 25.0), 0.07)}
     HEIGHT = 4.0  # six times the largest lamp
 
-    def test_every_lamp_onto_every_type(self):
+    def rendered(self, height, pairs):
+        """[({lamp, type}, [[x, lux] ...]) ...] of (lamp, type of the light that is there)."""
         with tempfile.TemporaryDirectory() as folder:
             jobs = []
-            for name in self.LAWS:
-                os.makedirs(f'{folder}/{name}')
-                script = export(f'{folder}/{name}', [name], '--into', 'Prop')
-                jobs += [{'script': script, 'type': kind, 'lamp': name} for kind in ('POINT', 'SPOT', 'AREA')]
+            for name, kind in pairs:
+                os.makedirs(f'{folder}/{name}', exist_ok=True)
+                script = export(f'{folder}/{name}', [name], '--into', 'Prop', '--force')
+                jobs.append({'script': script, 'type': kind, 'lamp': name})
             with open(folder + '/jobs.json', 'w') as out:
-                json.dump({'height': self.HEIGHT, 'jobs': jobs}, out)
+                json.dump({'height': height, 'jobs': jobs}, out)
             done = subprocess.run(['blender', '-b', '--factory-startup', '-P', HERE + '/into_probe.py', '--',
                                    folder + '/jobs.json', folder + '/out.json'], capture_output=True, text=True)
             self.assertTrue(os.path.exists(folder + '/out.json'), done.stdout[-3000:] + done.stderr[-3000:])
             with open(folder + '/out.json') as f:
-                rows = json.load(f)
-        for job, row in zip(jobs, rows):
+                return list(zip(jobs, json.load(f)))
+
+    def test_a_sphere_close_by_is_what_the_note_says_of_this_version(self):
+        """Before 4.0 a disc that faces each point, I/(d^2 + r^2); from then on I/d^2."""
+        height, globe = 0.3, golden_lights.LAMPS['globe']
+        said = subprocess.run(['blender', '--version'], capture_output=True, text=True).stdout
+        disc = int(said.split()[1].split('.')[0]) < 4
+        (_, row), = self.rendered(height, [('globe', 'POINT')])
+        square = height ** 2 + ((globe['diameter'] / 2) ** 2 if disc else 0.0)
+        self.assertAlmostEqual(row[0][1] / (globe['cd'] / square), 1.0, delta=0.01)
+
+    def test_every_lamp_onto_every_type(self):
+        pairs = [(name, kind) for name in self.LAWS for kind in ('POINT', 'SPOT', 'AREA')]
+        for job, row in self.rendered(self.HEIGHT, pairs):
             law, tolerance = self.LAWS[job['lamp']]
             axial = golden_lights.LAMPS[job['lamp']]['cd']
             self.assertGreater(len(row), 8)

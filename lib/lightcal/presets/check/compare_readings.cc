@@ -6,7 +6,9 @@
 #include <numbers>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/light/lamp_axes.h"
+#include "lightcal/presets/blender_sphere.h"
 #include "lightcal/records/light_curve.h"
 
 namespace lightcal {
@@ -135,6 +137,30 @@ std::vector<std::string> LampsMissing(const Session& session, const LightFile& l
     if (!there) missing.push_back(lamp.name);
   }
   return missing;
+}
+
+Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps) {
+  constexpr double kNothing = 0.005;  // Cycles is held to that by its renders
+  Warnings warnings;
+  for (const FittedLight& lamp : lamps.lights) {
+    const LightDescription* description = FindLight(session, lamp.name);
+    if (lamp.kind != LightKind::kSphere || !lamp.diameter_m || description == nullptr) continue;
+    const MeteredLamp metered = MeteredLampOf(*description, lamp);
+    double nearest_m = 1e300;
+    for (const Reading* reading : ReadingsOf(session, lamp.name)) {
+      nearest_m =
+          std::min(nearest_m, reading->position_m ? Length(*reading->position_m - metered.place_m)
+                              : reading->distance ? reading->distance->value() + metered.surface_m
+                                                  : 1e300);
+    }
+    const double lack = LackOfOldBlenderSphere(*lamp.diameter_m / 2.0, nearest_m);
+    if (!(lack > kNothing)) continue;
+    warnings.push_back({"near_field", lamp.name,
+                        "before Blender 4.0 a sphere is a disc that faces each point it lights: " +
+                            RoundedText(100.0 * lack, 2) + " % lower than this at " +
+                            RoundedText(nearest_m, 3) + " m from its centre, the nearest reading"});
+  }
+  return warnings;
 }
 
 std::vector<ComparedReading> CompareWithReadings(const Session& session, const LightFile& lamps,

@@ -42,6 +42,10 @@ using WallPart = std::function<double(const FittedLight& lamp, const ResidualRow
 [[nodiscard]] std::vector<std::string> LampsMissing(const Session& session, const LightFile& lamps,
                                                     std::vector<EngineLight> lights);
 
+// Of a file for Blender: what its versions before 4.0 make of spheres where the nearest reading was
+// taken, of more than half a per cent.
+[[nodiscard]] Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps);
+
 // Root mean square of the used readings' errors; absent without any.
 [[nodiscard]] std::optional<double> RmsOf(const std::vector<ComparedReading>& rows);
 

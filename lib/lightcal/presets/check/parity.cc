@@ -12,6 +12,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/light/axial_shape.h"
+#include "lightcal/presets/blender_sphere.h"
 #include "lightcal/presets/rig.h"
 #include "lightcal/records/light_curve.h"
 
@@ -197,7 +198,13 @@ std::optional<Lit> LitIn(const EngineExport& exported, std::size_t index, const 
   }
   const auto read = std::ranges::find(exported.read_back, lamp.name, &EngineLight::name);
   if (read == exported.read_back.end()) return std::nullopt;
-  return LitBy(*read, place);
+  auto lit = LitBy(*read, place);
+  if (lit && lamp.kind == LightKind::kSphere && exported.engine->name == "blender") {
+    const double lack =
+        LackOfOldBlenderSphere(lamp.diameter_m.value_or(0.0) / 2.0, place.separation_m);
+    lit->law += ", before 4.0 " + RoundedText(100.0 * lack, 2) + " % low";
+  }
+  return lit;
 }
 
 // ---- round about ----

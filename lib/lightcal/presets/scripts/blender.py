@@ -98,6 +98,8 @@ def set_figures(lamp, light):
         lamp.angle = light['angle_rad']
     else:
         lamp.shadow_soft_size = light['radius_m']
+        if hasattr(lamp, 'use_soft_falloff'):
+            lamp.use_soft_falloff = False  # on, it is the disc of before 4.0, dark close to a sphere
     if kind == 'SPOT':
         # Before 4.0 a spot is a disc, which its own cosine dims.
         cone = light['before_4_0'] if bpy.app.version < (4, 0) else light

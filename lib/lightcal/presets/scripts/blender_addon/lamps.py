@@ -59,6 +59,8 @@ def set_lamp(lamp, values):
         lamp.angle = values['angle']
     else:
         lamp.shadow_soft_size = values['radius']
+        if hasattr(lamp, 'use_soft_falloff'):
+            lamp.use_soft_falloff = False  # on, it is the disc of before 4.0, dark close to a sphere
     if values['type'] == 'SPOT':
         lamp.spot_size = values['spot_size']
         lamp.spot_blend = values['spot_blend']
