@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "run_cli.h"
 #include "run_cli_json.h"
@@ -105,6 +106,80 @@ TEST(PhotometricCommand, TypeBIsSampledForEulumdatAndSaysSo) {
   EXPECT_NEAR(LightcalJson("photometric", {out})["flux_lm"].get<double>() /
                   json::parse(made.out)["flux_lm"].get<double>(),
               1.0, 0.02);
+}
+
+// ---- one beam, written as each type ----
+
+// cd towards a direction of the lamp's frame (aim -Z, C0 +X, C90 +Y): oblong, turned, off the axis.
+double BeamTowards(double x, double y, double z) {
+  const double across = (x - 0.05) / 0.14, along = (y + 0.08 * x - 0.03) / 0.34;
+  return z < 0.0 ? 1000.0 * std::exp(-0.5 * (across * across + along * along)) : 0.0;
+}
+
+// CIE 121 lays the poles of A planes along C0 and those of B planes along C90; LM-63 turns H
+// clockwise, so that H leads to C270 and V to C0 in both.
+std::string FileOfType(char type) {
+  const auto angles = [](double from, double to, double step) {
+    std::vector<double> out;
+    for (int i = 0; from + i * step <= to; ++i) out.push_back(from + i * step);
+    return out;
+  };
+  const bool is_c = type == '1';
+  const auto vertical = is_c ? angles(0, 90, 1) : angles(-90, 90, 1);
+  const auto horizontal = is_c ? angles(0, 360, 2.5) : angles(-90, 90, 1);
+  std::ostringstream out;
+  out << "IESNA:LM-63-2002\r\nTILT=NONE\r\n1 -1 1 " << vertical.size() << " " << horizontal.size()
+      << " " << type << " 2 0 0 0\r\n1 1 10\r\n";
+  for (const double v : vertical) out << v << "\r\n";
+  for (const double h : horizontal) out << h << "\r\n";
+  for (const double h_deg : horizontal) {
+    for (const double v_deg : vertical) {
+      const double h = h_deg * std::numbers::pi / 180.0, v = v_deg * std::numbers::pi / 180.0;
+      const double sh = std::sin(h), ch = std::cos(h), sv = std::sin(v), cv = std::cos(v);
+      const double candela = type == '3'   ? BeamTowards(sv, -cv * sh, -cv * ch)
+                             : type == '2' ? BeamTowards(ch * sv, -sh, -ch * cv)
+                                           : BeamTowards(sv * ch, sv * sh, -cv);
+      out << candela << "\r\n";
+    }
+  }
+  return out.str();
+}
+
+TEST(PhotometricCommand, OneBeamShinesAlikeAsAnyTypeBeforeAndAfterConversion) {
+  const double floor[][2] = {{0, 0}, {0.5, 0}, {0, 0.5}, {-0.4, 0.6}, {0.3, -0.9}};
+  const TempDir folder;
+  double flux_of_c = 0.0;
+  for (const char type : {'1', '2', '3'}) {
+    const std::string own = folder.Write("own.ies", FileOfType(type));
+    for (const std::string& name : {"own.ies", "as.ldt", "as.ies"}) {
+      const std::string file = folder.path() + "/" + name;
+      if (name != "own.ies") {
+        const CliResult made = RunLightcal(
+            {"photometric", own, "--to", name.substr(3), "-o", file, "--force", "--quiet"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+      }
+      const json got = LightcalJson("photometric", {file});
+      if (flux_of_c == 0.0) flux_of_c = got["flux_lm"];
+      EXPECT_NEAR(double(got["flux_lm"]) / flux_of_c, 1.0, 2e-3) << type << name;
+      EXPECT_NEAR(double(got["peak_at"]["gamma_deg"]), 3.4, 1.0) << type << name;
+      const std::string session = folder.Write(
+          "session.toml",
+          "lightcal = 1\nname = \"a\"\n[room]\ndark = true\n[[light]]\nname = \"k\"\n"
+          "kind = \"photometric\"\ndistribution = \"" +
+              name + "\"\nposition_m = [0, 0, 2]\naim = [0, 0, -1]\naxis = [1, 0, 0]\n");
+      std::vector<std::string> asked = {session, "--normal", "0,0,1"};
+      for (const auto& [x, y] : floor) {
+        asked.insert(asked.end(), {"--at", std::to_string(x) + "," + std::to_string(y) + ",0"});
+      }
+      const json points = LightcalJson("simulate", asked)["points"];
+      for (std::size_t i = 0; i < std::size(floor); ++i) {
+        const double x = floor[i][0], y = floor[i][1], r = std::hypot(x, y, 2.0);
+        const double want = BeamTowards(x / r, y / r, -2.0 / r) * 2.0 / (r * r * r);
+        EXPECT_NEAR(double(points[i]["illuminance_lx"]["value"]), want, 0.01 * 250.0)
+            << type << " " << name << " " << x << " " << y;
+      }
+    }
+  }
 }
 
 TEST(PhotometricCommand, DrawsThePolarDiagramAsSvgAndPng) {

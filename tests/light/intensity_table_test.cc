@@ -52,14 +52,15 @@ Vec3 AboutZ(const Vec3& v, double a) {
 
 constexpr Vec3 kNadir = {0.0, 0.0, -1.0};
 
-// A goniometer turns the photometric zero (type A: the horizontal) by its inner angle, then by its
-// outer one; H clockwise in types A and B (LM-63-2002).
+// A goniometer turns the photometric zero by its inner angle, then by its outer one; H clockwise in
+// types A and B (LM-63-2002). A turns H about the lamp's length, C0, last; B turns V about its
+// width, C90, last.
 Vec3 DirectionOf(GoniometerType type, double h_deg, double v_deg) {
   const double h = Rad(h_deg);
   const double v = Rad(v_deg);
   if (type == kC) return AboutZ(AboutY(kNadir, -v), h);
   if (type == kB) return AboutY(AboutX(kNadir, -h), -v);
-  return AboutZ(AboutY({1.0, 0.0, 0.0}, -v), -h);
+  return AboutX(AboutY(kNadir, -v), -h);
 }
 
 // Boole's rule with 32 panels in every cell between the given angles (degrees, ends included).
@@ -330,9 +331,9 @@ TEST(IntensityTable, HeadlampsAreMeasuredAboutTheirOwnZero) {
     return std::max(0.0, 100.0 * (1.0 - std::abs(h) / 30.0) * (1.0 - std::abs(v) / 12.0));
   });
   const auto beam = LobeWidthsAt(a, 0.5);
-  EXPECT_NEAR(DegreesFromRadians(beam.along), 30.0, 1e-6);
-  EXPECT_NEAR(DegreesFromRadians(beam.across), 12.0, 1e-6);
-  EXPECT_NEAR(DegreesFromRadians(a.peak().gamma), 90.0, 1e-9);
+  EXPECT_NEAR(DegreesFromRadians(beam.along), 12.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(beam.across), 30.0, 1e-6);
+  EXPECT_NEAR(DegreesFromRadians(a.peak().gamma), 0.0, 1e-9);
 }
 
 // I = exp(-ln 2 (a / 15 deg)^2), a the angle to the peak: 30 degrees wide at a half, and
@@ -366,6 +367,39 @@ TEST(IntensityTable, AHeadlampSampledAsTypeCKeepsItsAngles) {
   const auto beam = LobeWidthsAt(*c, 0.5);
   EXPECT_NEAR(DegreesFromRadians(beam.along), 12.0, 0.05);
   EXPECT_NEAR(DegreesFromRadians(beam.across), 30.0, 0.05);
+}
+
+// One smooth lobe of the sphere, written in each type's own angles. By CIE 121 the pole of A planes
+// is C0, that of B planes C90, so that sin V (A) = sin gamma cos C = d.x and sin H (B) = -d.y.
+TEST(IntensityTable, OneBeamIsTheSameInEveryType) {
+  const auto beam = [](const Vec3& d) {  // oblong, turned, beside its axis
+    const double x = d[0] - 0.1;
+    const double y = d[1] - 0.05;
+    return 1000.0 * std::exp(-30.0 * x * x - 60.0 * y * y + 20.0 * x * y) *
+           (d[2] < 0.0 ? 1.0 : 0.0);
+  };
+  const auto of_type_a = [&](double h, double v) {
+    const double across = std::cos(Rad(v));
+    return beam({std::sin(Rad(v)), -across * std::sin(Rad(h)), -across * std::cos(Rad(h))});
+  };
+  const auto of_type_b = [&](double h, double v) {
+    const double across = std::cos(Rad(h));
+    return beam({across * std::sin(Rad(v)), -std::sin(Rad(h)), -across * std::cos(Rad(v))});
+  };
+  const auto of_type_c = [&](double c, double g) {
+    const double across = std::sin(Rad(g));
+    return beam({across * std::cos(Rad(c)), across * std::sin(Rad(c)), -std::cos(Rad(g))});
+  };
+  const auto c = TableOf(kC, Range(0, 360, 1), Range(0, 180, 0.5), of_type_c);
+  const auto a = TableOf(kA, Range(-90, 90, 1), Range(-90, 90, 1), of_type_a);
+  const auto b = TableOf(kB, Range(-90, 90, 1), Range(-90, 90, 1), of_type_b);
+  for (const auto* table : {&a, &b, &c}) {
+    EXPECT_NEAR(table->Flux().value() / c.Flux().value(), 1.0, 5e-4);
+    for (const Vec3& d : {Vec3{0.1, 0.05, -1}, {0.3, 0, -1}, {0, 0.3, -1}, {-0.2, -0.4, -1}}) {
+      const double want = beam(d * (1.0 / Length(d)));
+      EXPECT_NEAR(table->Towards(d).value(), want, 6.0);  // linear between a degree
+    }
+  }
 }
 
 // Two wings make one lamp about its axis, though each shines beside it.

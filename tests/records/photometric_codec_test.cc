@@ -308,8 +308,10 @@ TEST(Ies, TypesAAndBKeepTheirTypeAndDirections) {
     const PhotometricFile back = Read(IesText(file));
     EXPECT_EQ(back.table.grid().type, file.table.grid().type);
     EXPECT_EQ(back.table.grid().candela, file.table.grid().candela);
-    // (H, V) = (0, 0): nadir for type B, the horizon towards C0 for type A.
-    EXPECT_NEAR(CandelaAt(file, 0, type == '2' ? 0 : 90), 50.0, 1e-9);
+    // (H, V) = (0, 0): nadir; V towards C0, H towards C270.
+    EXPECT_NEAR(CandelaAt(file, 0, 0), 50.0, 1e-9);
+    EXPECT_NEAR(CandelaAt(file, 0, 30), 6.0, 1e-9);
+    EXPECT_NEAR(CandelaAt(file, 270, 40), 8.0, 1e-9);
     EXPECT_FALSE(EulumdatText(file));
   }
 }

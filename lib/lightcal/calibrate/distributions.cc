@@ -40,7 +40,7 @@ Result<LightDescription> WithDistribution(const Session& session, const LightDes
   auto read = sources.read_photometric(paths.front());
   if (!read) return Propagate(std::move(read));
   evidence.AddWarnings(read->warnings);
-  auto table = AboutItsAim(std::move(read->file.table));
+  auto table = AsTypeC(std::move(read->file.table));
   if (!table) return Propagate(std::move(table));
   if (step_deg > 0.0) table = ThinnedTable(*table, step_deg);
   if (!table) return Propagate(std::move(table));

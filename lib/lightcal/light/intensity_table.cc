@@ -121,7 +121,7 @@ AboutPole PoleAngles(GoniometerType type, const Vec3& d) {
     case GoniometerType::kB:
       return {std::atan2(d[0], -d[2]), std::atan2(std::hypot(d[0], d[2]), -d[1])};
     case GoniometerType::kA:
-      return {std::atan2(-d[1], d[0]), std::atan2(std::hypot(d[0], d[1]), d[2])};
+      return {std::atan2(-d[1], -d[2]), std::atan2(std::hypot(d[1], d[2]), d[0])};
   }
   return {std::atan2(d[1], d[0]), std::atan2(std::hypot(d[0], d[1]), -d[2])};
 }
@@ -134,7 +134,7 @@ Vec3 DirectionOf(GoniometerType type, double azimuth, double theta) {
     case GoniometerType::kB:
       return {s * std::sin(azimuth), -std::cos(theta), -s * std::cos(azimuth)};
     case GoniometerType::kA:
-      return {s * std::cos(azimuth), -s * std::sin(azimuth), std::cos(theta)};
+      return {std::cos(theta), -s * std::sin(azimuth), -s * std::cos(azimuth)};
   }
   return {s * std::cos(azimuth), s * std::sin(azimuth), -std::cos(theta)};
 }
@@ -271,7 +271,11 @@ void IntensityTable::FindPeak() {
   const AboutPole place = PoleAngles(GoniometerType::kC, d);
   const bool on_axis = std::hypot(d[0], d[1]) < kSameAngleRad;
   const double c = place.azimuth < 0.0 ? place.azimuth + 2.0 * std::numbers::pi : place.azimuth;
-  peak_ = {Candela(*largest), Radians(on_axis ? 0.0 : c), Radians(place.theta)};
+  if (on_axis) {
+    peak_ = {Candela(*largest), Radians(0.0), Radians(d[2] < 0.0 ? 0.0 : std::numbers::pi)};
+  } else {
+    peak_ = {Candela(*largest), Radians(c), Radians(place.theta)};
+  }
 }
 
 double IntensityTable::AlongPlane(std::size_t plane, std::size_t index, double part,

@@ -20,11 +20,13 @@ namespace lightcal {
 // its C90 half-plane +Y, so that C turns counterclockwise seen from above. Vertical and horizontal
 // angles as files name them:
 //   type C   gamma from nadir, C about it      x = sin g cos C, y = sin g sin C,  z = -cos g
-//   type B   planes about a horizontal axis    x = cos H sin V, y = -sin H,       z = -cos H cos V
-//   type A   V from the horizon, H about Z     x = cos V cos H, y = -cos V sin H, z = sin V
-// A lamp's aim is its nadir (types B, C); a type A lamp aims at its own (0, 0), which is +X.
-// Source: IESNA LM-63-2002, 3 (photometric zero and horizontal; H turns clockwise in A and B).
-// Where C0 lies on the lamp, files tell loosely.
+//   type B   planes of V about the width, C90  x = cos H sin V, y = -sin H,       z = -cos H cos V
+//   type A   planes of H about the length, C0  x = sin V,       y = -cos V sin H, z = -cos V cos H
+// The lamp's aim is its nadir, which is (0, 0) of types A and B: near it, both name a direction
+// alike, V towards C0 and H towards C270 (upwards and to the right where C0 points up).
+// Source: IESNA LM-63-2002, 3 (H turns clockwise in A and B); I. Ashdown's reading of LM-63 for the
+// axes (poles: the luminaire's length in A, its width in B; C0 along the length), as CIE 121 and EN
+// 13032-1 lay A, B and C planes. Where C0 lies on the lamp, files tell loosely.
 enum class GoniometerType : std::uint8_t { kC, kB, kA };
 inline constexpr std::array<std::string_view, 3> kGoniometerTypeWords = {"C", "B", "A"};
 
@@ -101,7 +103,7 @@ class IntensityTable {
     return values_[plane * theta_.size() + theta];
   }
 
-  // The planes pass through a pole (type C -Z, B -Y, A +Z); theta counts from it.
+  // The planes pass through a pole (type C -Z, B -Y, A +X); theta counts from it.
   IntensityGrid grid_;
   TableSymmetry symmetry_ = TableSymmetry::kNone;
   std::vector<double> azimuth_;  // rad, ascending, a full turn closed
@@ -114,8 +116,7 @@ class IntensityTable {
 // Full angle of the main lobe at `level` (0.5 beam, 0.1 field) of the peak, in the plane of C and
 // C + 180 degrees: from nadir, or from zenith where the peak lies nearer to it, both ways out to
 // where the intensity last falls below the level after that half-plane's own maximum. A side that
-// never reaches the level counts 0, one that never falls below it 180 degrees. Type A lamps are
-// measured about (0, 0): c = 0 is the plane of H, c = 90 degrees that of V.
+// never reaches the level counts 0, one that never falls below it 180 degrees.
 [[nodiscard]] Radians LobeWidth(const IntensityTable& table, Radians c, double level,
                                 TableInterpolation way = TableInterpolation::kLinear);
 

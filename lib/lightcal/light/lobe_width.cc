@@ -15,9 +15,6 @@ struct Axes {
   Vec3 along, c0, c90;
 };
 Axes AxesOf(const IntensityTable& table) {
-  if (table.grid().type == GoniometerType::kA) {
-    return {{1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}};
-  }
   const double up = table.peak().gamma.value() > 0.5 * std::numbers::pi ? 1.0 : -1.0;
   return {{0.0, 0.0, up}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 }

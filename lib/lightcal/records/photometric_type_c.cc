@@ -2,7 +2,6 @@
 #include "lightcal/records/photometric_type_c.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -22,42 +21,22 @@ std::vector<double> EvenAngles(double to, double step) {
   return out;
 }
 
-// The angles a table of type A or B is sampled at.
-IntensityGrid SamplingOf(const IntensityTable& table) {
+}  // namespace
+
+Result<IntensityTable> AsTypeC(IntensityTable table) {
+  if (table.grid().type == GoniometerType::kC) return table;
   constexpr double kLeastStep = 0.5;  // a finer sampling is larger than it is worth
   const IntensityGrid& grid = table.grid();
   const double c_step = std::max(kLeastStep, FinestStep(grid.horizontal_deg, 2.5));
   const double gamma_step = std::max(kLeastStep, FinestStep(grid.vertical_deg, 1.0));
-  return {GoniometerType::kC, EvenAngles(360.0, c_step), EvenAngles(180.0, gamma_step), {}};
+  return SampledAsTypeC(table, EvenAngles(360.0, c_step), EvenAngles(180.0, gamma_step),
+                        TableInterpolation::kLinear);
 }
-
-}  // namespace
 
 Result<PhotometricFile> AsTypeC(PhotometricFile file) {
-  if (file.table.grid().type == GoniometerType::kC) return file;
-  IntensityGrid grid = SamplingOf(file.table);
-  auto table = SampledAsTypeC(file.table, std::move(grid.horizontal_deg),
-                              std::move(grid.vertical_deg), TableInterpolation::kLinear);
+  auto table = AsTypeC(std::move(file.table));
   if (!table) return Propagate(std::move(table));
   return PhotometricFile{std::move(file.header), std::move(*table)};
-}
-
-Result<IntensityTable> AboutItsAim(IntensityTable table) {
-  if (table.grid().type == GoniometerType::kC) return table;
-  IntensityGrid grid = SamplingOf(table);
-  const bool type_a = table.grid().type == GoniometerType::kA;
-  for (const double c_deg : grid.horizontal_deg) {
-    for (const double gamma_deg : grid.vertical_deg) {
-      const double c = RadiansFromDegrees(c_deg).value();
-      const double gamma = RadiansFromDegrees(gamma_deg).value();
-      const double across = std::sin(gamma);
-      // Type A aims along +X; C0 is to its right (-Y), C90 up (+Z).
-      const Vec3 d = type_a ? Vec3{std::cos(gamma), -across * std::cos(c), across * std::sin(c)}
-                            : Vec3{across * std::cos(c), across * std::sin(c), -std::cos(gamma)};
-      grid.candela.push_back(table.Towards(d).value());
-    }
-  }
-  return IntensityTable::Make(std::move(grid), "sampled distribution");
 }
 
 }  // namespace lightcal

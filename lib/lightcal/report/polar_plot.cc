@@ -34,14 +34,7 @@ struct PolarLayout {
   }
 };
 
-bool IsTypeA(const IntensityTable& table) { return table.grid().type == GoniometerType::kA; }
-
 double CandelaAt(const IntensityTable& table, double plane, double out) {
-  if (IsTypeA(table)) {
-    const double s = std::sin(out);
-    const Vec3 d = {std::cos(out), -s * std::cos(plane), s * std::sin(plane)};
-    return table.Towards(d).value();
-  }
   const double c = out < 0.0 ? plane + pi : plane;
   return table.At(Radians(c), Radians(std::abs(out))).value();
 }
@@ -119,14 +112,13 @@ void DrawPlane(Svg& svg, const PolarLayout& layout, const IntensityTable& table,
 }
 
 void DrawKey(Svg& svg, const IntensityTable& table, bool two_planes) {
-  const bool type_a = IsTypeA(table);
   const auto row = [&](double y, std::string_view css, std::string_view name) {
     svg.Line(css, {14.0, y - 4.0}, {42.0, y - 4.0});
     svg.Text("note", {48.0, y}, "start", name);
   };
   const double top = kFigureHeight - 26.0;
-  row(top, "model", !two_planes ? "all planes" : (type_a ? "horizontal" : "C0 – C180"));
-  if (two_planes) row(top + 18.0, "second", type_a ? "vertical" : "C90 – C270");
+  row(top, "model", two_planes ? "C0 – C180" : "all planes");
+  if (two_planes) row(top + 18.0, "second", "C90 – C270");
   const LobeWidths beam = LobeWidthsAt(table, 0.5);
   const auto right = [&](double y, const std::string& text) {
     svg.Text("note", {kFigureWidth - 14.0, y}, "end", text);

@@ -11,8 +11,7 @@ namespace lightcal::report {
 
 // A whole SVG file with its style sheet: candela against gamma, nadir downwards, C0 to the right
 // and C180 to the left as a full line, C90 and C270 as a dashed one, with rings of equal intensity.
-// Only the lower half where the lamp has no light above the horizon. Type A lamps show their
-// horizontal and vertical planes about (0, 0) instead. `title` is any UTF-8 text.
+// Only the lower half where the lamp has no light above the horizon. `title` is any UTF-8 text.
 [[nodiscard]] std::string PolarPlot(const IntensityTable& table, std::string_view title);
 
 }  // namespace lightcal::report
