@@ -298,6 +298,33 @@ TEST(Ies, LineEndsCommasAndBlanksDoNotMatter) {
   EXPECT_DOUBLE_EQ(CandelaAt(Read(commas.Text()), 0, 60), 100.0);
 }
 
+// LM-63 parts numbers by commas: a decimal comma makes two numbers of one.
+TEST(Ies, DecimalCommasAreReadAsSuchOrRefused) {
+  Ies ies;
+  ies.angles = "0 45,5 90\n0\n";
+  ies.lamps = "1 -1 1,0 3 1 1 2";
+  ies.candela = "100,25 70,5 1,5\n";
+  const auto read = PhotometricFromText(ies.Text(), "x.ies");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->warnings.size(), 1U);
+  EXPECT_EQ(read->warnings[0].code, "decimal_commas");
+  EXPECT_EQ(read->file.table.grid().vertical_deg, (std::vector<double>{0, 45.5, 90}));
+  EXPECT_EQ(read->file.table.grid().candela, (std::vector<double>{100.25, 70.5, 1.5}));
+  // Surplus numbers that no decimal commas explain.
+  Ies surplus;
+  surplus.candela = "100,50 70,5 3\n";
+  const auto refused = PhotometricFromText(surplus.Text(), "x.ies");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "bad_photometric");
+  EXPECT_NE(refused.error().message.find("commas"), std::string::npos);
+  // Commas that part, and words behind the last number.
+  Ies parted;
+  parted.candela = "100,50\nEND\n";
+  const auto fine = PhotometricFromText(parted.Text(), "x.ies");
+  ASSERT_TRUE(fine) << fine.error().message;
+  EXPECT_EQ(fine->file.table.grid().candela, (std::vector<double>{100, 50}));
+}
+
 TEST(Ies, TypesAAndBKeepTheirTypeAndDirections) {
   Ies ies;
   ies.angles = "-10 0 30\n-20 0 40\n";

@@ -43,7 +43,10 @@ bool StartsWithTilt(std::string_view line) {
 
 class Numbers {
  public:
-  Numbers(std::string_view text, std::string_view where) : text_(text), where_(where) {}
+  // Commas part numbers, or stand in them as decimal points.
+  enum class Commas : std::uint8_t { kPart, kDecimal };
+  Numbers(std::string_view text, std::string_view where, Commas commas = Commas::kPart)
+      : text_(text), where_(where), decimal_(commas == Commas::kDecimal) {}
 
   // The next number; what it is goes into the message. Once one fails, all fail.
   double Take(std::string_view what) {
@@ -53,11 +56,12 @@ class Numbers {
       Fail(std::string(what) + " is missing: the file ends too early");
       return 0.0;
     }
-    const std::size_t end = std::min(text_.find_first_of(kBlanks), text_.size());
+    const std::size_t end = std::min(text_.find_first_of(Blanks()), text_.size());
     const std::string_view token = text_.substr(0, end);
     text_.remove_prefix(end);
     constexpr std::size_t kLongestNumber = 64;
-    const auto value = token.size() <= kLongestNumber ? ParseNumber(token) : std::nullopt;
+    const auto value =
+        token.size() <= kLongestNumber ? ParseNumber(token, Decimal(token)) : std::nullopt;
     if (!value) {
       Fail(std::string(what) + " is \"" + HeaderText(token.substr(0, 40)) + "\", no number");
     }
@@ -90,7 +94,7 @@ class Numbers {
   }
 
   void SkipBlanks() {
-    text_.remove_prefix(std::min(text_.find_first_not_of(kBlanks), text_.size()));
+    text_.remove_prefix(std::min(text_.find_first_not_of(Blanks()), text_.size()));
   }
   [[nodiscard]] bool AtEnd() {
     SkipBlanks();
@@ -100,12 +104,25 @@ class Numbers {
     if (!error_) error_ = BadPhotometric(where_, why).value();
   }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+  // Whether a number comes next.
+  [[nodiscard]] bool NumberFollows() {
+    SkipBlanks();
+    Numbers ahead = *this;
+    (void)ahead.Take("");
+    return !text_.empty() && !ahead.error_;
+  }
 
  private:
-  static constexpr std::string_view kBlanks = " \t\r\n,\x1a";
+  [[nodiscard]] std::string_view Blanks() const {
+    return decimal_ ? " \t\r\n\x1a" : " \t\r\n\x1a,";
+  }
+  [[nodiscard]] bool Decimal(std::string_view token) const {
+    return decimal_ && token.find(',') != std::string_view::npos;
+  }
   std::string_view text_;
   std::string_view where_;
   std::optional<Error> error_;
+  bool decimal_ = false;
 };
 
 // ---- the header ----
@@ -286,6 +303,42 @@ void TakeBody(Numbers& numbers, Edition edition, std::string_view where, Body& b
   for (double& candela : body.grid.candela) candela *= factor;
 }
 
+// ---- the whole ----
+
+// All that stands behind the TILT line.
+struct TakenBody {
+  Body body;
+  bool at_end = false;
+  bool number_follows = false;
+};
+Result<TakenBody> TakeNumbers(Body header, std::string_view text, std::string_view tilt_word,
+                              Edition edition, std::string_view where, const TiltText& tilt,
+                              Numbers::Commas commas) {
+  TakenBody taken{std::move(header)};
+  Numbers numbers(text, where, commas);
+  const std::string word = LowerAscii(tilt_word);
+  if (word == "include") {
+    taken.body.header.tilt = TakeTilt(numbers);
+  } else if (word != "none") {
+    auto from_file = TiltFromFile(tilt_word, where, tilt, taken.body.warnings);
+    if (!from_file) return Propagate(std::move(from_file));
+    taken.body.header.tilt = std::move(*from_file);
+  }
+  TakeBody(numbers, edition, where, taken.body);
+  if (numbers.error()) return tl::unexpected(*numbers.error());
+  taken.at_end = numbers.AtEnd();
+  taken.number_follows = numbers.NumberFollows();
+  return taken;
+}
+
+bool HasCommaInDigits(std::string_view text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 1; i + 1 < text.size(); ++i) {
+    if (text[i] == ',' && digit(text[i - 1]) && digit(text[i + 1])) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool IsIes(std::string_view text) {
@@ -308,18 +361,30 @@ Result<ReadPhotometric> IesFromText(std::string_view text, std::string_view wher
   records::Lines lines(text);
   const auto tilt_word = TakeHeader(lines, body.header, edition);
   if (!tilt_word) return BadPhotometric(where, "has no TILT= line, which every IES file has");
-  Numbers numbers(lines.rest(), where);
-  const std::string word = LowerAscii(*tilt_word);
-  if (word == "include") {
-    body.header.tilt = TakeTilt(numbers);
-  } else if (word != "none" && !numbers.error()) {
-    auto from_file = TiltFromFile(*tilt_word, where, tilt, body.warnings);
-    if (!from_file) return Propagate(std::move(from_file));
-    body.header.tilt = std::move(*from_file);
+  const auto take = [&](Numbers::Commas commas) {
+    return TakeNumbers(body, lines.rest(), *tilt_word, edition, where, tilt, commas);
+  };
+  auto taken = take(Numbers::Commas::kPart);
+  // LM-63 parts numbers by blanks or commas. Some programs write decimal commas: what they give
+  // are more numbers than their header announces, or none that fit it; read as decimals all fit.
+  if ((!taken || taken->number_follows) && HasCommaInDigits(lines.rest())) {
+    auto decimal = take(Numbers::Commas::kDecimal);
+    if (decimal && decimal->at_end) {
+      decimal->body.warnings.push_back(
+          {"decimal_commas", std::string(where),
+           "its numbers have decimal commas, which part numbers in LM-63; read as decimal points "
+           "they are as many as its header says"});
+      taken = std::move(decimal);
+    } else if (taken) {
+      return BadPhotometric(where,
+                            "more numbers stand behind the last intensity, and commas between "
+                            "digits: LM-63 parts numbers by commas. Write decimal points, or "
+                            "remove what is too much");
+    }
   }
-  TakeBody(numbers, edition, where, body);
-  if (numbers.error()) return tl::unexpected(*numbers.error());
-  if (!numbers.AtEnd()) {
+  if (!taken) return Propagate(std::move(taken));
+  body = std::move(taken->body);
+  if (!taken->at_end) {
     body.warnings.push_back({"trailing_data", std::string(where),
                              "more stands behind the last intensity; it is not used"});
   }
