@@ -53,6 +53,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"meter.option", "--set"},
     {"meter.settle", "--settle"},
     {"meter.tape", "--record"},
+    {"photometric.set", "--set"},
     {"place.aim", "--aim"},
     {"place.position", "--position"},
     {"preset.into", "--into"},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@ constexpr int kPhotometricDigits = 5;
 
 struct PhotometricOptions {
   std::string file, to, output, plot;
+  std::optional<int> set;
   bool force = false;
 };
 
@@ -173,7 +175,7 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
 Result<void> RunPhotometric(const PhotometricOptions& options, Console& console) {
   if (auto ok = CheckPhotometric(options); !ok) return ok;
   NoteInput(options.file);
-  const auto read = devices::ReadPhotometricFile(options.file);
+  const auto read = devices::ReadPhotometricFile(options.file, options.set);
   if (!read) return tl::unexpected(read.error());
   console.Warn(read->warnings);
   std::vector<OutputFile> files;
@@ -206,6 +208,8 @@ Run BuildPhotometric(CLI::App& parser) {
   parser.add_option("--to", options->to, "Convert: LM-63-2002 or EULUMDAT")
       ->check(CLI::IsMember({"ies", "ldt"}));
   parser.add_option("-o,--output", options->output, "Where the converted file goes");
+  parser.add_option("--set", options->set, "Which of a EULUMDAT file's sets of lamps is in it")
+      ->check(CLI::PositiveNumber);
   parser.add_option("--plot", options->plot, "Write a polar diagram, .svg or .png");
   parser.add_flag("--force", options->force, "Replace files that lightcal did not write");
   return [options](Console& console) { return RunPhotometric(*options, console); };

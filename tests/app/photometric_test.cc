@@ -27,7 +27,7 @@ const std::string kUniform =
 
 TEST(PhotometricCommand, FluxOfTheRealFilesIsTheirLampsWithinAThousandth) {
   const std::pair<const char*, double> lamps[] = {
-      {"sample1", 4626.0}, {"sample2", 4600.0}, {"sample5", 611.9}, {"sample10", 7000.0}};
+      {"sample1", 1983.0}, {"sample2", 4600.0}, {"sample5", 611.9}, {"sample10", 7000.0}};
   for (const auto& [name, lumens] : lamps) {
     const json got = LightcalJson("photometric", {Ldt(name)});
     EXPECT_NEAR(got["flux_lm"].get<double>() / lumens, 1.0, 1e-3) << name;
@@ -106,6 +106,20 @@ TEST(PhotometricCommand, TypeBIsSampledForEulumdatAndSaysSo) {
   EXPECT_NEAR(LightcalJson("photometric", {out})["flux_lm"].get<double>() /
                   json::parse(made.out)["flux_lm"].get<double>(),
               1.0, 0.02);
+}
+
+TEST(PhotometricCommand, ASetOfLampsIsChosenAndWritten) {
+  const TempDir folder;
+  const CliResult first = RunLightcal({"photometric", Ldt("sample1")});
+  EXPECT_THAT(first.err, HasSubstr("describes 2 sets of lamps"));
+  EXPECT_THAT(first.err, HasSubstr("--set 2 takes the second"));
+  const std::string out = folder.path() + "/second.ldt";
+  const CliResult made =
+      RunLightcal({"photometric", Ldt("sample1"), "--set", "2", "--to", "ldt", "-o", out});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_EQ(made.err, "");
+  EXPECT_NEAR(double(LightcalJson("photometric", {out})["flux_lm"]) / 2643.0, 1.0, 1e-3);
+  EXPECT_EQ(RunLightcal({"photometric", Ldt("sample1"), "--set", "3"}).exit_code, 3);
 }
 
 // ---- one beam, written as each type ----

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 namespace lightcal {
@@ -55,10 +56,11 @@ struct RealLdt {
 };
 class RealEulumdat : public testing::TestWithParam<RealLdt> {};
 
-// Lumens and peaks as shared/data/06_ldt states them: lamp lumens times the output ratio.
+// Lumens and peaks as shared/data/06_ldt states them: lamp lumens times the output ratio; of
+// sample1, whose two sets of lamps are one LED module at two currents, those of the first.
 INSTANTIATE_TEST_SUITE_P(
     SampleData, RealEulumdat,
-    testing::Values(RealLdt{"sample1.ldt", 4626.0, 1638.9, TableSymmetry::kQuadrant, false},
+    testing::Values(RealLdt{"sample1.ldt", 1983.0, 702.5, TableSymmetry::kQuadrant, false},
                     RealLdt{"sample2.ldt", 4600.0, 4520.3, TableSymmetry::kBilateral, false},
                     RealLdt{"sample5.ldt", 611.9, 471.3, TableSymmetry::kAxial, true},
                     RealLdt{"sample10.ldt", 7000.0, 1715.7, TableSymmetry::kQuadrant, false}));
@@ -182,6 +184,31 @@ TEST(Eulumdat, WarnsWhenTheLumensAreNotThoseOfTheIntensities) {
   ASSERT_TRUE(read);
   ASSERT_EQ(read->warnings.size(), 1U);
   EXPECT_EQ(read->warnings[0].code, "flux_disagrees");
+}
+
+// One LED module at 17.6 or at 24.9 W: either is in the luminaire, never both.
+TEST(Eulumdat, SetsOfLampsAreAlternatives) {
+  const std::string text = Sample("sample1.ldt");
+  const auto read = [&](std::optional<int> set) {
+    return PhotometricFromText(text, "lamp.ldt", {}, set);
+  };
+  const auto first = read({});
+  ASSERT_TRUE(first);
+  ASSERT_EQ(first->warnings.size(), 1U);
+  EXPECT_EQ(first->warnings[0].code, "lamp_sets");
+  EXPECT_NE(first->warnings[0].message.find("1983 lm, 17.6 W; 1 x LED Module, 2643 lm, 24.9 W"),
+            std::string::npos)
+      << first->warnings[0].message;
+  EXPECT_DOUBLE_EQ(first->file.header.power.value(), 17.6);
+  const auto second = read(2);
+  ASSERT_TRUE(second);
+  EXPECT_TRUE(second->warnings.empty());
+  EXPECT_DOUBLE_EQ(second->file.header.lamp_flux->value(), 2643.0);
+  EXPECT_NEAR(second->file.table.Flux() / first->file.table.Flux(), 2643.0 / 1983.0, 1e-12);
+  EXPECT_DOUBLE_EQ(Read(IesText(second->file)).header.lamp_flux->value(), 2643.0);
+  EXPECT_DOUBLE_EQ(Read(*EulumdatText(second->file)).header.lamp_flux->value(), 2643.0);
+  EXPECT_EQ(read(3).error().code, "no_lamp_set");
+  EXPECT_EQ(PhotometricFromText(Ies{}.Text(), "x.ies", {}, 2).error().code, "no_lamp_set");
 }
 
 TEST(Eulumdat, Latin1NamesComeThrough) {
@@ -384,9 +411,9 @@ TEST(Ies, WhatWeWriteObeysTheStrictestReaders) {
   std::string line;
   std::getline(lines, line);
   std::getline(lines, line);
-  EXPECT_EQ(line.find("2 2313 1 73 37 1 2 "), 0U) << line;
+  EXPECT_EQ(line.find("1 1983 1 73 37 1 2 "), 0U) << line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "1 1 42.5\r");
+  EXPECT_EQ(line, "1 1 17.6\r");
   while (std::getline(lines, line)) EXPECT_LE(line.size(), 132U);
 }
 

@@ -32,15 +32,17 @@ Result<std::string> TiltBeside(const std::string& path) {
 
 }  // namespace
 
-Result<ReadPhotometric> ReadPhotometricFile(const std::string& path) {
-  return PhotometricRead(files::ReadFileBytes(path, kMaxPhotometricBytes), path);
+Result<ReadPhotometric> ReadPhotometricFile(const std::string& path, std::optional<int> lamp_set) {
+  return PhotometricRead(files::ReadFileBytes(path, kMaxPhotometricBytes), path, lamp_set);
 }
 
-Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file, const std::string& path) {
+Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file, const std::string& path,
+                                        std::optional<int> lamp_set) {
   if (auto there = Check(file.fault, path); !there) return Propagate(std::move(there));
   const fs::path folder = fs::path(path).parent_path();
-  return PhotometricFromText(file.bytes, fs::path(path).filename().string(),
-                             [&](const std::string& name) { return TiltBeside(folder / name); });
+  return PhotometricFromText(
+      file.bytes, fs::path(path).filename().string(),
+      [&](const std::string& name) { return TiltBeside(folder / name); }, lamp_set);
 }
 
 }  // namespace lightcal::devices

@@ -2,6 +2,7 @@
 // A photometric file on disk -> what it says.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightcal/core/result.h"
@@ -12,10 +13,12 @@ namespace lightcal::devices {
 
 // Reads at most kMaxPhotometricBytes, whatever the path names, and the TILT file beside it.
 // Fails: not_found, unreadable. Refused: too_large, and as PhotometricFromText.
-[[nodiscard]] Result<ReadPhotometric> ReadPhotometricFile(const std::string& path);
+[[nodiscard]] Result<ReadPhotometric> ReadPhotometricFile(const std::string& path,
+                                                          std::optional<int> lamp_set = {});
 
 // The same of a file whose bytes were read already.
 [[nodiscard]] Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file,
-                                                      const std::string& path);
+                                                      const std::string& path,
+                                                      std::optional<int> lamp_set = {});
 
 }  // namespace lightcal::devices

@@ -39,7 +39,8 @@ StoredPlanes PlanesOf(int symmetry, std::size_t mc) {
 
 class EulumdatReader {
  public:
-  EulumdatReader(std::string_view text, std::string_view where) : lines_(text), where_(where) {}
+  EulumdatReader(std::string_view text, std::string_view where, std::optional<int> lamp_set)
+      : lines_(text), where_(where), lamp_set_(lamp_set) {}
 
   Result<ReadPhotometric> Read() {
     ReadHeader();
@@ -162,30 +163,57 @@ class EulumdatReader {
   void ReadLamps() {
     constexpr double kMostSets = 100;
     constexpr double kMostLamps = 1e6;
-    const int sets = Whole("the number of lamp sets", 1, kMostSets);
-    double flux = 0.0;
-    double power = 0.0;
-    for (int i = 0; i < sets && !error_; ++i) {
+    const int count_of_sets = Whole("the number of lamp sets", 1, kMostSets);
+    std::vector<LampSet> sets;
+    std::vector<bool> absolute;
+    for (int i = 0; i < count_of_sets && !error_; ++i) {
       LampSet set;
       const int count = Whole("the number of lamps", -kMostLamps, kMostLamps);
-      header_.absolute = header_.absolute || count < 0;
+      absolute.push_back(count < 0);
       set.count = std::max(1, std::abs(count));
       set.type = Text("the type of lamps");
       set.flux = Lumens(Number("the lamps' luminous flux"));
       set.color = Text("the colour of the lamps");
       set.rendering = Text("the colour rendering group");
       set.power = Watts(std::max(0.0, NumberOrZero("the lamps' wattage")));
-      flux += set.flux.value();
-      power += set.power.value();
-      header_.lamps.push_back(std::move(set));
+      sets.push_back(std::move(set));
     }
-    if (!error_ && !(flux > kLeastLumens && flux < kMostLumens)) {
+    TakeSet(sets, absolute);
+    for (int i = 0; i < records::kEulumdatDirectRatios; ++i) (void)NumberOrZero("a direct ratio");
+  }
+
+  // One of the sets is in the luminaire.
+  void TakeSet(const std::vector<LampSet>& sets, const std::vector<bool>& absolute) {
+    if (error_) return;
+    const auto chosen = static_cast<std::size_t>(lamp_set_.value_or(1)) - 1;
+    std::string named;
+    for (const LampSet& set : sets) {
+      named += (named.empty() ? "" : "; ") + std::to_string(set.count) + " x " + set.type + ", " +
+               ShortestText(set.flux.value()) + " lm, " + ShortestText(set.power.value()) + " W";
+    }
+    if (chosen >= sets.size()) {
+      error_ = Refused("no_lamp_set", std::string(where_),
+                       "has no set of lamps " + std::to_string(chosen + 1) + ", only " + named)
+                   .value();
+      return;
+    }
+    if (sets.size() > 1 && !lamp_set_) {
+      Warn("lamp_sets",
+           "describes " + std::to_string(sets.size()) +
+               " sets of lamps, of which one is in it: " + named +
+               ". The first is taken; {ReadDistribution} {photometric.set} 2 takes the "
+               "second and can convert it alone");
+    }
+    const LampSet& set = sets[chosen];
+    const double flux = set.flux.value();
+    if (!(flux > kLeastLumens && flux < kMostLumens)) {
       Fail("the lamps' luminous flux is " + ShortestText(flux) +
            " lm, so that candela per 1000 lm mean nothing");
     }
-    header_.lamp_flux = Lumens(flux);
-    header_.power = Watts(power);
-    for (int i = 0; i < records::kEulumdatDirectRatios; ++i) (void)NumberOrZero("a direct ratio");
+    header_.lamps = {set};
+    header_.absolute = absolute[chosen];
+    header_.lamp_flux = set.flux;
+    header_.power = set.power;
   }
 
   void ReadIntensities() {
@@ -232,6 +260,7 @@ class EulumdatReader {
 
   records::Lines lines_;
   std::string_view where_;
+  std::optional<int> lamp_set_;
   PhotometricHeader header_;
   IntensityGrid grid_;
   Warnings warnings_;
@@ -243,8 +272,9 @@ class EulumdatReader {
 
 }  // namespace
 
-Result<ReadPhotometric> EulumdatFromText(std::string_view text, std::string_view where) {
-  return EulumdatReader(text, where).Read();
+Result<ReadPhotometric> EulumdatFromText(std::string_view text, std::string_view where,
+                                         std::optional<int> lamp_set) {
+  return EulumdatReader(text, where, lamp_set).Read();
 }
 
 }  // namespace lightcal

@@ -35,13 +35,17 @@ void CheckFlux(ReadPhotometric& read, std::string_view where) {
 }  // namespace
 
 Result<ReadPhotometric> PhotometricFromText(std::string_view text, std::string_view where,
-                                            const TiltText& tilt) {
+                                            const TiltText& tilt, std::optional<int> lamp_set) {
   if (text.size() > kMaxPhotometricBytes) {
     return Refused("too_large", std::string(where),
                    "is larger than 32 MiB, which no lamp's file is");
   }
   const bool ies = IsIes(text);
-  auto read = ies ? IesFromText(text, where, tilt) : EulumdatFromText(text, where);
+  if (ies && lamp_set && *lamp_set != 1) {
+    return Refused("no_lamp_set", std::string(where),
+                   "is an IES file, which describes one set of lamps; leave {photometric.set} out");
+  }
+  auto read = ies ? IesFromText(text, where, tilt) : EulumdatFromText(text, where, lamp_set);
   if (!ies && !read && read.error().code == "bad_photometric") {
     return Refused("unknown_format", std::string(where),
                    "is neither IES LM-63 (no TILT= line) nor EULUMDAT: " + read.error().message);

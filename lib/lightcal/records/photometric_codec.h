@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,19 +18,22 @@ inline constexpr std::size_t kMaxPhotometricBytes = 32U << 20U;
 
 struct ReadPhotometric {
   PhotometricFile file;
-  Warnings warnings;  // reserved_field, tilt_missing, trailing_data, flux_disagrees, ...
+  Warnings warnings;  // reserved_field, tilt_missing, flux_disagrees, lamp_sets, ...
 };
 
 // The text of the file beside an IES file that its TILT=name names. Names with a path in them are
 // refused before it is asked.
 using TiltText = std::function<Result<std::string>(const std::string& name)>;
 
-// Tells the two formats apart by content. `where` stands in messages.
-// Refused: unknown_format, bad_photometric (names line or value), bad_table, too_large,
-// unsafe_path. Memory stays within a small multiple of the text, whatever counts it claims.
+// Tells the two formats apart by content. `where` stands in messages. lamp_set: which of a EULUMDAT
+// file's sets of lamps is in it, from 1; the first where absent.
+// Refused: unknown_format, bad_photometric (names line or value), bad_table, no_lamp_set,
+// too_large, unsafe_path. Memory stays within a small multiple of the text, whatever counts it
+// claims.
 [[nodiscard]] Result<ReadPhotometric> PhotometricFromText(std::string_view text,
                                                           std::string_view where,
-                                                          const TiltText& tilt = {});
+                                                          const TiltText& tilt = {},
+                                                          std::optional<int> lamp_set = {});
 
 // I = candela x multiplier x ballast factor [x ballast-lamp factor, 1986 and 1991 only]. The
 // twelfth number of LM-63-2019 says how the data came to be (1.1, 1.00001 ...) and multiplies
@@ -43,9 +47,12 @@ using TiltText = std::function<Result<std::string>(const std::string& name)>;
 [[nodiscard]] std::string IesText(const PhotometricFile& file);
 
 // I = value x lamp lumens / 1000 x conversion factor (CFLI); a negative lamp count marks absolute
-// photometry, whose lumens are those of the luminaire. Decimal points and commas.
+// photometry, whose lumens are those of the luminaire. Decimal points and commas. The sets of lamps
+// are alternatives (Stockmar 1990: "number of standard sets of lamps", normally 1), candela per
+// 1000 lm hold for each.
 [[nodiscard]] Result<ReadPhotometric> EulumdatFromText(std::string_view text,
-                                                       std::string_view where);
+                                                       std::string_view where,
+                                                       std::optional<int> lamp_set = {});
 // EULUMDAT in ISO 8859-1 with CRLF, ten significant digits. Type C only.   Refused: needs_type_c.
 [[nodiscard]] Result<std::string> EulumdatText(const PhotometricFile& file);
 
