@@ -72,6 +72,12 @@ Result<OutputFile> Converted(const PhotometricOptions& options, PhotometricFile 
   return OutputFile{options.output, std::move(*text)};
 }
 
+// The C planes of both widths of a lobe about the axis, within 0 to 180 degrees.
+std::pair<double, double> PlanesOf(const LobeWidths& lobe) {
+  const double turn = DegreesFromRadians(lobe.turn);
+  return {turn < 0.0 ? turn + 180.0 : turn, turn + 90.0};
+}
+
 Node ToJson(const PhotometricFile& file) {
   const PhotometricHeader& header = file.header;
   const IntensityTable& table = file.table;
@@ -82,6 +88,11 @@ Node ToJson(const PhotometricFile& file) {
   const LobeWidths field = LobeWidthsAt(table, 0.1);
   const auto by_plane = [](const LobeWidths& lobe) -> Node {
     return {DegreesFromRadians(lobe.along), DegreesFromRadians(lobe.across)};
+  };
+  const auto planes = [](const LobeWidths& lobe) -> Node {
+    if (lobe.beside_axis) return {};
+    const auto [first, second] = PlanesOf(lobe);
+    return {first, second};
   };
   Node node = {
       {"format", word(kPhotometricFormatWords, header.format)},
@@ -104,6 +115,8 @@ Node ToJson(const PhotometricFile& file) {
       {"lobe_about", beam.beside_axis ? "peak" : "axis"},
       {"beam_by_plane_deg", by_plane(beam)},
       {"field_by_plane_deg", by_plane(field)},
+      {"beam_planes_c_deg", planes(beam)},
+      {"field_planes_c_deg", planes(field)},
       {"power_W", header.power},
       {"opening",
        {{"shape", word(kOpeningShapeWords, header.opening.shape)},
@@ -141,7 +154,12 @@ std::string Table(const PhotometricOptions& options, const PhotometricFile& file
     std::string out = text(DegreesFromRadians(lobe.mean));
     if (table.symmetry() != TableSymmetry::kAxial) {
       out += " (" + text(DegreesFromRadians(lobe.along)) + " by " +
-             text(DegreesFromRadians(lobe.across)) + ")";
+             text(DegreesFromRadians(lobe.across));
+      const auto [first, second] = PlanesOf(lobe);
+      if (lobe.turn.value() != 0.0) {
+        out += " in C " + ShortestText(std::round(first)) + ", " + ShortestText(std::round(second));
+      }
+      out += ")";
     }
     return out;
   };

@@ -122,6 +122,30 @@ TEST(PhotometricCommand, ASetOfLampsIsChosenAndWritten) {
   EXPECT_EQ(RunLightcal({"photometric", Ldt("sample1"), "--set", "3"}).exit_code, 3);
 }
 
+// A Gaussian ellipse of 47.1 by 18.8 degrees turned by 45: its own widths, and their planes.
+TEST(PhotometricCommand, ATurnedOvalIsMeasuredAlongItsAxes) {
+  const TempDir folder;
+  std::ostringstream ies;
+  ies << "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 181 73 1 2 0 0 0\n1 1 10\n";
+  for (int g = 0; g <= 180; ++g) ies << 0.5 * g << "\n";
+  for (int c = 0; c <= 72; ++c) ies << 5 * c << "\n";
+  for (int c = 0; c <= 72; ++c) {
+    for (int g = 0; g <= 180; ++g) {
+      const double a = (5.0 * c - 45.0) * std::numbers::pi / 180.0;
+      const double u = 0.5 * g * std::cos(a) / 23.55, v = 0.5 * g * std::sin(a) / 9.4;
+      ies << 1000.0 * std::exp2(-u * u - v * v) << "\n";
+    }
+  }
+  const std::string file = folder.Write("c.ies", ies.str());
+  const json got = LightcalJson("photometric", {file});
+  EXPECT_NEAR(double(got["beam_by_plane_deg"][0]), 47.1, 0.1);
+  EXPECT_NEAR(double(got["beam_by_plane_deg"][1]), 18.8, 0.1);
+  EXPECT_NEAR(double(got["beam_deg"]), 0.5 * (47.1 + 18.8), 0.1);
+  EXPECT_NEAR(double(got["beam_planes_c_deg"][0]), 45.0, 0.1);
+  EXPECT_NEAR(double(got["beam_planes_c_deg"][1]), 135.0, 0.1);
+  EXPECT_THAT(RunLightcal({"photometric", file}).out, HasSubstr("in C 45, 135)"));
+}
+
 // ---- one beam, written as each type ----
 
 // cd towards a direction of the lamp's frame (aim -Z, C0 +X, C90 +Y): oblong, turned, off the axis.

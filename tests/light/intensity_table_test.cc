@@ -402,6 +402,36 @@ TEST(IntensityTable, OneBeamIsTheSameInEveryType) {
   }
 }
 
+// A Gaussian of 47.1 by 18.8 degrees (full widths at a half) about the axis, turned by any angle:
+// its widths are those, and a tenth lies sqrt(log2 10) as far out as a half.
+TEST(IntensityTable, AnOblongLobeIsMeasuredAlongItsOwnAxes) {
+  for (const double turned : {0.0, 20.0, 45.0, -30.0, 90.0, 120.0}) {
+    const auto table = TableOf(kC, Range(0, 355, 5), Range(0, 90, 0.5), [&](double c, double g) {
+      const double u = g * std::cos(Rad(c - turned)) / 23.55;
+      const double v = g * std::sin(Rad(c - turned)) / 9.4;
+      return 1000.0 * std::exp2(-u * u - v * v);
+    });
+    const double turn = std::remainder(turned, 90.0);
+    const bool swapped = std::abs(std::remainder(turned - turn, 180.0)) > 1.0;
+    for (const double level : {0.5, 0.1}) {
+      const double out = std::sqrt(-std::log2(level));
+      const auto lobe = LobeWidthsAt(table, level);
+      const auto near = [&](Radians width, double want) {
+        EXPECT_NEAR(DegreesFromRadians(width), out * want, 0.02 * out * want) << turned;
+      };
+      near(lobe.along, swapped ? 18.8 : 47.1);
+      near(lobe.across, swapped ? 47.1 : 18.8);
+      near(lobe.mean, 0.5 * (47.1 + 18.8));
+      EXPECT_NEAR(DegreesFromRadians(lobe.turn), turn, 0.5) << turned;
+    }
+  }
+  // A square lobe and a round one have no such axes.
+  const auto square = TableOf(kC, Range(0, 350, 10), Range(0, 90, 1), [](double c, double g) {
+    return 1000.0 * std::exp2(-0.01 * g * g * (1.0 + 0.3 * std::cos(Rad(4.0 * (c - 10.0)))));
+  });
+  EXPECT_EQ(LobeWidthsAt(square, 0.5).turn.value(), 0.0);
+}
+
 // Two wings make one lamp about its axis, though each shines beside it.
 TEST(IntensityTable, ABatwingOfTwoPlanesIsMeasuredAboutItsAxis) {
   const auto wings = TableOf(kC, Range(0, 360, 5), Range(0, 90, 1), [](double c, double g) {

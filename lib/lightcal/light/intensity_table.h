@@ -121,13 +121,16 @@ class IntensityTable {
                                 TableInterpolation way = TableInterpolation::kLinear);
 
 // Widths of the lobe in two sections square to each other, and their mean. Of a lamp that shines
-// along its axis, or to both sides of it (a batwing): in the planes C0-C180 and C90-C270 about the
-// axis, as LobeWidth. Of one that shines beside its axis alone (less than half the peak on the axis
-// and opposite to the peak): about the middle of its peak, away from the axis and across.
-// Source: CIE S 017, beam angle (about the direction of the largest intensity).
+// along its axis, or to both sides of it (a batwing): about the axis, as LobeWidth, in the planes
+// of `turn` and turn + 90 degrees, which are the widest and narrowest ones of an oblong lobe that
+// lies across its file's planes, C0-C180 and C90-C270 of any other. Of one that shines beside its
+// axis alone (less than half the peak on the axis and opposite to the peak): about the middle of
+// its peak, away from the axis and across. Source: CIE S 017, beam angle (about the direction of
+// the largest intensity).
 struct LobeWidths {
   Radians mean, along, across;
   bool beside_axis = false;
+  Radians turn{0.0};  // C of `along`, within -45 to 45 degrees
 };
 [[nodiscard]] LobeWidths LobeWidthsAt(const IntensityTable& table, double level);
 

@@ -105,6 +105,30 @@ Axes AxesOfPeak(const IntensityTable& table, const Axes& lamp) {
   return axes;
 }
 
+// Which way an oblong lobe lies about the axis: the phase of its width's second harmonic in C,
+//   w(c) = mean + A cos 2 (c - turn) + ...,
+// C0 where it is as good as round, or as good as along its file's planes.
+double TurnOf(const IntensityTable& table, const Axes& axes, double limit) {
+  constexpr int kPlanes = 24;           // of half a turn: of any smooth outline, no alias
+  constexpr double kRound = 0.01;       // of the mean; files' own noise makes as much
+  constexpr double kLeastTurn = 0.022;  // rad, half the gap between planes of 2.5 degrees
+  double mean = 0.0, even = 0.0, odd = 0.0;
+  for (int i = 0; i < kPlanes; ++i) {
+    const double c = std::numbers::pi * i / kPlanes;
+    const double width = WidthAbout(table, axes, c, limit);
+    mean += width / kPlanes;
+    even += 2.0 / kPlanes * width * std::cos(2.0 * c);
+    odd += 2.0 / kPlanes * width * std::sin(2.0 * c);
+  }
+  if (2.0 * std::hypot(even, odd) < kRound * mean) return 0.0;
+  // Of both planes the one nearer to C0; half-way between them the widest.
+  constexpr double kQuarter = 0.25 * std::numbers::pi;
+  const double widest = 0.5 * std::atan2(odd, even);
+  const double turn =
+      std::abs(widest) < kQuarter + 1e-3 ? widest : std::remainder(widest, 2.0 * kQuarter);
+  return std::abs(turn) < kLeastTurn ? 0.0 : turn;
+}
+
 }  // namespace
 
 Radians LobeWidth(const IntensityTable& table, Radians c, double level, TableInterpolation way) {
@@ -121,13 +145,14 @@ LobeWidths LobeWidthsAt(const IntensityTable& table, double level) {
     const bool everywhere = table.least_cd() > limit && any.At(std::numbers::pi) > limit;
     const double edge = everywhere ? std::numbers::pi : any.EdgeAt(limit);
     const Radians whole(2.0 * edge);
-    return {whole, whole, whole, false};
+    return {whole, whole, whole};
   }
   const bool beside = ShinesBeside(table, axes);
   const Axes about = beside ? AxesOfPeak(table, axes) : axes;
-  const Radians along(WidthAbout(table, about, 0.0, limit));
-  const Radians across(WidthAbout(table, about, 0.5 * std::numbers::pi, limit));
-  return {0.5 * (along + across), along, across, beside};
+  const double turn = beside ? 0.0 : TurnOf(table, axes, limit);
+  const Radians along(WidthAbout(table, about, turn, limit));
+  const Radians across(WidthAbout(table, about, turn + 0.5 * std::numbers::pi, limit));
+  return {0.5 * (along + across), along, across, beside, Radians(turn)};
 }
 
 }  // namespace lightcal
