@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -237,6 +238,52 @@ TEST(ColorBatch, ABadRowIsNamedByItsOwnLineHoweverFarDown) {
   const test::CliResult text = RunLightcal({"color", "--batch", "-"}, rows + "0.3,abc\n0.3,0\n");
   EXPECT_EQ(text.exit_code, 3);
   EXPECT_NE(text.err.find(":3001"), std::string::npos) << text.err;
+}
+
+// One lamp written from blue to red, from red to blue, shuffled, and in other units of length.
+TEST(ColorFiles, TheOrderAndUnitOfWavelengthsSayNothingOfTheLamp) {
+  const test::TempDir folder;
+  struct Unit {
+    const char* header;
+    double per_nm, values;
+  };
+  const Unit units[] = {{"wavelength_nm,irradiance_W_m2_nm", 1.0, 1.0},
+                        {"wavelength (um),irradiance (W/m2/um)", 1e-3, 1e3},
+                        {"wavelength (\xC2\xB5m),irradiance (W/m2/nm)", 1e-3, 1.0},
+                        {"wavelength (\xC3\x85),irradiance (W/m2/nm)", 10.0, 1.0},
+                        {"wavelength (A),irradiance (W/m2/nm)", 10.0, 1.0},
+                        {"Wavelength [m],irradiance (W/m2/nm)", 1e-9, 1.0}};
+  constexpr int kSamples = 81;  // 380 to 780 nm
+  const auto text = [&](const Unit& unit, int stride) {
+    std::ostringstream out;
+    out.precision(12);
+    out << unit.header << "\n";
+    for (int i = 0, k = stride == 1 ? 0 : kSamples - 1; i < kSamples; ++i) {
+      const double nm = 380.0 + 5.0 * k;
+      out << nm * unit.per_nm << "," << unit.values * (0.01 + 1e-5 * (nm - 500.0)) << "\n";
+      k = (k + stride) % kSamples;
+    }
+    return out.str();
+  };
+  const json want = Color({"--spectrum", folder.Write("a.csv", text(units[0], 1)), "--json"});
+  for (const Unit& unit : units) {
+    for (const int stride : {kSamples - 1, 1, 17}) {
+      const json got = Color({"--spectrum", folder.Write("b.csv", text(unit, stride)), "--json"});
+      EXPECT_NEAR(double(got["cct_K"]), double(want["cct_K"]), 1e-6) << unit.header << stride;
+      EXPECT_NEAR(double(got["illuminance_lx"]), double(want["illuminance_lx"]), 1e-8);
+    }
+  }
+  // All in order but one: that one is mistyped.
+  std::string typed = text(units[0], 1);
+  typed.replace(typed.find("\n430,"), 5, "\n340,");
+  const test::CliResult stray =
+      RunLightcal({"color", "--spectrum", folder.Write("typed.csv", typed)});
+  EXPECT_EQ(stray.exit_code, 3);
+  EXPECT_NE(stray.err.find("340 nm follows"), std::string::npos) << stray.err;
+  const std::string twice = folder.Write("twice.csv", text(units[0], kSamples - 1) + "430,0.5\n");
+  const test::CliResult refused = RunLightcal({"color", "--spectrum", twice});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("two values at 430 nm"), std::string::npos) << refused.err;
 }
 
 TEST(ColorPictures, BothAreWrittenOrNeither) {

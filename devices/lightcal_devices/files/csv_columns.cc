@@ -61,6 +61,14 @@ constexpr std::array kOtherNames = {
     KnownName{"cie1931_y", CsvQuantity::kY},
     KnownName{"nm", CsvQuantity::kWavelength},
     KnownName{"lambda_nm", CsvQuantity::kWavelength},
+    KnownName{"wavelength_um", CsvQuantity::kWavelength, 1000.0},
+    KnownName{"lambda_um", CsvQuantity::kWavelength, 1000.0},
+    KnownName{"um", CsvQuantity::kWavelength, 1000.0},
+    KnownName{"wavelength_m", CsvQuantity::kWavelength, 1e9},
+    KnownName{"wavelength_a", CsvQuantity::kWavelength, 0.1},
+    KnownName{"lambda_a", CsvQuantity::kWavelength, 0.1},
+    KnownName{"wavelength_angstrom", CsvQuantity::kWavelength, 0.1},
+    KnownName{"angstrom", CsvQuantity::kWavelength, 0.1},
     KnownName{"distance", CsvQuantity::kNeedsUnit},
     KnownName{"dist", CsvQuantity::kNeedsUnit},
     KnownName{"d", CsvQuantity::kNeedsUnit},
@@ -86,6 +94,8 @@ constexpr std::array kPowers = {KnownName{"w", CsvQuantity::kIrradiance, 1.0},
 constexpr std::array kAreas = {KnownName{"m2nm", CsvQuantity::kIrradiance, 1.0},
                                KnownName{"m2nm1", CsvQuantity::kIrradiance, 1.0},
                                KnownName{"sqmnm", CsvQuantity::kIrradiance, 1.0},
+                               KnownName{"m2um", CsvQuantity::kIrradiance, 1e-3},
+                               KnownName{"m2um1", CsvQuantity::kIrradiance, 1e-3},
                                KnownName{"cm2nm", CsvQuantity::kIrradiance, 1e4},
                                KnownName{"cm2nm1", CsvQuantity::kIrradiance, 1e4},
                                KnownName{"sqcmnm", CsvQuantity::kIrradiance, 1e4}};
@@ -107,6 +117,8 @@ std::string Simplified(std::string_view name) {
   ReplaceAll(simple, "\xC2\xB2", "2");               // superscript two
   ReplaceAll(simple, "\xC2\xB5", "u");               // micro sign
   ReplaceAll(simple, "\xCE\xBC", "u");               // Greek mu
+  ReplaceAll(simple, "\xC3\x85", "A");               // A with ring
+  ReplaceAll(simple, "\xE2\x84\xAB", "A");           // Angstrom sign
   ReplaceAll(simple, "\xC2\xB7", " ");               // middle dot
   ReplaceAll(simple, "\xE2\x81\xBB\xC2\xB9", "-1");  // superscript minus one
   ReplaceAll(simple, "\xE2\x81\xBB", "-");           // superscript minus

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -203,6 +205,37 @@ Result<ImportedFile> ReadReadings(const CsvTable& table) {
 
 // ---- one spectral sample a row ----
 
+// Whether the wavelengths increase once one of them is taken away: that one is mistyped.
+bool IncreaseButForOne(const std::vector<double>& wavelengths) {
+  const auto strictly = [](const std::vector<double>& w) {
+    return std::ranges::adjacent_find(w, std::greater_equal<>()) == w.end();
+  };
+  const auto first = std::ranges::adjacent_find(wavelengths, std::greater_equal<>());
+  const auto at = first - wavelengths.begin();
+  for (const auto without : {at, at + 1}) {
+    std::vector<double> rest = wavelengths;
+    rest.erase(rest.begin() + without);
+    if (strictly(rest)) return true;
+  }
+  return false;
+}
+
+// A table may list its samples from red to blue, or as they came.
+void SortSamples(Spectrum& spectrum) {
+  auto& wavelengths = spectrum.wavelengths_nm;
+  if (std::ranges::is_sorted(wavelengths)) return;
+  const bool falls = std::ranges::is_sorted(wavelengths, std::greater<>());
+  if (!falls && IncreaseButForOne(wavelengths)) return;
+  std::vector<std::pair<double, double>> samples;
+  for (std::size_t i = 0; i < wavelengths.size(); ++i) {
+    samples.emplace_back(wavelengths[i], spectrum.values[i]);
+  }
+  std::ranges::stable_sort(samples, {}, &std::pair<double, double>::first);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    std::tie(wavelengths[i], spectrum.values[i]) = samples[i];
+  }
+}
+
 Result<FoundSpectrum> ReadSeries(const CsvTable& table, std::size_t wavelength,
                                  std::size_t series) {
   const CsvColumn& column = table.columns[series];
@@ -219,6 +252,7 @@ Result<FoundSpectrum> ReadSeries(const CsvTable& table, std::size_t wavelength,
     spectrum.wavelengths_nm.push_back(*nm * table.columns[wavelength].scale);
     spectrum.values.push_back(*value * column.scale);
   }
+  SortSamples(spectrum);
   found.file_unit_W_m2_nm = column.scale;
   found.where = table.name + (column.series.empty() ? "" : ", column " + column.written);
   return found;

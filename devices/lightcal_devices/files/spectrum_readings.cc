@@ -53,9 +53,14 @@ Result<void> CheckSamples(const FoundSpectrum& found) {
                      "a wavelength of " + ShortestText(wavelength) + " nm is none");
     }
     if (i > 0 && wavelength <= spectrum.wavelengths_nm[i - 1]) {
+      if (wavelength == spectrum.wavelengths_nm[i - 1]) {
+        return Refused("bad_spectrum", found.where,
+                       "has two values at " + ShortestText(wavelength) + " nm; keep one");
+      }
       return Refused("bad_spectrum", found.where,
                      "wavelengths must increase, but " + ShortestText(wavelength) + " nm follows " +
-                         ShortestText(spectrum.wavelengths_nm[i - 1]) + " nm");
+                         ShortestText(spectrum.wavelengths_nm[i - 1]) +
+                         " nm; correct it, or put it where it belongs");
     }
   }
   return {};
