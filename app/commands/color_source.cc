@@ -58,7 +58,18 @@ bool NamesIlluminant(const std::string& source) {
 Result<ImportedFile> ReadSpectrumSource(const std::string& source) {
   if (!NamesIlluminant(source)) {
     NoteInput(source);
-    return devices::ImportFile(source);
+    auto file = devices::ImportFile(source);
+    if (!file) {
+      // Here a table says itself what its columns are.
+      constexpr std::string_view kColumns = "{import.columns}";
+      Error error = std::move(file).error();
+      if (const auto at = error.message.find(kColumns); at != std::string::npos) {
+        error.message.replace(at, kColumns.size(),
+                              "wavelength_nm,irradiance_W_m2_nm (or relative) in its first line");
+      }
+      return tl::unexpected(std::move(error));
+    }
+    return file;
   }
   auto spectrum = NamedSpectrum(source);
   if (!spectrum) return Propagate(std::move(spectrum));

@@ -286,6 +286,19 @@ TEST(ColorFiles, TheOrderAndUnitOfWavelengthsSayNothingOfTheLamp) {
   EXPECT_NE(refused.err.find("two values at 430 nm"), std::string::npos) << refused.err;
 }
 
+// What it advises, it understands.
+TEST(ColorFiles, ATableWithoutAHeaderIsToldWhatHelpsHere) {
+  const test::TempDir folder;
+  const std::string rows = "380,0.1\n480,0.2\n580,0.3\n680,0.3\n780,0.2\n";
+  const test::CliResult bare = RunLightcal({"color", "--spectrum", folder.Write("a.csv", rows)});
+  EXPECT_EQ(bare.exit_code, 3);
+  EXPECT_EQ(bare.err.find("--columns"), std::string::npos) << bare.err;
+  const std::string line = "wavelength_nm,irradiance_W_m2_nm";
+  EXPECT_NE(bare.err.find(line), std::string::npos) << bare.err;
+  const std::string named = folder.Write("b.csv", line + "\n" + rows);
+  EXPECT_EQ(RunLightcal({"color", "--spectrum", named}).exit_code, 0);
+}
+
 TEST(ColorPictures, BothAreWrittenOrNeither) {
   const test::TempDir folder;
   const std::string graphic = folder.path() + "/graphic.svg";
