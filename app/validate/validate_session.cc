@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <span>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -65,8 +67,11 @@ std::optional<Error> FirstBadRow(Warnings& warnings) {
 }
 
 std::string ContentsOf(const Session& session) {
+  // One of all lit lamps stands there once for each of them.
+  std::set<std::string_view> rows;
+  VisitReadings(session, [&](const SessionReading& row) { rows.insert(row.where); });
   std::string text =
-      Counted(session.lights.size(), "light") + ", " + Counted(session.readings.size(), "reading");
+      Counted(session.lights.size(), "light") + ", " + Counted(rows.size(), "reading");
   if (!session.captures.empty()) text += ", " + Counted(session.captures.size(), "capture");
   if (!session.camera_frames.empty()) {
     text += ", " + Counted(session.camera_frames.size(), "set") + " of camera frames";

@@ -223,6 +223,8 @@ TEST(ValidateCommand, ASessionIsCheckedWithItsJournalAndTheFilesItNames) {
   folder.Write("lamp/session.toml", toml);
   const std::string lamp = folder.path() + "/lamp";
   EXPECT_EQ(FileIn(lamp)["holds"], "1 light, 1 reading");
+  EXPECT_EQ(FileIn(SampleData("sessions/dimmed_panels"))["holds"], "3 lights, 21 readings");
+  EXPECT_EQ(FileIn(SampleData("sessions/mixing_panel"))["holds"], "1 light, 12 readings");
   const std::string row = "{\"light\":\"key\",\"distance_m\":2,\"illuminance_lx\":25}\n";
   folder.Write("lamp/readings.jsonl", row + "{\"light\":\"kye\",\"distance_m\":2,\"illumina");
   EXPECT_EQ(FileIn(lamp)["holds"], "1 light, 2 readings");
