@@ -166,6 +166,22 @@ const Scale& FNumberScale() {
 
 }  // namespace
 
+std::optional<double> IsoOfTags(const IsoTags& tags) {
+  const auto says = [](std::optional<double> v) { return v && *v > 0.0 && *v != kIsoIsElsewhere; };
+  // What SensitivityType names: 1 SOS, 2 REI, 3 ISO speed, 4 to 7 several of them, which are alike.
+  const int type = static_cast<int>(tags.type.value_or(0.0));
+  const bool standard = type == 1 || type == 4 || type == 5 || type == 7;
+  const bool recommended = type == 2 || type == 4 || type == 6 || type == 7;
+  if (says(tags.photographic)) return tags.photographic;
+  if (recommended && says(tags.recommended)) return tags.recommended;
+  if (standard && says(tags.standard_output)) return tags.standard_output;
+  if (type >= 3 && says(tags.iso_speed)) return tags.iso_speed;
+  for (const auto& any : {tags.recommended, tags.standard_output, tags.iso_speed}) {
+    if (says(any)) return any;
+  }
+  return std::nullopt;
+}
+
 FrameExposure ExposureFromTags(const WrittenExposure& written, const std::string& subject,
                                Warnings& warnings) {
   FrameExposure exposure;
@@ -178,7 +194,7 @@ FrameExposure ExposureFromTags(const WrittenExposure& written, const std::string
       Believe(written.f_number, written.aperture_apex, FNumberScale(), subject, warnings);
   exposure.f_number = f_number.value;
   exposure.f_number_snapped = f_number.snapped;
-  exposure.iso = Plausible(written.iso, kIsos);
+  exposure.iso = written.iso == kIsoIsElsewhere ? std::nullopt : Plausible(written.iso, kIsos);
   PreferAngle(written, exposure, subject, warnings);
   TakeTStop(written, exposure, subject, warnings);
   return exposure;

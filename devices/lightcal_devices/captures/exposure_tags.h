@@ -2,12 +2,24 @@
 // Exposure as a file's tags write it -> exposure as it was. Pure.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightcal/core/result.h"
 #include "lightcal/records/frame.h"
 
 namespace lightcal::devices {
+
+// The sensitivity tags of Exif 2.3 as numbers; absent = no such tag.
+struct IsoTags {
+  std::optional<double> photographic;     // 65535: beyond its 16 bits, the others say it
+  std::optional<double> type;             // SensitivityType: which of them that is
+  std::optional<double> standard_output;  // SOS
+  std::optional<double> recommended;      // REI
+  std::optional<double> iso_speed;
+};
+inline constexpr double kIsoIsElsewhere = 65535.0;
+[[nodiscard]] std::optional<double> IsoOfTags(const IsoTags& tags);
 
 // Exposure time and f-number from Tv and Av where they are on the grid of third or half stops, else
 // from the label's place on it, else as written; absent where a tag is missing, zero or nonsense.

@@ -61,7 +61,11 @@ void TakeCameraTags(const OiioPicture& picture, FrameInfo& info) {
   written.shutter_apex = NumberOf(picture, "Exif:ShutterSpeedValue");
   written.f_number = NumberOf(picture, "FNumber");
   written.aperture_apex = NumberOf(picture, "Exif:ApertureValue");
-  written.iso = NumberOf(picture, "Exif:PhotographicSensitivity");
+  written.iso = IsoOfTags({.photographic = NumberOf(picture, "Exif:PhotographicSensitivity"),
+                           .type = NumberOf(picture, "Exif:SensitivityType"),
+                           .standard_output = NumberOf(picture, "Exif:StandardOutputSensitivity"),
+                           .recommended = NumberOf(picture, "Exif:RecommendedExposureIndex"),
+                           .iso_speed = NumberOf(picture, "Exif:ISOSpeed")});
   info.exposure = ExposureFromTags(written, info.file, info.warnings);
   const auto positive = [](std::optional<double> v) { return v && std::isfinite(*v) && *v > 0.0; };
   if (const auto focal = NumberOf(picture, "Exif:FocalLength"); positive(focal)) {

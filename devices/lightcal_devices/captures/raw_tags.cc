@@ -13,6 +13,8 @@
 #include <span>
 #include <tuple>
 
+#include "lightcal_devices/captures/exposure_tags.h"
+
 namespace lightcal::devices {
 namespace {
 
@@ -31,7 +33,9 @@ enum Tag : int {
   kExposureTime = 0x829A,
   kFNumber = 0x829D,
   kIso = 0x8827,
+  kStandardOutputSensitivity = 0x8831,
   kRecommendedExposureIndex = 0x8832,
+  kIsoSpeed = 0x8833,
   kDateTimeOriginal = 0x9003,
   kShutterSpeedValue = 0x9201,
   kApertureValue = 0x9202,
@@ -43,7 +47,6 @@ enum Tag : int {
   kOpcodeList3 = 0xC74E,
   kNoiseProfile = 0xC761,
 };
-constexpr double kIsoIsElsewhere = 65535.0;
 
 std::size_t BytesOfType(int type) {
   switch (type) {
@@ -182,7 +185,9 @@ void Take(RawTagWalk& walk, int tag, const TagData& data) {
     case kApertureValue:
       return KeepFirst(tags.exposure.aperture_apex, data.First());
     case kIso:
+    case kStandardOutputSensitivity:
     case kRecommendedExposureIndex:
+    case kIsoSpeed:
       if (tags.exposure.iso.value_or(kIsoIsElsewhere) == kIsoIsElsewhere) {
         tags.exposure.iso = data.First();
       }
