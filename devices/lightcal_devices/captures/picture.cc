@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/records/fill_masked.h"
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/frame_files_module.h"
 #include "lightcal_devices/captures/mapped_file.h"
@@ -202,27 +203,6 @@ Result<Frame> Kept(std::vector<Sample> samples, FrameInfo info, SampleStore stor
   return Frame{std::move(info), view, std::move(owner)};
 }
 
-// Masked pixels from their neighbours in the row.
-void Fill(std::vector<float>& samples, std::size_t width, std::size_t channels,
-          std::span<const std::size_t> masked) {
-  const auto is_masked = [&](std::size_t pixel) {
-    return std::ranges::binary_search(masked, pixel);
-  };
-  for (const std::size_t pixel : masked) {
-    const std::size_t begin = pixel / width * width, end = begin + width;
-    std::size_t left = pixel, right = pixel;
-    while (left > begin && is_masked(left)) --left;
-    while (right + 1 < end && is_masked(right)) ++right;
-    if (is_masked(left)) left = right;
-    if (is_masked(right)) right = left;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const bool none = is_masked(left);
-      samples[pixel * channels + c] =
-          none ? 0.0F : 0.5F * (samples[left * channels + c] + samples[right * channels + c]);
-    }
-  }
-}
-
 Result<Frame> FrameOf(OiioPicture picture, FrameInfo info, SampleStore store) {
   if (!picture.is_float) return Kept(std::move(picture.codes), std::move(info), store);
   return Kept(std::move(picture.floats), std::move(info), store);
@@ -301,7 +281,7 @@ Result<MaskedPicture> ReadMaskedPicture(const std::string& path, SampleStore sto
     const std::span<float> pixel = std::span(samples).subspan(i, channels);
     if (std::any_of(pixel.begin(), pixel.end(), IsBadSample)) masked.push_back(i / channels);
   }
-  Fill(samples, static_cast<std::size_t>(floats->width()), channels, masked);
+  FillMasked(masked, static_cast<std::size_t>(floats->width()), channels, samples);
   auto whole = Kept(std::move(samples), std::move(frame->info), store);
   if (!whole) return Propagate(std::move(whole));
   return MaskedPicture{std::move(*whole), std::move(masked)};

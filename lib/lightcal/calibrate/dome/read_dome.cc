@@ -10,9 +10,11 @@
 #include "lightcal/calibrate/dome/aimed_views.h"
 #include "lightcal/calibrate/inspect_picture.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/imaging/panorama/compose_views.h"
+#include "lightcal/records/fill_masked.h"
 
 namespace lightcal {
 namespace {
@@ -36,6 +38,51 @@ Result<void> CheckRange(const PictureLuminance& luminance, const std::string& fi
                  "pixel " + std::to_string(at % luminance.width) + "," +
                      std::to_string(at / luminance.width) + " holds " + RoundedText(value, 3) +
                      ", which no scene does; repair this pixel");
+}
+
+// Pixels of negative luminance, which no light has: below what noise and black levels make of the
+// dark, four times the lowest hundredth or a hundredth of the median. Colours that the primaries do
+// not hold have negative channels, never that.
+std::vector<std::size_t> PixelsBelowLight(const std::vector<float>& nits) {
+  constexpr float kOfNoise = 4.0F, kOfMedian = 0.01F;
+  if (nits.empty() || !(*std::ranges::min_element(nits) < 0.0F)) return {};
+  std::vector<float> ranked = nits;
+  const float noise = kOfNoise * std::max(0.0F, -Quantile(ranked, 0.01));
+  const float limit = std::max(noise, kOfMedian * std::max(0.0F, UpperMedian(ranked)));
+  std::vector<std::size_t> below;
+  for (std::size_t i = 0; i < nits.size(); ++i) {
+    if (nits[i] < -limit) below.push_back(i);
+  }
+  return below;
+}
+
+void FillBelowLight(const std::string& file, DomeInput& input) {
+  Dome& dome = input.dome;
+  const std::vector<std::size_t> below = PixelsBelowLight(dome.nits);
+  if (below.empty()) return;
+  const auto width = static_cast<std::size_t>(dome.width);
+  const std::size_t first = below.front();
+  input.warnings.push_back(
+      {"bad_samples", file,
+       std::to_string(below.size()) + (below.size() == 1 ? " pixel" : " pixels") +
+           " of negative luminance, beyond its noise, the first at " +
+           std::to_string(first % width) + "," + std::to_string(first / width) + " (" +
+           RoundedText(double{dome.nits[first]}, 3) +
+           "): no light is that; the nearest ones to both sides stand in"});
+  FillMasked(below, width, static_cast<std::size_t>(dome.channels), dome.samples);
+  FillMasked(below, width, 1, dome.nits);
+}
+
+// What a meter reads under a uniform sky is summed 1/cos(pi/(2 rows)) - 1 too high from the middles
+// of so few rows: 8 % of 4. One row has no pixel above the horizon.
+Result<void> CheckRows(const Dome& dome, const std::string& file) {
+  constexpr int kLeastRows = 4;
+  if (dome.height >= kLeastRows) return {};
+  return Refused("bad_view", file,
+                 "a panorama of " + std::to_string(dome.width) + " x " +
+                     std::to_string(dome.height) +
+                     " pixels has too few above the horizon to tell what lights what; give one of "
+                     "8 x 4 or more");
 }
 
 // What our own merge wrote beside the samples.
@@ -115,6 +162,7 @@ Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& source
     dome.xyz_from_rgb = XyzFromRgbMatrix(kRadiancePrimaries);
     input.primaries = kRadiancePrimaries;
   }
+  FillBelowLight(file, input);
   return input;
 }
 
@@ -223,6 +271,7 @@ Result<DomeInput> ReadDomeInput(const DomeInputRequest& request, const Sources& 
   const auto view = PixelSolidAngles::Create(
       {.projection = Projection::kLatLong, .width = dome.width, .height = dome.height});
   if (!view) return tl::unexpected(view.error());
+  if (auto rows = CheckRows(dome, request.files.front()); !rows) return Propagate(std::move(rows));
   return std::move(pictures.front());
 }
 

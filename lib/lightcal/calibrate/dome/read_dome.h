@@ -18,10 +18,10 @@ namespace lightcal {
                                                 const DomeInputRequest& request);
 
 // One lat-long panorama as it is, or views composed to one. Warned: clip_unused (of files whose
-// aims are known).
+// aims are known), bad_samples (besides pixels that hold no number those of negative luminance).
 // Refused: no_pictures (no file); as ReadAimedViews where aims are to be found, else as
 // Sources::read_masked_frame, LuminanceOfPicture, PixelSolidAngles, ComposeViews; over_range (a
-// pixel no scene has).
+// pixel no scene has), bad_view (a panorama of fewer than four rows, too).
 [[nodiscard]] Result<DomeInput> ReadDomeInput(const DomeInputRequest& request,
                                               const Sources& sources);
 
