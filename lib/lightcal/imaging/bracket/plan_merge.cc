@@ -138,9 +138,20 @@ double ShareAbove(std::span<const float> signals, std::span<const float> clip, d
   return static_cast<double>(above) / static_cast<double>(signals.size());
 }
 
+tl::unexpected<Error> AllBlack(const std::string& frame) {
+  return Refused("all_black", frame,
+                 "nothing stands out of the noise in any frame; expose longer, take the lens cap "
+                 "off");
+}
+
 // Refusals that need no model: nothing to see in any frame.
 Result<void> CheckContents(const SampledSignals& signals, std::span<const SignalFrame> frames,
                            std::span<const double> label) {
+  if (std::ranges::all_of(signals.frames, [](const auto& frame) {
+        return std::ranges::none_of(frame, [](float y) { return y > 0.0F; });
+      })) {
+    return AllBlack(frames.back().name);
+  }
   const auto shortest =
       static_cast<std::size_t>(std::min_element(label.begin(), label.end()) - label.begin());
   if (std::all_of(signals.frames.begin(), signals.frames.end(), [&](const auto& frame) {
@@ -163,9 +174,7 @@ Result<void> CheckDark(const SampledSignals& signals, const PlannedMerge& planne
         std::max(8.0, kLeastShare * static_cast<double>(signals.frames[i].size()));
     if (static_cast<double>(seen) >= needed) return {};
   }
-  return Refused("all_black", frames.back().name,
-                 "nothing stands out of the noise in any frame; expose longer, take the lens cap "
-                 "off");
+  return AllBlack(frames.back().name);
 }
 
 template <class T>

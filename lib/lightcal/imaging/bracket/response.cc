@@ -244,6 +244,29 @@ Result<void> CheckOrder(std::span<const Frame> frames, std::span<const double> e
   return {};
 }
 
+// Frames that show nothing tell of no curve, however many they are.
+Result<void> CheckCodes(std::span<const Frame> frames, double top) {
+  const double dark = 2.0 * top / 255.0;  // two steps of 8 bits: black, and its noise
+  bool any_light = false, any_unsaturated = false;
+  for (const Frame& frame : frames) {
+    const auto* codes = std::get_if<CodeView>(&frame.samples);
+    if (codes == nullptr) return {};
+    for (int y = 0; y < codes->height() && !(any_light && any_unsaturated); ++y) {
+      const auto [least, most] = std::ranges::minmax(codes->row(y));
+      any_light = any_light || most > dark;
+      any_unsaturated = any_unsaturated || least < top;
+    }
+  }
+  const std::string& name = frames.front().info.file;
+  if (!any_light) {
+    return Refused("all_black", name,
+                   "no frame shows more than black; expose longer, take the lens cap off");
+  }
+  if (any_unsaturated) return {};
+  return Refused("all_saturated", name,
+                 "every frame is saturated; expose shorter, stop down or use an ND filter");
+}
+
 tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why) {
   return Refused("no_response", file,
                  why +
@@ -256,6 +279,11 @@ tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why
 
 Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
                                        std::span<const double> exposure) {
+  if (!frames.empty()) {
+    const auto& levels = frames[0].info.levels;
+    const double top = levels ? double{levels->white[0]} : 255.0;
+    if (auto seen = CheckCodes(frames, top); !seen) return Propagate(std::move(seen));
+  }
   if (frames.size() < 2) {
     return NoResponse(frames.empty() ? "merge" : frames[0].info.file,
                       "one frame does not tell by which curve its codes were made");

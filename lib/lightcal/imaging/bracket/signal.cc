@@ -90,7 +90,8 @@ std::optional<float> SpikeOf(std::span<const Run> runs, std::size_t samples) {
   const auto top = std::find_if(runs.begin(), runs.end(), [&](const Run& run) {
     return static_cast<double>(run.count) >= needed;
   });
-  if (top == runs.end()) return std::nullopt;
+  // Nothing clips in the dark.
+  if (top == runs.end() || !(top->value > 0.0F)) return std::nullopt;
   double below = 0.0;
   int values = 0;
   for (auto it = std::next(top); it != runs.end() && values < kSpikeBackground; ++it, ++values) {
