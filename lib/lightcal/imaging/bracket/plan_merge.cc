@@ -10,6 +10,7 @@
 #include "lightcal/imaging/bracket/exposure_ratios.h"
 #include "lightcal/imaging/bracket/noise_shares.h"
 #include "lightcal/imaging/bracket/sampled.h"
+#include "lightcal/imaging/bracket/top_values.h"
 
 namespace lightcal {
 namespace {
@@ -278,10 +279,13 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   if (frames.empty()) return Refused("no_frames", "merge", "no frame was given");
   PlannedMerge planned;
   FindClipping(frames, request.done);
+  std::vector<FrameTops> tops = FindTops(frames, request.done);
+  ClipHeldTops(frames, tops, request.label_exposure);
   SampledSignals signals = SampleRows(frames, kSamples, request.done);
   const std::vector<std::size_t> kept = DropDuplicates(signals, frames, planned.warnings);
   std::vector<double> label;
   for (const std::size_t i : kept) label.push_back(request.label_exposure[i]);
+  Permute(tops, kept);
   if (auto checked = CheckContents(signals, frames, label); !checked) {
     return Propagate(std::move(checked));
   }
@@ -299,6 +303,7 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   });
   Permute(frames, order);
   Permute(signals.frames, order);
+  Permute(tops, order);
   for (const std::size_t i : order) {
     planned.order.push_back(kept[i]);
     planned.ln_exposure.push_back(ratios->ln_exposure[i]);
@@ -318,6 +323,7 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
   if (auto chosen = ChooseNoise(signals, request, frames, planned); !chosen) {
     return Propagate(std::move(chosen));
   }
+  ClipContradictedTops(frames, tops, planned.plan, planned.sd_ln);
   if (auto dark = CheckDark(signals, planned, frames); !dark) return Propagate(std::move(dark));
   if (frames.size() == 1) {
     planned.warnings.push_back({"one_frame", frames[0].name,

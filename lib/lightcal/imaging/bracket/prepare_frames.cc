@@ -11,6 +11,7 @@
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/release_rows.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
+#include "lightcal/imaging/bracket/top_values.h"
 #include "lightcal/imaging/camera/flat_field.h"
 
 namespace lightcal {
@@ -195,6 +196,7 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   }
   if (prepared->thinning.averaged) {
     FindClipping(prepared->signals);
+    ClipHeldTops(prepared->signals, FindTops(prepared->signals), *labels);
     ParallelFor(static_cast<int>(prepared->frames.size()), [&](int i) {
       const auto at = static_cast<std::size_t>(i);
       AverageFrame(prepared->thinning, prepared->frames[at], prepared->signals[at]);

@@ -16,7 +16,8 @@ constexpr float kNoClipping = 1e31F;
 constexpr int kMostChannels = 3;
 constexpr double kSpikeShare = 1e-4;      // of a channel's samples that one value must hold
 constexpr double kSpikeProminence = 8.0;  // times the mean of the values below it
-constexpr int kSpikeBackground = 64;      // values below a spike that it is compared with
+constexpr int kSpikeBackground = 64;      // values below a spike that it is compared with,
+constexpr float kSpikeBelow = 0.5F;       // from this share of it up: not the dark around a lamp
 constexpr std::size_t kHistogramSamples = 500'000;
 constexpr float kLowestClip = 0.5F;  // of the level the file names; a spike below is the scene's
 
@@ -95,6 +96,7 @@ std::optional<float> SpikeOf(std::span<const Run> runs, std::size_t samples) {
   double below = 0.0;
   int values = 0;
   for (auto it = std::next(top); it != runs.end() && values < kSpikeBackground; ++it, ++values) {
+    if (it->value < kSpikeBelow * top->value) break;
     below += static_cast<double>(it->count);
   }
   const bool stands_out =

@@ -72,7 +72,8 @@ void ReadSignals(const SignalFrame& frame, int y, std::size_t first, std::span<f
 // Sets every frame's clip from the highest spike at the top of any frame's histogram, between half
 // of the level the file names and that level: all frames of a bracket share one sensor, so a clip
 // stays where it is from frame to frame. A spike is one value held by at least 1e-4 of the samples
-// of a channel, and by eight times as many as the mean of the values just below it.
+// of a channel, and by eight times as many as the mean of the values just below it, down to half of
+// it. Smaller lamps: top_values.h.
 void FindClipping(std::span<SignalFrame> frames, const FrameDone& done = {});
 
 // Rows spread evenly over the picture that hold about `samples` samples together, each with its
