@@ -35,10 +35,12 @@ struct MergePlan {
 // X first from the frames' sums (exact for shot noise), then once more with these weights. A frame
 // counts where the predicted signal t X, not its own noisy sample, is below usable * clip, and its
 // sample below the clip. Negative signals stay. Where frames contradict each other (chi-square five
-// standard deviations above its mean) Var is widened by chi-square per degree of freedom. Clipped
-// in every frame: X is the shortest frame's, a lower bound, and its standard deviation is X. The
-// other estimators differ in w, of the frames that count, and look for no contradictions. Of codes,
-// 1/sum w is taken times the place's factor (encoded_errors.h):
+// standard deviations above its mean n, the degrees of freedom) Var is widened by chi-square / n;
+// farther than chance, from n + 25 on, each frame errs by tau besides its noise:
+//   Var X = 1/W + tau^2 S/W,   tau^2 = (chi-square - n)/(W - S),   W = sum w, S = sum w^2 / W
+// Clipped in every frame: X is the shortest frame's, a lower bound, and its standard deviation is
+// X. The other estimators differ in w, of the frames that count, and look for no contradictions. Of
+// codes, 1/sum w is taken times the place's factor (encoded_errors.h):
 //   sums     w = t / scale: sum y / sum t of frames at one ISO
 //   longest  all weight on the longest frame that counts
 //   Var X = sum (w/t)^2 (scale X t + offset) / (sum w)^2 + (p X)^2

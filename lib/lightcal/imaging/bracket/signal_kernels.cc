@@ -64,7 +64,7 @@ struct Scratch {
   float* predicted;  // X
   float* weights;    // sum of t^2/Var
   float* degrees;    // frames that count, less one
-  float* noise;      // Var of sum
+  float* noise;      // Var of sum; of the likelihood sum w^2 / sum w, w = t^2/Var
   float* limit;
   float* clip;
 };
@@ -188,12 +188,18 @@ void WeighShares(const BlockIn& in, const BlockOut& out, const Scratch& scratch)
   Mean(in, out, scratch);
 }
 
-// Pass 3: chi-square of the frames about their mean, into scratch.sum.
+// Pass 3: chi-square of the frames about their mean, into scratch.sum; scratch.noise.
 LIGHTCAL_EVERY_CPU
 void Contradict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   float* sum = scratch.sum;
+  float* noise = scratch.noise;
+  const float* weights = scratch.weights;
   const float* value = out.value;
-  for (std::size_t i = 0; i < in.count; ++i) sum[i] = 0.0F;
+  constexpr float kTiny = std::numeric_limits<float>::min();
+  for (std::size_t i = 0; i < in.count; ++i) {
+    sum[i] = 0.0F;
+    noise[i] = 0.0F;
+  }
   for (std::size_t k = 0; k < in.frames.size(); ++k) {
     const FrameConstants frame = in.frames[k];
     const float* y = in.signals + k * kBlock;
@@ -202,13 +208,24 @@ void Contradict(const BlockIn& in, const BlockOut& out, const Scratch& scratch) 
     for (std::size_t i = 0; i < in.count; ++i) {
       const float residual = y[i] - frame.exposure * value[i];
       sum[i] += precision[i] * residual * residual;
+      const float weight = precision[i] * frame.exposure * frame.exposure;
+      noise[i] += weight * (weight / std::max(weights[i], kTiny));
     }
   }
 }
 
+// Frames that contradict each other widen by chi2/n, which takes all their noises for too small by
+// one factor. Farther apart than chance (chi2 of 25 above n: 5 standard deviations of one frame)
+// something else was there: each errs by tau besides, the one with the largest weight as likely as
+// another. With W = sum w, S = sum w^2 / W:
+//   tau^2 = (chi2 - n)/(W - S),   Var X = 1/W + tau^2 S/W        [chi2/(n W) of equal weights]
+// Source: DerSimonian, Laird, Meta-analysis in clinical trials, 1986.
 LIGHTCAL_EVERY_CPU
 void Vary(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
+  constexpr float kTiny = std::numeric_limits<float>::min();
+  constexpr float kBeyondChance = 25.0F;
   const float* chi2 = scratch.sum;
+  const float* squares = scratch.noise;
   const float* weights = scratch.weights;
   const float* degrees = scratch.degrees;
   const float* value = out.value;
@@ -219,8 +236,10 @@ void Vary(const BlockIn& in, const BlockOut& out, const Scratch& scratch) {
   for (std::size_t i = 0; i < in.count; ++i) {
     const float clipped = used[i] < 0.0F ? 1.0F : 0.0F;
     const float n = std::max(degrees[i], 1.0F);
-    const float share = chi2[i] / n;
-    const float widening = chi2[i] > ContradictionAt(n) ? share : 1.0F;
+    const float apart = (chi2[i] - n) / std::max(weights[i] - squares[i], kTiny);
+    const float contradicted =
+        chi2[i] > n + kBeyondChance ? 1.0F + apart * squares[i] : chi2[i] / n;
+    const float widening = chi2[i] > ContradictionAt(n) ? contradicted : 1.0F;
     const float square = value[i] * value[i];
     const float noise = widening / (weights[i] + clipped);
     variance[i] = (used[i] < 0.0F ? square : noise) + pattern2 * square;
