@@ -170,7 +170,7 @@ void WarnOfCards(const Candidate& likeliest, const std::vector<WallHypothesis>& 
   const double ambient_lx = theta[kAmbient] * prepared.scales.illuminance_lx;
   for (const Observation& row : observations.rows) {
     if (!row.lit || !row.differenced || row.card_lx < kTakesLittle * row.raw_lx) continue;
-    const double left_lx = row.card_lx - ambient_lx;
+    const double left_lx = LeftByCard_lx(row) - (row.ambient_subtracted ? 0.0 : ambient_lx);
     if (!(left_lx > 0.0)) continue;
     if (ShareOfRooms(walls, row.distance_m, left_lx / candela) >= kNoRoom) continue;
     warnings.push_back({"card_missed", light,

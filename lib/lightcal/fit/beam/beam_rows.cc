@@ -168,8 +168,9 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
     if (!o.differenced || !(o.card_sigma_lx > 0.0) || !(o.card_lx > 0.0)) continue;
     BeamRow row = out.readings.rows[i];
     row.lit = false;
-    row.measured = o.card_lx;
-    row.sigma = std::hypot(o.card_sigma_lx, kCardHides * o.card_lx);
+    const Observation card = BehindCard(o);
+    row.measured = card.measured_lx - (card.ambient_subtracted ? 0.0 : ambient);
+    row.sigma = card.sigma_lx;
     SetForm(false, 0.0, row);
     out.readings.rows.push_back(row);
     out.observation.push_back(out.observation[i]);

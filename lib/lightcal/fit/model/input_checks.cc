@@ -119,7 +119,7 @@ Power PowerOfDistance(const Observations& observations, const LightDescription& 
       if (!IsBright(row) || !(row.measured_lx > 2.0 * row.sigma_lx)) continue;
       const double sigma =
           std::hypot(row.sigma_lx / row.measured_lx, uneven.empty() ? 0.0 : uneven[i]);
-      const double card_lx = some_open && row.differenced ? row.card_lx : 0.0;
+      const double card_lx = some_open && row.differenced ? LeftByCard_lx(row) : 0.0;
       visit(1.0 / (sigma * sigma), std::log(row.distance_m), ln_of(row, row.measured_lx + card_lx));
     }
   };

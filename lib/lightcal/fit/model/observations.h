@@ -29,7 +29,10 @@ struct Observation {
   bool behind_card = false;
   double card_lx = 0.0;        // the mean that was subtracted
   double card_sigma_lx = 0.0;  // 1 sigma
-  // The same place with this lamp off was subtracted: no ambient, no other lamps, its own bounce.
+  // Of it, what other light is known to leave there: read with the lamp off, there or elsewhere.
+  double card_other_lx = 0.0;
+  // What the lamp's place or others showed with it off was subtracted (of a reading whose card was,
+  // from that): no ambient, no other lamps, its own bounce.
   bool ambient_subtracted = false;
   double calibration = 0.0;  // 1 sigma, relative: of every reading of this instrument alike
   int instrument = 0;        // among this light's
@@ -45,6 +48,11 @@ struct Observation {
   std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
   double emission = 1.0;                // E/I there over cos(tilt)/d^2
 };
+
+// What the card left that was subtracted, less the other light where that was taken off it.
+[[nodiscard]] inline double LeftByCard_lx(const Observation& row) {
+  return row.card_lx - (row.ambient_subtracted ? row.card_other_lx : 0.0);
+}
 
 struct ReadingGeometry;
 
@@ -75,9 +83,10 @@ struct Observations {
 // reading with other lamps lit counts by its difference from one at the same place with this lamp
 // off and the same others lit; every other one by its difference from one behind a card at the same
 // place, if there is one, or, where other light differs from place to place, from one there with
-// the lamp off. Where one instrument took every reading, sigmas are its repeatability and
-// `calibration` is to be added after the fit; beside another's they hold both. Where the lamp has
-// no position, readings that give theirs keep a distance of 1 until locate.h finds it.
+// the lamp off; where none was taken there, from the mean of others, as unsure as they differ.
+// Where one instrument took every reading, sigmas are its repeatability and `calibration` is to be
+// added after the fit; beside another's they hold both. Where the lamp has no position, readings
+// that give theirs keep a distance of 1 until locate.h finds it.
 [[nodiscard]] Result<Observations> CollectObservations(const Session& session,
                                                        const LightDescription& light);
 

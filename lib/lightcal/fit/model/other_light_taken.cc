@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/student.h"
 
 namespace lightcal::fit {
 namespace {
@@ -18,6 +19,11 @@ constexpr double kDarkFloor = 0.005;
 constexpr double kSigmaElsewhere = 0.3;
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
 constexpr double kApart = 4.0;    // standard deviations that no two readings of one light lie apart
+
+struct MeanLux {
+  double lux = 0.0;
+  double sigma_lx = 0.0;  // 1 sigma
+};
 
 class OtherLight {
  public:
@@ -95,11 +101,13 @@ class OtherLight {
     return rows;
   }
 
-  // Takes the mean of those readings among `candidates` that are `of` row i, weighted by their
-  // sigmas, from it. False: there is none.
+  // The mean of those readings among `candidates` that are `of` row i, weighted by their sigmas;
+  // none: there is none.
   template <class Of>
-  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
-    Observation& row = out_.rows[i];
+  [[nodiscard]] std::optional<MeanLux> MeanOf(std::size_t i,
+                                              const std::vector<std::size_t>& candidates,
+                                              const Of& of) const {
+    const Observation& row = out_.rows[i];
     double weights = 0.0;
     double sum = 0.0;
     for (const std::size_t j : candidates) {
@@ -113,12 +121,24 @@ class OtherLight {
       weights += 1.0 / (sigma * sigma);
       sum += other.raw_lx / (sigma * sigma);
     }
-    if (!(weights > 0.0)) return false;
-    row.measured_lx = row.raw_lx - sum / weights;
-    row.card_lx = sum / weights;
-    row.card_sigma_lx = 1.0 / std::sqrt(weights);
-    row.sigma_lx = std::hypot(SigmaLx(i), row.card_sigma_lx);
-    return true;
+    if (!(weights > 0.0)) return std::nullopt;
+    return MeanLux{sum / weights, 1.0 / std::sqrt(weights)};
+  }
+
+  void TakeFrom(std::size_t i, const MeanLux& other) {
+    Observation& row = out_.rows[i];
+    row.measured_lx = row.raw_lx - other.lux;
+    row.card_lx = other.lux;
+    row.card_sigma_lx = other.sigma_lx;
+    row.sigma_lx = std::hypot(SigmaLx(i), other.sigma_lx);
+  }
+
+  // Takes that mean from row i. False: there is none.
+  template <class Of>
+  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
+    const std::optional<MeanLux> other = MeanOf(i, candidates, of);
+    if (other) TakeFrom(i, *other);
+    return other.has_value();
   }
 
   Result<void> SubtractShadows() {
@@ -233,37 +253,55 @@ class OtherLight {
     return most > least;
   }
 
+  // What was read with the lamp off, over all places: its mean, and how far from it another place
+  // may lie, by as few as were read.
+  [[nodiscard]] MeanLux Elsewhere(const std::vector<std::size_t>& off) const {
+    MeanLux out;
+    for (const std::size_t j : off) out.lux += out_.rows[j].raw_lx;
+    const auto n = static_cast<double>(off.size());
+    out.lux /= n;
+    if (off.size() < 2) return out;
+    double squares = 0.0;
+    for (const std::size_t j : off) squares += std::pow(out_.rows[j].raw_lx - out.lux, 2.0);
+    const double sd = std::sqrt(squares / (n - 1.0) * (1.0 + 1.0 / n));
+    out.sigma_lx = StudentOverNormal(n - 1.0) * sd;
+    return out;
+  }
+
   // Other light that is one everywhere is a parameter. Where it differs from place to place, what
-  // was read with the lamp off at a reading's own place is taken from that, and tells of one light
-  // everywhere only for readings that have none. One that shows more than the lamp's reading is
-  // left to the checks.
+  // was read with the lamp off at a reading's own place is taken from that and from what was read
+  // behind a card there; from readings that have none, what places differ by. One that shows more
+  // than the lamp's reading is left to the checks.
   void SubtractOff() {
     const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
       return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
     });
-    if (!Differ(off)) return;
-    std::vector<bool> consumed(out_.rows.size(), false);
-    bool some_open = false;
+    if (off.empty()) return;
+    const bool differ = Differ(off);
+    const MeanLux elsewhere = Elsewhere(off);
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       Observation& row = out_.rows[i];
-      if (!row.lit) continue;
+      const bool card = !row.lit && behind_[i].shadow;
+      if ((!row.lit && !card) || row.ambient_subtracted || !SeesOtherLight(row)) continue;
       const auto off_here = [&](std::size_t j) {
-        const bool here = out_.rows[j].raw_lx < row.raw_lx && SamePlace(row, j);
-        if (here) consumed[j] = true;
-        return here;
+        return (card || out_.rows[j].raw_lx < row.raw_lx) && SamePlace(row, j);
       };
-      if (row.differenced || row.ambient_subtracted) {
-        std::ranges::for_each(off, off_here);
-      } else if (!row.over_range) {
-        row.ambient_subtracted = Subtract(i, off, off_here);
+      const MeanLux other = MeanOf(i, off, off_here).value_or(elsewhere);
+      if (row.differenced) {
+        row.card_other_lx = other.lux;
+        if (differ) row.card_sigma_lx = std::hypot(row.card_sigma_lx, other.sigma_lx);
+      } else if (differ) {
+        TakeFrom(i, other);
       }
-      some_open = some_open || !(row.differenced || row.ambient_subtracted);
+      row.ambient_subtracted = differ;
     }
-    if (some_open) return;
-    for (std::size_t j = 0; j < consumed.size(); ++j) {
-      if (consumed[j]) out_.subtracted.push_back(out_.rows[j].index);
+    if (!differ) return;
+    std::vector<bool> gone(out_.rows.size(), false);
+    for (const std::size_t j : off) {
+      gone[j] = true;
+      out_.subtracted.push_back(out_.rows[j].index);
     }
-    Keep(consumed);
+    Keep(gone);
   }
 
   // Cutting it at 0 would make the lamp brighter than it is.

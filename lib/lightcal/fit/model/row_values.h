@@ -2,6 +2,7 @@
 // What an observation says wherever its meter stands, in the solver's units.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -17,6 +18,9 @@ inline constexpr double kLinearBeyondSigma = 0.3;
 // 1 sigma of what a card hides besides the direct light, of all that it leaves: in traced rooms 3
 // to 5 % for cards of a lamp's size half way (tests/tools/traced_rooms).
 inline constexpr double kCardHides = 0.04;
+// The same of other light, which comes from everywhere: a card half way to a lamp of radius r at
+// distance d covers (2 r / d)^2 of it, one in a hundred where r is a twentieth of d.
+inline constexpr double kCardHidesOther = 0.01;
 
 // Whether the light from the walls is in that row: of one with the lamp unless a card's reading was
 // subtracted, of one without it if it was read behind a card.
@@ -45,21 +49,29 @@ void FillRowValues(const Observation& o, std::size_t i, const ForwardModel& mode
   }
 }
 
-// What was read behind the card that was subtracted: the walls' light, without the lamp's own.
+// 1 sigma of what the card that was subtracted hides besides the direct light. `hides`: of the
+// walls' light that it leaves.
+[[nodiscard]] inline double HiddenByCard_lx(const Observation& observation, double hides) {
+  const double other_lx = std::clamp(observation.card_other_lx, 0.0, observation.card_lx);
+  return std::hypot(hides * (observation.card_lx - other_lx), kCardHidesOther * other_lx);
+}
+
+// What was read behind the card that was subtracted: the walls' light, without the lamp's own, and
+// other light where nothing takes that away.
 [[nodiscard]] inline Observation BehindCard(const Observation& observation) {
   Observation card = observation;
   card.lit = true;
-  card.differenced = card.ambient_subtracted = false;
-  card.measured_lx = observation.card_lx;
-  card.sigma_lx = std::hypot(observation.card_sigma_lx, kCardHides * observation.card_lx);
+  card.differenced = false;
+  card.measured_lx = LeftByCard_lx(observation);
+  card.sigma_lx = std::hypot(observation.card_sigma_lx, HiddenByCard_lx(observation, kCardHides));
   return card;
 }
 
 // A card before the lamp hides some of the walls too: what was subtracted lacks it. `hides`: 1
-// sigma, of what the card left.
+// sigma, of the walls' light that the card left.
 template <class Row>
 void WidenByCard(const Observation& observation, double hides, double lux, Row& row) {
-  const double hidden = hides * observation.card_lx / lux;
+  const double hidden = HiddenByCard_lx(observation, hides) / lux;
   const double unit = row.form == RowForm::kLinear ? 1.0 : row.measured;
   row.sigma = row.own_sigma = std::hypot(row.sigma, hidden / unit);
 }
