@@ -112,9 +112,12 @@ void CheckLit(FieldReader& reader, const Reading& reading, const LitKeys& keys) 
     reader.Fail("state", "a reading of several lamps has no state; read the dimmed lamp by itself");
   }
   if (reader.Has("light") || reader.Has("lamp") || reading.shadow_card || reading.distance) {
-    reader.Fail("lit",
-                "lit names the lamps that were on; leave out light, lamp and shadow_card, and give "
-                "distances_m = { key = 2.0 } or position_m with normal instead of distance_m");
+    reader.Fail(
+        "lit",
+        "lit names the lamps that were on; leave out light, lamp and shadow_card, and give "
+        "distances_m = { key = 2.0 } or position_m with normal instead of distance_m. What "
+        "was read behind a card with one lamp alone lit is a reading of its own, with light "
+        "= \"key\", shadow_card = true and the same position_m and normal or distance_m");
   }
   if (!reading.illuminance) reader.Fail("lit", "a reading of several lamps needs illuminance_lx");
   if (!keys.distances.empty() && reading.position_m) {

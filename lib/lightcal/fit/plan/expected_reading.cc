@@ -38,12 +38,12 @@ double LuxPerCandelaAt(LightDescription light, const FittedLight* now,
   return -Dot(from, normal) / (distance * distance * distance);
 }
 
-// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient; none
-// where that is what two roundings leave.
-double WallsAt(const LightDescription& light, const FittedLight* now, int index,
-               const PlannedReading& planned) {
+// Of what the fit predicts for a lit reading, what is neither the lamp's own nor ambient; 0 where
+// that is what two roundings leave, none where the fit left the reading out.
+std::optional<double> WallsAt(const LightDescription& light, const FittedLight* now, int index,
+                              const PlannedReading& planned) {
   constexpr double kRounding = 1e-9;
-  if (now == nullptr || !now->intensity_cd) return 0.0;
+  if (now == nullptr || !now->intensity_cd) return std::nullopt;
   double own = -1.0;
   if (planned.distance) {
     const auto predicted = PredictIlluminance(*now, *planned.distance, 0.05);
@@ -58,23 +58,27 @@ double WallsAt(const LightDescription& light, const FittedLight* now, int index,
       return other > kRounding * row.predicted_lx ? other : 0.0;
     }
   }
-  return 0.0;
+  return std::nullopt;
 }
 
-// A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing.
+// A shadow card leaves what the fit did not give to the lamp; a hundredth where it says nothing. A
+// reading with other lamps lit, which the fit may have left out, is asked where no other stands.
 double BehindCard(const Session& session, const FittedLight* now, const PlannedReading& planned) {
   constexpr double kShare = 0.01;
   int index = -1;
+  double least = 0.0;  // of this lamp's own readings there
   for (const SessionReading& row : session.readings) {
     ++index;
     if (!IsLit(row.reading) || row.reading.distance != planned.distance ||
         row.reading.position_m != planned.position_m) {
       continue;
     }
-    const double other = WallsAt(session.lights.front(), now, index, planned);
-    return other > 0.0 || AmbientOf(now) > 0.0 ? other : kShare * row.reading.illuminance->value();
+    const auto other = WallsAt(session.lights.front(), now, index, planned);
+    if (other && (*other > 0.0 || AmbientOf(now) > 0.0)) return *other;
+    const double lux = row.reading.illuminance->value();
+    if (row.others_lit.empty() || least == 0.0) least = kShare * lux;
   }
-  return 0.0;
+  return least;
 }
 
 }  // namespace
