@@ -556,7 +556,7 @@ TEST(QuickOff, WhatALampLeavesNothingOfIsRefusedBesideItsOtherReadings) {
     return answer.contains("error") ? answer["error"]["code"].get<std::string>() : "";
   };
   EXPECT_EQ(code({"203lx@0.5m", "58lx@1m,off=60lx"}), "dark_above_lit");
-  EXPECT_EQ(code({"120lx@1m,off=130lx", "30lx@2m"}), "dark_above_lit");
+  EXPECT_EQ(code({"121lx@1m,off=131lx", "30lx@2m"}), "dark_above_lit");
   EXPECT_EQ(code({"203lx@0.5m", "58lx@1m,off=10lx"}), "");
   EXPECT_EQ(code({"203lx@0.5m,off=150lx", "163lx@1m,off=150lx"}), "");
 }

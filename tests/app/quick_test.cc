@@ -211,8 +211,8 @@ TEST(Quick, WithJsonAnErrorIsOneDocumentToo) {
 // an interval stays above what they share. The figures are an inverse square's: no walls.
 TEST(QuickMeter, AMakersFigureIsHis95PercentAndSharedByItsReadings) {
   const char* const sigma = "0.015306403707739618";  // 0.03/1.959964
-  const std::vector<std::string> six = {"800lx@0.5m", "800lx@0.5m", "200lx@1m",
-                                        "200lx@1m",   "50lx@2m",    "50lx@2m"};
+  const std::vector<std::string> six = {"808lx@0.5m", "808lx@0.5m", "202lx@1m",
+                                        "202lx@1m",   "50.5lx@2m",  "50.5lx@2m"};
   const auto u95 = [&](std::vector<std::string> words) {
     words.insert(words.end(), {"--room", "dark"});
     words.insert(words.end(), six.begin(), six.end());

@@ -36,17 +36,24 @@ double DisplayStepOf(const Session& session, const Reading& like) {
   if (!ByDisplay(like)) return 0.0;
   const std::string& instrument = InstrumentOf(like);
   std::set<double> shown;
+  bool lamp_shows_nothing = false;  // a figure too, as nothing behind a card or in the dark is not
   VisitReadings(session, [&](const SessionReading& row) {
     if (!IsShown(row.reading) || InstrumentOf(row.reading) != instrument) return;
-    shown.insert(row.reading.illuminance->value());
+    const double lux = row.reading.illuminance->value();
+    shown.insert(lux);
+    lamp_shows_nothing = lamp_shows_nothing || (lux == 0.0 && IsLit(row.reading));
   });
   if (shown.empty()) return 0.0;
   const auto all_of = [&](double step) {
     return std::ranges::all_of(shown, [step](double lux) { return IsMultiple(lux, step); });
   };
-  constexpr std::size_t kEnough = 4;
+  // A display of 1 lx shows a multiple of `coarse` once in so many figures: less than once in 500
+  // sessions is no chance, three different tens or four fives.
+  constexpr double kNoChance = 1.0 / 500.0;
+  const auto telling =
+      static_cast<double>(shown.size() - (lamp_shows_nothing ? 0 : shown.count(0.0)));
   for (const double coarse : {10.0, 5.0}) {
-    if (shown.size() >= kEnough && all_of(coarse)) return coarse;
+    if (std::pow(coarse, -telling) < kNoChance && all_of(coarse)) return coarse;
   }
   for (const auto& [unit, finest] : kUnitAndFinest) {
     double step = 1.0;

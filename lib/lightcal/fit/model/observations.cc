@@ -87,7 +87,7 @@ class Collector {
     observation.instrument = InstrumentIndex(reading);
     const double sigma = SigmaOf(reading);
     behind_.push_back({lit ? std::hypot(sigma, std::tan(geometry->tilt_rad) * kTiltSigma) : sigma,
-                       LastDigitOf(observation.instrument, reading, lit), reading.shadow_card,
+                       LastDigitOf(observation.instrument, reading), reading.shadow_card,
                        !lit && !observation.placed, &row});
     out_.rows.push_back(observation);
     return {};
@@ -100,9 +100,9 @@ class Collector {
                                                           : SigmaRelative(session_, reading));
   }
 
-  // 1 sigma of a display's last digit, absolute; behind a card what that hides holds it.
-  double LastDigitOf(int instrument, const Reading& reading, bool lit) {
-    if (!lit || reading.under_range || reading.over_range) return 0.0;
+  // 1 sigma of a display's last digit, absolute.
+  double LastDigitOf(int instrument, const Reading& reading) {
+    if (reading.under_range || reading.over_range) return 0.0;
     const auto [known, fresh] = display_step_lx_.try_emplace(instrument, 0.0);
     if (fresh) known->second = DisplayStepOf(session_, reading);
     const double step = known->second;
