@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal tradeoff: what accuracy costs in time, on this very session.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@
 #include "interrupt.h"
 #include "lightcal/calibrate/session_twin.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/records/json_codec.h"
 #include "lightcal_devices/disk_sources.h"
 #include "minutes_answer.h"
 #include "output_files.h"
@@ -67,12 +70,22 @@ class StudyProgress {
   std::size_t phase_ = 0;
 };
 
+// One run of a large session may take minutes, and nothing is written before the end.
+EndAtOnce StoppedWith(bool json) {
+  const Error stopped{ErrorKind::kFailed, "interrupted", "tradeoff",
+                      "stopped; nothing was written"};
+  const std::string out = PrintJson({{"error", DocumentOf(stopped)}}, records::JsonLayout::kPretty);
+  const std::string wiped = ::isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
+  return {json ? out + "\n" : "",
+          wiped + "lightcal: " + stopped.subject + ": " + stopped.message + "\n"};
+}
+
 Result<TradeoffAnswer> Measure(const TradeoffOptions& options, const tradeoff::Question& question,
-                               bool quiet) {
-  const InterruptGuard guard;
-  StudyProgress progress(!quiet);
-  const tradeoff::Watch watch = {[] { return InterruptGuard::StopRequest().Requested(); },
-                                 [&](double share) { progress.At(share); }};
+                               bool json) {
+  const EndAtOnce ends = StoppedWith(json);
+  StudyProgress progress(!json);
+  tradeoff::Watch watch;
+  watch.progress = [&](double share) { progress.At(share); };
   TradeoffAnswer out;
   out.tolerance_relative = question.tolerance_relative;
   SessionTwin twin;
