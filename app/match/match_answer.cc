@@ -129,9 +129,14 @@ std::string MatchTable(const std::vector<match::Match>& matches, const match::Ma
   }
   if (dimmer) header.emplace_back("to dim, stops");
   std::vector<std::vector<std::string>> rows;
-  for (const match::Match& each : matches) rows.push_back(RowOf(each, set, dimmer));
-  rows.push_back(RowOf(unfiltered, set, dimmer));
-  rows.back().front() = "(as it is)";
+  for (const match::Match& each : matches) {
+    rows.push_back(RowOf(each, set, dimmer));
+    if (each.gels.empty()) rows.back().front() += " (as it is)";
+  }
+  if (std::ranges::none_of(matches, [](const match::Match& each) { return each.gels.empty(); })) {
+    rows.push_back(RowOf(unfiltered, set, dimmer));
+    rows.back().front() = "(as it is)";
+  }
   return TextTable(header, rows);
 }
 
