@@ -59,12 +59,6 @@ std::string LevelOf(const SweepRow& row) {
   return std::string(knob.levels[row.setting.levels[row.knob]]);
 }
 
-double TimesFaster(const Study& study, const Setting& setting) {
-  const auto& usual = study.usual.measured.times;
-  const auto& own = setting.measured.times;
-  return tradeoff::TimesDiffer(usual, own) ? usual.total / own.total : 1.0;
-}
-
 // "0.02 %", "none, u -3 %".
 std::string OffBy(const Setting& setting) {
   std::string text = Percent(setting.error.relative);
@@ -90,9 +84,18 @@ Cells CellsOf(std::string knob, std::string level, const Setting& setting, doubl
           Speed(times_faster), OffBy(setting),   VerdictWord(setting)};
 }
 
+// The usual setting as it was measured in turns with these.
+Setting UsualBeside(const Study& study, const Setting& one) {
+  Setting usual = study.usual;
+  usual.measured.times = one.usual;
+  return usual;
+}
+
 // The usual setting, then every knob's every level that is in play.
 std::vector<Cells> KnobRows(const Study& study) {
-  std::vector<Cells> rows = {CellsOf("as usual", "", study.usual, 1.0)};
+  const Setting usual =
+      study.rows.empty() ? study.usual : UsualBeside(study, study.rows.front().setting);
+  std::vector<Cells> rows = {CellsOf("as usual", "", usual, 1.0)};
   for (const SweepRow& row : study.rows) {
     if (!row.in_play) continue;
     rows.push_back(CellsOf(std::string(tradeoff::Knobs()[row.knob].name), LevelOf(row), row.setting,
@@ -103,8 +106,10 @@ std::vector<Cells> KnobRows(const Study& study) {
 
 std::vector<Cells> CombinationRows(const Study& study) {
   std::vector<Cells> rows;
+  if (study.combinations.empty()) return rows;
+  rows.push_back(CellsOf("", "as usual", UsualBeside(study, study.combinations.front()), 1.0));
   for (const Setting& one : study.combinations) {
-    rows.push_back(CellsOf("", tradeoff::NameOf(one.levels), one, TimesFaster(study, one)));
+    rows.push_back(CellsOf("", tradeoff::NameOf(one.levels), one, one.TimesFaster()));
   }
   return rows;
 }
@@ -138,7 +143,7 @@ std::string Recommendation(const Study& study) {
   }
   return "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" + takes + ", saves " +
          PercentText(study.saved_share) + "; " +
-         Effect(study.recommended, TimesFaster(study, study.recommended)) + ").";
+         Effect(study.recommended, study.recommended.TimesFaster()) + ").";
 }
 
 Node TimesNode(const tradeoff::RunTimes& times) {
@@ -150,7 +155,7 @@ Node TimesNode(const tradeoff::RunTimes& times) {
           {"high", 1e3 * times.high},    {"runs", times.runs},         {"stages", stages}};
 }
 
-Node SettingNode(const Study& study, const Setting& setting) {
+Node SettingNode(const Setting& setting, double times_faster) {
   Node node = {{"name", tradeoff::NameOf(setting.levels)}, {"label", VerdictWord(setting)}};
   if (const auto& refused = setting.measured.refused) {
     node.Put("refused", refused->code);
@@ -158,7 +163,7 @@ Node SettingNode(const Study& study, const Setting& setting) {
   }
   const auto& error = setting.error;
   node.Put({{"time_ms", TimesNode(setting.measured.times)},
-            {"times_faster", TimesFaster(study, setting)},
+            {"times_faster", times_faster},
             {"error_relative", error.relative},
             {"error_over_u", error.over_u},
             {"u_change_relative", setting.u_change}});
@@ -195,6 +200,11 @@ report::WorkPrecision PlotOf(const Study& study, double tolerance, const std::st
   }
   return plot;
 }
+
+// What its column does not say; each table was measured in turns with its own usual setting.
+constexpr std::string_view kAgainstUsual =
+    "Against usual: the whole run, by what the knob's own stage takes less or more; the other "
+    "stages differ by chance.";
 
 // The first row is the header, the first cell of each names it.
 std::string HtmlTable(const std::vector<std::vector<std::string>>& rows) {
@@ -255,8 +265,8 @@ std::string Page(const TradeoffAnswer& answer, const std::string& title, const s
     html += "<h2>What the next minutes of measuring buy</h2>\n<figure>\n" + minutes +
             "</figure>\n" + MinutesHtml(ladders);
   }
-  return html +
-         "<p class=\"small soft\">Off by: the largest change of strength, flux, colour temperature "
+  return html + "<p class=\"small soft\">" + std::string(kAgainstUsual) +
+         " Off by: the largest change of strength, flux, colour temperature "
          "or Duv against the strictest setting; 1 % stands for 1 mired or 0.001 of Duv; and what "
          "becomes of your standard uncertainty u. Free: below a tenth of u; safe: up to a "
          "third.</p>\n"
@@ -272,7 +282,8 @@ std::string TradeoffTable(const TradeoffAnswer& answer) {
     rows.push_back({row.knob, row.level, row.time, row.spread, row.speed, row.error, row.label});
   }
   std::string text =
-      TextTable({"knob", "level", "ms", "quartiles", "against usual", "off by", "label"}, rows);
+      TextTable({"knob", "level", "ms", "quartiles", "against usual", "off by", "label"}, rows) +
+      std::string(kAgainstUsual) + "\n";
   rows.clear();
   for (const Cells& row : CombinationRows(study)) {
     rows.push_back({row.time, row.spread, row.speed, row.error, row.label, row.level});
@@ -324,24 +335,24 @@ std::vector<std::string> TradeoffSentences(const TradeoffAnswer& answer) {
 
 Node TradeoffNode(const TradeoffAnswer& answer) {
   const auto& [study, truth, ladders, tolerance] = answer;
-  const auto knob = [&study](const SweepRow& row) {
+  const auto knob = [](const SweepRow& row) {
     Node node = {{"knob", tradeoff::Knobs()[row.knob].name}, {"level", LevelOf(row)}};
-    node.Put(SettingNode(study, row.setting));
+    node.Put(SettingNode(row.setting, row.times_faster));
     node.Put("in_play", row.in_play);
     return node;
   };
-  const auto setting = [&study](const Setting& one) { return SettingNode(study, one); };
+  const auto setting = [](const Setting& one) { return SettingNode(one, one.TimesFaster()); };
   return {
       {"tolerance_relative", tolerance},
       {"allowed_relative", study.allowed_relative},
       {"meter_limits", study.meter_limits},
       {"reference",
        {{"time_ms", TimesNode(study.reference.times)}, {"self_difference", study.self_difference}}},
-      {"usual", SettingNode(study, study.usual)},
+      {"usual", SettingNode(study.usual, 1.0)},
       {"knobs", Node::List(study.rows, knob)},
       {"not_in_play", tradeoff::KnobsNotInPlay(study)},
       {"combinations", Node::List(study.combinations, setting)},
-      {"recommended", SettingNode(study, study.recommended)},
+      {"recommended", setting(study.recommended)},
       {"nothing_to_trade", NothingToTrade(study)},
       {"saved_relative", study.saved_share},
       {"against_truth", Node::UnlessEmpty(Node::List(truth, TruthNode))},
@@ -352,7 +363,7 @@ Node TradeoffNode(const TradeoffAnswer& answer) {
 Result<std::vector<OutputFile>> TradeoffFiles(const TradeoffAnswer& answer,
                                               const std::string& title) {
   const Study& study = answer.study;
-  Node measured = SettingNode(study, study.recommended);
+  Node measured = SettingNode(study.recommended, study.recommended.TimesFaster());
   measured.Put("session", title);
   Node with_figures = DocumentOf(study.recommended.measured.profile);
   with_figures.Put("measured", std::move(measured));

@@ -93,7 +93,7 @@ Result<void> RecommendIfItSaves(const Runner& run, const TimingRules& rules, con
     study.saved_share = 0.0;
     return {};
   }
-  study.usual.measured.times = (*measured)[0].times;
+  study.usual.measured.times = study.recommended.usual = (*measured)[0].times;
   study.recommended.measured.times = (*measured)[1].times;
   return {};
 }
@@ -117,7 +117,7 @@ Result<void> Recommend(const Runner& run, const Question& question,
     study.recommended = **std::ranges::min_element(fit, {}, [](const Setting* s) {
       return std::pair(s->error.relative, std::abs(s->u_change));
     });
-    study.saved_share = SavedShare(study.usual.measured.times, study.recommended.measured.times);
+    study.saved_share = SavedShare(study.recommended.usual, study.recommended.measured.times);
     return {};
   }
   if (!fit.empty()) {

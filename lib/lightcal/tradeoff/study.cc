@@ -181,9 +181,10 @@ Result<void> MeasureCombinations(const Runner& run, const Question& question,
   auto measured = MeasureInTurn(run, profiles, question.together, watch);
   if (!measured) return Propagate(std::move(measured));
   study.usual.measured = std::move(measured->front());
+  const RunTimes usual = study.usual.measured.times;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] == study.usual.levels) continue;
-    Setting setting{wanted[i], std::move((*measured)[i + 1]), {}, Verdict::kNoAnswer, 0.0};
+    Setting setting{wanted[i], std::move((*measured)[i + 1]), {}, Verdict::kNoAnswer, 0.0, usual};
     Judge(study, setting);
     study.combinations.push_back(std::move(setting));
   }
@@ -211,6 +212,11 @@ std::vector<const Setting*> AllSettings(const Study& study) {
   for (const SweepRow& row : study.rows) all.push_back(&row.setting);
   for (const Setting& one : study.combinations) all.push_back(&one);
   return all;
+}
+
+double Setting::TimesFaster() const {
+  const RunTimes& own = measured.times;
+  return usual.runs > 0 && TimesDiffer(usual, own) ? usual.total / own.total : 1.0;
 }
 
 std::string NameOf(const Levels& levels) {
@@ -256,6 +262,7 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
   Judge(study, study.usual);
   for (std::size_t i = 0; i < study.rows.size(); ++i) {
     study.rows[i].setting.measured = std::move((*measured)[1 + i]);
+    study.rows[i].setting.usual = study.usual.measured.times;
     FillRow(study, study.rows[i]);
   }
   const std::vector<double> limits =

@@ -42,6 +42,12 @@ struct Setting {
   Verdict verdict = Verdict::kNoAnswer;
   // Of the light whose standard uncertainty u changes most: how much, relative to u itself.
   double u_change = 0.0;
+  // The usual profile's, run in turns with this one: a machine that is busy at times is so for
+  // both. None of the usual one itself.
+  RunTimes usual{};
+
+  // By the medians; 1 where the times do not differ (timing.h).
+  [[nodiscard]] double TimesFaster() const;
 };
 
 // One knob moved from the usual profile.
