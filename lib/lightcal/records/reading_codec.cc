@@ -9,6 +9,7 @@
 #include "lightcal/records/field_checker.h"
 #include "lightcal/records/field_writer.h"
 #include "lightcal/records/json_codec.h"
+#include "lightcal/records/reading_time.h"
 #include "lightcal/records/session_codec.h"
 
 namespace lightcal {
@@ -75,9 +76,19 @@ std::optional<ReadingFault> FaultOfPlace(const Reading& reading, Facing facing) 
   return std::nullopt;
 }
 
+// Of what is written; a picture's own time may be a camera's that was never set.
+std::optional<ReadingFault> FaultOfTime(const Reading& reading) {
+  if (reading.time.empty() || IsTime(reading.time)) return std::nullopt;
+  return ReadingFault{"time", "time = " + Quoted(reading.time) +
+                                  " is no ISO 8601 time such as 2026-11-21T10:00:00Z"};
+}
+
 // Of fields that are right each by itself.
 std::optional<ReadingFault> FaultTogether(const Reading& reading,
                                           Facing facing = Facing::kWritten) {
+  if (facing == Facing::kWritten) {
+    if (auto fault = FaultOfTime(reading)) return fault;
+  }
   if (auto fault = FaultOfPlace(reading, facing)) return fault;
   if (!reading.illuminance && !reading.cct && !reading.xy && reading.spectrum_file.empty()) {
     return ReadingFault{"light",

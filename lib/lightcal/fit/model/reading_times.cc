@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/reading_time.h"
 
 namespace lightcal::fit {
 namespace {
@@ -30,59 +29,6 @@ constexpr double kTimeLeft = 1e-3;
 constexpr std::size_t kFewestForDrift = 4;
 // Readings of one moment that a further one is compared with.
 constexpr std::size_t kMostOfOneMoment = 8;
-
-// Takes a whole number of exactly `digits` digits off the front.
-std::optional<int> TakeDigits(std::string_view& text, std::size_t digits) {
-  int value = 0;
-  if (text.size() < digits) return std::nullopt;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + digits, value);
-  if (error != std::errc() || end != text.data() + digits || value < 0) return std::nullopt;
-  text.remove_prefix(digits);
-  return value;
-}
-
-bool Take(std::string_view& text, char c) {
-  if (!text.starts_with(c)) return false;
-  text.remove_prefix(1);
-  return true;
-}
-
-// Numbers of two digits with `separator` between.
-template <std::size_t N>
-std::optional<std::array<int, N>> TakePairs(std::string_view& text, char separator) {
-  std::array<int, N> out{};
-  for (std::size_t i = 0; i < N; ++i) {
-    if (i > 0 && !Take(text, separator)) return std::nullopt;
-    const auto pair = TakeDigits(text, 2);
-    if (!pair) return std::nullopt;
-    out[i] = *pair;
-  }
-  return out;
-}
-
-// Seconds east of Greenwich; the rest of the text must be a zone or nothing.
-std::optional<double> ZoneOf(std::string_view text) {
-  if (text.empty() || text == "Z") return 0.0;
-  const bool west = text.front() == '-';
-  if (!west && text.front() != '+') return std::nullopt;
-  text.remove_prefix(1);
-  const auto zone = TakePairs<2>(text, ':');
-  if (!zone || !text.empty()) return std::nullopt;
-  const double east = 3600.0 * (*zone)[0] + 60.0 * (*zone)[1];
-  return west ? -east : east;
-}
-
-// A fraction of a second, 0 where there is none.
-double TakeFraction(std::string_view& text) {
-  if (!Take(text, '.')) return 0.0;
-  double value = 0.0;
-  double unit = 0.1;
-  for (; !text.empty() && text.front() >= '0' && text.front() <= '9'; unit *= 0.1) {
-    value += unit * (text.front() - '0');
-    text.remove_prefix(1);
-  }
-  return value;
-}
 
 // One instrument cannot be at two distances, nor give the same reading twice, in one moment.
 bool CannotBothBe(const Reading& a, const Reading& b) {
@@ -247,25 +193,6 @@ std::optional<double> DriftOf(const std::vector<TimedRow>& rows, const FittedLig
 }
 
 }  // namespace
-
-std::optional<double> SecondsOfTime(std::string_view iso8601) {
-  const auto year = TakeDigits(iso8601, 4);
-  if (!year || !Take(iso8601, '-')) return std::nullopt;
-  const auto date = TakePairs<2>(iso8601, '-');
-  if (!date || !(Take(iso8601, 'T') || Take(iso8601, ' '))) return std::nullopt;
-  const auto clock = TakePairs<3>(iso8601, ':');
-  if (!clock) return std::nullopt;
-  const double fraction = TakeFraction(iso8601);
-  const auto zone = ZoneOf(iso8601);
-  const std::chrono::year_month_day day{std::chrono::year(*year),
-                                        std::chrono::month(static_cast<unsigned>((*date)[0])),
-                                        std::chrono::day(static_cast<unsigned>((*date)[1]))};
-  const auto& [hour, minute, second] = *clock;
-  if (!zone || !day.ok() || hour > 24 || minute > 59 || second > 60) return std::nullopt;
-  const auto days = std::chrono::sys_days(day).time_since_epoch().count();
-  return 86400.0 * static_cast<double>(days) + 3600.0 * hour + 60.0 * minute + second + fraction -
-         *zone;
-}
 
 void CheckTimes(const Session& session, const LightDescription& light, Warnings& warnings) {
   TimeWatch watch(light.name, warnings);

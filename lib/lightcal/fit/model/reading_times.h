@@ -3,18 +3,11 @@
 // twice, a lamp that was still warming up.
 #pragma once
 
-#include <optional>
-#include <string_view>
-
 #include "lightcal/core/result.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
-
-// Seconds of "2026-11-21T10:00:00Z" (a fraction, an offset like +01:00, a blank for the T; no zone
-// counts as Z) since 1970. Absent: anything else.
-[[nodiscard]] std::optional<double> SecondsOfTime(std::string_view iso8601);
 
 // Over the readings of `light` by one instrument, in the order they stand: clock_backwards where
 // times go back, duplicate_time where one instrument is said to have been at two distances at once,

@@ -10,11 +10,11 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/model/observations.h"
-#include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/states/drift.h"
 #include "lightcal/fit/states/predicted_reading.h"
 #include "lightcal/fit/states/split_geometries.h"
 #include "lightcal/light/fixture.h"
+#include "lightcal/records/reading_time.h"
 
 namespace lightcal::fit {
 namespace {
