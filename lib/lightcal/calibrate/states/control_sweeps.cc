@@ -26,9 +26,9 @@ FixtureState With(FixtureState state, const std::string& control, double number)
   return state;
 }
 
-std::optional<ControlSweep::Point> SweepPointAt(const FittedLight& light, const FixtureState& state,
+std::optional<ControlSweep::Point> SweepPointAt(StateAnswers& answers, const FixtureState& state,
                                                 const std::string& control) {
-  const auto answer = AnswerState(light, state);
+  const auto answer = answers.At(state);
   if (!answer) return std::nullopt;
   ControlSweep::Point point;
   point.at = NumberOfControl(state, control).value_or(0.0);
@@ -45,6 +45,7 @@ std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light) {
   std::vector<ControlSweep> sweeps;
   if (light.states.empty()) return sweeps;
   const FixtureState& reference = light.states.front().state;
+  StateAnswers answers(light);
   for (const ControlValue& control : reference) {
     if (control.IsWord()) continue;
     ControlSweep sweep;
@@ -57,7 +58,7 @@ std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light) {
     std::vector<double> labels;
     for (const MeasuredState& state : light.states) {
       if (!AlikeBut(state.state, reference, control.name)) continue;
-      if (auto point = SweepPointAt(light, state.state, control.name)) {
+      if (auto point = SweepPointAt(answers, state.state, control.name)) {
         labels.push_back(point->at);
         sweep.read.push_back(*std::move(point));
       }
@@ -73,7 +74,7 @@ std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light) {
     labels.erase(repeated.begin(), repeated.end());
     for (const double label : labels) {
       const FixtureState at = With(reference, control.name, label);
-      if (auto point = SweepPointAt(light, at, control.name)) {
+      if (auto point = SweepPointAt(answers, at, control.name)) {
         sweep.curve.push_back(*std::move(point));
       }
     }

@@ -27,6 +27,8 @@ struct CurvePoint {
   std::vector<double> at;  // one label a control
   double value = 0.0;
   double sd = 0.0;  // 1 sigma, its own, above 0
+
+  [[nodiscard]] bool operator==(const CurvePoint&) const = default;
 };
 
 struct CurveValue {

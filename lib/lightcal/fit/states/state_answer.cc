@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/states/control_curve.h"
+#include "lightcal/fit/states/known_curves.h"
 #include "lightcal/fit/states/ln_of.h"
 #include "lightcal/fit/states/mixing_line.h"
 #include "lightcal/fit/states/state_spectrum.h"
@@ -22,6 +24,7 @@ using fit::ControlKind;
 using fit::CurvePoint;
 using fit::CurveTarget;
 using fit::CurveValue;
+using fit::KnownCurves;
 using fit::Scaled;
 using fit::SdOfLn;
 
@@ -213,13 +216,13 @@ class States {
   std::vector<Axis> axes_;
 };
 
-ControlCurve LightCurve(const States& states) {
+const ControlCurve& LightCurve(const States& states, KnownCurves& curves) {
   std::vector<CurvePoint> points;
   for (const MeasuredState* one : states.kept()) {
     points.push_back({states.LabelsOf(one->state), std::log(one->relative.value),
                       std::max(kLeastRepeatability, one->repeatability)});
   }
-  return {states.Kinds(), CurveTarget::kLnLight, std::move(points)};
+  return curves.Of(states.Kinds(), CurveTarget::kLnLight, std::move(points));
 }
 
 // 1 sigma of ln of one state's light over another's that no reading of theirs shows: what the fit
@@ -262,7 +265,7 @@ SharedColor SharedAt(std::vector<SharedColor> read, double ln_mired) {
           a.sd_duv + share * (above->sd_duv - a.sd_duv)};
 }
 
-FittedColor ColorBetween(const States& states, const FixtureState& at) {
+FittedColor ColorBetween(const States& states, const FixtureState& at, KnownCurves& curves) {
   std::vector<CurvePoint> mireds;
   std::vector<CurvePoint> duvs;
   std::vector<Xy> xys;
@@ -281,8 +284,8 @@ FittedColor ColorBetween(const States& states, const FixtureState& at) {
   if (mireds.size() < 2) return out;
   const std::vector<double> labels = states.LabelsOf(at);
   const CurveValue ln_mired =
-      ControlCurve(states.Kinds(), CurveTarget::kLnMired, std::move(mireds)).At(labels);
-  CurveValue duv = ControlCurve(states.Kinds(), CurveTarget::kDuv, std::move(duvs)).At(labels);
+      curves.Of(states.Kinds(), CurveTarget::kLnMired, std::move(mireds)).At(labels);
+  CurveValue duv = curves.Of(states.Kinds(), CurveTarget::kDuv, std::move(duvs)).At(labels);
   const Kelvin cct(1e6 / std::exp(ln_mired.value));
   if (const auto line = fit::MixingLineOf(xys)) {
     // The line's Duv where it is the surer of the two.
@@ -327,7 +330,7 @@ Result<void> CheckControlsOf(const FittedLight& light, const FixtureState& at) {
 }
 
 Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
-                               std::size_t without) {
+                               std::size_t without, KnownCurves& curves) {
   States states(light, at, without);
   if (states.kept().empty()) {
     return Refused("state_word", light.name,
@@ -372,7 +375,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
             StateText(at));
   }
   states.KeepNearest();
-  const ControlCurve curve = LightCurve(states);
+  const ControlCurve& curve = LightCurve(states, curves);
   const std::vector<double> labels = states.LabelsOf(at);
   const CurveValue of_full = curve.Difference(labels, states.LabelsOf(answer.full));
   answer.relative_to_full =
@@ -391,16 +394,28 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   answer.relative = UncertainFromLog(light_there.value, sd);
   answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, sd);
   answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, sd);
-  answer.color = ColorBetween(states, at);
+  answer.color = ColorBetween(states, at, curves);
   fit::AddSpectrumBetween(light, MixturesAround(states), answer);
   return answer;
 }
 
 }  // namespace
 
+struct StateAnswers::Curves {
+  KnownCurves known;
+};
+
+StateAnswers::StateAnswers(const FittedLight& light)
+    : light_(light), curves_(std::make_unique<Curves>()) {}
+StateAnswers::~StateAnswers() = default;
+
+Result<StateAnswer> StateAnswers::At(const FixtureState& at) {
+  if (auto fits = CheckControlsOf(light_, at); !fits) return Propagate(std::move(fits));
+  return AnswerFrom(light_, at, light_.states.size(), curves_->known);
+}
+
 Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at) {
-  if (auto fits = CheckControlsOf(light, at); !fits) return Propagate(std::move(fits));
-  return AnswerFrom(light, at, light.states.size());
+  return StateAnswers(light).At(at);
 }
 
 std::optional<StateAnswer> AnswerWithout(const FittedLight& light, std::size_t index) {
@@ -409,7 +424,8 @@ std::optional<StateAnswer> AnswerWithout(const FittedLight& light, std::size_t i
   if (others.kept().size() < 2 || !others.CheckInside() || !others.BetweenTwo()) {
     return std::nullopt;
   }
-  auto answer = AnswerFrom(light, at, index);
+  KnownCurves curves;
+  auto answer = AnswerFrom(light, at, index, curves);
   if (!answer) return std::nullopt;
   return *std::move(answer);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,23 @@ struct StateAnswer {
 // outside_states (beyond what was read in a control: nothing tells how the fixture goes on),
 // state_word (a word that was never read), too_few_states (one state alone).
 [[nodiscard]] Result<StateAnswer> AnswerState(const FittedLight& light, const FixtureState& at);
+
+// AnswerState of one lamp at many states: the curves through its states are found once. The light
+// must outlive it; for one thread at a time.
+class StateAnswers {
+ public:
+  explicit StateAnswers(const FittedLight& light);
+  ~StateAnswers();
+  StateAnswers(const StateAnswers&) = delete;
+  StateAnswers& operator=(const StateAnswers&) = delete;
+
+  [[nodiscard]] Result<StateAnswer> At(const FixtureState& at);
+
+ private:
+  struct Curves;
+  const FittedLight& light_;
+  std::unique_ptr<Curves> curves_;
+};
 
 // The spectrum of an answer. Refused: no_spectra (none was read), spectra_too_few (there are no
 // fewer emitters than spectra, so that nothing shows them mixing), state_spectrum (none of the
