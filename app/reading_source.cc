@@ -146,7 +146,13 @@ Result<ReadingSource> ReadingSource::Open(const Settings& settings, bool may_typ
   }
   const bool nothing_there =
       opened.error().code == devices::fault::kNoDevice && settings.request.device.empty();
-  if (!may_type || !nothing_there) return Propagate(std::move(opened));
+  if (!may_type || !nothing_there) {
+    Error error = std::move(opened).error();
+    if (error.code == devices::fault::kNoDevice && !settings.to_type.empty()) {
+      error.message += ", or type the reading: " + settings.to_type;
+    }
+    return tl::unexpected(std::move(error));
+  }
   console.Note("No meter is plugged in: type what yours shows.");
   return source;
 }

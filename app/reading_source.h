@@ -37,6 +37,7 @@ class ReadingSource {
     bool typed = false;   // numbers are typed, whatever is plugged in
     MeterRequest request;
     std::vector<MeterDescription> meters{};  // of the session, by their names in a frame
+    std::string to_type{};                   // the option by which a reading is typed, "" = by none
   };
   // Where no meter is plugged in and none is named, `may_type` lets the person type.
   // Fails: as MeterSession::Open and MeterCalibrations::Load.

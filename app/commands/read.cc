@@ -56,10 +56,10 @@ class ReadRun {
   Result<void> Execute() {
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
     const bool typed = options_.typed || !options_.lux.empty();
-    auto opened =
-        ReadingSource::Open({options_.session, typed, options_.request,
-                             session_ ? session_->meters : std::vector<MeterDescription>()},
-                            AsksQuestions(), console_);
+    auto opened = ReadingSource::Open(
+        {options_.session, typed, options_.request,
+         session_ ? session_->meters : std::vector<MeterDescription>(), "--lux 192"},
+        AsksQuestions(), console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     Reading frame = options_.frame;

@@ -100,9 +100,9 @@ class Sweep {
     if (!settings) return Propagate(std::move(settings));
     MeterRequest request = options_.request;
     request.settings = *std::move(settings);
-    auto opened =
-        ReadingSource::Open({options_.session, options_.typed, std::move(request), session_.meters},
-                            !console_.json() || options_.typed, console_);
+    auto opened = ReadingSource::Open(
+        {options_.session, options_.typed, std::move(request), session_.meters, "--typed"},
+        !console_.json() || options_.typed, console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     const bool tape = source_.meter() != nullptr && source_.meter()->IsReplay();
@@ -210,9 +210,10 @@ class Sweep {
     if (!fitted) return tl::unexpected(fitted.error());
     const auto light = std::ranges::find(fitted->lights.lights, frame_.light, &FittedLight::name);
     if (light == fitted->lights.lights.end()) return std::pair<std::size_t, double>{0, HUGE_VAL};
+    StateAnswers answers(*light);
     std::pair<std::size_t, double> worst{0, -1.0};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const auto answer = AnswerState(*light, candidates[i]);
+      const auto answer = answers.At(candidates[i]);
       const double half = answer ? answer->relative.u95 / answer->relative.value : HUGE_VAL;
       if (half > worst.second) worst = {i, half};
     }

@@ -69,7 +69,8 @@ class Walk {
     if (auto named = ChooseNames(session); !named) return named;
     const bool may_type = !console_.json() || options_.typed;
     auto opened = ReadingSource::Open(
-        {options_.session, options_.typed, options_.request, session.meters}, may_type, console_);
+        {options_.session, options_.typed, options_.request, session.meters, "--typed"}, may_type,
+        console_);
     if (!opened) return Propagate(std::move(opened));
     source_ = *std::move(opened);
     typed_ = source_.meter() == nullptr;

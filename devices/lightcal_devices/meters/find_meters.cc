@@ -27,8 +27,7 @@ tl::unexpected<Error> UnknownDriver(std::string_view wanted) {
 
 tl::unexpected<Error> NotThere(std::string_view wanted) {
   return Failed(std::string(fault::kNoDevice), std::string(wanted),
-                "none is plugged in; plug it in and switch it on, or type the reading: "
-                "{reading.illuminance} 192");
+                "none is plugged in; plug it in and switch it on");
 }
 
 // A meter whose line is opened by an address nobody had to find: "konica:/dev/ttyUSB1".

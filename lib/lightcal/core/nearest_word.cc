@@ -24,16 +24,25 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return cost[a.size()][b.size()];
 }
 
+std::size_t AlikeAtFirst(std::string_view a, std::string_view b) {
+  return static_cast<std::size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+}
+
 }  // namespace
 
 std::string NearestWord(std::string_view word, std::span<const std::string_view> known) {
   std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t most_alike = 0;
   std::string_view nearest;
   for (const std::string_view candidate : known) {
     const std::size_t distance = EditDistance(word, candidate);
     const bool shares_a_letter = distance < std::max(word.size(), candidate.size());
-    if (shares_a_letter && distance < best) {
+    if (!shares_a_letter) continue;
+    // Of two as near, the one that begins alike: "of" is "off", not "on".
+    const std::size_t alike = AlikeAtFirst(word, candidate);
+    if (distance < best || (distance == best && !nearest.empty() && alike > most_alike)) {
       best = distance;
+      most_alike = alike;
       nearest = candidate;
     }
   }

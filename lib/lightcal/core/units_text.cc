@@ -40,14 +40,29 @@ Result<double> ParseWith(std::string_view text, std::span<const UnitFactor> unit
     if (factor.unit == unit) return split->number * factor.si_per_unit;
     if (!factor.unit.empty()) known += (known.empty() ? "" : ", ") + std::string(factor.unit);
   }
-  if (unit.size() > 1 && unit[0] == ',' && unit[1] >= '0' && unit[1] <= '9') {
-    std::string pointed(TrimBlanks(text));
-    pointed[pointed.find(',')] = '.';
-    return WrongUsage(std::string(text),
-                      "decimals have a point here, and thousands no sign: " + pointed);
-  }
   return WrongUsage(std::string(text), "unknown unit \"" + std::string(split->unit) + "\" for " +
                                            std::string(what) + "; use one of: " + known);
+}
+
+constexpr std::string_view kNumerals = "0123456789";
+
+std::size_t CountNumerals(std::string_view text) {
+  return std::min(text.find_first_not_of(kNumerals), text.size());
+}
+
+// Of a number with a comma after `before` of its characters: how it is to be typed.
+std::string HowToType(std::string_view text, std::size_t before) {
+  constexpr std::size_t kGroup = 3;
+  std::string typed(text);
+  typed[before] = '.';
+  const std::string_view rest = text.substr(before + 1);
+  const bool plain = CountNumerals(text) == before && before <= kGroup && text.front() != '0';
+  if (plain && CountNumerals(rest) == kGroup) {  // may part thousands
+    const bool kelvin = LowerAscii(TrimBlanks(rest.substr(kGroup))) == "k";
+    const std::string whole = std::string(text.substr(0, before)) + std::string(rest);
+    typed = kelvin ? whole : whole + " or " + typed;  // no light is of a few kelvin
+  }
+  return "decimals have a point here, and thousands no sign: " + typed;
 }
 
 template <class Unit>
@@ -71,6 +86,9 @@ Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text) {
   }
   const std::string_view number = trimmed.substr(0, end);
   const std::string_view unit = TrimBlanks(trimmed.substr(end));
+  if (!number.empty() && unit.starts_with(',') && CountNumerals(unit.substr(1)) > 0) {
+    return WrongUsage(std::string(text), HowToType(trimmed, end));
+  }
   const auto slash = number.find('/');
   if (slash != std::string_view::npos) {
     const auto above = ParseNumber(number.substr(0, slash));
