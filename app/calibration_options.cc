@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "clock.h"
+#include "guide/shell_word.h"
 #include "input_files.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/disk_sources.h"
 #include "output_files.h"
+#include "progress_line.h"
 
 namespace lightcal::app {
 
@@ -42,6 +44,16 @@ void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options) {
   parser.add_flag("--monte-carlo", options.monte_carlo,
                   "Intervals by sampling (JCGM 101, two digits) instead of the covariance");
   parser.add_option("--profile", options.profile, "A profile.json that lightcal tradeoff wrote");
+  auto* const only =
+      parser.add_option("--lights", options.lights, "Only these of the lights, e.g. key,fill")
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  parser
+      .add_option("--without", options.without,
+                  "All but these of the lights, e.g. those that cannot be fitted")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes(only);
 }
 
 namespace {
@@ -73,13 +85,9 @@ Result<CalibrationSettings> SettingsAsked(const CalibrationOptions& options) {
   settings.profile = *std::move(profile);
   settings.monte_carlo = options.monte_carlo;
   settings.full_angles = options.full_angles;
+  settings.lights = options.lights;
+  settings.without = options.without;
   return settings;
-}
-
-Result<CalibratedSession> Calibrate(const CalibrationOptions& options, Console& console) {
-  const auto settings = SettingsAsked(options);
-  if (!settings) return tl::unexpected(settings.error());
-  return CalibrateAloud(options.session, *settings, console);
 }
 
 namespace {
@@ -96,7 +104,40 @@ Result<T> Told(Calibrated<T>&& answer, Console& console) {
   return *std::move(answer);
 }
 
+Calibrated<CalibratedSession> FromDisk(const std::string& path, CalibrationSettings settings,
+                                       const Console& console) {
+  settings.time = SourceDateIso8601().value_or("");
+  const auto roots = RootsOfSession(path, console.allows_outside());
+  if (!roots) return tl::unexpected(CalibrationRefusal{roots.error(), {}});
+  return CalibrateSession(path, InputSourcesWithin(*roots), settings);
+}
+
+// "10 lights can be fitted without lamp 03, lamp 07: --without 'lamp 03,lamp 07'"
+std::string WayOn(const CalibrationRefusal& refusal, const std::vector<std::string>& without) {
+  std::string names;
+  for (const std::string& left_out : without) names += left_out + ",";
+  names += refusal.subject;
+  for (const Error& other : refusal.others) names += "," + other.subject;
+  const std::size_t count = refusal.sound.size();
+  return (count == 1 ? "the other light is"
+                     : "the other " + std::to_string(count) + " lights are") +
+         std::string(" answered by --without ") + ShellWord(names);
+}
+
 }  // namespace
+
+Result<CalibratedSession> Calibrate(const CalibrationOptions& options, Console& console) {
+  auto settings = SettingsAsked(options);
+  if (!settings) return tl::unexpected(settings.error());
+  ProgressLine line("sampling intervals", !console.quiet());
+  settings->progress = line.Watcher();
+  auto calibrated = FromDisk(options.session, *settings, console);
+  line.Wipe();
+  if (!calibrated && !calibrated.error().sound.empty() && options.lights.empty()) {
+    console.Note(WayOn(calibrated.error(), options.without));
+  }
+  return Told(std::move(calibrated), console);
+}
 
 Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationSettings& settings,
                                      Console& console) {
@@ -107,10 +148,7 @@ Result<MeasuredSession> MeasureAloud(const std::string& path, const CalibrationS
 
 Result<CalibratedSession> CalibrateAloud(const std::string& path, CalibrationSettings settings,
                                          Console& console) {
-  settings.time = SourceDateIso8601().value_or("");
-  const auto roots = RootsOfSession(path, console.allows_outside());
-  if (!roots) return tl::unexpected(roots.error());
-  return Told(CalibrateSession(path, InputSourcesWithin(*roots), settings), console);
+  return Told(FromDisk(path, std::move(settings), console), console);
 }
 
 std::string DefaultOutputDirectory(const Session& session) {

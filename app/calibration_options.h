@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "console.h"
 #include "lightcal/calibrate/calibrate_session.h"
@@ -21,16 +22,17 @@ struct CalibrationOptions {
   bool monte_carlo = false;
   bool full_angles = false;
   std::string profile;  // a profile.json of tradeoff; what is asked for beside it comes first
+  std::vector<std::string> lights, without;  // of the session's, these alone or all but these
   bool tolerance_given = false, effects_given = false;
 };
 
-// Adds SESSION, --tol, --effects and --profile; `options` must outlive parsing.
+// Adds SESSION and the settings; `options` must outlive parsing.
 void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
 // The same without SESSION, for commands that take several.
 void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options);
 
-// What the options ask for, and CalibrateAloud by it. Wrong usage: a tolerance outside 0..1.
-// Refused as AccuracyProfileFromJson.
+// What the options ask for, and CalibrateAloud by it, with how to go on where only some lights are
+// refused. Wrong usage: a tolerance outside 0..1. Refused as AccuracyProfileFromJson.
 [[nodiscard]] Result<CalibrationSettings> SettingsAsked(const CalibrationOptions& options);
 [[nodiscard]] Result<CalibratedSession> Calibrate(const CalibrationOptions& options,
                                                   Console& console);

@@ -149,7 +149,11 @@ Result<void> Console::RefuseIfStrict() const {
 }
 
 Node DocumentOf(const Error& error) {
-  return {{"code", error.code}, {"subject", error.subject}, {"message", error.message}};
+  return {{"code", error.code},
+          {"subject", error.subject},
+          {"message", error.message},
+          {"others", Node::UnlessEmpty(Node::List(
+                         error.others, [](const Error& other) { return DocumentOf(other); }))}};
 }
 
 void PrintError(const Error& error, bool json) {
@@ -158,6 +162,9 @@ void PrintError(const Error& error, bool json) {
     WriteDocument({{"error", DocumentOf(error)}});
   }
   Write(stderr, Sentence("", error.subject, error.message));
+  for (const Error& other : error.others) {
+    Write(stderr, Sentence("", other.subject, other.message));
+  }
 }
 
 Result<void> EndWithError(Console& console, Node document, const Error& error) {

@@ -53,7 +53,7 @@ class Console {
   Warnings warnings_;
 };
 
-// {"code","subject","message"}
+// {"code","subject","message"}, and "others" of the same where it has several causes.
 [[nodiscard]] Node DocumentOf(const Error& error);
 // Prints an error as people or machines read it.
 void PrintError(const Error& error, bool json);

@@ -21,6 +21,7 @@
 #include "light_input.h"
 #include "light_summary.h"
 #include "light_table.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/records/json_codec.h"
@@ -54,6 +55,14 @@ std::string LastLine(std::string_view text) {
   return std::string(text.substr(text.rfind('\n') + 1));
 }
 
+Error ErrorOf(ErrorKind kind, const Node& told) {
+  Error error{kind, told.TextAt("code"), told.TextAt("subject"), told.TextAt("message")};
+  if (const Node* others = told.Find("others")) {
+    for (const Node& other : others->items) error.others.push_back(ErrorOf(kind, other));
+  }
+  return error;
+}
+
 Outcome OutcomeOf(const JobResult& result) {
   Outcome outcome;
   if (result.signal != 0) {
@@ -79,7 +88,7 @@ Outcome OutcomeOf(const JobResult& result) {
   const auto kind = static_cast<ErrorKind>(result.exit_code);
   outcome.status = kind == ErrorKind::kRefused ? Status::kRefused : Status::kFailed;
   if (const Node* e = document.Find("error")) {
-    outcome.error = Error{kind, e->TextAt("code"), e->TextAt("subject"), e->TextAt("message")};
+    outcome.error = ErrorOf(kind, *e);
   } else {
     outcome.error = Error{ErrorKind::kFailed, "failed", "", LastLine(result.err)};
   }
@@ -161,22 +170,34 @@ Result<void> WriteSummary(const BatchRequest& request, const std::vector<Outcome
   return WriteOutputs({{request.summary, text}}, false);
 }
 
+// Of more than a cell holds the first, and how many there are beside.
+std::string FirstOf(std::vector<std::string> texts, const std::string& between) {
+  constexpr std::size_t kShown = 3;
+  const std::size_t more = texts.size() - std::min(texts.size(), kShown);
+  texts.resize(texts.size() - more);
+  return Joined(texts, between) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
+}
+
 std::string OutcomeText(const BatchItem& item, const Outcome& outcome) {
+  std::vector<std::string> texts;
   if (outcome.error) {
-    const std::string& subject = outcome.error->subject;
-    return (subject.empty() ? "" : subject + ": ") + outcome.error->message;
+    const auto add = [&](const Error& error) {
+      texts.push_back((error.subject.empty() ? "" : error.subject + ": ") + error.message);
+    };
+    add(*outcome.error);
+    for (const Error& other : outcome.error->others) add(other);
+    return FirstOf(std::move(texts), "; ");
   }
-  std::string text;
   for (const FittedLight& light :
        HasOutputs(outcome) ? LightsOf(item) : std::vector<FittedLight>{}) {
     const Strength strength = StrengthOf(light);
     const std::string stops = strength.value == nullptr ? "" : StopsText(*strength.value);
-    text += (text.empty() ? "" : ", ") + light.name + " " +
-            (stops.empty()
-                 ? Headline(light)
-                 : ValueText(*strength.value) + " " + std::string(strength.unit) + " " + stops);
+    texts.push_back(light.name + " " +
+                    (stops.empty() ? Headline(light)
+                                   : ValueText(*strength.value) + " " + std::string(strength.unit) +
+                                         " " + stops));
   }
-  return text;
+  return FirstOf(std::move(texts), ", ");
 }
 
 std::string Table(const std::vector<BatchItem>& items, const std::vector<Outcome>& outcomes) {

@@ -112,7 +112,9 @@ Run BuildPlan(CLI::App& parser) {
   auto options = std::make_shared<PlanOptions>();
   AddCalibrationOptions(parser, options->session.calibration);
   parser.get_option("session")->required(false);
-  parser.remove_option(parser.get_option("--monte-carlo"));
+  for (const char* name : {"--monte-carlo", "--without", "--lights"}) {
+    parser.remove_option(parser.get_option(name));
+  }
   parser.add_option("--light", options->session.light, "Only this light");
   parser.add_option("--steps", options->session.steps, "Readings to plan, one on top of the other")
       ->check(CLI::Range(1, 20))

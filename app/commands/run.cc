@@ -93,7 +93,10 @@ Result<std::string> SettingsHash(const RunOptions& options) {
     if (!profile) return profile;
     text += '\n' + devices::Sha256Hex(*profile);
   }
-  for (const std::string& target : options.targets) text += '\n' + target;
+  for (const auto* const names : {&asked.lights, &asked.without, &options.targets}) {
+    for (const std::string& name : *names) text += '\n' + name;
+    text += '\n';
+  }
   return devices::Sha256Hex(text + '\n' + SourceDateIso8601().value_or(""));
 }
 
@@ -165,9 +168,10 @@ Run BuildRun(CLI::App& parser) {
       ->check(CLI::Range(1, 1024));
   parser.add_flag("--recursive", options->recursive,
                   "Of a folder, every session at any depth below it, not only those in it");
-  parser.add_flag("--resume", options->resume,
-                  "Leave sessions alone whose inputs, settings and outputs are as a former batch "
-                  "left them");
+  parser.add_flag(
+      "--resume", options->resume,
+      "Leave sessions alone whose inputs, settings and outputs are as a former run with "
+      "--resume, or of several sessions, left them");
   parser.add_option("--summary", options->summary, "Write what became of each session")
       ->type_name("FILE.json");
   return [options, &parser](Console& console) {

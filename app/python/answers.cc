@@ -34,12 +34,22 @@ std::string InKeywords(std::string_view text) {
   return out;
 }
 
-void Raise(const Error& error) {
+namespace {
+
+py::object Raised(const Error& error) {
   static constexpr const char* kKinds[] = {"failed", "failed", "usage", "refused"};
-  const py::object type = py::module_::import("lightcal._error").attr("Error");
-  const py::object raised = type(kKinds[static_cast<int>(error.kind)], error.code,
-                                 InKeywords(error.subject), InKeywords(error.message));
-  PyErr_SetObject(type.ptr(), raised.ptr());
+  py::list others;
+  for (const Error& other : error.others) others.append(Raised(other));
+  return py::module_::import("lightcal._error")
+      .attr("Error")(kKinds[static_cast<int>(error.kind)], error.code, InKeywords(error.subject),
+                     InKeywords(error.message), py::tuple(others));
+}
+
+}  // namespace
+
+void Raise(const Error& error) {
+  const py::object raised = Raised(error);
+  PyErr_SetObject(py::type::of(raised).ptr(), raised.ptr());
   throw py::error_already_set();
 }
 

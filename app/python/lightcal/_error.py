@@ -15,20 +15,25 @@ class Error(Exception):
     code     a stable word: "underdetermined", "no_exposure_metadata", "exists", "usage", ...
     subject  what it is about: a light, a file and line, a keyword; may be empty
     message  what is wrong and what to do
+    others   what else is wrong, each an Error: of a session every lamp that cannot be fitted
     """
 
     kind: Kind
     code: str
     subject: str
     message: str
+    others: tuple[Error, ...]
 
-    def __init__(self, kind: Kind, code: str, subject: str, message: str) -> None:
-        super().__init__(kind, code, subject, message)
+    def __init__(
+        self, kind: Kind, code: str, subject: str, message: str, others: tuple[Error, ...] = ()
+    ) -> None:
+        super().__init__(kind, code, subject, message, others)
         self.kind, self.code, self.subject, self.message = kind, code, subject, message
+        self.others = others
 
     def __str__(self) -> str:
         where = f"{self.subject}: " if self.subject else ""
-        return f"{self.code}: {where}{self.message}"
+        return "\n".join([f"{self.code}: {where}{self.message}", *map(str, self.others)])
 
 
 class DataWarning(UserWarning):

@@ -14,6 +14,7 @@
 #include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/states/emitters.h"
@@ -47,6 +48,29 @@ std::vector<SessionReading> ThinnedReadings(int n, std::vector<SessionReading> r
   return readings;
 }
 
+// Takes away the lights that are not asked for, with all that is told of them.
+Result<void> KeepAsked(const CalibrationSettings& settings, Session& session) {
+  for (const auto* const names : {&settings.lights, &settings.without}) {
+    for (const std::string& name : *names) {
+      if (FindLight(session, name) != nullptr) continue;
+      return Refused("unknown_light", name,
+                     "the session has no such light" + DidYouMean(name, session.lights));
+    }
+  }
+  const auto unasked = [&](const std::string& name) {
+    const auto in = [&](const std::vector<std::string>& names) {
+      return std::ranges::find(names, name) != names.end();
+    };
+    return in(settings.without) || !(settings.lights.empty() || in(settings.lights));
+  };
+  const auto of_unasked = [&](const SessionReading& row) { return unasked(row.reading.light); };
+  std::erase_if(session.lights, [&](const auto& light) { return unasked(light.name); });
+  std::erase_if(session.readings, of_unasked);
+  std::erase_if(session.state_readings, of_unasked);
+  std::erase_if(session.captures, [&](const auto& capture) { return unasked(capture.light); });
+  return {};
+}
+
 // The session as the settings have it, before any file that it names is opened.
 Session AsSet(Session session, const CalibrationSettings& settings) {
   for (LightDescription& light : session.lights) {
@@ -62,7 +86,8 @@ Session AsSet(Session session, const CalibrationSettings& settings) {
 FitSettings FitSettingsOf(const CalibrationSettings& settings) {
   const AccuracyProfile& profile = settings.profile;
   return {profile.tolerance_relative, profile.effects,    settings.monte_carlo,
-          profile.estimator,          profile.cct_method, settings.time_effects};
+          profile.estimator,          profile.cct_method, settings.time_effects,
+          settings.progress};
 }
 
 void Lap(const CalibrationSettings& settings, tradeoff::Stage stage) {
@@ -117,6 +142,7 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   auto loaded = LoadSession(path, sources.read_text);
   if (!loaded) return Propagate(std::move(loaded));
   evidence.AddWarnings(loaded->warnings);
+  if (auto kept = KeepAsked(settings, loaded->session); !kept) return Propagate(std::move(kept));
   MeasuredSession measured;
   Session& session = measured.session;
   session = AsSet(std::move(loaded->session), settings);
@@ -273,9 +299,21 @@ Result<FoundLights> FindLightsWithProvenance(MeasuredSession& measured, const So
   return found;
 }
 
-tl::unexpected<CalibrationRefusal> RefusedWith(Error error, Evidence evidence) {
-  return tl::unexpected(
-      CalibrationRefusal{std::move(error), Remarks{std::move(evidence.warnings), {}}});
+CalibrationRefusal RefusedWith(Error error, Evidence evidence) {
+  return {std::move(error), Remarks{std::move(evidence.warnings), {}}};
+}
+
+// Empty where the error is of none of the lights.
+std::vector<std::string> LightsBeside(const Error& error, const Session& session) {
+  std::vector<std::string> names;
+  for (const LightDescription& light : session.lights) {
+    const bool meant =
+        light.name == error.subject ||
+        std::ranges::find(error.others, light.name, &Error::subject) != error.others.end();
+    if (!meant) names.push_back(light.name);
+  }
+  if (names.size() == session.lights.size()) names.clear();
+  return names;
 }
 
 }  // namespace
@@ -284,7 +322,9 @@ Calibrated<MeasuredSession> MeasureSession(const std::string& path, const Source
                                            const CalibrationSettings& settings) {
   Evidence evidence;
   auto measured = Measure(path, sources, settings, evidence);
-  if (!measured) return RefusedWith(std::move(measured).error(), std::move(evidence));
+  if (!measured) {
+    return tl::unexpected(RefusedWith(std::move(measured).error(), std::move(evidence)));
+  }
   measured->session.input_files = std::move(evidence.files);
   measured->spectra = std::move(evidence.spectra);
   measured->pictures = std::move(evidence.pictures);
@@ -297,7 +337,11 @@ Calibrated<CalibratedSession> FitMeasured(MeasuredSession measured, const Source
   Evidence evidence{std::move(measured.session.input_files), std::move(measured.spectra),
                     std::move(measured.pictures), std::move(measured.remarks.warnings)};
   auto found = FindLightsWithProvenance(measured, sources, settings, evidence);
-  if (!found) return RefusedWith(std::move(found).error(), std::move(evidence));
+  if (!found) {
+    CalibrationRefusal refusal = RefusedWith(std::move(found).error(), std::move(evidence));
+    refusal.sound = LightsBeside(refusal, measured.session);
+    return tl::unexpected(std::move(refusal));
+  }
   return CalibratedSession{std::move(measured.session), std::move(found->file),
                            std::move(evidence.spectra), std::move(evidence.pictures),
                            Remarks{std::move(evidence.warnings), std::move(found->notes)}};

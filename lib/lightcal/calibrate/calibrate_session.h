@@ -8,6 +8,7 @@
 #include "lightcal/calibrate/captures/ball_capture.h"
 #include "lightcal/calibrate/evidence.h"
 #include "lightcal/core/processor_time.h"
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
@@ -36,6 +37,9 @@ struct CalibrationSettings {
   std::string time{};           // of provenance, ISO 8601; "" = the newest among the readings
   StageClock* clock = nullptr;  // counts, where given
   bool time_effects = false;    // effects' cost_ns measured here and now, not as declared
+  std::vector<std::string> lights{};   // these alone of the session's, empty = all
+  std::vector<std::string> without{};  // all but these
+  Progress progress{};                 // of sampling intervals
 };
 
 // What the person should know of an answer, in the order it was found.
@@ -47,6 +51,7 @@ struct Remarks {
 // A refusal and what was found before it, which may say why.
 struct CalibrationRefusal : Error {
   Remarks remarks;
+  std::vector<std::string> sound{};  // lights that nothing is wrong with, where it is of others
 };
 template <class T>
 using Calibrated = tl::expected<T, CalibrationRefusal>;
@@ -70,7 +75,8 @@ struct CalibratedSession {
 };
 
 // Loads a session and measures everything but walls, whose lights are measured with the fit.
-// Refused: as LoadSession, ReadSpectra, WithDistributions, PlaceByBalls, ReadCaptures.
+// Refused: unknown_light (of settings.lights, without), and as LoadSession, ReadSpectra,
+// WithDistributions, PlaceByBalls, ReadCaptures.
 [[nodiscard]] Calibrated<MeasuredSession> MeasureSession(const std::string& path,
                                                          const Sources& sources,
                                                          const CalibrationSettings& settings);

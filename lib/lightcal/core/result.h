@@ -22,6 +22,8 @@ struct Error {
   std::string code;     // stable snake_case word, e.g. "underdetermined"
   std::string subject;  // what it is about: a light, a file:line, a device
   std::string message;  // what is wrong and what to do; fields in braces: "give {merge.noise}"
+  // What else is wrong, where one answer has several causes: each lamp that cannot be fitted.
+  std::vector<Error> others{};
 };
 
 // Something the answer survives but the person should know.

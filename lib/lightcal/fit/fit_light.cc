@@ -127,31 +127,61 @@ Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescripti
   return {};
 }
 
-Result<FittedSession> FitSound(const Session& session, const FitSettings& settings) {
+// With all its states.
+Result<FittedLight> FitWhole(const Session& session, const LightDescription& light,
+                             const FitSettings& settings, FittedSession& out) {
+  Result<FittedLight> fitted = FitOne(session, light, settings, out);
+  if (!fitted) return fitted;
+  const fit::GeometryParts parts = fit::SplitGeometries(session, light);
+  const Session& read = parts.others.empty() ? session : parts.main;
+  fit::MeasureStates(read, light, settings.cct_method, *fitted, out.warnings);
+  auto added = AddGeometries(parts, light, settings, *fitted, out);
+  if (!added) return Propagate(std::move(added));
+  if (fitted->states.size() > 1) {
+    out.notes.push_back(light.name + ": read at " + std::to_string(fitted->states.size()) +
+                        " states of its controls; its intensity is that at " +
+                        StateText(fitted->state));
+  }
+  return fitted;
+}
+
+// The first with the others beside it, each once: what no lamp's readings caused is one cause.
+Error AsOne(std::vector<Error> refusals) {
+  Error first = std::move(refusals.front());
+  for (auto more = refusals.begin() + 1; more != refusals.end(); ++more) {
+    if (more->subject != first.subject || more->message != first.message) {
+      first.others.push_back(std::move(*more));
+    }
+  }
+  return first;
+}
+
+Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
   FittedSession out;
   std::optional<Error> nothing_read;
+  std::vector<Error> refusals;
+  const Progress whole = std::move(settings.progress);
+  const double part = 1.0 / static_cast<double>(std::max<std::size_t>(1, session.lights.size()));
+  double begun = 0.0;
   for (const LightDescription& described : session.lights) {
     const LightDescription light =
         DescriptionAt(described, ReferenceState(session, described.name));
-    Result<FittedLight> fitted = FitOne(session, light, settings, out);
+    settings.progress = PartOf(whole, begun, begun + part);
+    begun += part;
+    Result<FittedLight> fitted = FitWhole(session, light, settings, out);
     if (fitted) {
-      const fit::GeometryParts parts = fit::SplitGeometries(session, light);
-      const Session& read = parts.others.empty() ? session : parts.main;
-      fit::MeasureStates(read, light, settings.cct_method, *fitted, out.warnings);
-      auto added = AddGeometries(parts, light, settings, *fitted, out);
-      if (!added) return Propagate(std::move(added));
-      if (fitted->states.size() > 1) {
-        out.notes.push_back(light.name + ": read at " + std::to_string(fitted->states.size()) +
-                            " states of its controls; its intensity is that at " +
-                            StateText(fitted->state));
-      }
       out.lights.lights.push_back(*std::move(fitted));
       continue;
     }
-    if (fitted.error().code != "no_readings") return Propagate(std::move(fitted));
+    if (fitted.error().kind != ErrorKind::kRefused) return Propagate(std::move(fitted));
+    if (fitted.error().code != "no_readings") {
+      refusals.push_back(std::move(fitted).error());
+      continue;
+    }
     out.warnings.push_back({"no_readings", light.name, fitted.error().message});
     if (!nothing_read) nothing_read = std::move(fitted).error();
   }
+  if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
   if (out.lights.lights.empty()) {
     if (nothing_read) return tl::unexpected(*std::move(nothing_read));
     return Refused("no_light", session.name, "the session describes no light");

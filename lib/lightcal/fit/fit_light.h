@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/fitted_light.h"
@@ -22,6 +23,7 @@ struct FitSettings {
   EstimatorChoice estimator{};
   CctMethod cct_method = CctMethod::kExact;
   bool time_effects = false;  // effects' cost_ns measured here and now, not as declared
+  Progress progress{};        // of sampling, over all lights
 };
 
 struct FittedSession {
@@ -46,7 +48,8 @@ struct FittedSession {
 // (FaultOf) is rejected and counted, with the warning row_rejected, as in a journal. Refused: as
 // CheckSession, and no_readings, no_valid_readings, over_range, units_ambiguous (readings apart by
 // a ratio of units), increasing_with_distance, negative_distance, underdetermined (a strength open
-// by a factor of 1000 each way), out_of_range, bad_beam, bad_effects, and as LocateLamp.
+// by a factor of 1000 each way), out_of_range, bad_beam, bad_effects, and as LocateLamp: of the
+// first light that cannot be fitted, with those of all the others in Error::others.
 [[nodiscard]] Result<FittedSession> FitSession(const Session& session, const FitSettings& settings);
 
 // Illuminance this light would give a meter facing it at `distance`, with the 95 % interval
