@@ -10,6 +10,7 @@
 
 #include "console.h"
 #include "guide/shell_word.h"
+#include "joint_progress.h"
 #include "lamp_words.h"
 #include "light_table.h"
 #include "lightcal/core/joined.h"
@@ -179,8 +180,7 @@ LabelAndText NextWords(const LampAnswer& answer) {
   const NextStepAdvice& next = answer.next;
   switch (next.kind) {
     case NextStepAdvice::Kind::kReading:
-      return {MinutesBetter(next.minutes),
-              answer.better + ": " + WhatItBuys(*next.reading)};
+      return {MinutesBetter(next.minutes), answer.better + ": " + WhatItBuys(*next.reading)};
     case NextStepAdvice::Kind::kSay:
       return {"next", next.say};
     case NextStepAdvice::Kind::kMeter:
@@ -267,8 +267,9 @@ std::string ReadCommand(const std::string& session, const FittedLight& light,
 }  // namespace
 
 LampAnswers SessionAnswersOf(const CalibratedSession& calibrated, const std::string& path,
-                             const std::vector<std::string>& targets) {
+                             const std::vector<std::string>& targets, const Progress& progress) {
   LampQuestion question;
+  question.progress = progress;
   question.lights = &calibrated.lights;
   question.session = &calibrated.session;
   question.targets = targets;
@@ -287,13 +288,15 @@ LampAnswers LampAnswersOf(const LampQuestion& question) {
   std::vector<LampAnswer>& answers = all.lamps;
   answers.resize(lights.size());
   // What to do next is worked out by fits of their own: most of the time of many lamps.
+  JointProgress joint(question.progress, lights.size());
   ParallelFor(static_cast<int>(lights.size()) + 1, [&](int i) {
     if (i == 0) {
       all.engines = EngineAnswersOf(*question.lights);
       return;
     }
     const auto at = static_cast<std::size_t>(i - 1);
-    answers[at].next = AdviseNext(*question.session, lights[at]);
+    answers[at].next = AdviseNext(*question.session, lights[at], {}, joint.Of(at));
+    joint.Done(at);
   });
   auto figure = all.engines.figures.cbegin();  // light by light
   for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -37,6 +37,7 @@ struct LampQuestion {
   std::string size_words;            // and how large: "add --kind rect --size 60x30cm"
   // How a person enters the next reading of a light; "" = as SayPlannedReading says it.
   std::function<std::string(const FittedLight&, const PlannedReading&)> syntax;
+  Progress progress{};
 };
 
 struct LampAnswers {
@@ -49,7 +50,8 @@ struct LampAnswers {
 // Of a calibrated session: the next reading is a line that takes it.
 [[nodiscard]] LampAnswers SessionAnswersOf(const CalibratedSession& calibrated,
                                            const std::string& path,
-                                           const std::vector<std::string>& targets);
+                                           const std::vector<std::string>& targets,
+                                           const Progress& progress = {});
 
 // What a report says of each. `session` is its name, not where it was typed to lie: the same
 // session gives the same page from any folder.

@@ -2,10 +2,13 @@
 #include "minutes_answer.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <utility>
 
 #include "console.h"
+#include "joint_progress.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/report/minutes_figure.h"
 #include "picture_file.h"
@@ -107,10 +110,20 @@ Result<LadderWishes> LadderWishesOf(const MinutesOptions& options) {
 }
 
 std::vector<MinutesLadder> LaddersOf(const Session& session, const FitSettings& settings,
-                                     const LadderWishes& wishes) {
+                                     const LadderWishes& wishes, const Progress& progress) {
+  const std::size_t count = session.lights.size();
+  std::vector<std::optional<MinutesLadder>> of_light(count);
+  JointProgress joint(progress, count);
+  ParallelFor(static_cast<int>(count), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    LadderWishes own = wishes;
+    own.progress = joint.Of(at);
+    auto ladder = PlanMinutes(session, session.lights[at].name, settings, own);
+    if (ladder) of_light[at] = *std::move(ladder);
+    joint.Done(at);
+  });
   std::vector<MinutesLadder> ladders;
-  for (const LightDescription& light : session.lights) {
-    auto ladder = PlanMinutes(session, light.name, settings, wishes);
+  for (std::optional<MinutesLadder>& ladder : of_light) {
     if (ladder) ladders.push_back(*std::move(ladder));
   }
   return ladders;

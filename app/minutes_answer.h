@@ -32,7 +32,8 @@ void AddMinutesOptions(CLI::App& parser, MinutesOptions& options);
 // Of every light that readings can still tell more of; those whose plan is refused are left out.
 [[nodiscard]] std::vector<MinutesLadder> LaddersOf(const Session& session,
                                                    const FitSettings& settings,
-                                                   const LadderWishes& wishes);
+                                                   const LadderWishes& wishes,
+                                                   const Progress& progress = {});
 
 // A header and one row a step: minutes in all, what to do, what is then left, what limits it.
 [[nodiscard]] std::vector<std::vector<std::string>> MinutesCells(const MinutesLadder& ladder);

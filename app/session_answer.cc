@@ -11,6 +11,7 @@
 #include "lightcal/core/parallel.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
+#include "progress_line.h"
 #include "report_html.h"
 
 namespace lightcal::app {
@@ -35,7 +36,8 @@ Result<AnsweredSession> AnswerSession(const CalibrationOptions& options,
   if (!calibrated) return Propagate(std::move(calibrated));
   AnsweredSession run;
   run.calibrated = *std::move(calibrated);
-  run.answers = SessionAnswersOf(run.calibrated, options.session, targets);
+  ProgressLine line("planning the next readings", !console.quiet());
+  run.answers = SessionAnswersOf(run.calibrated, options.session, targets, line.Watcher());
   return run;
 }
 

@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "calibration_options.h"
+#include "joint_progress.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/parallel.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/next_step.h"
 #include "lightcal/fit/plan/plan_readings.h"
 #include "minutes_answer.h"
+#include "progress_line.h"
 #include "session_names.h"
 
 namespace lightcal::app {
@@ -28,14 +31,61 @@ struct PlannedLight {
 
 // The step that is worth most for its minutes, the same that run and quick name.
 void SayNext(const Session& session, const FitSettings& settings,
-             std::vector<PlannedLight>& planned) {
-  const auto fitted = FitSession(session, settings);
+             std::vector<PlannedLight>& planned, const Progress& progress) {
+  Session sound = session;
+  const auto refused = [&](const std::string& name) {
+    return std::ranges::any_of(
+        planned, [&](const PlannedLight& one) { return !one.plan && one.light->name == name; });
+  };
+  std::erase_if(sound.lights, [&](const auto& light) { return refused(light.name); });
+  std::erase_if(sound.readings, [&](const auto& row) { return refused(row.reading.light); });
+  std::erase_if(sound.state_readings, [&](const auto& row) { return refused(row.reading.light); });
+  const auto fitted = FitSession(sound, settings);
   if (!fitted) return;
-  for (PlannedLight& one : planned) {
+  JointProgress joint(progress, planned.size());
+  ParallelFor(static_cast<int>(planned.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    PlannedLight& one = planned[at];
     const auto light =
         std::ranges::find(fitted->lights.lights, one.light->name, &FittedLight::name);
-    if (light != fitted->lights.lights.end()) one.next = AdviseNext(session, *light).say;
+    if (light != fitted->lights.lights.end()) {
+      one.next = AdviseNext(session, *light, {}, joint.Of(at)).say;
+    }
+    joint.Done(at);
+  });
+}
+
+// Refused where every light is, by the first with the others beside it.
+Result<void> CheckAnyPlan(const std::vector<PlannedLight>& planned) {
+  std::optional<Error> refused;
+  for (const PlannedLight& one : planned) {
+    if (one.plan) return {};
+    if (!refused) {
+      refused = one.plan.error();
+    } else {
+      refused->others.push_back(one.plan.error());
+    }
   }
+  if (!refused) return {};
+  return tl::unexpected(*std::move(refused));
+}
+
+// Of every light that is asked for, in the session's order.
+std::vector<PlannedLight> PlanEach(const Session& session, const FitSettings& settings,
+                                   const SessionPlanOptions& options, std::optional<double> reach_m,
+                                   const Progress& progress) {
+  std::vector<PlannedLight> planned;
+  for (const LightDescription& light : session.lights) {
+    if (options.light.empty() || light.name == options.light) planned.push_back({&light, {}});
+  }
+  JointProgress joint(progress, planned.size());
+  ParallelFor(static_cast<int>(planned.size()), [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    planned[at].plan = PlanReadings(session, planned[at].light->name, settings, options.steps,
+                                    reach_m, joint.Of(at));
+    joint.Done(at);
+  });
+  return planned;
 }
 
 std::string SpanAdvice(const ReadingPlan& plan) {
@@ -133,26 +183,22 @@ Result<void> PlanSession(const SessionPlanOptions& options, Console& console) {
   settings.tolerance_relative = asked->profile.tolerance_relative;
   settings.effects = asked->profile.effects;
   const auto reach_m = options.reach_stated ? std::optional(wishes->reach_m) : std::nullopt;
-  std::vector<PlannedLight> planned;
-  const Error* refused = nullptr;
-  bool any = false;
-  for (const LightDescription& light : session->lights) {
-    if (!options.light.empty() && light.name != options.light) continue;
-    planned.push_back(
-        {&light, PlanReadings(*session, light.name, settings, options.steps, reach_m)});
-    any = any || planned.back().plan.has_value();
-  }
-  if (!any && !planned.empty()) refused = &planned.front().plan.error();
-  if (refused != nullptr) return tl::unexpected(*refused);
-  SayNext(*session, settings, planned);
+  ProgressLine line("planning readings", !console.quiet());
+  std::vector<PlannedLight> planned =
+      PlanEach(*session, settings, options, reach_m, line.Watcher());
+  if (auto any = CheckAnyPlan(planned); !any) return any;
+  line.Begin("weighing their minutes");
+  SayNext(*session, settings, planned, line.Watcher());
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<MinutesLadder> ladders;
   if (options.with_minutes) {
-    ladders = LaddersOf(*session, settings, *wishes);
+    line.Begin("planning the minutes");
+    ladders = LaddersOf(*session, settings, *wishes, line.Watcher());
     if (!options.light.empty()) {
       std::erase_if(ladders, [&](const auto& ladder) { return ladder.light != options.light; });
     }
   }
+  line.Wipe();
   const auto pictures = MinutesPictures(options.minutes, ladders);
   if (!pictures) return tl::unexpected(pictures.error());
   if (auto written = WriteOutputs(*pictures, options.force); !written) return written;

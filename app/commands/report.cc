@@ -23,6 +23,7 @@
 #include "minutes_answer.h"
 #include "output_files.h"
 #include "picture_file.h"
+#include "progress_line.h"
 #include "report_html.h"
 
 namespace lightcal::app {
@@ -146,11 +147,13 @@ Result<Source> FromLightFile(const std::string& path, Console& console) {
 Result<Source> FromSession(const std::string& path, Console& console) {
   auto calibrated = CalibrateAloud(path, {}, console);
   if (!calibrated) return Propagate(std::move(calibrated));
-  LampAnswers answers = SessionAnswersOf(*calibrated, path, {});
+  ProgressLine line("planning the next readings", !console.quiet());
+  const Progress progress = line.Watcher();
+  LampAnswers answers = SessionAnswersOf(*calibrated, path, {}, PartOf(progress, 0.0, 0.5));
   ReportExtras extras = ExtrasOf(*calibrated, std::move(answers.engines));
   extras.advice = AdviceOf(answers.lamps, calibrated->session.stem);
   const Session& session = calibrated->session;
-  extras.ladders = LaddersOf(session, {}, {});
+  extras.ladders = LaddersOf(session, {}, {}, PartOf(progress, 0.5, 1.0));
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),
                 (fs::path(DefaultOutputDirectory(session)) / "report.html").string()};
 }

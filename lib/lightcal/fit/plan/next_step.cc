@@ -117,9 +117,10 @@ double GainOf(const NextStepAdvice& advice, const FittedLight& light) {
 }
 
 NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light,
-                              const std::vector<PlannedReading>& skip) {
+                              const std::vector<PlannedReading>& skip, const Progress& progress) {
   LadderWishes wishes;
   wishes.skip = skip;
+  wishes.progress = progress;
   wishes.reach_m = ReachIn(session);
   wishes.steps = 1;
   auto ladder = PlanMinutes(session, light.name, {}, wishes);
@@ -161,14 +162,14 @@ std::string NextStep(const Session& session, const FittedLight& light) {
 }
 
 NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
-                          const std::vector<PlannedReading>& skip) {
+                          const std::vector<PlannedReading>& skip, const Progress& progress) {
   const auto wanted = [&](const std::optional<NextStepAdvice>& advice) {
     return advice && std::ranges::none_of(skip, [&](const PlannedReading& one) {
              return SameStep(one, *advice->reading);
            });
   };
   if (auto angle = AboutBeam(session, light); angle && wanted(angle->advice)) {
-    NextStepAdvice bought = WhatMinutesBuy(session, light, skip);
+    NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
     return GainOf(bought, light) > angle->gain ? bought : std::move(angle->advice);
   }
   if (auto place = AboutPlace(session, light); wanted(place)) return *std::move(place);
@@ -196,7 +197,7 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
     return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
                " m: so far only the manufacturer's figures speak");
   }
-  NextStepAdvice bought = WhatMinutesBuy(session, light, skip);
+  NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
   // A step that leaves the interval down to nothing tells the lamp as little as none: nearer, the
   // lamp outshines the rest.
   if (bought.reading && bought.reading->u95_relative >= 1.0) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/reading_plan.h"
 #include "lightcal/records/session.h"
@@ -31,7 +32,8 @@ struct NextStepAdvice {
 // what no plan holds: a light that only its data sheet speaks of, a reading thrown out. `skip`:
 // steps that the person cannot or will not do.
 [[nodiscard]] NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
-                                        const std::vector<PlannedReading>& skip = {});
+                                        const std::vector<PlannedReading>& skip = {},
+                                        const Progress& progress = {});
 
 // How far from a lamp a meter can stand, in metres.
 [[nodiscard]] double ReachIn(const Session& session);

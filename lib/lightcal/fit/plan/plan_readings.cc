@@ -88,6 +88,7 @@ class Planner {
         coarse_step_lx_(CoarseStep(session_, display_step_lx_)) {}
 
   void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
+  void Tell(Progress progress) { progress_ = std::move(progress); }
 
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
@@ -95,6 +96,7 @@ class Planner {
     if (now_ && plan.u95_relative) plan.beam_u95_deg = fit::BeamLeft(*now_);
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
+      BeginStep(i, steps);
       std::vector<PlannedReading> ranked = Rank();
       if (ranked.empty()) break;
       if (i == 0) plan.candidates = ranked;
@@ -113,6 +115,7 @@ class Planner {
     if (ladder.u95_relative) left = Left{*ladder.u95_relative, fit::StopsLeft(*now_)};
     double total = 0.0;
     for (int i = 0; i < wishes.steps; ++i) {
+      BeginStep(i, wishes.steps);
       std::optional<LadderStep> step = BestStep(left, wishes.minutes);
       if (!step) break;
       if (i + 1 < wishes.steps) Take(step->reading);
@@ -128,6 +131,13 @@ class Planner {
   }
 
  private:
+  void BeginStep(int step, int steps) {
+    of_step_ = PartOf(progress_, static_cast<double>(step) / steps, (step + 1.0) / steps);
+  }
+  void Tried(std::size_t tried, std::size_t of) const {
+    if (of_step_) of_step_(static_cast<double>(tried) / static_cast<double>(of));
+  }
+
   [[nodiscard]] const LightDescription& Light() const { return session_.lights.front(); }
 
   // What is known before any step.
@@ -219,10 +229,12 @@ class Planner {
   // Those that would give an answer, in the order they are listed.
   [[nodiscard]] std::vector<PlannedReading> Judged() const {
     std::vector<PlannedReading> out;
-    for (const PlannedReading& candidate : Candidates()) {
-      auto trial = fit::TryExpected(Known(), candidate);
+    const std::vector<PlannedReading> candidates = Candidates();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      auto trial = fit::TryExpected(Known(), candidates[i]);
       if (trial) trial = Settled(*trial);
       if (trial) out.push_back(std::move(trial->planned));
+      Tried(i + 1, candidates.size());
     }
     return out;
   }
@@ -271,12 +283,17 @@ class Planner {
       return LadderStep{std::move(ranked.front()), {}, took};
     }
     std::map<double, std::vector<PlannedReading>> by_minutes;
-    for (PlannedReading& one : Candidates()) {
+    std::vector<PlannedReading> all = Candidates();
+    const std::size_t count = all.size();
+    for (PlannedReading& one : all) {
       by_minutes[MinutesOf(one, minutes)].push_back(std::move(one));
     }
+    std::size_t tried = 0;
     const double most_gain = MostGain(*left);
     std::optional<LadderStep> best;
     for (const auto& [took, candidates] : by_minutes) {
+      Tried(tried, count);
+      tried += candidates.size();
       if (most_gain / took <= RateOf(*left, best)) continue;
       best = BestOf(*left, candidates, took, std::move(best));
     }
@@ -341,6 +358,7 @@ class Planner {
   double last_digit_lx_;
   double coarse_step_lx_;
   std::vector<PlannedReading> skip_;
+  Progress progress_, of_step_;
   std::optional<FittedLight> now_;
   std::optional<PlannedReading> stands_;  // where the meter does
 };
@@ -389,10 +407,12 @@ bool SameStep(const PlannedReading& a, const PlannedReading& b) {
 
 Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                  const FitSettings& settings, int steps,
-                                 std::optional<double> reach_m) {
+                                 std::optional<double> reach_m, const Progress& progress) {
   auto alone = AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, reach_m.value_or(LadderWishes{}.reach_m)).Plan(steps);
+  Planner planner(*std::move(alone), settings, reach_m.value_or(LadderWishes{}.reach_m));
+  planner.Tell(progress);
+  return planner.Plan(steps);
 }
 
 Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
@@ -408,6 +428,7 @@ Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& lig
   if (!alone) return Propagate(std::move(alone));
   Planner planner(*std::move(alone), settings, wishes.reach_m);
   planner.Skip(wishes.skip);
+  planner.Tell(wishes.progress);
   return planner.Ladder(wishes);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/records/reading_plan.h"
@@ -35,7 +36,8 @@ struct ReadingPlan {
 // comes first), unknown_light.
 [[nodiscard]] Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                                const FitSettings& settings, int steps,
-                                               std::optional<double> reach_m = std::nullopt);
+                                               std::optional<double> reach_m = std::nullopt,
+                                               const Progress& progress = {});
 
 // Whether they ask for the same: what to do, and where.
 [[nodiscard]] bool SameStep(const PlannedReading& a, const PlannedReading& b);
@@ -49,6 +51,7 @@ struct LadderWishes {
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has
   int steps = 6;         // at most
   std::vector<PlannedReading> skip{};  // what the person cannot or will not do
+  Progress progress{};
 };
 
 // The ladder of those readings that shorten the interval most for their minutes: greatest decrease
