@@ -184,8 +184,8 @@ void AddDomeOptions(CLI::App& parser, DomeOptions& w) {
                   "centre and above the horizon")
       ->capture_default_str();
   parser.add_option("--lux-shaded", w.lux_shaded,
-                    "The same reading with a card shading the brightest light: then a clipped "
-                    "light needs no absolute picture");
+                    "The same reading with a card shading the light that clips, or the brightest: "
+                    "then a clipped light needs no absolute picture");
   parser.add_option("--lux-sigma", w.lux_sigma, "The meter's 1 sigma")->capture_default_str();
   parser.add_option("--clip", w.clip,
                     "Samples from this value on are clipped, in the picture's own unit [found]");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <string>
 
 #include "lightcal/core/numbers_text.h"
 
@@ -45,9 +47,10 @@ void Multiply(double factor, Dome& dome, std::vector<DomeLight>& lights) {
   }
 }
 
+constexpr double kAgreeSd = 2.0;
+
 // What a reading and the picture's own scale say together.
 DomeScale Agreed(double read_factor, double read_sd, std::optional<double> stated_sd) {
-  constexpr double kAgreeSd = 2.0;
   DomeScale scale;
   scale.factor = scale.read_factor = read_factor;
   scale.sd_relative = read_sd;
@@ -60,14 +63,53 @@ DomeScale Agreed(double read_factor, double read_sd, std::optional<double> state
   return scale;
 }
 
-Result<DomeScale> ByShading(const DomeReading& reading, double all, std::optional<double> stated_sd,
-                            Dome& dome, std::vector<DomeLight>& lights) {
+tl::unexpected<Error> SeveralClipped(std::ptrdiff_t count) {
+  return Refused("several_clipped", "{dome.shaded}",
+                 std::to_string(count) +
+                     " clipped lights lit the meter, and the shaded reading still holds all but "
+                     "one of them: merge a bracket whose shortest frame clips none "
+                     "({MergeBracket}); or, of a picture in cd/m2, leave out {dome.shaded}: they "
+                     "share the reading then");
+}
+
+// The light that the card was held before: the one that is clipped, else the brightest whose pixels
+// are what the card took away, else the brightest.
+Result<DomeLight*> ShadedLight(const DomeReading& reading, double all,
+                               std::vector<DomeLight>& lights) {
   if (lights.empty()) {
     return Refused("no_light", "{dome.shaded}",
                    "the panorama shows no light that a card could have shaded");
   }
-  if (!Faces(lights[0], reading.normal)) return FacedAway();
-  const double rest = all - ByLight(lights[0], reading.normal);
+  const auto faces = [&](const DomeLight& light) { return Faces(light, reading.normal); };
+  const auto lost = [&](const DomeLight& light) { return light.body.clipped && faces(light); };
+  const std::ptrdiff_t clipped = std::ranges::count_if(lights, lost);
+  if (clipped > 1) return SeveralClipped(clipped);
+  if (clipped == 1) return &*std::ranges::find_if(lights, lost);
+  const auto shaded = std::ranges::find_if(lights, [&](const DomeLight& light) {
+    return ShadingOf(reading, all, light) == ShadingBy::kAsPixelsSay;
+  });
+  if (shaded != lights.end()) return &*shaded;
+  DomeLight& brightest = lights.front();
+  if (!faces(brightest)) return FacedAway();
+  const auto dimmer = [&](const DomeLight& light) {
+    return light.body.peak_nits <= brightest.body.peak_nits;
+  };
+  if (ShadingOf(reading, all, brightest) == ShadingBy::kMore &&
+      !std::ranges::all_of(lights, dimmer)) {
+    return Refused("shaded_light_unknown", "{dome.shaded}",
+                   "the card took away more than any light of the picture gives, so one is "
+                   "clipped, and the picture does not show which: say from which value samples "
+                   "are clipped ({dome.clip})");
+  }
+  return &brightest;
+}
+
+Result<DomeScale> ByShading(const DomeReading& reading, double all, std::optional<double> stated_sd,
+                            Dome& dome, std::vector<DomeLight>& lights) {
+  const Result<DomeLight*> light = ShadedLight(reading, all, lights);
+  if (!light) return tl::unexpected(light.error());
+  DomeLight& shaded = **light;
+  const double rest = all - ByLight(shaded, reading.normal);
   if (!(rest > 0.0)) return NoLight();
   const double direct = reading.illuminance.value() - reading.shaded->value();
   if (!(direct > 0.0)) {
@@ -75,9 +117,11 @@ Result<DomeScale> ByShading(const DomeReading& reading, double all, std::optiona
                    LuxText(reading.illuminance.value()) + " is not above the shaded reading of " +
                        LuxText(reading.shaded->value()));
   }
+  const ShadingBy by = ShadingOf(reading, all, shaded);
   DomeScale scale = Agreed(reading.shaded->value() / rest, reading.sigma_relative, stated_sd);
   Multiply(scale.factor, dome, lights);
-  InferIlluminance(Lux(direct / Dot(lights[0].direction, reading.normal)), lights[0]);
+  scale.shading_of_pixels = by == ShadingBy::kLess ? direct / ByLight(shaded, reading.normal) : 1.0;
+  InferIlluminance(Lux(direct / Dot(shaded.direction, reading.normal)), shaded);
   scale.inferred = 1;
   scale.inferred_sd_relative = reading.sigma_relative;  // one meter: both readings share its error
   return scale;
@@ -113,6 +157,18 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
 }
 
 }  // namespace
+
+ShadingBy ShadingOf(const DomeReading& reading, double all_lux, const DomeLight& light) {
+  if (!Faces(light, reading.normal)) return ShadingBy::kNotSeen;
+  const double rest = all_lux - ByLight(light, reading.normal);
+  if (!(rest > 0.0)) return ShadingBy::kLess;
+  const double off =
+      std::log(reading.illuminance.value() / reading.shaded->value() * rest / all_lux);
+  if (std::abs(off) <= kAgreeSd * std::numbers::sqrt2 * reading.sigma_relative) {
+    return ShadingBy::kAsPixelsSay;
+  }
+  return off > 0.0 ? ShadingBy::kMore : ShadingBy::kLess;
+}
 
 Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
                             std::optional<double> stated_sd, Dome& dome,

@@ -2,6 +2,7 @@
 // A lux meter's reading -> what a panorama's numbers are in cd/m^2, or what a clipped light is.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct DomeReading {
   Lux illuminance{0.0};
   double sigma_relative = 0.05;
   Vec3 normal{0.0, 0.0, 1.0};  // where the meter faced; unit
-  std::optional<Lux> shaded;   // the same with a card between the meter and the brightest light
+  std::optional<Lux> shaded;   // the same with a card between the meter and one light
 };
 
 struct DomeScale {
@@ -28,13 +29,23 @@ struct DomeScale {
   // Lights whose illuminance is the reading minus the rest; their relative sd.
   int inferred = 0;
   double inferred_sd_relative = 0.0;
+  // Where a card took away less than the light's pixels give: what of it. Else 1.
+  double shading_of_pixels = 1.0;
 };
+
+// What two readings say of a light that a card may have kept from the meter: E_shaded / E is
+// R / E(n), within what two readings differ by, where its pixels hold all its light.
+enum class ShadingBy : std::uint8_t { kNotSeen, kLess, kAsPixelsSay, kMore };
+[[nodiscard]] ShadingBy ShadingOf(const DomeReading& reading, double all_lux,
+                                  const DomeLight& light);
 
 // With E(n) = integral of L max(0, n . w) dOmega over the whole panorama, R = E(n) - the lights
 // that are solved for (their flow . n), and d a light's direction:
 //   no light clipped, none shaded      factor = E_lux / E(n)
-//   `shaded` given                     factor = E_shaded / R, and the brightest light (lights[0])
-//                                      gives (E_lux - E_shaded) / (n . d) at normal incidence
+//   `shaded` given                     factor = E_shaded / R, and the light that was shaded gives
+//                                      (E_lux - E_shaded) / (n . d) at normal incidence: the
+//                                      clipped one, else the brightest whose pixels are what the
+//                                      card took away, else the brightest
 //   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
 //                                      several share one luminance
 // The samples of dome and lights are multiplied. A picture that states how sure its scale is
@@ -42,7 +53,9 @@ struct DomeScale {
 // than two standard deviations from the reading, which is then believed alone. Refused: no_light
 // (E(n) or R not above 0), lux_below_rest (the rest alone exceeds the reading), lux_misses_light
 // (the meter faced away from the light to be solved), clipped_scale_unknown (a clipped light in a
-// panorama whose scale nobody knows).
+// panorama whose scale nobody knows), several_clipped (the shaded reading holds the others),
+// shaded_light_unknown (a card took away more than any light's pixels give, and which is clipped
+// cannot be told).
 [[nodiscard]] Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
                                           std::optional<double> stated_sd, Dome& dome,
                                           std::vector<DomeLight>& lights);

@@ -154,6 +154,16 @@ std::string SuspectOf(const MeasuredDome& measured, float brightest, bool has_re
   return "a few pixels that are far brighter than the rest";
 }
 
+// Whether a card took away more than the pixels of any light give.
+bool ShadedBeyondPixels(const DomeReading& reading, const MeasuredDome& measured) {
+  const Dome& dome = measured.input.dome;
+  const double all = IlluminanceOn(dome.luminance(), dome.grid(), reading.normal).value();
+  return std::ranges::all_of(measured.lights, [&](const DomeLight& light) {
+    const ShadingBy by = ShadingOf(reading, all, light);
+    return by == ShadingBy::kNotSeen || by == ShadingBy::kMore;
+  });
+}
+
 // A plateau at the picture's largest value is either clipped or drawn. In cd/m^2 the reading tells:
 // it exceeds what the picture holds.
 void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
@@ -161,9 +171,9 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
   DomeInput& input = measured.input;
   if (request.input.clip) return;
   const float brightest = *std::max_element(input.dome.nits.begin(), input.dome.nits.end());
-  // A card that shaded something knows of a light, where nothing else stands out.
-  if (reading && reading->shaded && measured.lights.empty() &&
-      EndsInFewPixels(input.dome, brightest)) {
+  // A card that took away more than any light shows knows of one that is clipped.
+  if (reading && reading->shaded && ShadedBeyondPixels(*reading, measured) &&
+      !SuspectOf(measured, brightest, true).empty()) {
     input.clipped = PixelsAt(brightest, input.dome.nits);
     measured.lights = FindLights(input, true);
     return;
@@ -215,6 +225,13 @@ Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& m
         {"scale_conflict", input.files.front(),
          "the reading makes the picture " + RoundedText(scale->read_factor, 3) +
              " times as bright as the file says it is; the reading is believed"});
+  }
+  if (scale->shading_of_pixels < 1.0) {
+    measured.warnings.push_back(
+        {"shading_conflict", input.files.front(),
+         "the card took away " + RoundedText(scale->shading_of_pixels, 2) +
+             " times what the picture shows of the light; the readings are believed: check that "
+             "it was this light that was shaded, and wholly"});
   }
   if (scale->inferred > 1) {
     measured.warnings.push_back(

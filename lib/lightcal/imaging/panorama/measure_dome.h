@@ -38,7 +38,8 @@ struct MeasuredDome {
                                   double sd_relative);
 
 // Refused: all_black, all_saturated, reading_beyond_view, and as ScaleDome.
-// Warned: maybe_clipped, scale_conflict, clipped_lights_share, and what the input warns of.
+// Warned: maybe_clipped, scale_conflict, shading_conflict, clipped_lights_share, and what the input
+// warns of.
 [[nodiscard]] Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request);
 
 }  // namespace lightcal
