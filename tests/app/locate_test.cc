@@ -111,7 +111,7 @@ std::string BulbOverTables(std::size_t cards, const std::string& sheet = "") {
   std::string text =
       "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n"
       "lamp_class = \"white_led\"\nminutes_on = 600\nflicker_depth = 0.0\n" +
-      sheet + "[[meter]]\nname = \"m\"\nsigma_relative = 0.03\n";
+      sheet + "[[meter]]\nname = \"m\"\nsigma_relative = 0.03\ncosine_f2 = 0.0\n";
   const auto add = [&text](const TableReading& at, double lux, const char* more) {
     text += std::string("[[reading]]\nlight = \"key\"\nmeter = \"m\"\nnormal = [0, 0, 1]\n") +
             "position_m = " + at.position_m + "\nilluminance_lx = " + std::to_string(500.0 * lux) +

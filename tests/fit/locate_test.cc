@@ -410,9 +410,14 @@ TEST(Locate, AFlatLampIsFoundFromItsAim) {
   session.lights.back().kind = LightKind::kRect;
   session.lights.back().width = session.lights.back().height = Metres(0.2);
   session.lights.back().aim = Vec3{0, 0, -1};
+  session.meters.emplace_back();
+  session.meters.back().name = "m";
+  session.meters.back().calibration_relative = 0.0;
+  session.meters.back().cosine_f2 = 0.0;
   for (const Vec3& p : SquareAndCentre(2.0)) {
     SessionReading row;
     row.reading.light = "panel";
+    row.reading.meter = session.meters.front().name;
     row.reading.position_m = p;
     row.reading.normal = kUp;
     row.reading.sigma_relative = 0.002;

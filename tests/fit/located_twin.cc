@@ -6,6 +6,10 @@
 
 namespace lightcal::test {
 
+namespace {
+constexpr const char* kMeter = "m";
+}
+
 double TrueLux(const PlacedLamp& lamp, const Vec3& meter, const Vec3* normal) {
   constexpr int kEmitters = 400;
   const Vec3 to_lamp = lamp.position_m - meter;
@@ -37,11 +41,16 @@ LocatedTwin::LocatedTwin(const PlacedLamp& lamp, double sigma, std::uint64_t see
   session_.lights.back().lamp_class = LampClass::kWhiteLed;
   session_.lights.back().in_time.minutes_on = 120.0;
   session_.surroundings = Surroundings::kDark;
+  session_.meters.emplace_back();
+  session_.meters.back().name = kMeter;
+  session_.meters.back().calibration_relative = 0.0;
+  session_.meters.back().cosine_f2 = 0.0;  // TrueLux is square to the normal
 }
 
 Reading& LocatedTwin::Add(double lux) {
   SessionReading row;
   row.reading.light = "lamp";
+  row.reading.meter = kMeter;
   row.reading.illuminance = Lux(lux * std::exp(sigma_ * normal_(random_)));
   row.reading.sigma_relative = sigma_;
   session_.readings.push_back(row);

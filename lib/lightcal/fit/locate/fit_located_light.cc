@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/locate/locate.h"
 #include "lightcal/fit/locate/located_lamp.h"
 #include "lightcal/fit/model/asked_sampling.h"
@@ -14,6 +18,7 @@
 #include "lightcal/fit/model/meter_calibration.h"
 #include "lightcal/fit/model/uneven_light.h"
 #include "lightcal/fit/plan/plan_forward.h"
+#include "lightcal/light/effects/cosine_response.h"
 
 namespace lightcal::fit {
 namespace {
@@ -36,6 +41,31 @@ void WidenByShape(const Observations& seen, ForwardModel& model) {
   }
   const double off = 1.0 - AxialShapeFactor(model.shape, nearest);
   if (off > 0.0) model.considered.push_back({off * nearest * nearest, -2.0, "finite_source"});
+}
+
+// A head's error grows with the tilt, so between readings it moves the place, which no sigma that
+// they have in common holds: known or not, it widens.
+void WidenByCosine(const Observations& seen, ForwardPlan& plan) {
+  constexpr std::string_view kName = "cosine_response";
+  const auto effect = std::ranges::find(plan.gated, kName, &GatedEffect::name);
+  if (effect == plan.gated.end() || !effect->finding.applies) return;
+  if (effect->state == GateState::kOff && !effect->ignored) return;  // switched off by name
+  std::erase_if(plan.model.considered, [&](const Consider& one) { return one.name == kName; });
+  std::set<int> instruments;
+  for (const Observation& o : seen.rows) {
+    if (o.lit && !o.data_sheet) instruments.insert(o.instrument);
+  }
+  const double f2 = plan.scene.cosine_f2.value_or(effects::kCosineF2Default);
+  for (EffectReport& report : plan.effects) {
+    if (report.name != kName || report.state == EffectState::kOff) continue;
+    report.reason = "it widens the place and the intensity, by an f2 of " + PercentText(f2) +
+                    (plan.scene.cosine_f2 ? ", as stated" : ", class B's: no cosine_f2 given");
+  }
+  for (const int instrument : instruments) {
+    plan.model.considered.push_back({.relative = effects::SlantError(f2, 0.0),
+                                     .name = std::string(kName),
+                                     .slant_of = instrument});
+  }
 }
 
 // Whoever seeks a point's place takes it that it shines alike towards every meter: it lights its
@@ -82,6 +112,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   Result<ForwardPlan> plan = PlanForward(session, placed, seen, settings);
   if (!plan) return Propagate(std::move(plan));
   WidenByShape(seen, plan->model);
+  WidenByCosine(seen, *plan);
   plan->model.gradient_sd = rough_model.gradient_sd;
   Result<LampLocation> location = LocateLamp(seen, light, plan->model, &*first);
   if (!location) return Propagate(std::move(location));

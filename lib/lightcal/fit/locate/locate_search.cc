@@ -43,13 +43,14 @@ PlacedRow RowOf(const Observations& observations, std::size_t i, const ForwardMo
   FillRowValues(o, i, model, frame.length_m, frame.lux, row);
   row.own_sigma = row.sigma;
   row.direct_gain = o.lit ? 1.0 : 0.0;
+  row.instrument = o.instrument;
   row.distance = o.distance_m / frame.length_m;
   if (o.measured_from_center && o.position_m) {
     row.position = (*o.position_m - frame.origin) * (1.0 / frame.length_m);
   }
   if (!o.lit) return row;
   row.normal = o.normal;
-  if (!o.normal) row.direct_gain = std::cos(o.tilt_rad);
+  if (!o.normal) row.direct_gain = row.tilt_cosine = std::cos(o.tilt_rad);
   if (model.head_radius_m > 0.0) {
     row.direct_gain *= effects::DetectorFactor(model.head_radius_m, o.distance_m);
   }

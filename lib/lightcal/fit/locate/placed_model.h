@@ -44,6 +44,8 @@ struct PlacedRow {
   std::optional<Vec3> position;  // of the meter; absent: `distance` from the lamp, facing it
   std::optional<Vec3> normal;    // unit; absent: facing the lamp
   double distance = 1.0;
+  double tilt_cosine = 1.0;  // stated, where no normal is given
+  int instrument = 0;
   double direct_gain = 1.0;  // what tilt, head and source size leave; 0 without the lamp
   double bounce = 0.0;       // illuminance from the room's walls per candela, known
   std::optional<PlacedWalls> walls;
@@ -106,6 +108,16 @@ template <class T>
   }
   *direct *= exp(uneven);
   return true;
+}
+
+// Of the light's tilt against the meter's normal.
+[[nodiscard]] inline double TiltCosineOf(const PlacedRow& row, const double* theta) {
+  if (!row.position || !row.normal) return row.tilt_cosine;
+  double along = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    along += (theta[kPlacedX + k] - (*row.position)[k]) * (*row.normal)[k];
+  }
+  return along / DistanceOf(row, theta);
 }
 
 // E = exp(ln I) [ gain exp(g.(-v/r - middle)) (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,

@@ -26,6 +26,15 @@ void CutAmbient(const At& at, double estimate, const PlacedMatrix& covariance,
   total += regression * regression.transpose() * (truncated.variance - variance + shift * shift);
 }
 
+// 1 sigma of what the influence does to ln E of a row.
+double InfluenceOn(const PlacedRow& row, const PlacedTheta& theta, const Consider& influence) {
+  if (influence.slant_of) {
+    if (row.instrument != *influence.slant_of) return 0.0;
+    return influence.relative * (1.0 - TiltCosineOf(row, theta.data()));
+  }
+  return influence.relative * std::pow(DistanceOf(row, theta.data()), influence.distance_power);
+}
+
 void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
                    const PlacedUncertainty& input, const At& at, const PlacedMatrix& covariance,
                    PlacedMatrix& total) {
@@ -35,8 +44,7 @@ void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
       const PlacedRow& row = estimation.rows[i];
       if (row.form != RowForm::kLog || !(row.direct_gain > 0.0)) continue;
       whitened[static_cast<Eigen::Index>(i)] =
-          influence.relative * std::pow(DistanceOf(row, theta.data()), influence.distance_power) /
-          (row.sigma * input.row_scale);
+          InfluenceOn(row, theta, influence) / (row.sigma * input.row_scale);
     }
     const PlacedVector shift = Carried<PlacedEstimation>(at, covariance, whitened);
     total += shift * shift.transpose();

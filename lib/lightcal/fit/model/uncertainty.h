@@ -30,6 +30,9 @@ struct Consider {
   // power 2; what a shadow card hides, or leaves, holds it too.
   bool constant = false;
   bool of_pictures = false;  // what a meter read has none of it
+  // Of one instrument's cosine: relative times 1 - cos(tilt) in its rows. Placed rows alone have
+  // it.
+  std::optional<int> slant_of{};
 };
 
 // 1 sigma of what the influence does to ln E of a row, the lamp's intensity being what it is.
