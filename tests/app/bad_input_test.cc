@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -23,6 +24,16 @@ std::string Rows(const std::vector<std::pair<std::string, std::string>>& rows) {
   for (const auto& [distance, lux] : rows) {
     text += "[[reading]]\nlight = \"key\"\ndistance_m = " + distance + "\nilluminance_lx = " + lux +
             "\n";
+  }
+  return text;
+}
+
+// Flat meters, x, y and lux, about a lamp that is said to be where it is not.
+std::string Placed(const std::vector<std::array<double, 3>>& rows) {
+  std::string text = "position_m = [0.776, 0.899, 1.347]\n[room]\ndark = true\n";
+  for (const auto& [x, y, lux] : rows) {
+    text += "[[reading]]\nlight = \"key\"\nnormal = [0, 0, 1]\nposition_m = [" + std::to_string(x) +
+            ", " + std::to_string(y) + ", 0.0]\nilluminance_lx = " + std::to_string(lux) + "\n";
   }
   return text;
 }
@@ -56,6 +67,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NotToml", "lightcal = = 1", 3, "bad_session", "session.toml"},
         Case{"NoLight", "lightcal = 1\nname = \"t\"\n", 3, "no_light", "[[light]]"},
         Case{"NoReadings", kHead, 3, "no_readings", "key"},
+        // An offset of 1.06 m below the lamp, and 11 cd of 300, were learned of it.
+        Case{"TwoReadingsOfALampElsewhere", kHead + Placed({{0.5, 0.5, 75.9}, {1.0, 1.0, 114.5}}),
+             3, "model_misfit", "1.06 m before the lamp: do the lamp and the meters stand where"},
+        Case{"ThreeReadingsOfALampElsewhere",
+             kHead + Placed({{0.0, 0.0, 39.6}, {1.0, 0.0, 49.61}, {0.0, 1.0, 78.79}}), 3,
+             "model_misfit", "do the lamp and the meters stand where"},
         Case{"NotANumber", kHead + Rows({{"nan", "100.0"}}), 3, "bad_session", "distance_m"},
         Case{"InfiniteLux", kHead + Rows({{"1.0", "inf"}}), 3, "bad_session", "illuminance_lx"},
         Case{"NegativeDistance", kHead + Rows({{"-1.0", "100.0"}}), 3, "bad_session", "distance_m"},

@@ -197,11 +197,22 @@ std::string ReadingThatAsks(const Estimation& stated, const Prepared& prepared,
   return found;
 }
 
+// Between places that are both told no distance is counted from a wrong point: one of them is
+// wrong.
+tl::unexpected<Error> RefuseOffset(double offset_m, const std::string& odd,
+                                   const std::string& light) {
+  return Refused("model_misfit", light,
+                 "no lamp gives these readings: their light would have to start " +
+                     RoundedText(std::abs(offset_m), 3) + " m " +
+                     (offset_m < 0.0 ? "before" : "behind") + " the lamp" + odd + ": " +
+                     std::string(kAskForPlaces));
+}
+
 // Readings that ask for an offset beyond two standard deviations of its prior widen it, and leave
-// the other hypotheses out.
+// the other hypotheses out. Refused: model_misfit.
 Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& prepared,
-                         const Observations& observations, const std::string& light,
-                         Warnings& warnings) {
+                         const ForwardModel& model, const Observations& observations,
+                         const std::string& light, Warnings& warnings) {
   Candidate& first = candidates.front();
   ParameterRule& rule = first.estimation.rules[kDistanceOffset];
   if (!rule.free) return {};
@@ -237,6 +248,14 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
   if (!estimate) return Propagate(std::move(estimate));
   first.estimate = *std::move(estimate);
   candidates.resize(1);
+  // Beyond the deepest fixture there is, a softbox measured from its mount (fixture.h: 0.30 m and
+  // four standard deviations of 0.08 m).
+  constexpr double kNeverSd = 4.0, kDeepest_m = 0.6;
+  const double offset_m = first.estimate.theta[kDistanceOffset] * prepared.scales.length_m;
+  if (model.judge_misfit && model.choice.reject && BetweenPlaces(observations) &&
+      std::abs(offset_m) > kDeepest_m && pull(first.estimate.theta) > kNeverSd * stated) {
+    return RefuseOffset(offset_m, odd, light);
+  }
   return {};
 }
 
@@ -257,7 +276,8 @@ Result<std::vector<Candidate>> SolveCandidates(const Prepared& prepared, const F
   Result<std::vector<Candidate>> solved = SolveInQuestion(prepared, model, observations);
   if (!solved) return solved;
   if (auto chosen = ChooseRobustly(*solved); !chosen) return Propagate(std::move(chosen));
-  if (auto widened = WidenOffset(*solved, prepared, observations, light, warnings); !widened) {
+  if (auto widened = WidenOffset(*solved, prepared, model, observations, light, warnings);
+      !widened) {
     return Propagate(std::move(widened));
   }
   return solved;

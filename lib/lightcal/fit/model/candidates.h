@@ -27,7 +27,8 @@ struct Candidate {
 // Every hypothesis of the model solved, the likeliest first; where readings contradict it, the
 // likeliest of the robust estimates, a blunder being one reading in fifty. Readings
 // that ask for an offset beyond two standard deviations of its prior widen it, with the warning
-// prior_conflict, and leave the other hypotheses out. Fails as Solve.
+// prior_conflict, and leave the other hypotheses out. Refused: model_misfit, where they ask for one
+// beyond four of them and 0.6 m between places that are both told. Fails as Solve.
 [[nodiscard]] Result<std::vector<Candidate>> SolveCandidates(const Prepared& prepared,
                                                              const ForwardModel& model,
                                                              const Observations& observations,

@@ -160,6 +160,7 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
     return "they fall faster with distance than any lamp's light: do the distances start where its "
            "light does, and did the meter stay on the axis of its beam?";
   }
+  if (BetweenPlaces(observations)) return std::string(kAskForPlaces);
   for (std::size_t i = 1; i < places.size(); ++i) {
     const ReadingRow& near = all.rows[static_cast<std::size_t>(places[i - 1].row)];
     const ReadingRow& far = all.rows[static_cast<std::size_t>(places[i].row)];
@@ -182,6 +183,12 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
 std::string NameOfReading(const Observation& o) {
   return "reading " + std::to_string(o.index) + " (" + RoundedText(o.raw_lx, 4) + " lx at " +
          RoundedText(o.distance_m, 4) + " m)";
+}
+
+bool BetweenPlaces(const Observations& observations) {
+  return std::ranges::all_of(observations.rows, [](const Observation& o) {
+    return !o.lit || (o.position_m && o.measured_from_center);
+  });
 }
 
 double ChiSquaredTail(double chi_squared, double dof) {

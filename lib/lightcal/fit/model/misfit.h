@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/model/observations.h"
@@ -18,12 +19,19 @@ namespace lightcal::fit {
 // "reading 2 (58 lx at 1 m)", counted from 0 over the light's.
 [[nodiscard]] std::string NameOfReading(const Observation& o);
 
+// Whether lamp and meters are told by their places alone, and what to ask where these disagree.
+[[nodiscard]] bool BetweenPlaces(const Observations& observations);
+inline constexpr std::string_view kAskForPlaces =
+    "do the lamp and the meters stand where their positions say? A place that pictures gave the "
+    "lamp may be off: measure it; or leave it out, and five readings that are not on one line find "
+    "it";
+
 // Refused: model_misfit, where readings at three distances or more contradict every lamp under its
 // priors (p < 1e-3) by more than three times their sigma and 4 % of their light, where half
 // of them or neighbours on one side had to be thrown out, or where the offset they ask for
 // stands at its bound. The message names the cause that explains the rest when tried: one reading,
-// a distance in feet, a beam read off its axis, another lamp. Less than three times: the warning
-// misfit; the interval holds it.
+// a distance in feet, a beam read off its axis, places that disagree, another lamp. Less than three
+// times: the warning misfit; the interval holds it.
 [[nodiscard]] Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
                                        const Prepared& prepared, const Observations& observations,
                                        const std::string& light, Warnings& warnings);
