@@ -9,11 +9,11 @@
 namespace lightcal::fit {
 
 std::optional<SamplingRule> SamplingOf(const FitSettings& settings) {
-  if (settings.monte_carlo) return SamplingRule{};
-  if (settings.estimator.interval_samples > 0) {
-    return JustSamples(settings.estimator.interval_samples);
-  }
-  return std::nullopt;
+  const int samples = settings.estimator.interval_samples;
+  if (!settings.monte_carlo && samples <= 0) return std::nullopt;
+  SamplingRule rule = settings.monte_carlo ? SamplingRule{} : JustSamples(samples);
+  rule.progress = settings.progress;
+  return rule;
 }
 
 std::string SayOfSampling(const LightEstimate& estimate, const std::string& light) {

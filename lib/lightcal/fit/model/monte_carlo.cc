@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <random>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "lightcal/core/standard_normal.h"
@@ -35,6 +38,45 @@ std::uint64_t SeedOf(const Estimation& estimation) {
     add(row.sigma);
   }
   return hash;
+}
+
+// All by which the model tells a row from others, but what it measured and how surely.
+auto KindOfRow(const ReadingRow& row) {
+  const WallsOfRow walls = row.walls.value_or(WallsOfRow{});
+  return std::tuple(row.form, row.distance, row.direct_gain, row.bounce, row.ambient_gain,
+                    row.scale, row.instrument, row.calibration, row.data_sheet, row.picture,
+                    row.shape.outline, row.shape.first, row.shape.second, row.walls.has_value(),
+                    walls.x, walls.constant);
+}
+
+// Rows that are alike as one: their weighted mean holds all that they say of the parameters, as
+//   sum w_i (y_i - f)^2 = W (y - f)^2 + constant,  y = sum w_i y_i/W,  W = sum w_i = sum
+//   1/sigma_i^2
+// and is drawn by its own sigma, W^-1/2. Costs as many rows as there are places, not readings.
+Estimation WithMeans(const Estimation& estimation) {
+  Estimation out = estimation;
+  std::vector<ReadingRow>& means = out.rows;
+  means.clear();
+  std::map<decltype(KindOfRow(ReadingRow{})), std::size_t> of_kind;
+  for (const ReadingRow& row : estimation.rows) {
+    // Off the axis a row's pose tells it apart too, and no mean is over range.
+    const bool alone = row.off_axis || row.form == RowForm::kCensored;
+    const auto [known, is_new] =
+        alone ? std::pair(of_kind.end(), true) : of_kind.try_emplace(KindOfRow(row), means.size());
+    if (is_new) {
+      means.push_back(row);
+      continue;
+    }
+    ReadingRow& mean = means[known->second];
+    const double weight = 1.0 / (row.sigma * row.sigma);
+    const double all = 1.0 / (mean.sigma * mean.sigma) + weight;
+    const double part = weight / all;
+    mean.measured = row.form == RowForm::kLinear
+                        ? mean.measured + part * (row.measured - mean.measured)
+                        : mean.measured * std::pow(row.measured / mean.measured, part);
+    mean.sigma = 1.0 / std::sqrt(all);
+  }
+  return out;
 }
 
 // One draw after another of everything that is uncertain.
@@ -151,8 +193,23 @@ bool IsStable(const std::vector<Figures>& blocks, int digits) {
   return true;
 }
 
+// How many blocks will do, where the standard deviations of the means go on to fall by the root of
+// their number.
+double BlocksLikely(const std::vector<Figures>& blocks, int digits) {
+  double needed = kFewestBlocks;
+  const double u = SpreadOf(blocks, 1).mean;
+  if (blocks.size() < kFewestBlocks || !(u > 0.0)) return needed;
+  for (int figure = 0; figure < kFigures; ++figure) {
+    const double over = 2.0 * SpreadOf(blocks, figure).sd / HalfDigit(u, digits);
+    needed = std::max(needed, static_cast<double>(blocks.size()) * over * over);
+  }
+  return needed;
+}
+
 Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& input,
-                                                     std::size_t count, Draws& draws) {
+                                                     std::size_t count, Draws& draws,
+                                                     const Progress& progress) {
+  constexpr std::size_t kDrawsTold = 64;  // a call of it costs less than a draw
   std::array<std::vector<double>, kParameters> samples;
   for (auto& one : samples) one.reserve(count);
   std::size_t failures = 0;
@@ -171,6 +228,9 @@ Result<std::array<Figures, kParameters>> SampleBlock(const UncertaintyInput& inp
       continue;
     }
     for (int k = 0; k < kParameters; ++k) samples[k].push_back((*theta)[k]);
+    if (progress && samples.front().size() % kDrawsTold == 0) {
+      progress(static_cast<double>(samples.front().size()) / static_cast<double>(count));
+    }
   }
   std::array<Figures, kParameters> out;
   for (int k = 0; k < kParameters; ++k) out[k] = FiguresOf(samples[k]);
@@ -185,21 +245,32 @@ SamplingRule JustSamples(int samples) {
   return {usual.digits, blocks, (samples + blocks - 1) / blocks, true};
 }
 
-Result<SampledEstimate> SampleEstimate(const UncertaintyInput& input, const SamplingRule& rule) {
-  if (auto determined = EstimateCovariance(input); !determined) {
+Result<SampledEstimate> SampleEstimate(const UncertaintyInput& given, const SamplingRule& rule) {
+  if (auto determined = EstimateCovariance(given); !determined) {
     return Propagate(std::move(determined));
   }
+  const Estimation means = WithMeans(*given.estimation);
+  UncertaintyInput input = given;
+  input.estimation = &means;
   Draws draws(input);
   std::array<std::vector<Figures>, kParameters> blocks;
   SampledEstimate out;
+  double done = 0.0;
+  double likely = rule.all_blocks ? rule.largest_blocks : kFewestBlocks;
   for (int block = 0; block < rule.largest_blocks; ++block) {
     if (out.stable && !rule.all_blocks) break;
-    const auto figures = SampleBlock(input, static_cast<std::size_t>(rule.block), draws);
+    const double end = std::max(done, std::min(1.0, (block + 1) / likely));
+    const auto figures = SampleBlock(input, static_cast<std::size_t>(rule.block), draws,
+                                     PartOf(rule.progress, done, end));
     if (!figures) return tl::unexpected(figures.error());
+    done = end;
     out.stable = block + 1 >= kFewestBlocks;
     for (int k = 0; k < kParameters; ++k) {
       blocks[k].push_back((*figures)[k]);
       out.stable = out.stable && IsStable(blocks[k], rule.digits);
+      if (rule.all_blocks) continue;
+      likely = std::clamp(BlocksLikely(blocks[k], rule.digits), likely,
+                          static_cast<double>(rule.largest_blocks));
     }
     out.samples += rule.block;
   }

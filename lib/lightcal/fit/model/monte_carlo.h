@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/fit/model/uncertainty.h"
 
@@ -27,12 +28,14 @@ struct SamplingRule {
   int largest_blocks = 30;  // 1: one block and no question of digits
   int block = 10000;        // samples of each
   bool all_blocks = false;  // draw them all, stable or not
+  Progress progress{};      // of the draws, by how many are likely to do
 };
 
 // At least `samples` draws, in as few blocks of at most 10 000 as hold them. samples >= 2.
 [[nodiscard]] SamplingRule JustSamples(int samples);
 
-// Draws what was measured from its distribution (each reading's own error, each instrument's
+// Draws what was measured from its distribution (each reading's own error, of readings that the
+// model takes alike that of their mean, each instrument's
 // calibration, the considered influences and the priors, normal in the rows' own forms), finds the
 // optimum of each draw by Newton's steps from the linear prediction, in blocks until twice
 // the standard deviation of the mean over blocks of mean, sd, low and high stays below half the
