@@ -8,6 +8,7 @@
 
 #include "lightcal/core/statistics.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
 
 namespace lightcal {
 namespace {
@@ -105,6 +106,28 @@ std::vector<std::uint8_t> WithSkirt(const std::vector<std::uint8_t>& face, int w
     return out;
   };
   return spread(spread(face, 1, height, width), width, width, height);
+}
+
+// The variance of the pixels around (x, y), those outside left out.
+double VarianceAround(View2d<const float> nits, int x, int y) {
+  double sum = 0.0, square = 0.0, count = 0.0;
+  for (int j = std::max(0, y - 1); j <= std::min(nits.height() - 1, y + 1); ++j) {
+    for (int i = std::max(0, x - 1); i <= std::min(nits.width() - 1, x + 1); ++i) {
+      const double own = double{nits(i, j)} - double{nits(x, y)};
+      sum += own;
+      square += own * own;
+      count += 1.0;
+    }
+  }
+  return square / count - sum / count * (sum / count);
+}
+
+// A lower bound's sigma is its value. That of a code beside an edge may be as large by what its
+// neighbours are, which says nothing of clipping.
+bool IsClipped(View2d<const float> nits, View2d<const float> sigma, int x, int y) {
+  const double least = kClippedSigma * double{nits(x, y)};
+  const double hidden = kHiddenDetail * kHiddenDetail * VarianceAround(nits, x, y);
+  return double{sigma(x, y)} * double{sigma(x, y)} - hidden >= least * least;
 }
 
 Vec3 MiddleOf(const Parts& parts, const std::vector<std::uint8_t>& lamp, double background) {
@@ -244,7 +267,8 @@ Result<SourceLuminance> MeasureSource(View2d<const float> nits, View2d<const flo
           "source_cut", PlaceText(region),
           "the lamp reaches the rim of the region; give one (rect) that holds all of it");
     }
-    if (parts[i].sigma >= kClippedSigma * parts[i].nits) {
+    const int column = static_cast<int>(i) % region.width, row = static_cast<int>(i) / region.width;
+    if (IsClipped(nits, sigma, region.x + column, region.y + row)) {
       return Refused("source_clipped", PlaceText(region),
                      "the lamp is saturated in every frame, so its luminance is a lower bound; "
                      "expose shorter, stop down or use an ND filter");
