@@ -62,7 +62,6 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"preset.rig_at", "--rig-at"},
     {"preset.spots", "--spots"},
     {"preset.target", "--to"},
-    {"reading.illuminance", "--lux"},
     {"render.engine", "--engine"},
     {"render.pixels", "--pixels"},
     {"shoot.aperture", "--aperture"},
