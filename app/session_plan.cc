@@ -13,6 +13,7 @@
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/next_step.h"
 #include "lightcal/fit/plan/plan_readings.h"
+#include "lightcal/records/keep_lights.h"
 #include "minutes_answer.h"
 #include "progress_line.h"
 #include "session_names.h"
@@ -33,13 +34,11 @@ struct PlannedLight {
 void SayNext(const Session& session, const FitSettings& settings,
              std::vector<PlannedLight>& planned, const Progress& progress) {
   Session sound = session;
-  const auto refused = [&](const std::string& name) {
-    return std::ranges::any_of(
+  const auto is_sound = [&](const std::string& name) {
+    return std::ranges::none_of(
         planned, [&](const PlannedLight& one) { return !one.plan && one.light->name == name; });
   };
-  std::erase_if(sound.lights, [&](const auto& light) { return refused(light.name); });
-  std::erase_if(sound.readings, [&](const auto& row) { return refused(row.reading.light); });
-  std::erase_if(sound.state_readings, [&](const auto& row) { return refused(row.reading.light); });
+  KeepLights(is_sound, sound);
   const auto fitted = FitSession(sound, settings);
   if (!fitted) return;
   JointProgress joint(progress, planned.size());

@@ -18,6 +18,7 @@
 #include "lightcal/core/generator_name.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/states/emitters.h"
+#include "lightcal/records/keep_lights.h"
 #include "lightcal/records/session_reader.h"
 
 namespace lightcal {
@@ -57,17 +58,13 @@ Result<void> KeepAsked(const CalibrationSettings& settings, Session& session) {
                      "the session has no such light" + DidYouMean(name, session.lights));
     }
   }
-  const auto unasked = [&](const std::string& name) {
+  const auto asked = [&](const std::string& name) {
     const auto in = [&](const std::vector<std::string>& names) {
       return std::ranges::find(names, name) != names.end();
     };
-    return in(settings.without) || !(settings.lights.empty() || in(settings.lights));
+    return !in(settings.without) && (settings.lights.empty() || in(settings.lights));
   };
-  const auto of_unasked = [&](const SessionReading& row) { return unasked(row.reading.light); };
-  std::erase_if(session.lights, [&](const auto& light) { return unasked(light.name); });
-  std::erase_if(session.readings, of_unasked);
-  std::erase_if(session.state_readings, of_unasked);
-  std::erase_if(session.captures, [&](const auto& capture) { return unasked(capture.light); });
+  KeepLights(asked, session);
   return {};
 }
 

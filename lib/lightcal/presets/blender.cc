@@ -43,20 +43,19 @@ constexpr EngineForms kBlender{.sphere = true,
 // Says what versions before 4.0 make of a sphere; aloud where a reading was taken so close that
 // this is seen.
 void NoteOldSphere(const FittedLight& lamp, PresetLight& light, Warnings& warnings) {
-  constexpr double kSeen = 0.005;  // Cycles' renders are held to half a per cent
   if (light.form != LightForm::kSphere) return;
   const double diameter_m = 2.0 * light.radius_m;
   const auto low = [&](double diameters) {
     const double lack = LackOfOldBlenderSphere(light.radius_m, diameters * diameter_m);
     return RoundedText(100.0 * lack, 2) + " %";
   };
-  light.substitution =
-      "before Blender 4.0 a sphere is a disc that faces each point it lights: " + low(1.0) +
-      " low at one diameter from its centre, " + low(2.0) + " at two, " + low(5.0) + " at five (" +
-      RoundedText(5.0 * diameter_m, 3) + " m); from 4.0 on right everywhere";
+  light.substitution = std::string(kOldBlenderSphere) + ": " + low(1.0) +
+                       " low at one diameter from its centre, " + low(2.0) + " at two, " +
+                       low(5.0) + " at five (" + RoundedText(5.0 * diameter_m, 3) +
+                       " m); from 4.0 on right everywhere";
   const bool seen = std::ranges::any_of(lamp.residuals, [&](const ResidualRow& row) {
     const double d = row.distance_m.value_or(0.0) + SurfaceRadius_m(lamp);
-    return row.distance_m && LackOfOldBlenderSphere(light.radius_m, d) > kSeen;
+    return row.distance_m && LackOfOldBlenderSphere(light.radius_m, d) > kLeastLackTold;
   });
   if (seen) warnings.push_back({"near_field", light.name(), light.substitution});
 }

@@ -80,11 +80,8 @@ bool IsResponseWord(std::string_view word) {
   return std::ranges::find(kResponseWords, word) != kResponseWords.end();
 }
 
-Result<ResponseCurves> ResponseNamed(std::string_view word) {
+ResponseCurves ResponseNamed(std::string_view word) {
   ResponseCurves curves;
-  if (!IsResponseWord(word)) {
-    return Refused("bad_response", std::string(word), "is no curve's name: srgb or linear");
-  }
   const bool linear = word == kResponseWords[1];
   curves.signal_of_code.fill(CurveOf(kHighestCode, [&](double code) {
     return linear ? code / kHighestCode : SrgbDecoded(code / kHighestCode);

@@ -23,11 +23,13 @@ inline constexpr std::array<std::string_view, 2> kResponseWords = {"srgb", "line
 
 [[nodiscard]] bool IsResponseWord(std::string_view word);
 
-// A word above, or lines of code,red,green,blue (or code,signal for all channels) under a heading,
-// the signals in any unit: codes rise from 0 or 1 to the picture's highest, in any steps, between
-// which the signal is a straight line; signals rise or stay. Lines that begin with # are none.
+// `word`: one of those above.
+[[nodiscard]] ResponseCurves ResponseNamed(std::string_view word);
+
+// Lines of code,red,green,blue (or code,signal for all channels) under a heading, the signals in
+// any unit: codes rise from 0 or 1 to the picture's highest, in any steps, between which the signal
+// is a straight line; signals rise or stay. Lines that begin with # are none.
 // Refused: bad_response, with the line.
-[[nodiscard]] Result<ResponseCurves> ResponseNamed(std::string_view word);
 [[nodiscard]] Result<ResponseCurves> ResponseFromText(std::string_view text,
                                                       const std::string& where);
 [[nodiscard]] std::string ResponseToText(const ResponseCurves& curves);

@@ -6,11 +6,15 @@ A job: {"script", "probes": [{point, normal}], "rig_png"?, "rig_exr"?, "exr_bits
 import json
 import math
 import os
+import pathlib
 import runpy
 import sys
 
 import bpy
 from mathutils import Matrix, Vector
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from white_face import white_face  # noqa: E402
 
 jobs_path, out_path = sys.argv[sys.argv.index('--') + 1:]
 jobs = json.load(open(jobs_path))
@@ -23,19 +27,7 @@ def look(scene, point, normal, size, samples=256):
     for i, column in enumerate((side, normal.cross(side), normal)):
         for row in range(3):
             matrix[row][i] = column[row]
-    mesh = bpy.data.meshes.new('probe')
-    h = size / 2
-    mesh.from_pydata([(-h, -h, 0), (h, -h, 0), (h, h, 0), (-h, h, 0)], [], [(0, 1, 2, 3)])
-    material = bpy.data.materials.new('probe')
-    material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    diffuse = tree.nodes.new('ShaderNodeBsdfDiffuse')
-    diffuse.inputs['Color'].default_value = (1, 1, 1, 1)
-    output = tree.nodes.new('ShaderNodeOutputMaterial')
-    tree.links.new(diffuse.outputs[0], output.inputs[0])
-    mesh.materials.append(material)
-    card = bpy.data.objects.new('probe', mesh)
+    card = white_face('probe', size / 2)
     card.matrix_world = matrix.copy()
     card.matrix_world.translation = Vector(point)
     camera = bpy.data.cameras.new('probe')

@@ -4,12 +4,16 @@ Turns the exported lamp's own properties and renders a white card under it at ea
 import json
 import math
 import os
+import pathlib
 import runpy
 import sys
 import tempfile
 
 import bpy
 from mathutils import Matrix, Vector
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from white_face import white_face  # noqa: E402
 
 script, states, answers = sys.argv[sys.argv.index('--') + 1:]
 scene = bpy.context.scene
@@ -32,17 +36,7 @@ runpy.run_path(script, run_name='__main__')
 lamp = thing.data
 thing.matrix_world = Matrix.Translation((0, 0, 2))  # two metres above the card, shining down
 
-mesh = bpy.data.meshes.new('card')
-mesh.from_pydata([(-.1, -.1, 0), (.1, -.1, 0), (.1, .1, 0), (-.1, .1, 0)], [], [(0, 1, 2, 3)])
-material = bpy.data.materials.new('white')
-material.use_nodes = True
-tree = material.node_tree
-tree.nodes.clear()
-diffuse = tree.nodes.new('ShaderNodeBsdfDiffuse')
-diffuse.inputs['Color'].default_value = (1, 1, 1, 1)
-tree.links.new(diffuse.outputs[0], tree.nodes.new('ShaderNodeOutputMaterial').inputs['Surface'])
-mesh.materials.append(material)
-scene.collection.objects.link(bpy.data.objects.new('card', mesh))
+scene.collection.objects.link(white_face('card', 0.1))
 camera = bpy.data.objects.new('eye', bpy.data.cameras.new('eye'))
 camera.data.angle = math.radians(1)
 back = Vector((0, -1.0, 1.0))

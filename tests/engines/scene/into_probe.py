@@ -6,10 +6,14 @@ floor then shows along x, in lux."""
 import json
 import math
 import os
+import pathlib
 import runpy
 import sys
 
 import bpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from white_face import white_face  # noqa: E402
 
 jobs_path, out_path = sys.argv[sys.argv.index('--') + 1:]
 asked = json.load(open(jobs_path))
@@ -35,21 +39,6 @@ def a_persons_light(kind):
     return thing
 
 
-def white_floor(scene):
-    mesh = bpy.data.meshes.new('floor')
-    mesh.from_pydata([(-SIDE, -SIDE, 0), (SIDE, -SIDE, 0), (SIDE, SIDE, 0), (-SIDE, SIDE, 0)], [], [(0, 1, 2, 3)])
-    material = bpy.data.materials.new('floor')
-    material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
-    diffuse = tree.nodes.new('ShaderNodeBsdfDiffuse')
-    diffuse.inputs['Color'].default_value = (1, 1, 1, 1)
-    output = tree.nodes.new('ShaderNodeOutputMaterial')
-    tree.links.new(diffuse.outputs[0], output.inputs[0])
-    mesh.materials.append(material)
-    scene.collection.objects.link(bpy.data.objects.new('floor', mesh))
-
-
 def look_down(scene):
     """A row of pixels from the lamp's foot along x."""
     camera = bpy.data.cameras.new('eye')
@@ -71,7 +60,7 @@ scene = bpy.context.scene
 for thing in list(bpy.data.objects):
     bpy.data.objects.remove(thing)
 scene.world = None
-white_floor(scene)
+scene.collection.objects.link(white_face('floor', SIDE))
 look_down(scene)
 rows = []
 for number, job in enumerate(asked['jobs']):

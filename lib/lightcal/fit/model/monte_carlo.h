@@ -35,13 +35,12 @@ struct SamplingRule {
 [[nodiscard]] SamplingRule JustSamples(int samples);
 
 // Draws what was measured from its distribution (each reading's own error, of readings that the
-// model takes alike that of their mean, each instrument's
-// calibration, the considered influences and the priors, normal in the rows' own forms), finds the
-// optimum of each draw by Newton's steps from the linear prediction, in blocks until twice
-// the standard deviation of the mean over blocks of mean, sd, low and high stays below half the
-// last digit asked for, for every free parameter (adaptive procedure of JCGM 101:2008, 7.9). Seeded
-// by the rows themselves. Refused: underdetermined. Fails: no_convergence (more than one draw in a
-// hundred has no optimum).
+// model takes alike that of their mean, each instrument's calibration, the considered influences
+// and the priors, normal in the rows' own forms), finds the optimum of each draw by Newton's steps
+// from the linear prediction, in blocks until twice the standard deviation of the mean over blocks
+// of mean, sd, low and high stays below half the last digit asked for, for every free parameter
+// (adaptive procedure of JCGM 101:2008, 7.9). Seeded by the rows themselves. Refused:
+// underdetermined. Fails: no_convergence (more than one draw in a hundred has no optimum).
 [[nodiscard]] Result<SampledEstimate> SampleEstimate(const UncertaintyInput& input,
                                                      const SamplingRule& rule = {});
 

@@ -79,7 +79,7 @@ Result<BracketMotion> LookThrough(const ResponseCurves& curves, const MovedCodes
 // Codes as they would be had the camera stood still, for their curve alone.
 Result<Frame> CodesInPlace(const Homography& h, const Region& region, const Frame& frame) {
   FrameInfo plain = frame.info;
-  const float top = plain.levels ? plain.levels->white[0] : 255.0F;
+  const auto top = static_cast<float>(HighestCode(plain));
   plain.meaning = SampleMeaning::kSensor;
   Frame codes{plain, frame.samples, frame.owner, false};
   auto signals = SignalOf(codes);

@@ -85,10 +85,9 @@ using FrameLoader = std::function<Result<MaskedPicture>(const FrameInfo& info, S
 
 // Refused: no_frames (an empty bracket), no_exposure_metadata (a frame without exposure time; ISO
 // or f-number unknown and no anchor), bad_anchor (outside the picture, clipped or black there),
-// no_colour (a space asked of a picture without), no_codes (a response stated of
-// other frames than codes), and as CheckKnownCamera, CorrectionsOf, `load`,
-// RecoverResponse, PlanMerge, MeasureAlignment, MergePicture. An anchor's place is in the pixels of
-// the shortest frame.
+// no_colour (a space asked of a picture without), no_codes (a response stated of other frames than
+// codes), and as CheckKnownCamera, CorrectionsOf, `load`, RecoverResponse, PlanMerge,
+// MeasureAlignment, MergePicture. An anchor's place is in the pixels of the shortest frame.
 [[nodiscard]] Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& load,
                                                 const BracketMergeRequest& request);
 

@@ -120,15 +120,13 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
   return {};
 }
 
-constexpr double kHighestCodeOf8Bits = 255.0;
-
 // The one that is stated, or what the frames tell.
 Result<ResponseCurves> ResponseOf(const BracketMergeRequest& request, std::span<const Frame> frames,
                                   std::span<const double> labels) {
   if (!request.response) return RecoverResponse(frames, labels);
   const FrameInfo& info = frames.front().info;
-  const double top = info.levels ? double{info.levels->white[0]} : kHighestCodeOf8Bits;
-  return ResponseOfCodes(*request.response, static_cast<int>(top), std::min(info.channels, 3));
+  return ResponseOfCodes(*request.response, static_cast<int>(HighestCode(info)),
+                         std::min(info.channels, 3));
 }
 
 }  // namespace

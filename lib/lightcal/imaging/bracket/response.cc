@@ -277,12 +277,15 @@ tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why
 
 }  // namespace
 
+double HighestCode(const FrameInfo& info) {
+  return info.levels ? double{info.levels->white[0]} : 255.0;
+}
+
 Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
                                        std::span<const double> exposure) {
   if (!frames.empty()) {
-    const auto& levels = frames[0].info.levels;
-    const double top = levels ? double{levels->white[0]} : 255.0;
-    if (auto seen = CheckCodes(frames, top); !seen) return Propagate(std::move(seen));
+    auto seen = CheckCodes(frames, HighestCode(frames[0].info));
+    if (!seen) return Propagate(std::move(seen));
   }
   if (frames.size() < 2) {
     return NoResponse(frames.empty() ? "merge" : frames[0].info.file,
@@ -293,7 +296,7 @@ Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return exposure[i] < exposure[j]; });
   const FrameInfo& info = frames[0].info;
-  const CodeSteps steps(info.levels ? double{info.levels->white[0]} : 255.0);
+  const CodeSteps steps(HighestCode(info));
   const std::vector<int> nearest = steps.Nearest();
   if (auto ordered = CheckOrder(frames, exposure, order, steps.top()); !ordered) {
     return Propagate(std::move(ordered));

@@ -10,6 +10,9 @@
 
 namespace lightcal {
 
+// Of codes: the top one; 255 where nothing says it.
+[[nodiscard]] double HighestCode(const FrameInfo& info);
+
 // For each channel the curve g = ln(signal) over codes that makes neighbours in exposure agree:
 //   min sum n(a, b) w (g(b) - g(a) - ln(e_b/e_a))^2 + s sum_z ((dg/dln z)' / z)^2
 // over all pairs of codes (a, b) that one pixel shows in two frames, n times; w from what one step

@@ -140,7 +140,6 @@ std::vector<std::string> LampsMissing(const Session& session, const LightFile& l
 }
 
 Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps) {
-  constexpr double kNothing = 0.005;  // Cycles is held to that by its renders
   Warnings warnings;
   for (const FittedLight& lamp : lamps.lights) {
     const LightDescription* description = FindLight(session, lamp.name);
@@ -154,11 +153,11 @@ Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps) {
                                                   : 1e300);
     }
     const double lack = LackOfOldBlenderSphere(*lamp.diameter_m / 2.0, nearest_m);
-    if (!(lack > kNothing)) continue;
+    if (!(lack > kLeastLackTold)) continue;
     warnings.push_back({"near_field", lamp.name,
-                        "before Blender 4.0 a sphere is a disc that faces each point it lights: " +
-                            RoundedText(100.0 * lack, 2) + " % lower than this at " +
-                            RoundedText(nearest_m, 3) + " m from its centre, the nearest reading"});
+                        std::string(kOldBlenderSphere) + ": " + RoundedText(100.0 * lack, 2) +
+                            " % lower than this at " + RoundedText(nearest_m, 3) +
+                            " m from its centre, the nearest reading"});
   }
   return warnings;
 }
