@@ -55,6 +55,28 @@ TEST(StateCommand, ADriftSeenAtFullIsTakenOutOfEveryState) {
   }
 }
 
+TEST(StateCommand, ADriftBetweenFullBeforeAndFullAfterIsTakenOut) {
+  const TempDir folder;
+  std::string text = DarkSession();
+  int minute = 0;
+  const std::vector<std::pair<int, double>> sweep = {{100, 1.0}, {20, .055}, {75, .596}, {10, .016},
+                                                     {50, .287}, {35, .151}, {100, 1.0}};
+  for (const auto& [dimmer, part] : sweep) {
+    text += StateRow(1.0, 5000.0 * part * (1.0 - 0.1 * minute / 6.0),
+                     "dimmer = " + std::to_string(dimmer), AtMinute(minute));
+    ++minute;
+  }
+  folder.Write("lamp/session.toml", text);
+  const json all = LightcalJson("state", {folder.path() + "/lamp"});
+  const std::map<int, double> truth(sweep.begin(), sweep.end());
+  for (const json& state : all["lights"][0]["states"]) {
+    const double part = truth.at(static_cast<int>(double(state["state"]["dimmer"])));
+    const double found = state["relative_to_full"]["value"];
+    // Over the mean of full this would be up to 5 % off.
+    EXPECT_NEAR(found / part, 1.0, 0.01) << state["state"].dump();
+  }
+}
+
 TEST(StateCommand, FullReadingsThatScatterWithoutTimesWidenEveryState) {
   const auto half_width = [](double second_full) {
     const TempDir folder;

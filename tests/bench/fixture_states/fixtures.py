@@ -12,6 +12,10 @@ lightcal: CIE 1931 matching functions (CIE table), Planck's law, and how such la
   scurve     what desks and fixtures call an S-curve, of no common equation: a smooth step, a raised
              cosine, a logistic or a part of one beside a straight line; read at two levels and full,
              or more
+  log        equal steps, equal ratios: two to three decades (DALI's, IEC 62386-102), to zero or not
+  gamma      a power of the label, 1.4 to 3
+  knee       two pieces, the lower one half as steep: a bend as no driver of `kinks` has
+  two        any law of these, read at full and one level
 """
 import csv
 import pathlib
@@ -26,7 +30,7 @@ NM, CMF = ROWS[:, 0], ROWS[:, 1:4]
 C2 = 1.4388e7  # nm K
 
 KINDS = ["tungsten", "pwm", "current", "kinks", "bicolour", "rgbw"]
-APART = ["scurve"]  # judged when asked for, so that the others keep their seeds
+APART = ["scurve", "log", "gamma", "knee", "two"]  # judged when asked for, so that the others keep their seeds
 
 
 def planck(kelvin):
@@ -95,6 +99,19 @@ def dimmed(random, kind):
                 lambda d: (1 / (1 + np.exp(-steep * (d - 0.5))) - low) / (high - low),
                 lambda d: line * d + (1 - line) * d * d * (3 - 2 * d)][random.integers(4)]
         return lambda d: step(max(d - start, 0) / (1 - start)), random.normal(0, 0.002)
+    if kind == "two":
+        return dimmed(random, ["pwm", "gamma", "log", "kinks", "scurve", "knee"][random.integers(6)])
+    if kind == "log":
+        decades, to_zero = random.uniform(2, 3.2), random.random() < 0.3
+        k = decades * np.log(10)
+        law = (lambda d: np.expm1(k * d) / np.expm1(k)) if to_zero else lambda d: np.exp(k * (d - 1))
+        return law, random.normal(0, 0.002)
+    if kind == "gamma":
+        power = random.uniform(1.4, 3)
+        return lambda d: d**power, random.normal(0, 0.002)
+    if kind == "knee":
+        at, slope = random.uniform(0.1, 0.4), random.uniform(0.4, 0.8)
+        return lambda d: np.interp(d, [0, at, 1], [0, at * slope, 1]), random.normal(0, 0.002)
     curve, floor = pieces(random, random.integers(1, 4), 0.15), random.uniform(0, 0.06)
     return lambda d: floor + (1 - floor) * curve(d), random.normal(0, 0.002)
 
@@ -162,7 +179,8 @@ class Fixture:
         self.xyz = xyz
         levels = [85, 75, 65, 55, 45, 38, 32, 27] if kind == "tungsten" else [
             75, 50, 35, 25, 18, 12, 8, 5]
-        count = int(random.integers(2 if kind == "scurve" else 4, len(levels) + 1))
+        fewest = {"scurve": 2, "log": 2, "gamma": 2, "knee": 2}.get(kind, 4)
+        count = 1 if kind == "two" else int(random.integers(fewest, len(levels) + 1))
         self.levels = sorted([100] + list(random.choice(levels, count, replace=False)))
         self.labels = [None]
         self.read_at = [(level, None) for level in self.levels]

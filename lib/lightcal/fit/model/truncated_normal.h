@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is left of a normal variable that cannot be negative.
+// What is left of a normal variable that cannot be negative, or lies between two bounds.
 #pragma once
 
 #include <cmath>
@@ -23,6 +23,23 @@ struct TruncatedNormal {
   const double tail = 0.5 * std::erfc(alpha / std::numbers::sqrt2);
   const double lambda = density / tail;
   return {mean + sd * lambda, sd * sd * (1.0 + alpha * lambda - lambda * lambda)};
+}
+
+// Moments of a normal (mean, sd) truncated to low <= x <= high. One that has next to nothing there
+// (1e-9) is anywhere between them.
+[[nodiscard]] inline TruncatedNormal TruncateBetween(double mean, double sd, double low,
+                                                     double high) {
+  const double a = (low - mean) / sd;
+  const double b = (high - mean) / sd;
+  const double inside =
+      0.5 * (std::erfc(-b / std::numbers::sqrt2) - std::erfc(-a / std::numbers::sqrt2));
+  if (!(inside > 1e-9)) return {0.5 * (low + high), (high - low) * (high - low) / 12.0};
+  const auto density = [](double z) {
+    return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
+  };
+  const double shift = (density(a) - density(b)) / inside;
+  const double narrower = (a * density(a) - b * density(b)) / inside;
+  return {mean + sd * shift, sd * sd * (1.0 + narrower - shift * shift)};
 }
 
 }  // namespace lightcal::fit

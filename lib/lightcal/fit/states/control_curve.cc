@@ -18,7 +18,9 @@ using Labels = std::vector<double>;
 
 // Of exp(mean of ln evidence): a hypothesis that makes the readings less probable is left out.
 constexpr double kLeastEvidence = 7.0;
-constexpr std::size_t kFormsKept = 8;
+// Forms are kept until no more than this part of the evidence is left out: few states leave many.
+constexpr double kShareLeftOut = 0.005;
+constexpr std::size_t kFewestForms = 8, kMostForms = 40;
 
 }  // namespace
 
@@ -138,10 +140,10 @@ struct ControlCurve::Hypotheses {
     return one;
   }
 
-  // The forms that the readings make likeliest under rests of middle size.
+  // The forms that the readings make likeliest under rests of middle size, likeliest first.
   [[nodiscard]] std::vector<LevelForm> LikelyForms() const {
-    std::vector<LevelForm> forms = prior.Forms();
-    if (forms.size() <= kFormsKept) return forms;
+    const std::vector<LevelForm> forms = prior.Forms();
+    if (forms.size() <= kFewestForms) return forms;
     const Rests middling{0.02, 0.8, false, 0.05, 0.01, 1.0};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < forms.size(); ++i) {
@@ -150,9 +152,15 @@ struct ControlCurve::Hypotheses {
       if (one) order.emplace_back(-one->evidence, i);
     }
     std::ranges::sort(order);
+    double whole = 0.0;
+    for (const auto& [cost, form] : order) whole += std::exp(order.front().first - cost);
     std::vector<LevelForm> kept;
-    for (std::size_t i = 0; i < std::min(kFormsKept, order.size()); ++i) {
-      kept.push_back(forms[order[i].second]);
+    double left = whole;
+    for (const auto& [cost, form] : order) {
+      const bool enough = kept.size() >= kFewestForms && left < kShareLeftOut * whole;
+      if (enough || kept.size() == kMostForms) break;
+      kept.push_back(forms[form]);
+      left -= std::exp(order.front().first - cost);
     }
     return kept;
   }

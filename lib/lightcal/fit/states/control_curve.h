@@ -13,6 +13,7 @@ namespace lightcal::fit {
 enum class ControlKind : std::uint8_t {
   kLevel,        // 0 ... 1 of its largest: light grows with it
   kTemperature,  // kelvin, above 0
+  kZoom,         // degrees of a beam, above 0: what it gathers goes with a power of it
   kOther,        // any number
 };
 
@@ -38,15 +39,18 @@ struct CurveValue {
 
 // Light against a level x follows  ln E = c + p ln(x + x0) + rest(x):
 //   p = 1 with any x0 is a driver that dims linearly and does not end at zero;
-//   p free is tungsten on a dimmer, or a dimmer with a gamma.
+//   p free is tungsten on a dimmer, or a dimmer with a gamma;
+// or ln E = c + p x: a dimmer of equal ratios (DALI). Against a zoom's angle ln E falls as a power
+// between 0 (a frame before the beam) and 2 (all light in the beam).
 // Colour follows ln x by a slope, and the label of its own control one to one, as priors. `rest` is
 // a Gaussian process, one a control and one of all together: of light a slope that walks along the
 // label (a driver of straight pieces, whose bends are as large at 5 % as at 50 %), or, as of all
 // else, Matern 3/2 (a continuous slope, so kinks cost little). x0, the sizes and the lengths of the
 // rests are not chosen but averaged over, each by how probable it makes the readings (marginal
 // likelihood): where states are few or a curve bends, the answers differ and the interval is wide;
-// far from states it grows to the rest's size. Source: Rasmussen and Williams, Gaussian Processes
-// for Machine Learning (2006), 2.2, 2.7, 5.4.
+// far from states it grows to the rest's size. A rest may be as large as a third of the light, so
+// that a law that is none of these still passes through what was read. Source: Rasmussen and
+// Williams, Gaussian Processes for Machine Learning (2006), 2.2, 2.7, 5.4.
 class ControlCurve {
  public:
   // At least one point; every point of as many labels as there are kinds.

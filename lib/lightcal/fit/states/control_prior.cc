@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace lightcal::fit {
@@ -23,6 +24,18 @@ constexpr std::array<TargetScale, 3> kScales = {
 constexpr double kPowerOfS = 0.15;
 constexpr double kWeightOfS = 0.3;
 constexpr double kOtherLength = 0.45;  // of a control's range
+// A dimmer's logarithmic label runs as far as the logarithm of one from .05, so that the rests'
+// lengths count alike. Two to three decades are a power of 1.5 to 2.3.
+constexpr double kSpanOfLogarithmic = 3.0;
+constexpr double kPowerOfLogarithmic = 1.8, kPowerSdOfLogarithmic = 0.5;
+constexpr double kWeightOfLogarithmic = 0.35;  // beside all straight lines
+constexpr double kPowerOfZoom = -1.0, kPowerSdOfZoom = 1.0;
+// How far from label 0 a dimmer's light begins, or what is left of it there: a Cauchy density of
+// this scale, for half of them within 6 %, a tenth beyond 38 %.
+constexpr double kZeroScale = 0.06;
+double ZeroDensity(double zero) {
+  return kZeroScale / (std::numbers::pi * (kZeroScale * kZeroScale + zero * zero));
+}
 
 const TargetScale& ScaleOf(CurveTarget target) { return kScales[static_cast<std::size_t>(target)]; }
 
@@ -45,7 +58,7 @@ double Kinks(double a, double b, double output_a, double output_b) {
 double RestOfLevel(const LevelForm& form, const Rests& rests, const Seen& a, const Seen& b,
                    std::size_t i) {
   if (!rests.by_label) return Matern(a.along[i] - b.along[i], rests.level_length);
-  if (static_cast<int>(i) != form.control) {
+  if (static_cast<int>(i) != form.control || form.logarithmic) {
     return Matern(a.labels[i] - b.labels[i], rests.level_length);
   }
   return Kinks(a.labels[i], b.labels[i], std::exp(a.ln_level), std::exp(b.ln_level));
@@ -58,6 +71,7 @@ struct OfLevel {
 };
 OfLevel FormedLevel(double label, const LevelForm& form) {
   constexpr double kLeast = 1e-6;
+  if (form.logarithmic) return {kSpanOfLogarithmic * label, 0.0};
   if (form.bend == 1.0) {
     const double above = std::max(kLeast, label + form.zero);
     return {std::log(above), 1.0 / above};
@@ -99,6 +113,8 @@ double ControlPrior::Plain(std::size_t control, double label) const {
       return std::log(label + kLevelFloor);
     case ControlKind::kTemperature:
       return std::log(1e6 / label);
+    case ControlKind::kZoom:
+      return std::log(label);
     case ControlKind::kOther:
       break;
   }
@@ -121,6 +137,8 @@ Seen ControlPrior::See(const std::vector<double>& labels, const LevelForm& form)
     } else {
       if (kinds_[i] == ControlKind::kTemperature && target_ == CurveTarget::kLnMired) {
         out.mean += along;
+      } else if (kinds_[i] == ControlKind::kZoom && target_ == CurveTarget::kLnLight) {
+        out.mean += kPowerOfZoom * along;
       }
       along = (along - middle_[i]) / span_[i];
     }
@@ -168,7 +186,9 @@ double ControlPrior::Covariance(const LevelForm& form, const Rests& rests, const
     const double v = b.along[i];
     const bool is_level = kinds_[i] == ControlKind::kLevel;
     if (!is_level) {
-      sum += by.other_slope * by.other_slope * u * v;
+      const bool zoomed = kinds_[i] == ControlKind::kZoom && target_ == CurveTarget::kLnLight;
+      const double slope = zoomed ? kPowerSdOfZoom * span_[i] : by.other_slope;
+      sum += slope * slope * u * v;
     } else if (static_cast<int>(i) == form.control) {
       sum += form.power_sd * form.power_sd * a.ln_level * b.ln_level +
              form.step * form.step * a.by_zero * b.by_zero;
@@ -192,28 +212,33 @@ bool ControlPrior::HasOthers() const {
 
 std::vector<LevelForm> ControlPrior::Forms() const {
   if (target_ != CurveTarget::kLnLight || !HasLevels()) return {LevelForm{}};
-  constexpr double kLnStep = 0.2;
+  const int control = static_cast<int>(formed_);
   const double smallest = std::max(least_, 0.01);
-  const double end = std::log(12.0 * smallest + 0.3);
   std::vector<LevelForm> forms;
+  double straight = 0.0;
+  constexpr double kLnStep = 0.2;
+  const double end = std::log(12.0 * smallest + 0.3);
   for (double ln = std::log(std::max(0.04 * smallest, 2e-3)); ln < end; ln += kLnStep) {
     const double above = std::exp(ln);
-    LevelForm form{
-        static_cast<int>(formed_), 1.0, above - least_, 0.5 * kLnStep * above, 1.0, 0.02, 1.0};
-    forms.push_back(form);
-    form.power = 2.0;
-    form.power_sd = 1.2;
-    form.weight = 0.5;
-    forms.push_back(form);
+    const double zero = above - least_;
+    const double weight = ZeroDensity(zero) * above * kLnStep;
+    straight += weight;
+    const double step = 0.5 * kLnStep * above;
+    forms.push_back({control, false, 1.0, zero, step, 1.0, 0.02, weight});
+    forms.push_back({control, false, 1.0, zero, step, 2.0, 1.2, 0.5 * weight});
   }
   constexpr double kLnStepOfS = 0.4;
   for (double ln = std::log(0.1 * smallest); ln < std::log(2.0 * smallest); ln += kLnStepOfS) {
     const double above = std::exp(ln);
+    const double zero = above - least_;
+    const double weight = kWeightOfS * ZeroDensity(zero) * above * kLnStepOfS;
     for (const double bend : {1.25, 1.5, 1.75, 2.1}) {
-      forms.push_back({static_cast<int>(formed_), bend, above - least_, 0.5 * kLnStepOfS * above,
-                       1.0, kPowerOfS, kWeightOfS});
+      forms.push_back(
+          {control, false, bend, zero, 0.5 * kLnStepOfS * above, 1.0, kPowerOfS, weight});
     }
   }
+  forms.push_back({control, true, 1.0, 0.0, 0.0, kPowerOfLogarithmic, kPowerSdOfLogarithmic,
+                   kWeightOfLogarithmic * straight});
   return forms;
 }
 
@@ -226,9 +251,10 @@ std::vector<Rests> ControlPrior::AllRests() const {
   };
   const std::vector<Sized> none = {{0.0, 1.0}};
   const std::vector<Sized> level_sizes =
-      level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 3.0}} : none;
+      level ? std::vector<Sized>{{0.003, 0.7}, {0.012, 1.5}, {0.03, 3.0}, {0.1, 0.6}, {0.3, 0.15}}
+            : none;
   const std::vector<Sized> other_sizes =
-      HasOthers() ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}} : none;
+      HasOthers() ? std::vector<Sized>{{0.008, 1.0}, {0.04, 2.0}, {0.16, 2.0}, {0.4, 0.7}} : none;
   const std::vector<Sized> joint_sizes =
       HasMany() ? std::vector<Sized>{{0.002, 1.5}, {0.015, 1.0}} : none;
   // Drivers bend at labels; what lamps do goes with the logarithm.

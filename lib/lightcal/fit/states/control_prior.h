@@ -17,8 +17,11 @@ inline constexpr double kLevelFloor = 0.03;
 // ln E = power ln S(y), y = (x + zero) / (1 + zero) of one level x; the zero within step, the power
 // within power_sd. S(y) = y^bend / (y^bend + (1 - y)^bend): y itself, or an S-curve about its
 // middle (a smooth step y^2 (3 - 2y) and a raised cosine have a bend of 1.5 to 1.7 everywhere).
+// Or, logarithmic, ln E = power kSpanOfLogarithmic x: equal steps are equal ratios (IEC 62386-102,
+// 9.3: 10^(3 (x - 1))), as of other such dimmers of 2 to 3 decades.
 struct LevelForm {
   int control = -1;
+  bool logarithmic = false;
   double bend = 1.0;
   double zero = kLevelFloor;
   double step = 0.0;

@@ -10,8 +10,18 @@
 namespace lightcal::fit {
 namespace {
 
-// Of the whole time read over, 1 sigma of ln.
-constexpr std::array<double, 8> kWalks = {0.0, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
+// Of the whole time read over, 1 sigma of ln, and how often lamps walk so far.
+struct Walk {
+  double sd, weight;
+};
+constexpr std::array<Walk, 8> kWalks = {{{0.0, 1.0},
+                                         {0.002, 1.0},
+                                         {0.005, 1.0},
+                                         {0.01, 1.0},
+                                         {0.02, 1.0},
+                                         {0.05, 0.4},
+                                         {0.1, 0.15},
+                                         {0.2, 0.05}}};
 constexpr double kAnyLevel = 25.0;
 
 LogAt MeanLog(const std::vector<DatedLog>& readings) {
@@ -38,7 +48,7 @@ LogAt DriftedLog(const std::vector<DatedLog>& readings, std::optional<double> se
   const bool dated = seconds && std::ranges::all_of(readings, [](const DatedLog& one) {
                        return one.seconds.has_value();
                      });
-  if (!dated || readings.size() < 3) return MeanLog(readings);
+  if (!dated || readings.size() < 2) return MeanLog(readings);
   double first = *seconds;
   double from = std::numeric_limits<double>::infinity();
   double to = -from;
@@ -56,7 +66,7 @@ LogAt DriftedLog(const std::vector<DatedLog>& readings, std::optional<double> se
   };
   std::vector<Walked> all;
   double best = -std::numeric_limits<double>::infinity();
-  for (const double walk : kWalks) {
+  for (const auto& [walk, weight] : kWalks) {
     const auto covariance = [&](double a, double b) {
       return kAnyLevel + walk * walk * (std::min(a, b) - first) / (to - from);
     };
@@ -74,7 +84,7 @@ LogAt DriftedLog(const std::vector<DatedLog>& readings, std::optional<double> se
     const Eigen::LLT<Eigen::MatrixXd> solver(matrix);
     if (solver.info() != Eigen::Success) continue;
     const Eigen::VectorXd weights = solver.solve(off);
-    double evidence = -0.5 * off.dot(weights);
+    double evidence = std::log(weight) - 0.5 * off.dot(weights);
     for (Eigen::Index i = 0; i < n; ++i) evidence -= std::log(solver.matrixLLT()(i, i));
     const double variance = covariance(*seconds, *seconds) - row.dot(solver.solve(row));
     all.push_back({evidence, level + row.dot(weights), std::max(0.0, variance)});

@@ -18,7 +18,7 @@ struct LogAt {
   double ln = 0.0, variance = 0.0;
 };
 
-// ln of that state at a moment, from at least one reading of it. Where all are dated and three or
+// ln of that state at a moment, from at least one reading of it. Where all are dated and two or
 // more, the lamp walks at random between them (Brownian motion: of all continuous drifts the one
 // that assumes least), how fast being averaged over by how probable it makes the readings, 0
 // included; beyond them it goes on walking. Elsewhere their mean, whose variance grows by their

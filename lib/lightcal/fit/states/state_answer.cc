@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "lightcal/colorimetry/cct.h"
-#include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/model/truncated_normal.h"
 #include "lightcal/fit/states/control_curve.h"
 #include "lightcal/fit/states/known_curves.h"
 #include "lightcal/fit/states/ln_of.h"
 #include "lightcal/fit/states/mixing_line.h"
 #include "lightcal/fit/states/state_spectrum.h"
+#include "lightcal/fit/states/states_near.h"
 
 namespace lightcal {
 namespace {
@@ -27,194 +27,12 @@ using fit::CurveValue;
 using fit::KnownCurves;
 using fit::Scaled;
 using fit::SdOfLn;
+using fit::States;
 
-// More states than these, nearest to it and to full, say nothing new of a place between them.
-constexpr std::size_t kNearestStates = 20, kNearestToFull = 10;
 // A meter repeats a colour within this, 1 sigma; what its readings share is added afterwards.
 constexpr double kRepeatsLnMired = 0.001;
 constexpr double kRepeatsDuv = 2e-4;
 constexpr double kLeastRepeatability = 1e-4;
-
-bool SameNumbers(double a, double b) {
-  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
-}
-
-// A control that took several numbers in the states that count.
-struct Axis {
-  std::string name;
-  ControlKind kind = ControlKind::kOther;
-  double least = 0.0, most = 0.0;
-};
-
-ControlKind KindOf(const std::string& name) {
-  if (name == kCctControl) return ControlKind::kTemperature;
-  const bool other = name == "tint" || name == kZoomControl || name == "hue" ||
-                     name == "saturation" || name.ends_with("_deg");
-  return other ? ControlKind::kOther : ControlKind::kLevel;
-}
-
-// The states that can tell of one asked for: its words, its controls.
-class States {
- public:
-  States(const FittedLight& light, const FixtureState& at, std::size_t without)
-      : light_(light), at_(at) {
-    for (std::size_t i = 0; i < light.states.size(); ++i) {
-      if (i != without && SameWords(at_, light.states[i].state)) kept_.push_back(&light.states[i]);
-    }
-    FindAxes();
-  }
-
-  [[nodiscard]] const std::vector<const MeasuredState*>& kept() const { return kept_; }
-  [[nodiscard]] const std::vector<Axis>& axes() const { return axes_; }
-
-  [[nodiscard]] const MeasuredState* Exact(const FixtureState& state) const {
-    for (const MeasuredState* one : kept_) {
-      if (SameState(one->state, state)) return one;
-    }
-    return nullptr;
-  }
-
-  [[nodiscard]] Result<void> CheckInside() const {
-    for (const ControlValue& control : at_) {
-      if (control.IsWord()) continue;
-      double least = std::numeric_limits<double>::infinity();
-      double most = -least;
-      for (const MeasuredState* one : kept_) {
-        const double there = NumberOfControl(one->state, control.name).value_or(0.0);
-        least = std::min(least, there);
-        most = std::max(most, there);
-      }
-      const bool inside = (control.number >= least || SameNumbers(control.number, least)) &&
-                          (control.number <= most || SameNumbers(control.number, most));
-      if (inside) continue;
-      return Refused("outside_states", light_.name,
-                     control.name + "=" + ShortestText(control.number) +
-                         " lies outside of what was read (" + ShortestText(least) + " ... " +
-                         ShortestText(most) +
-                         "); how the fixture goes on there is not known: read it there");
-    }
-    return {};
-  }
-
-  // Whether two states that were read differ from it in one control alone, on both sides.
-  [[nodiscard]] bool BetweenTwo() const {
-    return std::ranges::any_of(axes_, [&](const Axis& axis) {
-      bool below = false;
-      bool above = false;
-      const double here = NumberOfControl(at_, axis.name).value_or(0.0);
-      for (const MeasuredState* one : kept_) {
-        if (!OthersAlike(one->state, axis.name)) continue;
-        const double there = NumberOfControl(one->state, axis.name).value_or(0.0);
-        below = below || (there < here && !SameNumbers(there, here));
-        above = above || (there > here && !SameNumbers(there, here));
-      }
-      return below && above;
-    });
-  }
-
-  [[nodiscard]] std::vector<double> LabelsOf(const FixtureState& state) const {
-    std::vector<double> labels;
-    for (const Axis& axis : axes_) {
-      const double number = NumberOfControl(state, axis.name).value_or(0.0);
-      const bool percent = axis.name == kDimmerControl;
-      const double unit = axis.kind != ControlKind::kLevel ? 1.0 : percent ? 100.0 : axis.most;
-      labels.push_back(unit > 0.0 ? number / unit : number);
-    }
-    return labels;
-  }
-
-  [[nodiscard]] std::vector<ControlKind> Kinds() const {
-    std::vector<ControlKind> kinds;
-    for (const Axis& axis : axes_) kinds.push_back(axis.kind);
-    return kinds;
-  }
-
-  // Keeps the nearest to the state asked for and to full, by ranges.
-  void KeepNearest() {
-    if (kept_.size() <= kNearestStates + kNearestToFull) return;
-    SortByDistance(Full(), kept_.begin());
-    SortByDistance(at_, kept_.begin() + static_cast<std::ptrdiff_t>(kNearestToFull));
-    kept_.resize(kNearestStates + kNearestToFull);
-  }
-
-  // From the state asked for, in parts of each control's range; colour temperatures by their
-  // mireds.
-  [[nodiscard]] std::vector<double> OffsetOf(const MeasuredState& one) const {
-    const std::vector<double> here = LabelsOf(at_);
-    std::vector<double> offset = LabelsOf(one.state);
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      const Axis& axis = axes_[i];
-      const bool kelvin = axis.kind == ControlKind::kTemperature && axis.least > 0.0;
-      offset[i] = kelvin ? (1.0 / offset[i] - 1.0 / here[i]) / (1.0 / axis.least - 1.0 / axis.most)
-                         : OffsetAlong(axis, here[i], offset[i]);
-    }
-    return offset;
-  }
-
-  // The brightest this lamp is with the other controls as asked.
-  [[nodiscard]] FixtureState Full() const {
-    FixtureState full = at_;
-    for (ControlValue& control : full) {
-      if (control.name != kDimmerControl) continue;
-      for (const Axis& axis : axes_) {
-        if (axis.name == kDimmerControl) control.number = axis.most;
-      }
-      return full;
-    }
-    const auto brightest = std::ranges::max_element(
-        kept_, {}, [](const MeasuredState* one) { return one->relative.value; });
-    return (*brightest)->state;
-  }
-
- private:
-  [[nodiscard]] bool OthersAlike(const FixtureState& state, const std::string& but) const {
-    return std::ranges::all_of(axes_, [&](const Axis& axis) {
-      return axis.name == but || SameNumbers(NumberOfControl(state, axis.name).value_or(0.0),
-                                             NumberOfControl(at_, axis.name).value_or(0.0));
-    });
-  }
-
-  [[nodiscard]] static double OffsetAlong(const Axis& axis, double here, double there) {
-    return axis.kind == ControlKind::kLevel ? std::log((there + 0.03) / (here + 0.03)) / 3.0
-                                            : (there - here) / (axis.most - axis.least);
-  }
-
-  void SortByDistance(const FixtureState& from, std::vector<const MeasuredState*>::iterator begin) {
-    const std::vector<double> here = LabelsOf(from);
-    const auto far = [&](const MeasuredState* one) {
-      const std::vector<double> there = LabelsOf(one->state);
-      double sum = 0.0;
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        const double off = OffsetAlong(axes_[i], here[i], there[i]);
-        sum += off * off;
-      }
-      return sum;
-    };
-    std::stable_sort(begin, kept_.end(), [&](const MeasuredState* a, const MeasuredState* b) {
-      return far(a) < far(b);
-    });
-  }
-
-  void FindAxes() {
-    for (const ControlValue& control : at_) {
-      if (control.IsWord()) continue;
-      Axis axis{control.name, KindOf(control.name), std::numeric_limits<double>::infinity(),
-                -std::numeric_limits<double>::infinity()};
-      for (const MeasuredState* one : kept_) {
-        const double there = NumberOfControl(one->state, control.name).value_or(0.0);
-        axis.least = std::min(axis.least, there);
-        axis.most = std::max(axis.most, there);
-      }
-      if (axis.kind == ControlKind::kLevel && axis.least < 0.0) axis.kind = ControlKind::kOther;
-      if (axis.most > axis.least && !SameNumbers(axis.most, axis.least)) axes_.push_back(axis);
-    }
-  }
-
-  const FittedLight& light_;
-  const FixtureState& at_;
-  std::vector<const MeasuredState*> kept_;
-  std::vector<Axis> axes_;
-};
 
 const ControlCurve& LightCurve(const States& states, KnownCurves& curves) {
   std::vector<CurvePoint> points;
@@ -223,6 +41,25 @@ const ControlCurve& LightCurve(const States& states, KnownCurves& curves) {
                       std::max(kLeastRepeatability, one->repeatability)});
   }
   return curves.Of(states.Kinds(), CurveTarget::kLnLight, std::move(points));
+}
+
+// Light does not fall as a dimmer rises: what lies between two states that were read is no darker
+// than the lower and no brighter than the upper (each within 2 sigma of its own). ln of the light
+// over that of `unit`, or of the reference.
+CurveValue BetweenNeighbours(const States& states, const MeasuredState* unit, CurveValue value) {
+  const auto [lower, upper] = states.DimmerNeighbours();
+  if (lower == nullptr || upper == nullptr || !(value.sd > 0.0)) return value;
+  const auto bound = [&](const MeasuredState& one, double sigmas) {
+    if (&one == unit) return 0.0;
+    const double over = unit != nullptr ? unit->relative.value : 1.0;
+    const double sd = std::hypot(one.repeatability, unit != nullptr ? unit->repeatability : 0.0);
+    return std::log(one.relative.value / over) + sigmas * sd;
+  };
+  const double low = bound(*lower, -2.0);
+  const double high = bound(*upper, 2.0);
+  if (!(low < high)) return value;  // no dimmer
+  const fit::TruncatedNormal left = fit::TruncateBetween(value.value, value.sd, low, high);
+  return {left.mean, std::sqrt(std::max(0.0, left.variance))};
 }
 
 // 1 sigma of ln of one state's light over another's that no reading of theirs shows: what the fit
@@ -366,7 +203,8 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     return Refused("too_few_states", light.name,
                    "one state alone was read; nothing tells what lies between");
   }
-  const auto levels = std::ranges::count(states.axes(), ControlKind::kLevel, &Axis::kind);
+  const auto levels =
+      std::ranges::count(states.axes(), ControlKind::kLevel, &fit::ControlAxis::kind);
   if (read == nullptr && levels > 1) {
     return Refused(
         "several_levels", light.name,
@@ -377,7 +215,8 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   states.KeepNearest();
   const ControlCurve& curve = LightCurve(states, curves);
   const std::vector<double> labels = states.LabelsOf(at);
-  const CurveValue of_full = curve.Difference(labels, states.LabelsOf(answer.full));
+  CurveValue of_full = curve.Difference(labels, states.LabelsOf(answer.full));
+  if (read == nullptr && full != nullptr) of_full = BetweenNeighbours(states, full, of_full);
   answer.relative_to_full =
       UncertainFromLog(of_full.value, std::hypot(of_full.sd, PredictedApart(states, full)));
   if (read != nullptr) {
@@ -388,7 +227,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     fit::AddSpectrumRead(light, *read, answer);
     return answer;
   }
-  const CurveValue light_there = curve.At(labels);
+  const CurveValue light_there = BetweenNeighbours(states, nullptr, curve.At(labels));
   answer.basis = states.BetweenTwo() ? StateBasis::kBetween : StateBasis::kCombined;
   const double sd = std::hypot(light_there.sd, PredictedApart(states, nullptr));
   answer.relative = UncertainFromLog(light_there.value, sd);

@@ -1,8 +1,9 @@
 # Written by lightcal: a lamp at a state of its controls. Nothing here needs Blender itself.
 # SPDX-License-Identifier: Apache-2.0
-"""Light against a level x follows ln E = c + p ln(x + x0) + rest(x), p = 1 (a driver that does not
-end at zero) or free (tungsten, a gamma); colour follows ln x by a slope, and its own control one to
-one. `rest` is a Gaussian process (Matern 3/2), one a control and one of all together. x0, sizes and
+"""Light against a level x follows ln E = c + p ln S(x + x0) + rest(x), S an S-curve or x + x0 itself,
+p = 1 (a driver that does not end at zero) or free (tungsten, a gamma), or ln E = c + p x (equal
+ratios); against a zoom a power; colour follows ln x by a slope, and its own control one to one.
+`rest` is a Gaussian process (Matern 3/2), one a control and one of all together. x0, sizes and
 lengths are averaged over by how probable each makes the readings (Rasmussen and Williams 2006, 2.2,
 5.4)."""
 import functools
@@ -16,13 +17,18 @@ Z95 = 1.959963984540054
 LEVEL_FLOOR = 0.03
 CONSTANT_VARIANCE = 25.0
 LEAST_EVIDENCE = 7.0
-FORMS_KEPT = 8
+SHARE_LEFT_OUT, FEWEST_FORMS, MOST_FORMS = 0.005, 8, 40
 NEAREST, NEAREST_TO_FULL = 20, 10
 # level rest, other rest, joint rest, level slope, other slope
 SCALES = {'light': (1.0, 1.0, 1.0, 0.0, 0.5), 'mired': (0.2, 0.4, 0.3, 0.3, 0.3),
           'duv': (0.05, 0.03, 0.05, 0.002, 0.004)}
 OTHER_LENGTH = 0.45  # of a control's range
 SLOPE_OF_REST = 6.5  # of a driver, up to full
+POWER_OF_ZOOM, POWER_SD_OF_ZOOM = -1.0, 1.0
+SPAN_OF_LOGARITHMIC, WEIGHT_OF_LOGARITHMIC = 3.0, 0.35
+ZERO_SCALE = 0.06  # of where a dimmer's light begins
+LEVEL_RESTS = ((0.003, 0.7), (0.012, 1.5), (0.03, 3.0), (0.1, 0.6), (0.3, 0.15))
+OTHER_RESTS = ((0.008, 1.0), (0.04, 2.0), (0.16, 2.0), (0.4, 0.7))
 REPEATS = {'mired': 0.001, 'duv': 2e-4}
 
 
@@ -33,7 +39,9 @@ class Unknown(Exception):
 def kind_of(name):
     if name == 'cct_K':
         return 'temperature'
-    other = name in ('tint', 'zoom_deg', 'hue', 'saturation') or name.endswith('_deg')
+    if name == 'zoom_deg':
+        return 'zoom'
+    other = name in ('tint', 'hue', 'saturation') or name.endswith('_deg')
     return 'other' if other else 'level'
 
 
@@ -69,12 +77,26 @@ def from_ln(ln, sd):
     return {'value': math.exp(ln), 'u95': (high - low) / 2, 'low95': low, 'high95': high}
 
 
+def formed_level(labels, bend, zero):
+    """(ln of the level but for a constant, its slope by the zero)"""
+    if bend is None:
+        return SPAN_OF_LOGARITHMIC * labels, np.zeros(len(labels))
+    if bend == 1.0:
+        above = np.maximum(1e-6, labels + zero)
+        return np.log(above), 1.0 / above
+    y = np.clip((labels + zero) / (1.0 + zero), 1e-6, 1.0)
+    s = y ** bend / (y ** bend + (1.0 - y) ** bend)
+    return np.log(s), bend * (1.0 - s) / (y * (1.0 + zero))
+
+
 class Curve:
     """One number of a lamp from the states that were read; `at` is a row a state."""
 
     def __init__(self, kinds, target, at, values, sds):
-        self.kinds, self.target = kinds, target
         self.points = np.array(at, float)
+        self.kinds = ['other' if kind == 'zoom' and self.points[:, i].min() <= 0.0 else kind
+                      for i, kind in enumerate(kinds)]
+        self.target = target
         self.values, self.sds = np.array(values), np.array(sds)
         plain = np.stack([self.plain(i, self.points[:, i]) for i in range(len(kinds))], axis=1)
         self.middle = plain.mean(axis=0)
@@ -86,33 +108,36 @@ class Curve:
         kind = self.kinds[control]
         if kind == 'level':
             return np.log(labels + LEVEL_FLOOR)
+        if kind == 'zoom':
+            return np.log(labels)
         return np.log(1e6 / labels) if kind == 'temperature' else labels
 
     def see(self, labels, form):
         """(coordinates, mean, ln of the formed level, its slope by the zero, labels), a row a
         state."""
-        control, zero, _, power, _, _ = form
+        control, bend, zero, _, power, _, _ = form
         along, count = [], len(labels)
         mean, ln_level, by_zero = np.zeros(count), np.zeros(count), np.zeros(count)
         for i, kind in enumerate(self.kinds):
             x = self.plain(i, labels[:, i])
             if i == control:
-                above = np.maximum(1e-6, labels[:, i] + zero)
-                x = ln_level = np.log(above)
-                by_zero = power / above
+                x, by_zero = formed_level(labels[:, i], bend, zero)
+                ln_level, by_zero = x, power * by_zero
                 mean = mean + power * ln_level
             elif kind == 'level':
                 mean = mean + (x if self.target == 'light' else 0.0)
             else:
                 if kind == 'temperature' and self.target == 'mired':
                     mean = mean + x
+                if kind == 'zoom' and self.target == 'light':
+                    mean = mean + POWER_OF_ZOOM * x
                 x = (x - self.middle[i]) / self.span[i]
             along.append(x)
         return np.stack(along, axis=1), mean, ln_level, by_zero, labels
 
     def covariance(self, form, rests, a, b):
         level_rest, other_rest, joint_rest, level_slope, other_slope = SCALES[self.target]
-        control, _, step, _, power_sd, _ = form
+        control, bend, _, step, _, power_sd, _ = form
         level, level_length, by_label, other, joint, _ = rests
         total = np.full((len(a[1]), len(b[1])), CONSTANT_VARIANCE)
         together = np.ones_like(total)
@@ -124,14 +149,16 @@ class Curve:
                 else:
                     total += level_slope ** 2 * u * v
                 at_a, at_b = a[4][:, i][:, None], b[4][:, i][None, :]
-                if by_label and i == control:
+                if by_label and i == control and bend is not None:
                     rest = kinks(at_a, at_b, np.exp(a[2])[:, None], np.exp(b[2])[None, :])
                 else:
                     rest = matern(at_a - at_b if by_label else u - v, level_length)
                 total += (level_rest * level) ** 2 * rest
                 together *= matern(u - v, 1.5)
             else:
-                total += other_slope ** 2 * u * v + (other_rest * other) ** 2 * matern(
+                zoomed = kind == 'zoom' and self.target == 'light'
+                slope = POWER_SD_OF_ZOOM * self.span[i] if zoomed else other_slope
+                total += slope ** 2 * u * v + (other_rest * other) ** 2 * matern(
                     u - v, OTHER_LENGTH)
                 together *= matern(u - v, 0.7)
         return total + (joint_rest * joint) ** 2 * together
@@ -150,27 +177,39 @@ class Curve:
         inverse = np.linalg.inv(root)
         weights = inverse.T @ (inverse @ off)
         evidence = (-0.5 * off @ weights - np.log(np.diag(root)).sum() +
-                    math.log(form[5] * rests[5]))
+                    math.log(form[6] * rests[5]))
         return (evidence, form, rests, seen, center, inverse, weights)
 
     def forms(self):
-        """(control, zero, its step, power, its sd, weight): zeros a fifth of x_min + zero apart."""
+        """(control, bend or None where logarithmic, zero, its step, power, its sd, weight): zeros a
+        fifth of x_min + zero apart."""
         level = next((i for i, k in enumerate(self.kinds) if k == 'level'), None)
         if self.target != 'light' or level is None:
-            return [(-1, LEVEL_FLOOR, 0.0, 0.0, 0.0, 1.0)]
+            return [(-1, 1.0, LEVEL_FLOOR, 0.0, 0.0, 0.0, 1.0)]
         least = self.points[:, level].min()
         smallest = max(least, 0.01)
-        forms, ln = [], math.log(max(0.04 * smallest, 2e-3))
-        while ln < math.log(12.0 * smallest + 0.3):
-            above = math.exp(ln)
-            forms.append((level, above - least, 0.1 * above, 1.0, 0.02, 1.0))
-            forms.append((level, above - least, 0.1 * above, 2.0, 1.2, 0.5))
-            ln += 0.2
-        if len(forms) <= FORMS_KEPT:
-            return forms
+        forms, straight = [], 0.0
+
+        def zeros(low, high, step):
+            for ln in np.arange(math.log(low), math.log(high), step):
+                above = math.exp(ln)
+                zero = above - least
+                density = ZERO_SCALE / (math.pi * (ZERO_SCALE ** 2 + zero * zero))
+                yield zero, 0.5 * step * above, density * above * step
+        for zero, step, weight in zeros(max(0.04 * smallest, 2e-3), 12.0 * smallest + 0.3, 0.2):
+            straight += weight
+            forms.append((level, 1.0, zero, step, 1.0, 0.02, weight))
+            forms.append((level, 1.0, zero, step, 2.0, 1.2, 0.5 * weight))
+        for zero, step, weight in zeros(0.1 * smallest, 2.0 * smallest, 0.4):
+            forms += [(level, bend, zero, step, 1.0, 0.15, 0.3 * weight)
+                      for bend in (1.25, 1.5, 1.75, 2.1)]
+        forms.append((level, None, 0.0, 0.0, 1.8, 0.5, WEIGHT_OF_LOGARITHMIC * straight))
         order = sorted(((-one[0], i) for i, one in enumerate(
             self.solve(form, (0.02, 0.8, False, 0.05, 0.01, 1.0)) for form in forms) if one))
-        return [forms[i] for _, i in order[:FORMS_KEPT]]
+        shares = np.exp([order[0][0] - cost for cost, _ in order])
+        left = 1.0 - (np.cumsum(shares) - shares) / shares.sum()  # before each of them
+        count = max(FEWEST_FORMS, int((left >= SHARE_LEFT_OUT).sum()))
+        return [forms[i] for _, i in order[:min(count, MOST_FORMS)]]
 
     def rests(self):
         """(level, its length, whether that is of the label, other, joint, weight): drivers bend at
@@ -179,9 +218,9 @@ class Curve:
         others = any(kind != 'level' for kind in self.kinds)
         none = ((0.0, 1.0),)
         lengths = ((0.25, False), (1.5, False), (0.3, True)) if level else ((1.0, False),)
-        for a, by_a in ((0.003, 0.7), (0.012, 1.5), (0.03, 3.0)) if level else none:
+        for a, by_a in LEVEL_RESTS if level else none:
             for length, by_label in lengths:
-                for b, by_b in ((0.008, 1.0), (0.04, 2.0), (0.16, 2.0)) if others else none:
+                for b, by_b in OTHER_RESTS if others else none:
                     for c, by_c in ((0.002, 1.5), (0.015, 1.0)) if len(self.kinds) > 1 else none:
                         yield (a, length, by_label, b, c, by_a * by_b * by_c)
 
@@ -375,6 +414,31 @@ def color_between(kept, axes, at, emitters):
             'duv': duv_there, 'duv_u95': Z95 * math.hypot(duv[1], shared[1]), 'xy': made}
 
 
+def between_neighbours(kept, axes, at, ln, sd):
+    """Light does not fall as a dimmer rises: truncated to the states read below and above it."""
+    if 'dimmer' not in axes or not sd > 0.0:
+        return ln, sd
+    others = [one for one in kept if all(
+        name == 'dimmer' or same(one['state'][name], at[name]) for name in axes)]
+    below = [one for one in others if one['state']['dimmer'] < at['dimmer']]
+    above = [one for one in others if one['state']['dimmer'] > at['dimmer']]
+    if not below or not above:
+        return ln, sd
+    lower = max(below, key=lambda one: one['state']['dimmer'])
+    upper = min(above, key=lambda one: one['state']['dimmer'])
+    low = math.log(lower['relative']['value']) - 2.0 * lower['repeatability']
+    high = math.log(upper['relative']['value']) + 2.0 * upper['repeatability']
+    if not low < high:
+        return ln, sd
+    a, b = (low - ln) / sd, (high - ln) / sd
+    inside = 0.5 * (math.erfc(-b / math.sqrt(2.0)) - math.erfc(-a / math.sqrt(2.0)))
+    if not inside > 1e-9:
+        return 0.5 * (low + high), (high - low) / math.sqrt(12.0)
+    at_a, at_b = (math.exp(-0.5 * z * z) / math.sqrt(2.0 * math.pi) for z in (a, b))
+    shift, narrower = (at_a - at_b) / inside, (a * at_a - b * at_b) / inside
+    return ln + sd * shift, sd * math.sqrt(max(0.0, 1.0 + narrower - shift * shift))
+
+
 def light_at(light, at):
     """The light as it is there: a state that was read, or one between. Raises Unknown."""
     states = light.get('states', [])
@@ -410,7 +474,7 @@ def light_at(light, at):
                          tuple(labels_of(one['state'], axes) for one in kept),
                          tuple(math.log(one['relative']['value']) for one in kept),
                          tuple(max(1e-4, one['repeatability']) for one in kept))
-        ln, sd = curve.at(labels_of(at, axes))
+        ln, sd = between_neighbours(kept, axes, at, *curve.at(labels_of(at, axes)))
         for key in ('intensity_cd', 'illuminance_lx', 'luminance_nits'):
             if key in light:
                 changed[key] = from_ln(math.log(light[key]['value']) + ln,
