@@ -246,7 +246,8 @@ Run BuildMatch(CLI::App& parser) {
       ->required();
   parser
       .add_option("--to", o->target.source,
-                  "What it is to look like: the same, a light.json's colour too")
+                  "What it is to look like: the same, a light.json's colour too; of kelvin a black "
+                  "body below 4000 K, CIE daylight from there (SSI's rule)")
       ->required();
   parser
       .add_option("--gels", o->gels,

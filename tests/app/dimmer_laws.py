@@ -99,3 +99,11 @@ ends = HEAD + "".join(
 kelvin = answer("state", HOME / "ends", "--at", "cct_K=4000")["cct_K"]
 # A mix that is even in mired, and one that is even in kelvin, of two such white LEDs.
 assert kelvin["low95"] <= 3740 and kelvin["high95"] >= 4235, kelvin
+
+# 0 lx is what a lamp gives below where it comes on, and is said to be.
+(HOME / "out").mkdir()
+(HOME / "out" / "session.toml").write_text(HEAD + "".join(
+    f'[[reading]]\nlight = "k"\nmeter = "m"\nstate = {{ dimmer = {label} }}\nilluminance_lx = {lux}\n'
+    for label, lux in ((100, 1000), (50, 400), (5, 0))), encoding="utf-8")
+said = [one for one in answer("fit", HOME / "out")["warnings"] if one["code"] == "state_dark"]
+assert len(said) == 1 and "0 lx" in said[0]["message"], said

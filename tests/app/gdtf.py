@@ -137,6 +137,28 @@ def the_archive_holds_what_was_measured():
     assert abs(warm - 3200) < 60 and abs(cool - 5600) < 60, (warm, cool)
 
 
+def a_dimmer_that_is_no_cubic_never_falls_and_is_named():
+    """Equal ratios (IEC 62386-102): a free cubic was -7 % of full at 0 and fell from 20 to 50 %."""
+    text = ('lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "dali"\nkind = "point"\n'
+            '[[meter]]\nname = "m"\nsigma_relative = 0.02\n')
+    for dimmer in (100, 75, 50, 25, 10):
+        text += (f'[[reading]]\nlight = "dali"\nmeter = "m"\nstate = {{ dimmer = {dimmer} }}\n'
+                 "distance_m = 2\n"
+                 f"illuminance_lx = {5000 * 10 ** (3 * (dimmer / 100 - 1)):.8g}\n")
+    (HOME / "dali").mkdir()
+    (HOME / "dali" / "session.toml").write_text(text, encoding="utf-8")
+    answer("fit", "dali", "-o", "dali.json")
+    done = answer("export", "dali.json", "--to", "gdtf", "-o", "dali_out")
+    with zipfile.ZipFile(HOME / done["files"][0]) as archive:
+        point = ElementTree.fromstring(archive.read("description.xml")).find(".//Point")
+    c = [float(point.get(f"CFC{k}")) for k in range(4)]
+    curve = [sum(c[k] * x**k for k in range(4)) for x in range(101)]
+    assert min(curve) > -1e-9 and all(b >= a - 1e-9 for a, b in zip(curve, curve[1:])), curve
+    assert abs(curve[100] - 1) < 0.005, curve[100]
+    rough = [w for w in done["warnings"] if w["code"] == "gdtf_rough_profile"]
+    assert len(rough) == 1 and "of full" in rough[0]["message"], done["warnings"]
+
+
 def it_is_valid_by_the_official_schema():
     xmllint = shutil.which("xmllint")
     assert xmllint, "xmllint is missing: libxml2-utils, tests/packages.txt"
@@ -246,6 +268,7 @@ def forty_damaged_archives_are_refused_in_bounded_memory():
 
 if __name__ == "__main__":
     TESTS = [the_archive_holds_what_was_measured, it_is_valid_by_the_official_schema,
+             a_dimmer_that_is_no_cubic_never_falls_and_is_named,
              it_comes_back_as_it_went, a_fixture_of_others,
              forty_damaged_archives_are_refused_in_bounded_memory]
     for test in TESTS:

@@ -26,7 +26,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kHalfPeak = 0.5, kTenthPeak = 0.1;
-constexpr double kRoughProfile = 0.05;  // of the light at its highest dimmer
+constexpr double kRoughProfile = 0.1;  // of the light read there
 constexpr std::string_view kBeamName = "Beam";
 constexpr std::string_view kDimmerProfile = "Dimmer measured";
 
@@ -73,50 +73,66 @@ std::vector<DimmerPoint> DimmerPoints(const FittedLight& lamp) {
   return points;
 }
 
-// Least squares of sum_k c_k x^k, k up to degree, x the percent over 100: normal equations by
-// elimination. Points are few and x lies in 0 ... 1.
-std::array<double, 4> CubicThrough(const std::vector<DimmerPoint>& points, std::size_t degree) {
-  std::array<std::array<double, 5>, 4> rows{};
+// The cubic sum_k c_k x^k, x the percent over 100, nearest to the points (least squares) of those
+// that are nowhere negative and never fall: Bernstein coefficients that begin at 0 or above and do
+// not fall (Farouki, "The Bernstein polynomial basis: a centennial retrospective", Computer Aided
+// Geometric Design 29 (2012)). The brightest point, which is full, counts as a thousand; of few
+// points a lower degree.
+std::array<double, 4> RisingCubicNear(const std::vector<DimmerPoint>& points) {
+  const std::size_t degree = std::min<std::size_t>(3, points.size() - 1);
+  constexpr std::array<std::array<double, 4>, 4> kBinomial = {
+      {{1.0, 0.0, 0.0, 0.0}, {1.0, 1.0, 0.0, 0.0}, {1.0, 2.0, 1.0, 0.0}, {1.0, 3.0, 3.0, 1.0}}};
+  // By its steps from one coefficient to the next: step j raises all from j on.
+  std::array<std::array<double, 4>, 4> gram{};
+  std::array<double, 4> product{};
   for (const DimmerPoint& point : points) {
-    std::array<double, 4> powers = {1.0, 0.0, 0.0, 0.0};
-    for (std::size_t k = 1; k < 4; ++k) powers[k] = powers[k - 1] * point.percent / 100.0;
-    for (std::size_t r = 0; r <= degree; ++r) {
-      for (std::size_t c = 0; c <= degree; ++c) rows[r][c] += powers[r] * powers[c];
-      rows[r][4] += powers[r] * point.of_full;
+    const double x = point.percent / 100.0;
+    const double weight = &point == &points.back() ? 1000.0 : 1.0;
+    std::array<double, 4> raised{};
+    for (std::size_t k = degree + 1; k-- > 0;) {
+      raised[k] = kBinomial[degree][k] * std::pow(x, static_cast<double>(k)) *
+                  std::pow(1.0 - x, static_cast<double>(degree - k));
+      if (k < degree) raised[k] += raised[k + 1];
+    }
+    for (std::size_t i = 0; i <= degree; ++i) {
+      for (std::size_t j = 0; j <= degree; ++j) gram[i][j] += weight * raised[i] * raised[j];
+      product[i] += weight * raised[i] * point.of_full;
     }
   }
-  for (std::size_t c = 0; c <= degree; ++c) {
-    std::size_t pivot = c;
-    for (std::size_t r = c + 1; r <= degree; ++r) {
-      if (std::abs(rows[r][c]) > std::abs(rows[pivot][c])) pivot = r;
-    }
-    std::swap(rows[c], rows[pivot]);
-    for (std::size_t r = 0; r <= degree; ++r) {
-      if (r == c || !(std::abs(rows[c][c]) > 0.0)) continue;
-      const double factor = rows[r][c] / rows[c][c];
-      for (std::size_t k = 0; k < 5; ++k) rows[r][k] -= factor * rows[c][k];
+  std::array<double, 4> steps{};
+  for (int round = 0; round < 20000; ++round) {  // one after the other; of four it soon stands
+    for (std::size_t i = 0; i <= degree; ++i) {
+      double pull = product[i];
+      for (std::size_t j = 0; j <= degree; ++j) pull -= gram[i][j] * steps[j];
+      if (gram[i][i] > 0.0) steps[i] = std::max(0.0, steps[i] + pull / gram[i][i]);
     }
   }
   std::array<double, 4> out{};
+  double coefficient = 0.0;
   for (std::size_t k = 0; k <= degree; ++k) {
-    out[k] = std::abs(rows[k][k]) > 0.0 ? rows[k][4] / rows[k][k] : 0.0;
+    coefficient += steps[k];
+    for (std::size_t i = k; i <= degree; ++i) {
+      const double sign = (i - k) % 2 == 0 ? 1.0 : -1.0;
+      out[i] += sign * kBinomial[degree][i] * kBinomial[i][k] * coefficient;
+    }
   }
   return out;
 }
 
 // One cubic: the official schema allows one point a profile.
 GdtfProfile DimmerProfileOf(const std::vector<DimmerPoint>& points) {
-  const std::size_t degree = std::min<std::size_t>(3, points.size() - 1);
-  const std::array<double, 4> c = CubicThrough(points, degree);
+  const std::array<double, 4> c = RisingCubicNear(points);
   return {std::string(kDimmerProfile), {{0.0, c[0], c[1] / 100.0, c[2] / 1e4, c[3] / 1e6}}};
 }
 
-double WorstOf(const GdtfProfile& profile, const std::vector<DimmerPoint>& points) {
-  double worst = 0.0;
-  for (const DimmerPoint& point : points) {
-    worst = std::max(worst, std::abs(GdtfOutput(profile, point.percent) - point.of_full));
-  }
-  return worst;
+// The point that a profile misses most by part of its own light, of those with any to see.
+const DimmerPoint& MissedMost(const GdtfProfile& profile, const std::vector<DimmerPoint>& points) {
+  constexpr double kSeen = 0.002;  // of full
+  const auto missed = [&](const DimmerPoint& point) {
+    const double told = GdtfOutput(profile, point.percent);
+    return std::abs(std::log(std::max(told, kSeen) / std::max(point.of_full, kSeen)));
+  };
+  return *std::ranges::max_element(points, {}, missed);
 }
 
 // As irradiance at 1 m, of the candela beside it; nothing where no spectrum was read.
@@ -237,12 +253,14 @@ Result<Described> FixtureOf(const FittedLight& lamp, const Provenance& provenanc
   if (const auto points = DimmerPoints(lamp); !points.empty()) {
     fixture.profiles = {DimmerProfileOf(points)};
     dimmer.profile = fixture.profiles.front().name;
-    const double worst = WorstOf(fixture.profiles.front(), points);
-    if (worst > kRoughProfile) {
+    const DimmerPoint& worst = MissedMost(fixture.profiles.front(), points);
+    const double told = GdtfOutput(fixture.profiles.front(), worst.percent);
+    if (std::abs(told - worst.of_full) > kRoughProfile * worst.of_full) {
       out.warnings.push_back({"gdtf_rough_profile", lamp.name,
-                              "its dimmer strays by up to " + PercentText(worst) +
-                                  " of full from the one cubic that GDTF's schema allows; its "
-                                  "emitters hold what was read"});
+                              "its dimmer is no cubic, and GDTF's schema allows one alone: at " +
+                                  RoundedText(worst.percent, 3) + " % it says " +
+                                  PercentText(told) + " of full, " + PercentText(worst.of_full) +
+                                  " was read; its emitters hold what was read"});
     }
   }
   mode.channels.push_back(std::move(dimmer));

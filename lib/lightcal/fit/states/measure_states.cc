@@ -257,6 +257,16 @@ void MeasureStates(const Session& session, const LightDescription& description,
     if (!ratio) {
       const bool any = std::ranges::any_of(
           state.rows, [](const SessionReading* row) { return Counts(row->reading); });
+      const bool zero = std::ranges::any_of(state.rows, [](const SessionReading* row) {
+        return row->reading.illuminance && row->reading.illuminance->value() == 0.0;
+      });
+      if (!any && zero) {
+        warnings.push_back({"state_dark", subject,
+                            "the meter showed 0 lx: the lamp is out there, or too dim to read. It "
+                            "is no part of the curve, which ends at the dimmest state with light; "
+                            "read one just above where it comes on"});
+        continue;
+      }
       warnings.push_back({any ? "state_dark" : "state_without_light", subject,
                           any ? "no reading of this state can be compared with the reference's (" +
                                     StateText(light.state) +

@@ -24,7 +24,7 @@ enum class StateBasis : std::uint8_t {
 struct StateSpectrum {
   // W m-2 nm-1 at 1 m; of a directional lamp, and of one without an intensity, where it was read.
   Spectrum spectrum;
-  std::vector<double> u95;     // of each value at this illuminance; empty where nothing tells it
+  std::vector<double> u95;     // of each value, its level's included; empty where nothing tells it
   std::vector<double> shares;  // of its light, one of each of the lamp's emitters; or empty
 };
 

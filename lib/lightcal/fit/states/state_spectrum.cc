@@ -157,14 +157,17 @@ void TakeColor(Xy made, FittedColor& color) {
   }
 }
 
-// A spectrum of 1 lx, for as many as the answer has.
+// A spectrum of 1 lx, for as many as the answer has, and as unsure as that is.
 StateSpectrum SpectrumFor(const StateAnswer& answer, Spectrum of_one, std::vector<double> u95,
                           const FixtureEmitters* emitters, const std::vector<double>& amounts) {
   const auto& light = answer.intensity_cd ? answer.intensity_cd : answer.illuminance_lx;
-  const double lux = light ? light->value : answer.relative.value;
+  const Uncertain& level = light ? *light : answer.relative;
+  const double lux = level.value;
   StateSpectrum out{std::move(of_one), std::move(u95), {}};
   for (double& value : out.spectrum.values) value *= lux;
-  for (double& value : out.u95) value *= lux;
+  for (std::size_t i = 0; i < out.u95.size(); ++i) {
+    out.u95[i] = std::hypot(out.u95[i] * lux, level.u95 / lux * out.spectrum.values[i]);
+  }
   if (emitters == nullptr) return out;
   double sum = 0.0;
   for (std::size_t k = 0; k < amounts.size(); ++k) {
