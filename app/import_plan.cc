@@ -216,12 +216,14 @@ class Planner {
     }
     const LightKind kind = FindLight(session_, reading.light)->kind;
     const bool needs_none = kind == LightKind::kDirectional || kind == LightKind::kDome;
+    if (reading.position_m) return {};
     if (!reading.distance) reading.distance = settings_.distance;
     if (reading.distance || needs_none) return {};
     return Refused("distance_missing", reading.light,
                    path +
-                       " does not say how far the meter was from the lamp; add --distance "
-                       "0.5m, or --color-only to take its colour alone");
+                       " does not say how far the meter was from the lamp; add --distance 0.5m, "
+                       "or columns position_x_m, position_y_m and position_z_m of the meter's "
+                       "place, or --color-only to take its colour alone");
   }
 
   const Session& session_;

@@ -9,6 +9,7 @@
 #include "gdtf_import.h"
 #include "import_plan.h"
 #include "input_files.h"
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/records/journal.h"
@@ -36,6 +37,10 @@ std::optional<double> ValueOf(const std::optional<Quantity>& quantity) {
   return quantity ? std::optional(quantity->value()) : std::nullopt;
 }
 
+std::string PlaceText(const Vec3& at) {
+  return Joined(at, ", ", [](double metres) { return RoundedText(metres, 3); }) + " m";
+}
+
 std::string ReadingsTable(const ImportPlan& plan) {
   std::vector<std::vector<std::string>> rows;
   std::size_t more = 0;
@@ -45,14 +50,16 @@ std::string ReadingsTable(const ImportPlan& plan) {
         ++more;
         continue;
       }
-      rows.push_back(
-          {file.path, file.format, reading.light, Cell(ValueOf(reading.distance), 4, " m"),
-           Cell(ValueOf(reading.illuminance), 4, " lx"), Cell(ValueOf(reading.cct), 4, " K"),
-           Cell(reading.duv, 2, ""), reading.spectrum_file});
+      rows.push_back({file.path, file.format, reading.light,
+                      reading.position_m ? PlaceText(*reading.position_m)
+                                         : Cell(ValueOf(reading.distance), 4, " m"),
+                      Cell(ValueOf(reading.illuminance), 4, " lx"),
+                      Cell(ValueOf(reading.cct), 4, " K"), Cell(reading.duv, 2, ""),
+                      reading.spectrum_file});
     }
   }
   std::string text = TextTable(
-      {"file", "format", "light", "distance", "illuminance", "CCT", "Duv", "spectrum"}, rows);
+      {"file", "format", "light", "distance or place", "illuminance", "CCT", "Duv", "spectrum"}, rows);
   if (more > 0) text += "... and " + std::to_string(more) + " more\n";
   return text;
 }

@@ -3,10 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "run_cli.h"
@@ -194,6 +196,33 @@ TEST_F(Import, IlluminanceWithoutDistanceIsRefusedButNotOfTheSun) {
               AllOf(HasSubstr("--distance"), HasSubstr("--color-only")));
   EXPECT_EQ(Run({SampleData(kCasper), "--light", "sun"}).exit_code, 0);
   EXPECT_EQ(Run({SampleData(kCasper), "--light", "key", "--distance", "0m"}).exit_code, 3);
+}
+
+// A lamp of 100 cd at (0.2, -0.1, 1.5), read on the floor at a square's corners and its centre.
+TEST_F(Import, APlaceInColumnsFindsALampWhosePlaceNobodyStates) {
+  std::string csv = "position_x_m,position_y_m,position_z_m,normal_x,normal_y,normal_z,lux\n";
+  for (const auto& [x, y] :
+       {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}, {0.0, 0.0}, {0.5, -0.6}}) {
+    const double d = std::hypot(x - 0.2, y + 0.1, 1.5);
+    csv += std::to_string(x) + "," + std::to_string(y) + ",0,0,0,1," +
+           std::to_string(100.0 * 1.5 / (d * d * d)) + "\n";
+  }
+  temp_.Write("where/session.toml",
+              "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"lamp\"\nkind = \"point\"\n");
+  const std::string places = temp_.Write("places.csv", csv);
+  const std::string session = temp_.path() + "/where";
+  ASSERT_EQ(RunLightcal({"import", places, "-s", session}).exit_code, 0);
+  const CliResult fit = RunLightcal({"fit", session, "--json"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const json light = json::parse(fit.out)["lights"][0];
+  EXPECT_NEAR(double(light["intensity_cd"]["value"]), 100.0, 2.0);
+  EXPECT_NEAR(double(light["position_m"][0]), 0.2, 0.01);
+  EXPECT_NEAR(double(light["position_m"][2]), 1.5, 0.01);
+
+  const std::string part = temp_.Write("part.csv", "position_x_m,position_y_m,lux\n1,1,48\n");
+  const CliResult refused = RunLightcal({"import", part, "-s", session, "--json"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_EQ(json::parse(refused.out)["error"]["code"], "bad_row");
 }
 
 TEST_F(Import, ColorAloneNeedsNoDistanceAndCarriesNoLux) {

@@ -20,6 +20,12 @@ enum class CsvQuantity {
   kY,
   kTilt,
   kOffAxis,
+  kPositionX,  // of the meter
+  kPositionY,
+  kPositionZ,
+  kNormalX,  // the way it faces
+  kNormalY,
+  kNormalZ,
   kSigma,
   kLight,
   kMeter,

@@ -137,7 +137,32 @@ struct RowReading {
   Reading reading;
   std::optional<double> x;
   std::optional<double> y;
+  std::array<std::optional<double>, 3> position, normal;
 };
+
+// True where the number is a coordinate of its place or of its normal.
+bool TakeCoordinate(RowReading& taken, CsvQuantity quantity, double value) {
+  const auto within = [&](CsvQuantity first, std::array<std::optional<double>, 3>& into) {
+    const int axis = static_cast<int>(quantity) - static_cast<int>(first);
+    if (axis < 0 || axis > 2) return false;
+    into[static_cast<std::size_t>(axis)] = value;
+    return true;
+  };
+  return within(CsvQuantity::kPositionX, taken.position) ||
+         within(CsvQuantity::kNormalX, taken.normal);
+}
+
+// All three of a row or none.
+Result<std::optional<Vec3>> VectorOf(const std::array<std::optional<double>, 3>& read,
+                                     std::string_view what, const std::string& where) {
+  const auto count = std::ranges::count_if(read, [](const auto& one) { return one.has_value(); });
+  if (count == 0) return std::optional<Vec3>{};
+  if (count < 3) {
+    return Refused("bad_row", where,
+                   "holds " + std::string(what) + " in part; it takes x, y and z");
+  }
+  return Vec3{*read[0], *read[1], *read[2]};
+}
 
 Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, std::size_t i) {
   const CsvColumn& column = table.columns[i];
@@ -163,6 +188,7 @@ Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, 
     taken.reading.over_range = LimitSignOf(cell) == '>';
     taken.reading.under_range = LimitSignOf(cell) == '<';
   }
+  if (TakeCoordinate(taken, column.quantity, value)) return {};
   if (TakeNumber(taken.reading, column.quantity, value)) return {};
   return Refused("bad_row", AtLine(table.name, row.line),
                  cell.substr(0, 40) + " is no possible " + column.written);
@@ -178,16 +204,22 @@ Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
     return Refused("bad_row", AtLine(table.name, row.line), fault);
   }
   SortState(reading.state);
+  const std::string where = AtLine(table.name, row.line);
+  auto position = VectorOf(taken.position, "a position", where);
+  if (!position) return Propagate(std::move(position));
+  reading.position_m = *position;
+  auto normal = VectorOf(taken.normal, "a normal", where);
+  if (!normal) return Propagate(std::move(normal));
+  reading.normal = *normal;
   if (taken.x && taken.y) {
     const Xy xy{*taken.x, *taken.y};
     if (!(xy.x >= 0.0 && xy.y > 0.0 && xy.x + xy.y <= 1.0)) {
-      return Refused("bad_row", AtLine(table.name, row.line), "x and y are no chromaticity");
+      return Refused("bad_row", where, "x and y are no chromaticity");
     }
     reading.xy = xy;
   }
   if (!reading.illuminance && !reading.cct && !reading.xy) {
-    return Refused("bad_row", AtLine(table.name, row.line),
-                   "holds neither an illuminance nor a colour");
+    return Refused("bad_row", where, "holds neither an illuminance nor a colour");
   }
   return std::move(reading);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // CSV with a header whose column names carry units: either one reading a row (distance_m,
-// illuminance_lx, ...) or one spectral sample a row (wavelength_nm, irradiance_W_m2_nm, ...).
-// Separator ',' ';' or tab; with ';' or tab numbers may have a decimal comma. '#' begins a comment.
-// An illuminance ">400" is light beyond the meter's range (over_range), "<40" below it.
+// illuminance_lx, ...; the meter's place as position_x_m, position_y_m, position_z_m) or one
+// spectral sample a row (wavelength_nm, irradiance_W_m2_nm, ...). Separator ',' ';' or tab; with
+// ';' or tab numbers may have a decimal comma. '#' begins a comment. An illuminance ">400" is light
+// beyond the meter's range (over_range), "<40" below it.
 #pragma once
 
 #include <string>
