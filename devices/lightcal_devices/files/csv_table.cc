@@ -74,7 +74,7 @@ Result<std::vector<CsvColumn>> ColumnsNamed(const std::vector<std::string>& name
       return Refused(
           "unknown_column", "'" + name + "'",
           std::string(column.quantity == CsvQuantity::kNeedsUnit ? "has no unit" : "is not known") +
-              (nearest.empty() ? "" : "; did you mean " + nearest + "?") + " Understood are " +
+              (nearest.empty() ? "." : "; did you mean " + nearest + "?") + " Understood are " +
               KnownColumnNames() + ", and - for one to leave out");
     }
     columns.push_back(std::move(column));
