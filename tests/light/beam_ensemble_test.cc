@@ -51,6 +51,32 @@ TEST(BeamEnsemble, HoldsTheGaussianBeamWhoseFieldIsItsOwn) {
   EXPECT_GE(beams->most.value(), gaussian * (1.0 - 1e-6));
 }
 
+// 2 pi int f sin over the hemisphere, by the midpoint rule.
+double SolidAngleOf(const RelativeIntensity& beam) {
+  constexpr int kSteps = 20000;
+  const double h = 0.5 * std::numbers::pi / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) sum += beam(Radians((i + 0.5) * h)) * std::sin((i + 0.5) * h);
+  return 2.0 * std::numbers::pi * sum * h;
+}
+
+TEST(BeamEnsemble, ABeamDrawnHasTheAnglesAndTheFluxItWasToldOf) {
+  for (const double deg : {10.0, 36.0, 60.0, 90.0, 120.0}) {
+    const auto beams = BeamEnsemble(RadiansFromDegrees(deg), std::nullopt);
+    const double middle = std::sqrt(beams->least.value() * beams->most.value());
+    const auto beam = BeamOf(RadiansFromDegrees(deg), std::nullopt, Steradians(middle));
+    ASSERT_TRUE(beam);
+    EXPECT_NEAR((*beam)(Radians(0.0)), 1.0, 1e-12);
+    EXPECT_NEAR((*beam)(RadiansFromDegrees(deg / 2.0)), 0.5, 1e-9) << deg;
+    EXPECT_NEAR(SolidAngleOf(*beam) / middle, 1.0, 1e-4) << deg;
+  }
+  const auto both = BeamOf(RadiansFromDegrees(36.0), RadiansFromDegrees(60.0), Steradians(0.47));
+  ASSERT_TRUE(both);
+  EXPECT_NEAR((*both)(RadiansFromDegrees(18.0)), 0.5, 1e-9);
+  EXPECT_NEAR((*both)(RadiansFromDegrees(30.0)), 0.1, 1e-9);
+  EXPECT_FALSE(BeamOf(RadiansFromDegrees(36.0), RadiansFromDegrees(30.0), Steradians(0.4)));
+}
+
 TEST(BeamEnsemble, RefusesAFieldInsideTheBeam) {
   EXPECT_EQ(BeamEnsemble(RadiansFromDegrees(36.0), RadiansFromDegrees(30.0)).error().code,
             "bad_beam");

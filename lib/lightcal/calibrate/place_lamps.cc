@@ -88,7 +88,7 @@ LampSource SourceOf(const FittedLight& light, Warnings& warnings) {
       warnings.push_back(
           {"cone_unknown", light.name,
            "no outer_deg is known: simulated as shining evenly all round, right along "
-           "its aim only; give outer_deg or measure off the axis"});
+           "its aim only; give beam_deg or outer_deg, or measure off the axis"});
       return PointSource{};
     case LightKind::kPoint:
       break;

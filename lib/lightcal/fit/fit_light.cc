@@ -8,6 +8,7 @@
 
 #include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/fit_profile.h"
+#include "lightcal/fit/beam/stated_beam.h"
 #include "lightcal/fit/beam/unstated_inner.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/fit_by_distance.h"
@@ -34,6 +35,7 @@ Result<FittedLight> FitUnread(const LightDescription& light, const fit::Observat
     fit::AddDerivedQuantities(light, out);
     out.flux_lm =
         Uncertain{light.flux->value(), fit::kFluxToleranceRelative * light.flux->value(), {}, {}};
+    fit::FindInnerByFlux(light, out);
     return out;
   }
   return observations.rejected.empty()
@@ -104,6 +106,7 @@ Result<FittedLight> FitOne(const Session& session, const LightDescription& light
                            const FitSettings& settings, FittedSession& session_out) {
   Result<FittedLight> out = FitStrength(session, light, settings, session_out);
   if (!out) return out;
+  fit::ShapeByStatedBeam(light, *out);
   const fit::OtherLight others(session, light, *out);
   fit::ColorFit found =
       fit::FitColor(session, light, &others, session_out.warnings, settings.cct_method);

@@ -2,10 +2,12 @@
 #include "lightcal/light/beam_ensemble.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
 #include <numbers>
+#include <utility>
 
 namespace lightcal {
 namespace {
@@ -28,8 +30,11 @@ BeamSolidAngles Range(std::initializer_list<double> members) {
   return {Steradians(std::min(members)), Steradians(std::max(members))};
 }
 
+// n of the cos^n that halves at `half`.
+double CosineExponent(double half) { return std::log(0.5) / std::log(std::cos(half)); }
+
 BeamSolidAngles FromBeam(double half) {
-  const double exponent = std::log(0.5) / std::log(std::cos(half));
+  const double exponent = CosineExponent(half);
   const double uniform = 2.0 * std::numbers::pi * (1.0 - std::cos(half));
   const double cosine = 2.0 * std::numbers::pi / (exponent + 1.0);
   const double gaussian = SolidAngle(
@@ -37,16 +42,30 @@ BeamSolidAngles FromBeam(double half) {
   return Range({uniform, cosine, gaussian, cosine / (1.0 - kSpillShare)});
 }
 
-BeamSolidAngles FromBeamAndField(double half, double tenth) {
+using Shape = std::function<double(double)>;
+
+std::array<Shape, 3> ShapesThrough(double half, double tenth) {
   const double ratio = std::log(tenth / half);
   const double p = std::log(std::numbers::ln10 / std::numbers::ln2) / ratio;
   const double q = std::log(9.0) / ratio;
-  const double super_gaussian =
-      SolidAngle([&](double t) { return std::exp(-std::numbers::ln2 * std::pow(t / half, p)); });
-  const double lorentz = SolidAngle([&](double t) { return 1.0 / (1.0 + std::pow(t / half, q)); });
-  const double trapezoid = SolidAngle(
-      [&](double t) { return std::clamp(0.5 - 0.4 * (t - half) / (tenth - half), 0.0, 1.0); });
-  return Range({super_gaussian, lorentz, trapezoid});
+  return {[=](double t) { return std::exp(-std::numbers::ln2 * std::pow(t / half, p)); },
+          [=](double t) { return 1.0 / (1.0 + std::pow(t / half, q)); },
+          [=](double t) { return std::clamp(0.5 - 0.4 * (t - half) / (tenth - half), 0.0, 1.0); }};
+}
+
+BeamSolidAngles FromBeamAndField(double half, double tenth) {
+  const auto shapes = ShapesThrough(half, tenth);
+  return Range({SolidAngle(shapes[0]), SolidAngle(shapes[1]), SolidAngle(shapes[2])});
+}
+
+// As much of b beside a as makes the solid angle `wanted`.
+RelativeIntensity Mixed(Shape a, double of_a, Shape b, double of_b, double wanted) {
+  const double share = of_b > of_a ? std::clamp((wanted - of_a) / (of_b - of_a), 0.0, 1.0) : 0.0;
+  return [a = std::move(a), b = std::move(b), share](Radians theta) {
+    const double t = theta.value();
+    if (t > 0.5 * std::numbers::pi) return 0.0;
+    return (1.0 - share) * a(t) + share * b(t);
+  };
 }
 
 }  // namespace
@@ -64,6 +83,24 @@ Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field)
                    "within 180 degrees");
   }
   return FromBeamAndField(half, tenth);
+}
+
+std::optional<RelativeIntensity> BeamOf(Radians beam, std::optional<Radians> field,
+                                        Steradians flux_per_candela) {
+  if (!BeamEnsemble(beam, field)) return std::nullopt;
+  const double half = 0.5 * beam.value(), wanted = flux_per_candela.value();
+  if (field) {
+    auto shapes = ShapesThrough(half, 0.5 * field->value());
+    std::ranges::sort(shapes, {}, &SolidAngle);
+    const double least = SolidAngle(shapes[0]), most = SolidAngle(shapes[2]);
+    return Mixed(std::move(shapes[0]), least, std::move(shapes[2]), most, wanted);
+  }
+  const double c = std::cos(half);
+  const double exponent = CosineExponent(half);
+  return Mixed([=](double t) { return std::pow(std::max(0.0, std::cos(t)), exponent); },
+               2.0 * std::numbers::pi / (exponent + 1.0),
+               [=](double t) { return 0.5 + 0.5 * std::max(0.0, (std::cos(t) - c) / (1.0 - c)); },
+               std::numbers::pi * (1.0 + 0.5 * (1.0 - c)), wanted);
 }
 
 }  // namespace lightcal

@@ -2,6 +2,7 @@
 // What a data sheet's lumens and beam angle leave open about the peak intensity.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "lightcal/core/result.h"
@@ -23,5 +24,16 @@ struct BeamSolidAngles {
 // Integrated numerically over 0..90 degrees. Holds for 0 < beam < field <= 180 degrees (beam alone
 // up to 170). Refused: bad_beam.
 [[nodiscard]] Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field);
+
+// One of those beams, to be drawn: I(theta)/I_peak, theta from the axis, nothing beyond 90 degrees;
+// half the peak at beam/2 exactly (a tenth at field/2), Phi/I_peak as told wherever such a beam can
+// have it, else as near as it can.
+//   beam only: cos^n, and of 1/2 + 1/2 max(0, (cos theta - c)/(1 - c)), c = cos(beam/2), as much as
+//     carries the rest: what the fixture spills.
+//   beam and field: of the narrowest and the widest of the three together.
+// Absent for angles that BeamEnsemble refuses.
+using RelativeIntensity = std::function<double(Radians)>;
+[[nodiscard]] std::optional<RelativeIntensity> BeamOf(Radians beam, std::optional<Radians> field,
+                                                      Steradians flux_per_candela);
 
 }  // namespace lightcal

@@ -12,7 +12,7 @@ namespace lightcal {
 
 // Type C over the whole sphere, 0 to 180 degrees, with one value at nadir and one at zenith for all
 // planes; nothing beyond where a measured table ends. By kind:
-//   photometric  its own table
+//   photometric  its own table; of a spot too that has one: its stated beam, drawn
 //   point, sphere  intensity everywhere
 //   spot         the squared-linear profile of spot_cone.h (Frostbite, glTF), nodes at both cones;
 //                without a cone as a point

@@ -10,6 +10,7 @@
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/presets/light_distribution.h"
 #include "lightcal/presets/turned_panorama.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal {
 namespace {
@@ -110,7 +111,7 @@ void RefitSpot(const FittedLight& lamp, EngineConeLaw law, const LearntEngine* e
   }
   if (error.empty() || (law == EngineConeLaw::kSquared && learnt == nullptr)) return;
   light.substitution =
-      std::string(lamp.distribution ? "a measured distribution, round about its aim"
+      std::string(lamp.distribution ? DistributionWords(lamp) + ", round about its aim"
                                     : "a spot of squared-linear falloff") +
       " as the engine's own cone, refitted: right on the axis, " + error;
 }
@@ -299,7 +300,8 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
       return Propagate(std::move(measured));
     }
     if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {
-      const bool shape_only = lamp.kind == LightKind::kSpot && light.form == LightForm::kSpot;
+      const bool shape_only =
+          lamp.kind == LightKind::kSpot && !lamp.distribution && light.form == LightForm::kSpot;
       warnings.push_back(
           {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});
     }

@@ -10,6 +10,7 @@
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/presets/table_cone.h"
 #include "lightcal/records/light_curve.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal {
 namespace {
@@ -51,7 +52,7 @@ void FromCone(const FittedLight& lamp, PunctualLight& light, Warnings& warnings)
     if (IsSpotWithoutCone(lamp)) {
       warnings.push_back({"cone_unknown", lamp.name,
                           "the spot has no outer_deg: exported as a point of its axial intensity; "
-                          "give outer_deg or measure off the axis"});
+                          "give beam_deg or outer_deg, or measure off the axis"});
       light.substitution =
           "a spot of unknown cone exported as a point of its axial intensity: right on the axis "
           "only";
@@ -85,11 +86,10 @@ void FromDistribution(const FittedLight& lamp, PunctualLight& light, Warnings& w
   }
   if (nearest->cone) BecomeSpot(light, nearest->cone->inner.value(), nearest->cone->outer.value());
   const double flux = nearest->flux - 1.0;
-  light.substitution = std::string("a measured distribution exported as the nearest ") +
-                       (nearest->cone ? "spot" : "point") +
-                       ", round about its aim: right on the axis, elsewhere within " +
-                       PerCent(nearest->worst) + " of the axial intensity, flux " +
-                       PerCent(std::abs(flux)) + (flux < 0.0 ? " low" : " high");
+  light.substitution =
+      DistributionWords(lamp) + " exported as the nearest " + (nearest->cone ? "spot" : "point") +
+      ", round about its aim: right on the axis, elsewhere within " + PerCent(nearest->worst) +
+      " of the axial intensity, flux " + PerCent(std::abs(flux)) + (flux < 0.0 ? " low" : " high");
 }
 
 void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warnings) {

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/beam/stated_beam.h"
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/light/beam_ensemble.h"
 #include "lightcal/photometry/source_photometry.h"
@@ -50,6 +51,10 @@ FluxSpread FluxSpreadOf(const LightDescription& light) {
   constexpr FluxSpread kFlat = {0.25, 1.0};
   constexpr FluxSpread kAny = {0.0089, 1.0};
   if (light.kind == LightKind::kSphere) return {1.0, 1.0};
+  if (const auto beams = BeamsOf(light)) {
+    const double ends = std::sqrt(beams->most.value() / beams->least.value());
+    return {1.0 / ends, ends};
+  }
   if (light.kind != LightKind::kPoint) return {1.0 / (1.0 + kKindSpread), 1.0 + kKindSpread};
   if (!light.fixture) return kAny;
   switch (*light.fixture) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightcal/core/uncertain.h"
+#include "lightcal/fit/beam/stated_beam.h"
 #include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/photometry/source_photometry.h"
@@ -92,8 +93,13 @@ void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {
   if (!out.intensity_cd) return;
   if (light.distribution) return AddTable(*light.distribution, out);
   if (light.kind == LightKind::kPhotometric) return;
-  const SourceGeometry geometry = GeometryOf(light);
   const Uncertain& intensity = *out.intensity_cd;
+  if (const auto beams = BeamsOf(light)) {
+    const double middle = std::sqrt(beams->least.value() * beams->most.value());
+    out.flux_lm = FluxOf(light, intensity, intensity.value * middle);
+    return;
+  }
+  const SourceGeometry geometry = GeometryOf(light);
   const auto photometry = ConvertSource(geometry, SourceQuantity::kIntensity, intensity.value);
   if (!photometry) return;  // a size this kind needs is not given
   if (photometry->flux) out.flux_lm = FluxOf(light, intensity, photometry->flux->value());

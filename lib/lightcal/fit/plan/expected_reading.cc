@@ -8,6 +8,7 @@
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/predicted_parts.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal::fit {
 namespace {
@@ -93,7 +94,7 @@ Lux ExpectedIlluminance(const Session& session, const FittedLight* now,
   const bool has_intensity = now != nullptr && now->intensity_cd;
   const double candela = has_intensity ? now->intensity_cd->value : kNominalCandela;
   if (now != nullptr && now->illuminance_lx) return Lux(now->illuminance_lx->value + ambient);
-  if (planned.distance && now != nullptr && now->distribution) {
+  if (planned.distance && now != nullptr && now->distribution && !OfStatedBeam(*now)) {
     const double d =
         planned.distance->value() + (now->distance_offset_m ? now->distance_offset_m->value : 0.0);
     const Radians off = planned.off_axis.value_or(Radians(0.0));
@@ -116,7 +117,8 @@ std::optional<std::array<Lux, 3>> LikelyIlluminances(const Session& session, con
                                                      const PlannedReading& planned,
                                                      const Reading& like) {
   const bool told = planned.distance && !planned.off_axis && now != nullptr && now->intensity_cd &&
-                    !now->distribution && planned.action != PlannedAction::kLampOff;
+                    (!now->distribution || OfStatedBeam(*now)) &&
+                    planned.action != PlannedAction::kLampOff;
   if (!told) return std::nullopt;
   const bool card = planned.action == PlannedAction::kShadowCard;
   const PredictedParts predicted = PredictParts(*now, *planned.distance);

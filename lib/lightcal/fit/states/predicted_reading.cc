@@ -9,6 +9,7 @@
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_geometry.h"
 #include "lightcal/light/wall_prior.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal::fit {
 namespace {
@@ -40,7 +41,7 @@ std::optional<PredictedReading> PredictReading(const LightDescription& descripti
                     !HasDistanceLaw(light.kind);
   if (!told) return std::nullopt;
   LightDescription known = description;
-  if (light.distribution) known.distribution = light.distribution->table;
+  if (light.distribution && !OfStatedBeam(light)) known.distribution = light.distribution->table;
   const auto row = ObservationAt(known, reading);
   if (!row) return std::nullopt;
   const bool on_axis = row->off_axis_rad == 0.0 && !row->measured_from_center;

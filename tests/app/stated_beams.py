@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What a box says of a beam is in every file: the angle at half of the middle, the lumens, and no bare point. The
+files are read here, and integrated here.
+
+    stated_beams.py LIGHTCAL
+"""
+import json
+import math
+import pathlib
+import sys
+import xml.etree.ElementTree as ET
+import zipfile
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from built_command import HOME, answer, run  # noqa: E402
+
+
+def ies(path):
+    """Angles in degrees and candela of a file of one plane."""
+    text = path.read_text().split("TILT=NONE", 1)[1].split()
+    count, planes, factor = int(text[3]), int(text[4]), float(text[2])
+    assert planes == 1, text[:13]
+    angles = np.array(text[13:13 + count], float)
+    return angles, factor * np.array(text[14 + count:14 + 2 * count], float)
+
+
+def lumens(angles, candela):
+    fine = np.linspace(0, 180, 180001)
+    values = 2 * np.pi * np.interp(fine, angles, candela) * np.sin(np.radians(fine))
+    return np.sum((values[1:] + values[:-1]) / 2) * np.radians(fine[1])
+
+
+def full_angle(angles, candela, part):
+    fine = np.linspace(0, 90, 90001)
+    return 2 * fine[np.argmax(np.interp(fine, angles, candela) < part * candela[0])]
+
+
+def files_of(name, *words):
+    run("quick", *words, "--to", "ies,gltf,gdtf,blender", "-o", HOME / name)
+    light = answer("quick", *words)["lights"][0]
+    return HOME / name, light, ies(next((HOME / name).glob("*.ies")))
+
+
+def gltf_light(folder):
+    return json.loads(next(folder.glob("*.gltf")).read_text())["extensions"]["KHR_lights_punctual"]["lights"][0]
+
+
+def gdtf_beam(folder):
+    with zipfile.ZipFile(next(folder.glob("*.gdtf"))) as package:
+        return ET.fromstring(package.read("description.xml")).find(".//Beam").attrib
+
+
+def a_stated_beam_is_what_is_exported():
+    for beam in (12, 36, 60, 100, 120):
+        folder, light, table = files_of(f"b{beam}", "--lumens", 806, "--beam", beam)
+        assert abs(lumens(*table) / 806 - 1) < 0.005, (beam, lumens(*table))
+        assert abs(full_angle(*table, 0.5) / beam - 1) < 0.01, (beam, full_angle(*table, 0.5))
+        assert abs(table[1][0] / light["intensity_cd"]["value"] - 1) < 1e-3
+        gltf = gltf_light(folder)
+        assert gltf["type"] == "spot" and gltf["spot"]["outerConeAngle"] > math.radians(beam / 2), gltf
+        gdtf = gdtf_beam(folder)
+        assert abs(float(gdtf["BeamAngle"]) / beam - 1) < 0.02, gdtf
+        assert abs(float(gdtf["LuminousFlux"]) / 806 - 1) < 0.01, gdtf
+
+
+def a_stated_field_is_in_it_too():
+    _, _, table = files_of("field", "--lumens", 806, "--beam", 36, "--field", 60)
+    assert abs(lumens(*table) / 806 - 1) < 0.005, lumens(*table)
+    assert abs(full_angle(*table, 0.5) / 36 - 1) < 0.01 and abs(full_angle(*table, 0.1) / 60 - 1) < 0.01
+
+
+def an_outer_angle_carries_the_lumens():
+    folder, light, table = files_of("outer", "--lumens", 806, "--outer", 30)
+    assert abs(lumens(*table) / 806 - 1) < 0.005, lumens(*table)
+    cone = light["cone"]
+    assert 0 < cone["inner_deg"] < 30 and cone["inner_u95_deg"] >= cone["inner_deg"], cone
+    assert abs(gltf_light(folder)["spot"]["outerConeAngle"] - math.radians(30)) < 1e-9
+
+
+def a_reading_on_the_axis_leaves_the_beam():
+    session = HOME / "key.toml"
+    session.write_text('lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "key"\nkind = "spot"\nfixture = "fresnel"\n'
+                       'beam_deg = 40\n[[reading]]\nlight = "key"\ndistance_m = 2.0\nilluminance_lx = 1000\n'
+                       '[[reading]]\nlight = "key"\ndistance_m = 4.0\nilluminance_lx = 250\n')
+    run("run", session, "--to", "ies,gltf", "-o", HOME / "key")
+    table = ies(next((HOME / "key").glob("*.ies")))
+    assert abs(full_angle(*table, 0.5) / 40 - 1) < 0.01, full_angle(*table, 0.5)
+    # Between a flat cone of those 40 degrees and one with a third of its light beside it.
+    n = math.log(0.5) / math.log(math.cos(math.radians(20)))
+    narrow, wide = 2 * math.pi * (1 - math.cos(math.radians(20))), 1.5 * 2 * math.pi / (n + 1)
+    assert narrow < lumens(*table) / table[1][0] < wide, lumens(*table) / table[1][0]
+    assert gltf_light(HOME / "key")["type"] == "spot"
+
+
+def the_beam_of_a_lambertian_face_is_lamberts():
+    bare = answer("quick", "--lumens", 4000, "--size", "60x60cm", "--fixture", "panel")["lights"][0]
+    light = answer("quick", "--lumens", 4000, "--size", "60x60cm", "--fixture", "panel", "--kind", "rect",
+                   "--beam", 120)["lights"][0]
+    assert abs(light["intensity_cd"]["value"] - 4000 / math.pi) < 0.5, light["intensity_cd"]
+    assert abs(light["intensity_cd"]["u95"] / bare["intensity_cd"]["u95"] - 1) < 0.01, light["intensity_cd"]
+    assert abs(light["luminance_nits"]["value"] * 0.36 * math.pi / light["flux_lm"]["value"] - 1) < 1e-3, light
+    # Narrower: cos^n that halves at 45 degrees is cos^2, 2 pi/3 sr; surer than a beam of any shape.
+    narrow = answer("quick", "--lumens", 4000, "--size", "60x60cm", "--kind", "rect", "--beam", 90)["lights"][0]
+    assert abs(narrow["intensity_cd"]["value"] * 2 * math.pi / 3 / 4000 - 1) < 1e-3, narrow["intensity_cd"]
+    spread = [one["intensity_cd"]["u95"] / one["intensity_cd"]["value"] for one in (bare, narrow)]
+    assert 1.02 * spread[0] < spread[1] < 0.5, spread
+
+
+PARTS = {"beams": (a_stated_beam_is_what_is_exported, a_stated_field_is_in_it_too,
+                   an_outer_angle_carries_the_lumens, a_reading_on_the_axis_leaves_the_beam),
+         "faces": (the_beam_of_a_lambertian_face_is_lamberts,)}
+for part in PARTS[sys.argv[2]]:
+    part()
