@@ -27,13 +27,16 @@ double WallsAt(const FittedLight& reference, const Reading& reading) {
 
 double WallPartOf(const Session& session, const FittedLight& lamp, const ResidualRow& row) {
   const bool walls = session.surroundings == Surroundings::kIndoors;
-  if (!walls || !row.distance_m || row.index < 0) return 0.0;
+  if (!walls || row.index < 0) return 0.0;
   int index = 0;
   const Reading* reading = nullptr;
   for (const SessionReading& of : session.readings) {
     if (of.reading.light == lamp.name && index++ == row.index) reading = &of.reading;
   }
-  if (reading == nullptr || reading->position_m) return 0.0;
+  if (reading == nullptr) return 0.0;
+  // Read by its place: what of it the fit holds for the walls' own.
+  if (reading->position_m) return std::clamp(row.walls_lx.value_or(0.0), 0.0, row.predicted_lx);
+  if (!row.distance_m) return 0.0;
   // What the lamp alone gives there is not what it gives on its axis: the fit has parted the two.
   if (reading->off_axis.value() != 0.0) {
     const double facing = WallsAt(lamp, *reading) * std::cos(reading->tilt.value());

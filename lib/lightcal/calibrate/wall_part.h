@@ -8,9 +8,9 @@
 namespace lightcal {
 
 // In lux: what the fit predicts for the row less what the lamp alone gives there
-// (PredictIlluminance, times cos of the tilt). 0 where the session has no walls, and for rows that
-// were taken at places or behind no card: there the lamp alone is not known from its distance. Off
-// the axis the row's own walls_lx, or what walls give on the axis at that distance.
+// (PredictIlluminance, times cos of the tilt). 0 where the session has no walls. Of rows that were
+// taken at places the row's own walls_lx, for there the lamp alone is not known from its distance;
+// off the axis that too, or what walls give on the axis at that distance.
 [[nodiscard]] double WallPartOf(const Session& session, const FittedLight& lamp,
                                 const ResidualRow& row);
 

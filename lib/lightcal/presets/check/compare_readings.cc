@@ -75,6 +75,14 @@ EngineLight PlacedLike(const MeteredLamp& lamp, EngineLight light) {
   return light;
 }
 
+// As by distance: of a lamp that is not turned the offset is a radius, whatever told the place.
+Vec3 Outwards(const MeteredLamp& lamp, const Vec3& point, double offset_m) {
+  const Vec3 way = point - lamp.place_m;
+  const double distance = Length(way);
+  if (lamp.turned || !(distance > 0.0)) return point;
+  return point + way * (offset_m / distance);
+}
+
 // What the file's lights give where the meter stood, facing the lamp unless it says otherwise.
 double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp,
                  const Reading& reading) {
@@ -86,7 +94,7 @@ double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp
     const EngineLight placed = light.placed ? light : PlacedLike(lamp, light);
     if (reading.position_m && reading.normal) {
       const Vec3 normal = *reading.normal * (1.0 / Length(*reading.normal));
-      sum += LuxAt(placed, *reading.position_m, normal);
+      sum += LuxAt(placed, Outwards(lamp, *reading.position_m, placed.offset_m), normal);
       continue;
     }
     const double d = (reading.distance ? reading.distance->value() : 1.0) + lamp.surface_m +
