@@ -170,13 +170,21 @@ class LightMeasurer {
     return XyzOf(samples, fill).Y;
   }
 
+  // Of a clipped body what stands out of its surroundings as another light would: the rest of its
+  // edge differs from the fill by the surroundings' own unevenness, and has their colour.
+  [[nodiscard]] bool ShowsColor(const DomeLight& light, std::size_t at) const {
+    if (!light.body.clipped) return true;
+    const Index i = light.body.pixels[at];
+    if (!clipped_.empty() && clipped_[static_cast<std::size_t>(i)] != 0) return false;
+    return Nits(i) * (1.0 - 1.0 / kRingOutlier) < Added(light, at);
+  }
+
   void TakeMoments(DomeLight& light) const {
     Xyz color{};
     for (std::size_t at = 0; at < light.body.pixels.size(); ++at) {
       const Index i = light.body.pixels[at];
       light.flow = light.flow + grid_.Flow(grid_.X(i), grid_.Y(i)) * Added(light, at);
-      const bool whole = clipped_.empty() || clipped_[static_cast<std::size_t>(i)] == 0;
-      if (dome_.channels != 3 || !whole) continue;
+      if (dome_.channels != 3 || !ShowsColor(light, at)) continue;
       const Xyz xyz = XyzOf(Samples(i), &light.fill[at * 3]);
       const double omega = grid_.SolidAngle(grid_.Y(i));
       color = {color.X + omega * xyz.X, color.Y + omega * xyz.Y, color.Z + omega * xyz.Z};

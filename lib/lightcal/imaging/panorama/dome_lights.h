@@ -60,7 +60,8 @@ struct DomeLight {
 // What bodies bring above a smooth continuation of what surrounds them: each pixel's fill is the
 // mean of a ring three pixels wide around the body, in at most 256 arcs, weighted by 1/distance^3.
 // A body that brings nothing is left out. Largest illuminance first.
-// The colour of a clipped body is that of its unclipped pixels, or absent.
+// The colour of a clipped body is that of its unclipped pixels which are 3 times their fill and
+// more, or absent.
 [[nodiscard]] std::vector<DomeLight> MeasureDomeLights(const Dome& dome,
                                                        std::vector<BrightBody> bodies,
                                                        std::span<const std::uint8_t> clipped = {});

@@ -244,6 +244,14 @@ Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& m
 }
 
 void WarnOfClippedLights(MeasuredDome& measured) {
+  const bool white = std::ranges::any_of(
+      measured.lights, [](const DomeLight& light) { return light.body.clipped && !light.xy; });
+  if (white && measured.input.dome.channels == 3) {
+    measured.warnings.push_back(
+        {"clipped_color", measured.input.files.front(),
+         "a light is clipped: what colour it has the picture does not tell, and none is given; "
+         "read it with a colour meter, or take a shorter frame of it"});
+  }
   const bool lost = std::ranges::any_of(measured.lights, [](const DomeLight& light) {
     return light.body.clipped && !light.inferred;
   });
