@@ -28,6 +28,8 @@ Uncertain FromInterval(double low, double high) {
   return UncertainFromLog(0.5 * std::log(low * high), std::hypot(shape_sd, flux_sd));
 }
 
+bool IsFlat(LightKind kind) { return kind == LightKind::kDisk || kind == LightKind::kRect; }
+
 // Phi/I of the kind's own distribution, independent of its size.
 double SolidAngleOfKind(const LightDescription& light) {
   constexpr double kPi = std::numbers::pi;
@@ -39,9 +41,20 @@ double SolidAngleOfKind(const LightDescription& light) {
                             SpotFalloff::kSquaredLinear)
         .value();
   }
-  if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) return kPi;
+  if (IsFlat(light.kind)) return kPi;
   if (light.kind == LightKind::kTube) return kPi * kPi;
   return 4.0 * kPi;
+}
+
+// A face shines by cos^n: at 120 degrees that is Lambert's law, as sure as of a face whose beam
+// nobody states; as unsure as any beam where the angle halves its solid angle or doubles it.
+Uncertain FlatByBeam(double flux, Radians beam, const BeamSolidAngles& beams) {
+  const double n = std::log(0.5) / std::log(std::cos(0.5 * beam.value()));
+  const double omega = 2.0 * std::numbers::pi / (n + 1.0);
+  const double unlike = std::min(1.0, std::abs(std::log2(omega / std::numbers::pi)));
+  const double any = 0.5 * std::log(beams.most.value() / beams.least.value());
+  const double spread = std::max(std::log1p(kKindSpread), unlike * any);
+  return FromInterval(flux / omega * std::exp(-spread), flux / omega * std::exp(spread));
 }
 
 }  // namespace
@@ -82,6 +95,7 @@ Result<Uncertain> IntensityFromDataSheet(const LightDescription& light) {
   if (light.beam) {
     auto beams = BeamEnsemble(*light.beam, light.field);
     if (!beams) return Propagate(std::move(beams));
+    if (IsFlat(light.kind) && !light.field) return FlatByBeam(flux, *light.beam, *beams);
     return FromInterval(flux / beams->most.value(), flux / beams->least.value());
   }
   if (light.kind == LightKind::kSpot && !light.outer && !light.distribution) {
