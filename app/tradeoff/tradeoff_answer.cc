@@ -141,6 +141,10 @@ std::string Recommendation(const Study& study) {
            "), your readings are the limit; no setting that is good enough saves " +
            PercentText(tradeoff::kLeastSaved) + " of that.";
   }
+  if (study.saved_share == 0.0) {
+    return "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" + takes +
+           "): as usual is not good enough here.";
+  }
   return "Recommended: " + tradeoff::NameOf(study.recommended.levels) + " (" + takes + ", saves " +
          PercentText(study.saved_share) + "; " +
          Effect(study.recommended, study.recommended.TimesFaster()) + ").";

@@ -170,6 +170,29 @@ TEST(Study, ABudgetBuysTheMostAccurateWithinIt) {
   EXPECT_EQ(refused.error().code, "no_setting");
 }
 
+// An interval that only every effect and draws together tell: all others are half as wide.
+TEST(Study, TheStrictestIsTakenWhereNoOtherHolds) {
+  Invented session;
+  const Runner run = [&](const AccuracyProfile& p) -> Result<Outcome> {
+    Outcome out = session(p);
+    const bool told = p.effects == "all" && p.estimator.interval_samples >= 50000;
+    if (!told) out.lights.front().sd_ln *= 0.5;
+    return out;
+  };
+  const auto study = StudyTradeoff(run, {}, {});
+  ASSERT_TRUE(study) << study.error().message;
+  EXPECT_EQ(study->recommended.measured.profile.effects, "all");
+  EXPECT_EQ(study->recommended.measured.profile.estimator.interval_samples, 100000);
+  EXPECT_EQ(study->saved_share, 0.0);
+  Question question;
+  question.knobs = {"pixels"};
+  const auto refused = StudyTradeoff(run, question, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, "no_setting");
+  EXPECT_NE(refused.error().message.find("95 % interval 50 % too narrow"), std::string::npos)
+      << refused.error().message;
+}
+
 TEST(Study, ReferencesThatDisagreeAreNone) {
   Invented session;
   session.check_error = 2e-4;  // more than a hundredth of 1 %

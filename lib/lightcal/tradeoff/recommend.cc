@@ -65,6 +65,24 @@ std::string LimitText(const Setting& setting) {
   return text + ", and the uncertainty of " + light->name + " comes mostly from " + light->limit;
 }
 
+// What the others are judged by: it holds whatever none of them does.
+Setting StrictestOf(const Study& study) {
+  Setting strictest;
+  strictest.levels.assign(Knobs().size(), 0);
+  strictest.measured = study.reference;
+  strictest.error = ErrorOf(DifferencesFrom(study.reference.lights, study.reference.lights));
+  strictest.verdict = Verdict::kFree;
+  strictest.usual = study.usual.measured.times;
+  return strictest;
+}
+
+// Where its values are near and its interval is not.
+std::string IntervalText(const Setting& setting) {
+  if (std::abs(setting.u_change) <= kSafeShare) return "";
+  return ", its 95 % interval " + PercentText(std::abs(setting.u_change)) +
+         (setting.u_change < 0.0 ? " too narrow" : " too wide");
+}
+
 }  // namespace
 
 std::vector<double> SignedDifferences(const Study& study, const Measured& measured) {
@@ -124,6 +142,9 @@ Result<void> Recommend(const Runner& run, const Question& question,
     const Setting candidate = *CheapestOf(fit);
     return RecommendIfItSaves(run, question.sure, watch, candidate, holds(study.usual), study);
   }
+  if (!question.budget_s && question.knobs.empty()) {
+    return RecommendIfItSaves(run, question.sure, watch, StrictestOf(study), false, study);
+  }
   const Setting* nearest = all.front();  // the usual one does not hold: they are all there
   for (const Setting* one : all) {
     const bool late = question.budget_s && one->measured.times.total > *question.budget_s;
@@ -142,7 +163,7 @@ Result<void> Recommend(const Runner& run, const Question& question,
                      MillisecondsText(nearest->measured.times.total) + " and is " +
                      PercentText(nearest->error.relative) + " off in the " +
                      std::string(nearest->error.quantity) + " of " + nearest->error.light +
-                     LimitText(*nearest));
+                     IntervalText(*nearest) + LimitText(*nearest));
 }
 
 }  // namespace lightcal::tradeoff

@@ -22,8 +22,9 @@ namespace lightcal::tradeoff {
                                               bool usual_holds, Study& study);
 
 // Fills what a study recommends: the cheapest setting whose differences all lie within `limits`,
-// where it saves enough; under a budget the most accurate within it. Refused: no_setting. Fails:
-// interrupted.
+// where it saves enough, the strictest where none does (an interval that only draws tell); under a
+// budget the most accurate within it. Refused: no_setting (under a budget, or where not every knob
+// may move). Fails: interrupted.
 [[nodiscard]] Result<void> Recommend(const Runner& run, const Question& question,
                                      const std::vector<double>& limits, const Watch& watch,
                                      Study& study);
