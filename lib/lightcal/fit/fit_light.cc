@@ -2,6 +2,7 @@
 #include "lightcal/fit/fit_light.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -161,8 +162,7 @@ Error AsOne(std::vector<Error> refusals) {
 
 Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
   FittedSession out;
-  std::optional<Error> nothing_read;
-  std::vector<Error> refusals;
+  std::vector<Error> refusals, unread;
   const Progress whole = std::move(settings.progress);
   const double part = 1.0 / static_cast<double>(std::max<std::size_t>(1, session.lights.size()));
   double begun = 0.0;
@@ -182,11 +182,12 @@ Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
       continue;
     }
     out.warnings.push_back({"no_readings", light.name, fitted.error().message});
-    if (!nothing_read) nothing_read = std::move(fitted).error();
+    unread.push_back(std::move(fitted).error());
   }
+  // Beside an answer the unread are warned of; where there is none they are what is missing.
+  if (out.lights.lights.empty()) std::ranges::move(unread, std::back_inserter(refusals));
   if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
   if (out.lights.lights.empty()) {
-    if (nothing_read) return tl::unexpected(*std::move(nothing_read));
     return Refused("no_light", session.name, "the session describes no light");
   }
   return out;
