@@ -11,6 +11,7 @@
 
 #include "lightcal/core/file_stem.h"
 #include "lightcal/core/joined.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_light.h"
@@ -76,6 +77,50 @@ void DropUnasked(const Warnings& said, Warnings& warnings) {
   });
 }
 
+// What was said of a lamp's substitute, and by which formats.
+struct Substituted {
+  std::string lamp, message, formats;
+  double worst_percent = 0.0;  // as the message has it
+};
+
+// "elsewhere within 15 % of the axial intensity" -> 15; 0 where a message gives no such figure.
+double WorstPercent(const std::string& message) {
+  const std::size_t end = message.find(" % of the axial intensity");
+  if (end == std::string::npos) return 0.0;
+  const std::size_t begin = message.rfind(' ', end - 1) + 1;
+  return ParseNumber(message.substr(begin, end - begin)).value_or(0.0);
+}
+
+void NoteSubstitutes(std::string_view format, const Warnings& warnings,
+                     std::vector<Substituted>& said) {
+  for (const Warning& w : warnings) {
+    if (w.code != "substituted") continue;
+    const auto known = std::ranges::find_if(said, [&](const Substituted& one) {
+      return one.lamp == w.subject && one.message == w.message;
+    });
+    if (known == said.end()) {
+      said.push_back({w.subject, w.message, std::string(format), WorstPercent(w.message)});
+    } else if (("," + known->formats + ",").find("," + std::string(format) + ",") ==
+               std::string::npos) {
+      known->formats += "," + std::string(format);
+    }
+  }
+}
+
+// Of several formats the one that strays most is what is said, by its name.
+void SayWorst(const std::vector<Substituted>& said, Warnings& warnings) {
+  for (Warning& w : warnings) {
+    if (w.code != "substituted") continue;
+    const Substituted* worst = nullptr;
+    for (const Substituted& one : said) {
+      if (one.lamp != w.subject) continue;
+      if (worst == nullptr || one.worst_percent > worst->worst_percent) worst = &one;
+    }
+    if (worst == nullptr || worst->message == w.message) continue;
+    w.message = worst->formats + ": " + worst->message;
+  }
+}
+
 // Two targets may bring the same photometric file, with the same contents.
 void KeepFirstOfEachName(std::vector<PresetFile>& files) {
   std::set<std::string> names;
@@ -123,6 +168,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
   ExportedPresets all;
   auto rigs = RigsOf(lights, options);
   if (!rigs) return Propagate(std::move(rigs));
+  std::vector<Substituted> said;
   for (const PresetTarget& target : *chosen) {
     for (const std::optional<RigPlace>& rig : *rigs) {
       PresetOptions one = options;
@@ -130,6 +176,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       one.rig_place = rig.value_or(RigPlace{});
       auto preset = target.exporter(lights, stem, one);
       if (!preset) return Propagate(std::move(preset));
+      NoteSubstitutes(target.name, preset->warnings, said);
       if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
       AddOnce(preset->warnings, all.warnings);
       std::ranges::move(preset->files, std::back_inserter(all.files));
@@ -138,6 +185,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       }
     }
   }
+  if (targets.empty()) SayWorst(said, all.warnings);
   KeepFirstOfEachName(all.files);
   return all;
 }
