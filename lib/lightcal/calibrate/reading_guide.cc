@@ -8,6 +8,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/plan/next_step.h"
+#include "lightcal/fit/plan/plan_readings.h"
 
 namespace lightcal {
 namespace {
@@ -92,12 +93,17 @@ std::vector<PlannedReading> ReadingGuide::Skipped() const {
 }
 
 Result<GuideAdvice> ReadingGuide::Next() const {
+  const auto skipped = [this](const PlannedReading& step) {
+    return std::ranges::any_of(skipped_,
+                               [&](const PlannedReading& one) { return SameStep(one, step); });
+  };
   const std::optional<double> now = u95_relative();
   if (now && *now <= until_relative_) return GuideAdvice{GuideAdvice::Kind::kReached};
   if (fitted_) {
     NextStepAdvice advice = AdviseNext(session_, *fitted_, Skipped());
     using Kind = NextStepAdvice::Kind;
-    if (advice.kind == Kind::kReading) {
+    const bool nearer = advice.kind == Kind::kSay && advice.reading && !skipped(*advice.reading);
+    if (advice.kind == Kind::kReading || nearer) {
       return GuideAdvice{GuideAdvice::Kind::kMeasure, *std::move(advice.reading)};
     }
     if (advice.kind != Kind::kSay) return GuideAdvice{GuideAdvice::Kind::kNoGain};

@@ -68,6 +68,19 @@ NextStepAdvice Say(std::string sentence) {
   return advice;
 }
 
+// Nearer, the lamp outshines the rest; how much that buys no plan knows.
+NextStepAdvice SayReadNearer(double nearest_m) {
+  const std::string at = RoundedText(nearest_m / kStep, 2);
+  NextStepAdvice advice = Say("read again at " + at +
+                              " m, facing the lamp: the lamp cannot be told from the other light");
+  constexpr double kNearest_m = 0.1;  // where a hand's breadth of the lamp is no point any more
+  const double metres = ParseNumber(at).value();
+  if (metres >= kNearest_m) {
+    advice.reading = PlannedReading{PlannedAction::kRead, Metres(metres), {}, {}};
+  }
+  return advice;
+}
+
 NextStepAdvice Take(PlannedReading reading, double minutes, std::optional<double> now) {
   NextStepAdvice advice;
   advice.kind = NextStepAdvice::Kind::kReading;
@@ -191,17 +204,16 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
   if (auto again = AboutRejected(light)) return Say(*again);
   const double nearest = taken.distances_m.front();
   if (IsPrior(light, "intensity")) {
-    return Say(ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light"));
+    return SayReadNearer(nearest);
   }
   if (!taken.own) {
     return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
                " m: so far only the manufacturer's figures speak");
   }
   NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
-  // A step that leaves the interval down to nothing tells the lamp as little as none: nearer, the
-  // lamp outshines the rest.
+  // A step that leaves the interval down to nothing tells the lamp as little as none.
   if (bought.reading && bought.reading->u95_relative >= 1.0) {
-    return Say(ReadAgainAt(nearest / kStep, "the lamp cannot be told from the other light"));
+    return SayReadNearer(nearest);
   }
   return bought;
 }
