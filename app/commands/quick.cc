@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "directory_name.h"
+#include "engine_colors.h"
 #include "lamp_answer.h"
 #include "lamp_words.h"
 #include "light_table.h"
@@ -71,6 +72,7 @@ void PrintAnswer(const QuickOptions& options, const QuickAnswer& answer, Console
   console.Print(LampAnswersText(answer.answers, answer.session));
   console.Print(PredictionLines(answer.predictions));
   if (console.verbose()) {
+    console.Print(ColorLines(answer.answers.front().figures));
     console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n" +
                   BudgetTable(lights.lights.front()));
   }

@@ -13,6 +13,7 @@
 #include "clock.h"
 #include "commands.h"
 #include "directory_name.h"
+#include "engine_colors.h"
 #include "input_files.h"
 #include "lamp_answer.h"
 #include "light_table.h"
@@ -71,6 +72,10 @@ Result<void> RunSession(const RunOptions& options, const StampSeed& stamp, Conso
 
   console.Print(LampAnswersText(run->answers.lamps, run->calibrated.session));
   if (console.verbose()) {
+    for (const LampAnswer& answer : run->answers.lamps) {
+      const std::string colors = ColorLines(answer.figures);
+      if (!colors.empty()) console.Print(answer.light->name + ":\n" + colors);
+    }
     console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n");
   }
   console.Print(WroteLine(*files, directory) + "\n");

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine_colors.h"
 #include "lamp_words.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
@@ -134,6 +135,8 @@ Result<QuickAnswer> AnswerQuick(const QuickOptions& options, Console& console) {
 Node DocumentOf(const QuickAnswer& answer) {
   Node document = DocumentOf(answer.fitted.lights);
   document.Put("next_step", answer.answers.front().next.say);
+  document.Put("type_in",
+               Node::UnlessEmpty(Node::List(answer.answers.front().figures, TypeInNode)));
   if (answer.behind) document.Put("through", ThroughNode(*answer.behind));
   const auto prediction = [](const QuickPrediction& p) -> Node {
     Node node = {{"distance_m", p.distance},

@@ -392,8 +392,8 @@ Result<std::string> LightFileToJson(const LightFile& file) {
 }
 
 // What an answer adds to the same document, of which nothing is read back.
-constexpr std::array<std::string_view, 7> kBesideLights = {
-    "warnings", "next_step", "next_steps", "files", "through", "predictions", "minutes"};
+constexpr std::array<std::string_view, 8> kBesideLights = {
+    "warnings", "next_step", "next_steps", "files", "type_in", "through", "predictions", "minutes"};
 
 static Result<LightFile> LightsOfDocument(std::string_view text, std::string_view where,
                                           std::string_view preset_schema) {
