@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Exif 2.3 says sensitivities of 65535 and more elsewhere: by SensitivityType in RecommendedExposureIndex,
-StandardOutputSensitivity or ISOSpeed. PNG files with an eXIf chunk, written without a header of lightcal."""
+StandardOutputSensitivity or ISOSpeed, of RAW files as of others, in whatever order the tags stand. PNG files with an
+eXIf chunk and DNG files, written without a header of lightcal."""
 import pathlib
 import struct
 import sys
@@ -10,6 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from plain_dng import mosaic, write_dng  # noqa: E402
 from plain_png import write_png  # noqa: E402
 from plain_tiff import directory, entry  # noqa: E402
 
@@ -28,12 +30,19 @@ def picture(tags):
     return ["merge", PATH, "--response", "srgb", "-o", HOME / "o.exr", "--mains", "none", "--force"]
 
 
+def raw(tags):
+    grey = np.random.default_rng(9).uniform(0.05, 0.6, (48, 64, 1)) * np.ones(3)
+    write_dng(HOME / "f.dng", mosaic(grey), 0.01, 8, None, (1, 1, 1), more=tags)
+    return ["merge", HOME / "f.dng", "--noise", "1e-4,1e-7", "-o", HOME / "o.exr", "--mains", "none", "--force"]
+
+
 beyond = [entry(PHOTOGRAPHIC, "S", 65535)]
 for iso, tags in ((400, [entry(PHOTOGRAPHIC, "S", 400), entry(RECOMMENDED, "L", 800)]),
                   (102400, [*beyond, entry(TYPE, "S", 2), entry(RECOMMENDED, "L", 102400)]),
                   (204800, [*beyond, entry(TYPE, "S", 1), entry(STANDARD, "L", 204800), entry(RECOMMENDED, "L", 100)]),
                   (81920, [*beyond, entry(TYPE, "S", 3), entry(SPEED, "L", 81920), entry(STANDARD, "L", 100)]),
                   (102400, [*beyond, entry(RECOMMENDED, "L", 102400)])):
-    said = answer(*picture(tags))["frames"][0]["iso"]
-    assert said == iso, (said, iso)
+    for file in (picture, raw):
+        said = answer(*file(tags))["frames"][0]["iso"]
+        assert said == iso, (file.__name__, said, iso)
 refused("no_exposure_metadata", *picture(beyond), says="ISO speed")

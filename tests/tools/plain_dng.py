@@ -20,13 +20,15 @@ def mosaic(rgb):
     return np.clip(np.rint(BLACK + out * (WHITE - BLACK)), 0, WHITE).astype("<u2")
 
 
-def write_dng(path, samples, exposure_s, f_number, iso, neutral, model="Synthetic Card Camera"):
+def write_dng(path, samples, exposure_s, f_number, iso, neutral, model="Synthetic Card Camera",
+              more=()):
     height, width = samples.shape
     entries = [entry(254, "L", 0), entry(256, "L", width), entry(257, "L", height), entry(258, "S", 16),
                entry(259, "S", 1), entry(262, "S", 32803), entry(271, "A", "Synthetic"), entry(272, "A", model),
                entry(274, "S", 1), entry(277, "S", 1), entry(278, "L", height), entry(279, "L", 2 * samples.size),
                entry(33421, "S", 2, 2), entry(33422, "B", 0, 1, 1, 2), entry(33434, "R", exposure_s),
-               entry(33437, "R", f_number), entry(34855, "S", iso), entry(50706, "B", 1, 4, 0, 0),
+               entry(33437, "R", f_number), *([] if iso is None else [entry(34855, "S", iso)]), *more,
+               entry(50706, "B", 1, 4, 0, 0),
                entry(50707, "B", 1, 1, 0, 0), entry(50708, "A", model), entry(50711, "S", 1),
                entry(50714, "L", BLACK), entry(50717, "L", WHITE), entry(50721, "r", *RGB_FROM_XYZ.ravel()),
                entry(50728, "R", *neutral), entry(50778, "S", 21)]

@@ -33,6 +33,7 @@ enum Tag : int {
   kExposureTime = 0x829A,
   kFNumber = 0x829D,
   kIso = 0x8827,
+  kSensitivityType = 0x8830,
   kStandardOutputSensitivity = 0x8831,
   kRecommendedExposureIndex = 0x8832,
   kIsoSpeed = 0x8833,
@@ -173,6 +174,11 @@ void TakeDeltas(const std::vector<double>& deltas, std::vector<double>& kept, Ra
   tags.black_of_deltas += std::floor(sum / static_cast<double>(deltas.size()) + 0.5);
 }
 
+void TakeIso(RawTagWalk& walk, std::optional<double> IsoTags::* tag, const TagData& data) {
+  KeepFirst(walk.iso.*tag, data.First());
+  walk.tags.exposure.iso = IsoOfTags(walk.iso);
+}
+
 void Take(RawTagWalk& walk, int tag, const TagData& data) {
   RawTags& tags = walk.tags;
   switch (tag) {
@@ -185,13 +191,15 @@ void Take(RawTagWalk& walk, int tag, const TagData& data) {
     case kApertureValue:
       return KeepFirst(tags.exposure.aperture_apex, data.First());
     case kIso:
+      return TakeIso(walk, &IsoTags::photographic, data);
+    case kSensitivityType:
+      return TakeIso(walk, &IsoTags::type, data);
     case kStandardOutputSensitivity:
+      return TakeIso(walk, &IsoTags::standard_output, data);
     case kRecommendedExposureIndex:
+      return TakeIso(walk, &IsoTags::recommended, data);
     case kIsoSpeed:
-      if (tags.exposure.iso.value_or(kIsoIsElsewhere) == kIsoIsElsewhere) {
-        tags.exposure.iso = data.First();
-      }
-      return;
+      return TakeIso(walk, &IsoTags::iso_speed, data);
     case kSubjectDistance:
       return KeepFirst(tags.subject_distance_m, data.First());
     case kDateTimeOriginal:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/records/frame.h"
+#include "lightcal_devices/captures/exposure_tags.h"
 
 class LibRaw;
 
@@ -27,6 +28,7 @@ struct RawTags {
 struct RawTagWalk {
   RawTags tags;
   int count = 0;  // tags seen: none means that the file is no TIFF at all
+  IsoTags iso{};  // what tags.exposure.iso is of
   // Where the picture's data should lie, strip by strip or tile by tile, of every directory.
   std::vector<double> data_offsets, data_sizes;
   // DNG BlackLevelDeltaH and V: what the black of a column and of a row of the active area is above
