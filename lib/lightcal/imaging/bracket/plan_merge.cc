@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/bracket/all_saturated.h"
 #include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
 #include "lightcal/imaging/bracket/noise_shares.h"
@@ -158,8 +159,7 @@ Result<void> CheckContents(const SampledSignals& signals, std::span<const Signal
   if (std::all_of(signals.frames.begin(), signals.frames.end(), [&](const auto& frame) {
         return ShareAbove(frame, signals.clip, 0.9) > 0.9999;
       })) {
-    return Refused("all_saturated", frames[shortest].name,
-                   "every frame is saturated; expose shorter, stop down or use an ND filter");
+    return AllSaturated(frames[shortest].name);
   }
   return {};
 }

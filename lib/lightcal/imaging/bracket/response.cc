@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/bracket/all_saturated.h"
 
 namespace lightcal {
 namespace {
@@ -263,8 +264,7 @@ Result<void> CheckCodes(std::span<const Frame> frames, double top) {
                    "no frame shows more than black; expose longer, take the lens cap off");
   }
   if (any_unsaturated) return {};
-  return Refused("all_saturated", name,
-                 "every frame is saturated; expose shorter, stop down or use an ND filter");
+  return AllSaturated(name);
 }
 
 tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why) {
