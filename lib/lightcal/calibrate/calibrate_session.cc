@@ -14,6 +14,7 @@
 #include "lightcal/calibrate/session_files.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
+#include "lightcal/core/as_one.h"
 #include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/generator_name.h"
 #include "lightcal/fit/fit_light.h"
@@ -134,6 +135,26 @@ void AddSpectraOfCaptures(const Session& session, const Sources& sources, Eviden
   }
 }
 
+// What is wrong with a session's files: the others are looked at all the same, but nothing of
+// lights of which something is missing.
+struct Faults {
+  std::vector<Error> all;
+  std::vector<std::string> lights;
+
+  [[nodiscard]] bool Of(const std::string& light) const {
+    return std::ranges::find(lights, light) != lights.end();
+  }
+};
+
+// What files beyond those that failed would be refused for, as one.
+Error AllFaults(Faults faults, Session session, const Sources& sources,
+                const CalibrationSettings& settings, Evidence& evidence) {
+  KeepLights([&](const std::string& light) { return !faults.Of(light); }, session);
+  auto walls = MeasureWalls(session, sources, FitSettingsOf(settings), evidence);
+  if (!walls) faults.all.push_back(std::move(walls).error());
+  return AsOne(std::move(faults.all));
+}
+
 Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
                                 const CalibrationSettings& settings, Evidence& evidence) {
   auto loaded = LoadSession(path, sources.read_text);
@@ -145,32 +166,52 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
   session = AsSet(std::move(loaded->session), settings);
   evidence.files = std::move(session.input_files);
   Lap(settings, tradeoff::Stage::kLoad);
+  Faults faults;
   std::vector<ReadSpectrum> read;
   for (auto* const rows : {&session.readings, &session.state_readings}) {
     for (SessionReading& row : *rows) {
       auto resolved =
           WithSpectrum(session, row, settings.profile.spectral_step_nm, sources, evidence, read);
-      if (!resolved) return Propagate(std::move(resolved));
-      row.reading = *std::move(resolved);
+      if (resolved) {
+        row.reading = *std::move(resolved);
+      } else {
+        faults.all.push_back(std::move(resolved).error());
+      }
     }
   }
   evidence.spectra = LampSpectra(read);
   for (LightDescription& light : session.lights) {
     auto described =
         WithDistribution(session, light, settings.profile.table_step_deg, sources, evidence);
-    if (!described) return Propagate(std::move(described));
-    light = *std::move(described);
+    if (described) {
+      light = *std::move(described);
+    } else {
+      faults.all.push_back(std::move(described).error());
+      faults.lights.push_back(light.name);
+    }
   }
   Lap(settings, tradeoff::Stage::kSpectra);
   auto placed = PlaceByBalls(session, sources, evidence);
-  if (!placed) return Propagate(std::move(placed));
-  measured.placed = *std::move(placed);
+  if (placed) {
+    measured.placed = *std::move(placed);
+  } else {
+    faults.all.push_back(std::move(placed).error());
+    for (const CaptureDescription& capture : session.captures) {
+      if (capture.use == CaptureUse::kBall) faults.lights.push_back(capture.light);
+    }
+  }
   for (const BallPlacement& ball : measured.placed) {
     auto light = std::ranges::find(session.lights, ball.light, &LightDescription::name);
     if (!light->position_m) light->position_m = ball.position_m;
   }
-  auto captured = ReadCaptures(session, sources, evidence);
-  if (!captured) return Propagate(std::move(captured));
+  Session whole = session;
+  KeepLights([&](const std::string& light) { return !faults.Of(light); }, whole);
+  auto captured = ReadCaptures(whole, sources, evidence);
+  if (!captured) faults.all.push_back(std::move(captured).error());
+  if (!faults.all.empty()) {
+    return tl::unexpected(
+        AllFaults(std::move(faults), std::move(whole), sources, settings, evidence));
+  }
   session.lights = std::move(captured->lights);
   session.captures = std::move(captured->captures);
   std::ranges::move(captured->readings, std::back_inserter(session.readings));

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "lightcal/core/as_one.h"
 #include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/fit_profile.h"
 #include "lightcal/fit/beam/stated_beam.h"
@@ -147,17 +148,6 @@ Result<FittedLight> FitWhole(const Session& session, const LightDescription& lig
                         StateText(fitted->state));
   }
   return fitted;
-}
-
-// The first with the others beside it, each once: what no lamp's readings caused is one cause.
-Error AsOne(std::vector<Error> refusals) {
-  Error first = std::move(refusals.front());
-  for (auto more = refusals.begin() + 1; more != refusals.end(); ++more) {
-    if (more->subject != first.subject || more->message != first.message) {
-      first.others.push_back(std::move(*more));
-    }
-  }
-  return first;
 }
 
 Result<FittedSession> FitSound(const Session& session, FitSettings settings) {

@@ -10,6 +10,7 @@
 #include "lightcal/calibrate/captures/card_capture.h"
 #include "lightcal/calibrate/captures/dome_capture.h"
 #include "lightcal/calibrate/captures/source_capture.h"
+#include "lightcal/core/as_one.h"
 
 namespace lightcal {
 namespace {
@@ -58,10 +59,14 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
   Session sized = session;
   CaptureReadings out;
   out.captures = session.captures;
+  std::vector<Error> refusals;
   for (std::size_t i = 0; i < session.captures.size(); ++i) {
     const CaptureDescription& capture = session.captures[i];
     auto read = ReadCapture(sized, capture, sources, evidence);
-    if (!read) return AtCapture(capture, std::move(read).error());
+    if (!read) {
+      refusals.push_back(AtCapture(capture, std::move(read).error()).value());
+      continue;
+    }
     if (!*read) continue;
     CaptureReading& one = **read;
     out.captures[i].found = one.found;
@@ -71,6 +76,7 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
     ShareScale(session, capture, one);
     out.readings.push_back({std::move(one.reading), capture.where});
   }
+  if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
   out.lights = std::move(sized.lights);
   return out;
 }

@@ -11,6 +11,7 @@
 #include "lightcal/calibrate/captures/capture_reading.h"
 #include "lightcal/calibrate/captures/capture_readings.h"
 #include "lightcal/calibrate/captures/posed_wall.h"
+#include "lightcal/core/as_one.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/colour/other_light.h"
@@ -379,17 +380,25 @@ Result<FittedLight> MeasureWall(const Session& session, const CaptureDescription
 Result<std::vector<FittedLight>> MeasureWalls(const Session& session, const Sources& sources,
                                               const FitSettings& settings, Evidence& evidence) {
   std::vector<FittedLight> lights;
+  std::vector<Error> refusals;
   for (const CaptureDescription& capture : session.captures) {
     if (capture.use != CaptureUse::kWall) continue;
     auto light = MeasureWall(session, capture, sources, settings, evidence);
-    if (!light) return Propagate(std::move(light));
+    if (!light) {
+      refusals.push_back(std::move(light).error());
+      continue;
+    }
     const bool again = std::ranges::find(lights, light->name, &FittedLight::name) != lights.end();
     if (again) {
-      return Refused("several_walls", capture.where,
-                     "this light has a wall already; give each its own light, and compare");
+      refusals.push_back(
+          Refused("several_walls", capture.where,
+                  "this light has a wall already; give each its own light, and compare")
+              .value());
+      continue;
     }
     lights.push_back(*std::move(light));
   }
+  if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
   return lights;
 }
 
