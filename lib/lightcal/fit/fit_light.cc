@@ -142,12 +142,37 @@ Result<FittedLight> FitWhole(const Session& session, const LightDescription& lig
   fit::MeasureStates(read, light, settings.cct_method, *fitted, out.warnings);
   auto added = AddGeometries(parts, light, settings, *fitted, out);
   if (!added) return Propagate(std::move(added));
-  if (fitted->states.size() > 1) {
-    out.notes.push_back(light.name + ": read at " + std::to_string(fitted->states.size()) +
-                        " states of its controls; its intensity is that at " +
-                        StateText(fitted->state));
-  }
   return fitted;
+}
+
+// Which of its states a lamp's intensity is of: a line a lamp, of many one for all.
+void NoteStates(const std::vector<FittedLight>& lights, std::vector<std::string>& notes) {
+  constexpr std::size_t kMostLines = 3;
+  std::vector<const FittedLight*> settable;
+  for (const FittedLight& light : lights) {
+    if (light.states.size() > 1) settable.push_back(&light);
+  }
+  const std::size_t shown = std::min(settable.size(), kMostLines);
+  if (settable.size() <= kMostLines) {
+    for (const FittedLight* const light : settable) {
+      notes.push_back(light->name + ": read at " + std::to_string(light->states.size()) +
+                      " states of its controls; its intensity is that at " +
+                      StateText(light->state));
+    }
+    return;
+  }
+  std::string names;
+  for (std::size_t i = 0; i < shown; ++i) {
+    names += settable[i]->name + " at " + StateText(settable[i]->state) + ", ";
+  }
+  const auto [fewest, most] = std::ranges::minmax_element(
+      settable, {}, [](const FittedLight* light) { return light->states.size(); });
+  const std::size_t few = (*fewest)->states.size();
+  const std::size_t many = (*most)->states.size();
+  notes.push_back(std::to_string(settable.size()) + " lights were read at " +
+                  (few < many ? std::to_string(few) + " to " : "") + std::to_string(many) +
+                  " states of their controls; the intensity of each is that at one of them: " +
+                  names + "and " + std::to_string(settable.size() - shown) + " more");
 }
 
 Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
@@ -177,6 +202,7 @@ Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
   // Beside an answer the unread are warned of; where there is none they are what is missing.
   if (out.lights.lights.empty()) std::ranges::move(unread, std::back_inserter(refusals));
   if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
+  NoteStates(out.lights.lights, out.notes);
   if (out.lights.lights.empty()) {
     return Refused("no_light", session.name, "the session describes no light");
   }

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A set of many lamps with states: one note for all."""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from built_command import HOME, run  # noqa: E402
+
+LAMPS = 12
+TEXT = "lightcal = 1\n[room]\ndark = true\n" + "".join(
+    f'[[light]]\nname = "lamp {i}"\nkind = "point"\nfixture = "bulb"\n' + "".join(
+        f'[[reading]]\nlight = "lamp {i}"\ndistance_m = 1\nilluminance_lx = {dimmer * (1 + i / 10)}\n'
+        f'state = {{ dimmer = {dimmer} }}\n' for dimmer in ((100, 50, 25) if i else (100, 50)))
+    for i in range(LAMPS))
+(HOME / "set").mkdir()
+(HOME / "set/session.toml").write_text(TEXT)
+notes = [line for line in run("fit", "set").stderr.splitlines() if "states of their controls" in line or
+         "states of its controls" in line]
+print("\n".join(notes))
+assert len(notes) == 1, notes
+for word in (str(LAMPS), "2 to 3 states", "lamp 0 at dimmer=100", "lamp 2", f"and {LAMPS - 3} more"):
+    assert word in notes[0], (word, notes)
+assert "lamp 5" not in notes[0], notes
