@@ -44,6 +44,10 @@ void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options) {
   parser.add_flag("--monte-carlo", options.monte_carlo,
                   "Intervals by sampling (JCGM 101, two digits) instead of the covariance");
   parser.add_option("--profile", options.profile, "A profile.json that lightcal tradeoff wrote");
+  AddLightsOptions(parser, options);
+}
+
+void AddLightsOptions(CLI::App& parser, CalibrationOptions& options) {
   auto* const only =
       parser.add_option("--lights", options.lights, "Only these of the lights, e.g. key,fill")
           ->delimiter(',')

@@ -31,6 +31,9 @@ void AddCalibrationOptions(CLI::App& parser, CalibrationOptions& options);
 // The same without SESSION, for commands that take several.
 void AddCalibrationSettings(CLI::App& parser, CalibrationOptions& options);
 
+// Which of the lights alone.
+void AddLightsOptions(CLI::App& parser, CalibrationOptions& options);
+
 // What the options ask for, and CalibrateAloud by it, with how to go on where only some lights are
 // refused. Wrong usage: a tolerance outside 0..1. Refused as AccuracyProfileFromJson.
 [[nodiscard]] Result<CalibrationSettings> SettingsAsked(const CalibrationOptions& options);

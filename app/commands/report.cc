@@ -32,6 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportOptions {
+  CalibrationOptions calibration;  // of a session, which is the input then; its lights of both
   std::string input;
   std::string output;
   std::vector<std::string> plots;  // "distance=FILE.svg"
@@ -127,11 +128,39 @@ Result<void> CheckDistinct(const std::vector<OutputFile>& files) {
 
 // ---- the input ----
 
-Result<Source> FromLightFile(const std::string& path, Console& console) {
+Result<void> CheckLight(const char* option, const std::string& light, const LightFile& file) {
+  std::vector<std::string_view> known;
+  for (const FittedLight& one : file.lights) known.push_back(one.name);
+  if (light.empty() || std::ranges::find(known, light) != known.end()) return {};
+  const std::string nearest = NearestWord(light, known);
+  return WrongUsage(option, "there is no light \"" + light + "\"" +
+                                (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+}
+
+// The lights that are asked for; those of a session its fit leaves out.
+Result<void> KeepAsked(const CalibrationOptions& asked, LightFile& file) {
+  for (const auto& [option, names] :
+       {std::pair("--lights", &asked.lights), std::pair("--without", &asked.without)}) {
+    for (const std::string& name : *names) {
+      if (auto known = CheckLight(option, name, file); !known) return known;
+    }
+  }
+  const auto in = [](const std::vector<std::string>& names, const FittedLight& light) {
+    return std::ranges::find(names, light.name) != names.end();
+  };
+  std::erase_if(file.lights, [&](const FittedLight& light) {
+    return in(asked.without, light) || (!asked.lights.empty() && !in(asked.lights, light));
+  });
+  return {};
+}
+
+Result<Source> FromLightFile(const ReportOptions& options, Console& console) {
+  const std::string& path = options.input;
   const auto text = ReadInputFile(path);
   if (!text) return tl::unexpected(text.error());
   auto lights = LightFileFromJson(*text, path);
   if (!lights) return Propagate(std::move(lights));
+  if (auto kept = KeepAsked(options.calibration, *lights); !kept) return Propagate(std::move(kept));
   // What cannot be read is no reason for no report: the dome is then an even one.
   const auto pictures =
       LoadEnvironments(*lights, fs::path(path).parent_path().string(), devices::DiskSources());
@@ -144,8 +173,11 @@ Result<Source> FromLightFile(const std::string& path, Console& console) {
                 (fs::path(path).parent_path() / "report.html").string()};
 }
 
-Result<Source> FromSession(const std::string& path, Console& console) {
-  auto calibrated = CalibrateAloud(path, {}, console);
+Result<Source> FromSession(const ReportOptions& options, Console& console) {
+  const std::string& path = options.input;
+  CalibrationOptions calibration = options.calibration;
+  calibration.session = path;
+  auto calibrated = Calibrate(calibration, console);
   if (!calibrated) return Propagate(std::move(calibrated));
   ProgressLine line("planning the next readings", !console.quiet());
   const Progress progress = line.Watcher();
@@ -156,15 +188,6 @@ Result<Source> FromSession(const std::string& path, Console& console) {
   extras.ladders = LaddersOf(session, {}, {}, PartOf(progress, 0.5, 1.0));
   return Source{std::move(calibrated->lights), std::move(extras), TitleOf(session),
                 (fs::path(DefaultOutputDirectory(session)) / "report.html").string()};
-}
-
-Result<void> CheckLight(const std::string& light, const LightFile& file) {
-  std::vector<std::string_view> known;
-  for (const FittedLight& one : file.lights) known.push_back(one.name);
-  if (light.empty() || std::ranges::find(known, light) != known.end()) return {};
-  const std::string nearest = NearestWord(light, known);
-  return WrongUsage("--light", "there is no light \"" + light + "\"" +
-                                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
 // ---- --match ----
@@ -218,10 +241,9 @@ Result<void> RunReport(const ReportOptions& options, Console& console) {
   const auto plots = ParsePlots(options.plots);
   if (!plots) return tl::unexpected(plots.error());
   const bool is_light_file = fs::path(options.input).extension() == ".json";
-  auto source =
-      is_light_file ? FromLightFile(options.input, console) : FromSession(options.input, console);
+  auto source = is_light_file ? FromLightFile(options, console) : FromSession(options, console);
   if (!source) return Propagate(std::move(source));
-  if (auto known = CheckLight(options.light, source->lights); !known) return known;
+  if (auto known = CheckLight("--light", options.light, source->lights); !known) return known;
   if (auto added = AddCameraViews(options, *source, console); !added) return added;
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   std::vector<OutputFile> files;
@@ -255,6 +277,7 @@ Run BuildReport(CLI::App& parser) {
       ->type_name("NAME=FILE.svg|png")
       ->delimiter(',')
       ->allow_extra_args(false);
+  AddLightsOptions(parser, options->calibration);
   parser.add_option("--light", options->light, "Plots, or the camera's view, of this light alone");
   CLI::Option* const match = parser.add_option("--match", options->view.target,
                                                "Adds what a camera sees of each lamp, of this "

@@ -82,7 +82,9 @@ py::dict Run(const std::string& session, const py::dict& given) {
       {"effects", &CalibrationOptions::effects},
       {"monte_carlo", &CalibrationOptions::monte_carlo},
       {"full_angles", &CalibrationOptions::full_angles},
-      {"profile", &CalibrationOptions::profile}};
+      {"profile", &CalibrationOptions::profile},
+      {"lights", &CalibrationOptions::lights},
+      {"without", &CalibrationOptions::without}};
   py::dict own, calibration;
   for (const auto& [key, value] : given) {
     const auto name = py::cast<std::string>(key);
@@ -95,6 +97,9 @@ py::dict Run(const std::string& session, const py::dict& given) {
   wishes.calibration.session = session;
   wishes.calibration.tolerance_given = given.contains("tol") && !given["tol"].is_none();
   wishes.calibration.effects_given = given.contains("effects") && !given["effects"].is_none();
+  if (!wishes.calibration.lights.empty() && !wishes.calibration.without.empty()) {
+    Raise({ErrorKind::kUsage, "usage", "without", "excludes lights: give one of them"});
+  }
   SpellOutAll(wishes.targets);
   Console console = SilentConsole(wishes.allow_outside);
   auto done = OrRaise(Unlocked([&] { return RunAndWrite(wishes, console); }));

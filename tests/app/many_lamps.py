@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A set of many lamps with states: one note for all."""
+"""A set of many lamps with states: one note for all, and a report of some of its lamps."""
 import pathlib
+import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
-from built_command import HOME, run  # noqa: E402
+from built_command import HOME, LIGHTCAL, run  # noqa: E402
 
 LAMPS = 12
 TEXT = "lightcal = 1\n[room]\ndark = true\n" + "".join(
@@ -21,3 +22,16 @@ assert len(notes) == 1, notes
 for word in (str(LAMPS), "2 to 3 states", "lamp 0 at dimmer=100", "lamp 2", f"and {LAMPS - 3} more"):
     assert word in notes[0], (word, notes)
 assert "lamp 5" not in notes[0], notes
+
+# report takes those that are asked for, of a session and of what was found of it.
+run("fit", "set", "-o", "light.json")
+for source in ("set", "light.json"):
+    run("report", source, "-o", "page.html", "--lights", "lamp 3,lamp 4", "--force")
+    page = (HOME / "page.html").read_text()
+    assert "lamp 3" in page and "lamp 4" in page and "lamp 5" not in page, source
+    run("report", source, "-o", "page.html", "--without", "lamp 3", "--force")
+    page = (HOME / "page.html").read_text()
+    assert "lamp 3" not in page and "lamp 5" in page, source
+    lost = subprocess.run([LIGHTCAL, "report", source, "-o", "no.html", "--lights", "lamp x"], cwd=HOME,
+                          capture_output=True, text=True)
+    assert lost.returncode in (2, 3) and "lamp x" in lost.stderr and not (HOME / "no.html").exists(), lost

@@ -103,6 +103,20 @@ class SameAnswers(unittest.TestCase):
                 self.assertEqual(without(only, "warnings"), without(document, "warnings", "files"))
                 self.assertLessEqual(set(codes(only)), set(codes(document)))
 
+    def test_some_of_the_lights(self):
+        session = SAMPLES / "sessions/three_real_lights"
+        names = [light["name"] for light in lightcal.run(session)["lights"]]
+        for options, wanted in (({"lights": names[:2]}, names[:2]), ({"lights": names[2]}, names[2:]),
+                                ({"without": names[0]}, names[1:])):
+            with self.subTest(options):
+                option, value = next(iter(options.items()))
+                word = value if isinstance(value, str) else ",".join(value)
+                answer = lightcal.run(session, **options)
+                self.assertEqual([light["name"] for light in answer["lights"]], wanted)
+                self.assertEqual(answer["lights"], command("fit", session, "--" + option, word)["lights"])
+        with self.assertRaises(lightcal.Error):
+            lightcal.run(session, lights=names[0], without=names[1])
+
     def test_quick(self):
         for words, readings, options in (
                 (["192lx@0.5m"], ["192lx@0.5m"], {}),

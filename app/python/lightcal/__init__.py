@@ -90,7 +90,9 @@ def _typed(reading: Reading) -> str:
 def run(session: _Path, *, to: Targets = (), output: Optional[_Path] = None,
         tol: Optional[Value] = None, effects: Optional[str] = None, monte_carlo: bool = False,
         full_angles: bool = False, profile: Optional[_Path] = None, rig: bool = False,
-        force: bool = False, allow_outside: bool = False) -> RunAnswer:
+        force: bool = False, allow_outside: bool = False,
+        lights: Union[None, str, Iterable[str]] = None,
+        without: Union[None, str, Iterable[str]] = None) -> RunAnswer:
     """Fits every lamp of a session (a folder with session.toml, or a .toml file).
 
     E = I / (d + d0)^2 + E0 on the axis of a point (lux, candela, metres; CIE S 017 "inverse square
@@ -104,12 +106,15 @@ def run(session: _Path, *, to: Targets = (), output: Optional[_Path] = None,
     full_angles    the session's cone angles are full angles
     profile        a profile.json of `lightcal tradeoff`
     allow_outside  the session may name files outside of its folder
+    lights         only these of its lights, a list or "key,fill"
+    without        all but these, such as those that cannot be fitted
 
     Raises Error: "underdetermined", "not_found", "outside_session", "exists" and others.
     """
     given = dict(to=_words(to), output=output, tol=tol, effects=effects, monte_carlo=monte_carlo,
                  full_angles=full_angles, profile=profile, rig=rig, force=force,
-                 allow_outside=allow_outside)
+                 allow_outside=allow_outside, lights=_words(lights or ()),
+                 without=_words(without or ()))
     return cast(RunAnswer, _said(_native.run(_os.fspath(session), given)))
 
 
