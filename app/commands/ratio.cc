@@ -162,8 +162,19 @@ bool IsReading(const std::string& text) {
   return split && ParseIlluminance(text).has_value();
 }
 
+// A number with a comma in it, "1,000lx", is no file of lights.
+Result<void> CheckCommas(const std::vector<std::string>& what) {
+  for (const std::string& text : what) {
+    const bool number = !text.empty() && text.find_first_of("0123456789") == 0;
+    if (!number || text.find(',') == std::string::npos || text.ends_with(".json")) continue;
+    if (const auto lux = ParseIlluminance(text); !lux) return tl::unexpected(lux.error());
+  }
+  return {};
+}
+
 Result<std::pair<RatioSide, RatioSide>> SidesOf(const RatioOptions& options) {
   const std::vector<std::string>& what = options.what;
+  if (auto plain = CheckCommas(what); !plain) return Propagate(std::move(plain));
   if (what.size() == 2 && IsReading(what[0])) {
     const std::pair<const char*, bool> of_lights[] = {
         {"--at", !options.at.empty()},

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A set of many lamps with states: one note for all, and a report of some of its lamps."""
+"""A set of many lamps with states: one note for all, a report of some of its lamps, and a comma in a number named."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -35,3 +36,11 @@ for source in ("set", "light.json"):
     lost = subprocess.run([LIGHTCAL, "report", source, "-o", "no.html", "--lights", "lamp x"], cwd=HOME,
                           capture_output=True, text=True)
     assert lost.returncode in (2, 3) and "lamp x" in lost.stderr and not (HOME / "no.html").exists(), lost
+
+# A comma is named in every word of a ratio, alone too.
+for words in (["1,000lx", "200lx"], ["192,5lx", "200lx"], ["800lx", "200,5lx"], ["1,000lx"]):
+    said = subprocess.run([LIGHTCAL, "ratio", *words], capture_output=True, text=True)
+    assert said.returncode == 2 and "decimals have a point here" in said.stderr, (words, said.stderr)
+assert "1000lx or 1.000lx" in subprocess.run([LIGHTCAL, "ratio", "1,000lx", "2lx"], capture_output=True,
+                                             text=True).stderr
+assert json.loads(run("ratio", "800lx", "200lx", "--json").stdout)["stops"]["value"] == 2
