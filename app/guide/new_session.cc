@@ -88,7 +88,7 @@ std::string MeterText(const NewSession& session) {
   if (!StatesSigma(session)) return "";
   return "[[meter]]\n" + TomlLine("name", TomlText(kTypedMeterName), "") +
          TomlLine("sigma_relative", ShortestText(session.meter_sigma_relative),
-                  "1 sigma: half of the accuracy on its data sheet") +
+                  "1 sigma, alike in all it reads: half of the accuracy on its data sheet") +
          "\n";
 }
 

@@ -87,6 +87,10 @@ cosine_f2 = 0.02
 spectral_f1 = 0.06
 head_radius_m = 0.01
 window_s = 0.5
+[[meter]]
+name = "tens"
+repeatability_relative = 0.003
+step_lx = 10
 [[capture]]
 light = "key"
 frames = "captures/*.dng"

@@ -34,6 +34,9 @@ bool IsMultiple(double lux, double step) {
 
 double DisplayStepOf(const Session& session, const Reading& like) {
   if (!ByDisplay(like)) return 0.0;
+  if (const MeterDescription* const meter = FindMeter(session, like); meter && meter->step) {
+    return meter->step->value();
+  }
   const std::string& instrument = InstrumentOf(like);
   std::set<double> shown;
   bool lamp_shows_nothing = false;  // a figure too, as nothing behind a card or in the dark is not

@@ -8,8 +8,9 @@ namespace lightcal {
 
 // The coarsest step of 1, .1, .01 ... lx of which all illuminances are multiples that the session
 // has of that reading's instrument, or of 10 lx where three different ones are, of 5 where four:
-// no lamp gives so many round figures; else of 1 to .001 fc. 0 for what no display showed: a data
-// sheet, a picture, a connected meter (its sigma holds its last digit). [lx]
+// no lamp gives so many round figures; else of 1 to .001 fc. What its [[meter]] states, if it does.
+// 0 for what no display showed: a data sheet, a picture, a connected meter (its sigma holds its
+// last digit). [lx]
 [[nodiscard]] double DisplayStepOf(const Session& session, const Reading& like);
 
 // From so many steps on a reading's repeatability, a hundredth unless stated, holds its last digit.

@@ -9,16 +9,18 @@ namespace lightcal {
 
 double SigmaRelative(const Session& session, const Reading& reading) {
   if (reading.sigma_relative) return *reading.sigma_relative;
-  const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
-  if (meter != session.meters.end()) return meter->sigma_relative;
+  const MeterDescription* const meter = FindMeter(session, reading);
+  if (meter != nullptr) {
+    return std::hypot(meter->sigma_relative, meter->repeatability_relative.value_or(0.0));
+  }
   return reading.meter == kDataSheetMeter ? kSigmaDataSheet : kSigmaUnnamedMeter;
 }
 
 double CalibrationRelative(const Session& session, const Reading& reading) {
   if (reading.scale) return reading.scale->sigma;
   if (reading.meter == kDataSheetMeter || reading.quality == MeterQuality::kDerived) return 0.0;
-  const auto meter = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
-  const bool described = meter != session.meters.end();
+  const MeterDescription* const meter = FindMeter(session, reading);
+  const bool described = meter != nullptr;
   if (described && meter->calibration_relative) return *meter->calibration_relative;
   const bool own = reading.sigma_relative && InstrumentOf(reading).empty();
   if (own) return 0.0;
@@ -34,8 +36,16 @@ double RepeatabilityBeside(double sigma, double calibration) {
 }
 
 double RepeatabilityRelative(const Session& session, const Reading& reading) {
+  const MeterDescription* const meter = FindMeter(session, reading);
+  const bool stated = meter != nullptr && meter->repeatability_relative;
+  if (stated && !reading.sigma_relative) return *meter->repeatability_relative;
   return RepeatabilityBeside(SigmaRelative(session, reading),
                              CalibrationRelative(session, reading));
+}
+
+const MeterDescription* FindMeter(const Session& session, const Reading& reading) {
+  const auto found = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
+  return found == session.meters.end() ? nullptr : &*found;
 }
 
 const std::string& InstrumentOf(const Reading& reading) {

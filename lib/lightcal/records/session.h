@@ -76,7 +76,7 @@ struct LightDescription {
   std::vector<StateDescription> at{};
 };
 
-// 1 sigma of one reading, relative.
+// 1 sigma of a meter that says no other, of all it reads alike; of a figure a maker prints.
 inline constexpr double kSigmaUnnamedMeter = 0.05;
 inline constexpr double kSigmaDataSheet = 0.02;
 // The reserved meter name for figures a manufacturer prints.
@@ -84,13 +84,15 @@ inline constexpr const char* kDataSheetMeter = "data_sheet";
 
 struct MeterDescription {
   std::string name;
-  double sigma_relative = kSigmaUnnamedMeter;
-  // The part of it that all its readings share; see CalibrationRelative.
+  double sigma_relative = kSigmaUnnamedMeter;  // what all its readings share, unless:
+  // The part of it that they share; the rest is each reading's own. See CalibrationRelative.
   std::optional<double> calibration_relative{};
+  std::optional<double> repeatability_relative{};  // beside it, each reading's own; 1 %
   std::optional<double> cosine_f2;
   std::optional<double> spectral_f1;
   std::optional<Metres> head_radius;
   std::optional<double> window_s{};  // how long one reading gathers its light
+  std::optional<Lux> step{};         // the last digit that its display shows
   bool states_sigma{};               // sigma_relative is a person's word, not what is usual
 };
 
@@ -144,7 +146,10 @@ struct Session {
 // What remains of sigma beside that calibration: sqrt(sigma^2 - calibration^2), but never less than
 // what two readings of one meter differ by: 1 %, or sigma where that is less.
 [[nodiscard]] double RepeatabilityBeside(double sigma, double calibration);
+// That of a reading, or what its meter states.
 [[nodiscard]] double RepeatabilityRelative(const Session& session, const Reading& reading);
+// The [[meter]] that the reading names; null: it names none that the session describes.
+[[nodiscard]] const MeterDescription* FindMeter(const Session& session, const Reading& reading);
 // The instrument a reading's calibration belongs to: of a picture its scale's, else its meter's
 // name, else its device, "" = unnamed.
 [[nodiscard]] const std::string& InstrumentOf(const Reading& reading);

@@ -120,6 +120,11 @@ std::optional<ReadingFault> DisagreementIn(const StateDescription& one) {
 }
 
 std::optional<ReadingFault> DisagreementIn(const MeterDescription& meter) {
+  if (meter.calibration_relative && meter.repeatability_relative) {
+    return ReadingFault{"repeatability_relative",
+                        "calibration_relative says how much of sigma_relative all readings share, "
+                        "repeatability_relative what each has beside it; keep one"};
+  }
   if (meter.calibration_relative && *meter.calibration_relative > meter.sigma_relative) {
     return ReadingFault{
         "calibration_relative",

@@ -90,10 +90,12 @@ void VisitMeter(Archive& archive, SomeMeter& meter) {
   archive.Text("name", meter.name);
   archive.Number("sigma_relative", meter.sigma_relative, kSigmaRule);
   archive.Number("calibration_relative", meter.calibration_relative, kErrorFractionRule);
+  archive.Number("repeatability_relative", meter.repeatability_relative, kSigmaRule);
   archive.Number("cosine_f2", meter.cosine_f2, kErrorFractionRule);
   archive.Number("spectral_f1", meter.spectral_f1, kErrorFractionRule);
   archive.Number("head_radius_m", meter.head_radius, kPositive);
   archive.Number("window_s", meter.window_s, kPositive);
+  archive.Number("step_lx", meter.step, kPositive);
 }
 
 // Of fields that are right each by itself. Of a light without its `at`.

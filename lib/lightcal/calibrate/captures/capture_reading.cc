@@ -134,9 +134,8 @@ SharedScale AnchorScale(const Session& session, const CaptureDescription& captur
 }
 
 double AnchorSigma(const Session& session, const CaptureDescription& capture) {
-  const double sigma = SigmaRelative(session, ReadByMeterOf(capture));
-  const double calibration = AnchorScale(session, capture).sigma;
-  return std::hypot(calibration, RepeatabilityBeside(sigma, calibration));
+  return std::hypot(AnchorScale(session, capture).sigma,
+                    RepeatabilityRelative(session, ReadByMeterOf(capture)));
 }
 
 Rgb RgbAt(const MergedBracket& merged, std::size_t pixel) {

@@ -106,7 +106,10 @@ class Collector {
     const auto [known, fresh] = display_step_lx_.try_emplace(instrument, 0.0);
     if (fresh) known->second = DisplayStepOf(session_, reading);
     const double step = known->second;
-    return reading.illuminance->value() < kStepsEnough * step ? SigmaOfDisplay(step) : 0.0;
+    const MeterDescription* const meter = FindMeter(session_, reading);
+    const bool stated = meter && (meter->step || meter->repeatability_relative);
+    const bool counts = stated || reading.illuminance->value() < kStepsEnough * step;
+    return counts ? SigmaOfDisplay(step) : 0.0;
   }
 
   int InstrumentIndex(const Reading& reading) {
