@@ -84,6 +84,7 @@ struct Observations {
 // off and the same others lit; every other one by its difference from one behind a card at the same
 // place, if there is one, or, where other light differs from place to place, from one there with
 // the lamp off; where none was taken there, from the mean of others, as unsure as they differ.
+// Other light that no [[light]] names may be daylight and drifts in between (drift_between.h).
 // Where one instrument took every reading, sigmas are its repeatability and `calibration` is to be
 // added after the fit; beside another's they hold both. Where the lamp has no position, readings
 // that give theirs keep a distance of 1 until locate.h finds it.

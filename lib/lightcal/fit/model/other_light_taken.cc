@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/student.h"
+#include "lightcal/fit/model/drift_between.h"
+#include "lightcal/records/reading_time.h"
 
 namespace lightcal::fit {
 namespace {
@@ -14,9 +17,6 @@ namespace {
 // A meter's reading of nothing is known to half a percent of the dimmest reading that counts: its
 // resolution and dark offset. Relative, so that the fit has no scale of its own.
 constexpr double kDarkFloor = 0.005;
-// A shadow-card reading with no lamp-on reading at its distance still tells the ambient light, but
-// bounce differs from place to place.
-constexpr double kSigmaElsewhere = 0.3;
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
 constexpr double kApart = 4.0;    // standard deviations that no two readings of one light lie apart
 
@@ -31,9 +31,11 @@ class OtherLight {
       : light_(light), out_(out), behind_(std::move(behind)) {}
 
   Result<void> Take() {
+    for (ReadingBehind& one : behind_) one.seconds = SecondsOfTime(one.source->reading.time);
     if (auto separated = SubtractOthers(); !separated) return separated;
     if (auto taken = SubtractShadows(); !taken) return taken;
     if (auto off = CheckOff(); !off) return off;
+    FindDrift();
     SubtractOff();
     FillSigmas();
     return {};
@@ -155,6 +157,7 @@ class OtherLight {
         return here;
       };
       if (!Subtract(i, shadows, shadow)) continue;
+      behind_[i].drift_lx = PartByOthers(row) * row.card_lx * DriftOf(i, shadows, shadow);
       out_.rows[i].differenced = out_.rows[i].behind_card = true;
       // One meter, one place, seconds apart: no repeatability explains so much.
       if (row.measured_lx < -std::max(kSwapped * row.raw_lx, row.sigma_lx)) {
@@ -210,9 +213,7 @@ class OtherLight {
   // A lamp only adds: with it off a meter shows no more at a reading's own place.
   Result<void> CheckOff() const {
     if (!HasDistanceLaw(light_.kind)) return {};
-    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
-      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
-    });
+    const std::vector<std::size_t> off = RowsOff();
     double most_off_lx = 0.0;
     for (const std::size_t j : off) most_off_lx = std::max(most_off_lx, out_.rows[j].raw_lx);
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
@@ -268,14 +269,67 @@ class OtherLight {
     return out;
   }
 
+  [[nodiscard]] double Drift(std::size_t i, std::size_t j) const {
+    return DriftBetween(behind_[i].seconds, behind_[j].seconds,
+                        behind_[i].shadow || behind_[j].shadow);
+  }
+
+  // Of reading i, since the nearest in time of the candidates that are `of` it; relative, 1 sigma.
+  template <class Of>
+  [[nodiscard]] double DriftOf(std::size_t i, const std::vector<std::size_t>& candidates,
+                               const Of& of) const {
+    double least = kSigmaElsewhere;
+    for (const std::size_t j : candidates) {
+      if (of(j)) least = std::min(least, Drift(i, j));
+    }
+    return least;
+  }
+
+  // What a card left is others' light or what walls send back of the lamp's own, which does not
+  // drift: from none of it to all.
+  [[nodiscard]] static double PartByOthers(const Observation& row) {
+    return row.sees_walls ? 1.0 / std::sqrt(3.0) : 1.0;
+  }
+
+  // With the lamp off it is read how much of it all is others'. Named lamps do not drift.
+  void FindDrift() {
+    const std::vector<std::size_t> off =
+        RowsWhere([&](std::size_t j) { return !out_.rows[j].lit && !behind_[j].shadow; });
+    if (off.empty()) return;
+    const double mean_lx = Elsewhere(off).lux;
+    const auto any = [](std::size_t) { return true; };
+    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
+      const Observation& row = out_.rows[i];
+      if (!row.lit || row.ambient_subtracted || !SeesOtherLight(row)) continue;
+      const auto here = [&](std::size_t j) { return SamePlace(row, j); };
+      const std::optional<MeanLux> there = MeanOf(i, off, here);
+      const double other_lx = there ? there->lux : mean_lx;
+      if (row.differenced) {
+        const double all = PartByOthers(row) * row.card_lx;
+        if (all > 0.0) behind_[i].drift_lx *= std::min(other_lx, row.card_lx) / all;
+        continue;
+      }
+      behind_[i].drift_lx = other_lx * (there ? DriftOf(i, off, here) : DriftOf(i, off, any));
+      for (const std::size_t j : off) {
+        const double lux = Drift(i, j) * out_.rows[j].raw_lx;
+        double& least = behind_[j].drift_lx;
+        least = least == 0.0 ? lux : std::min(least, lux);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::size_t> RowsOff() const {
+    return RowsWhere([&](std::size_t j) {
+      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
+    });
+  }
+
   // Other light that is one everywhere is a parameter. Where it differs from place to place, what
   // was read with the lamp off at a reading's own place is taken from that and from what was read
   // behind a card there; from readings that have none, what places differ by. One that shows more
   // than the lamp's reading is left to the checks.
   void SubtractOff() {
-    const std::vector<std::size_t> off = RowsWhere([&](std::size_t j) {
-      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
-    });
+    const std::vector<std::size_t> off = RowsOff();
     if (off.empty()) return;
     const bool differ = Differ(off);
     const MeanLux elsewhere = Elsewhere(off);
@@ -334,8 +388,12 @@ class OtherLight {
         std::isfinite(dimmest) ? kDarkFloor * dimmest : std::max(brightest, 0.1 / std::sqrt(12.0));
     for (std::size_t i = 0; i < out_.rows.size(); ++i) {
       Observation& row = out_.rows[i];
-      if (row.differenced || row.ambient_subtracted) continue;
-      const double own = SigmaLx(i);
+      if (row.differenced || row.ambient_subtracted) {
+        row.sigma_lx = std::hypot(row.sigma_lx, behind_[i].drift_lx);
+        continue;
+      }
+      // Half the variance of a pair's drift is either reading's.
+      const double own = std::hypot(SigmaLx(i), behind_[i].drift_lx / std::numbers::sqrt2);
       row.sigma_lx = row.lit && row.raw_lx > 0.0 ? own : std::hypot(own, floor);
     }
   }

@@ -3,6 +3,7 @@
 // or with the lamp off.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lightcal/fit/model/observations.h"
@@ -19,6 +20,8 @@ struct ReadingBehind {
   bool shadow = false;
   bool no_place = false;  // an off or shadow reading without a distance
   const SessionReading* source = nullptr;
+  double drift_lx = 0.0;  // of other light, until it was read alone; 1 sigma
+  std::optional<double> seconds{};
 };
 
 // Fills measured_lx and sigma_lx of every row (CollectObservations says by what rules) and drops
