@@ -3,7 +3,7 @@
 under `quick --fixture` or nothing at all, with a shadow card at the last distance and without. Light is a
 sum over the lamp's surface and over the patches of an empty room's walls, floor and ceiling (their first
 bounce place by place, the others even); the meter is off by 3 % in all readings and by 1 % in each,
-distances by 4 mm. Then lamps thrown through halls: no ordinary room's
+distances by 4 mm. The same in the dark. Then lamps thrown through halls: no ordinary room's
 walls reach so far. Written without a header of lightcal."""
 import json
 import pathlib
@@ -103,6 +103,30 @@ for name, law, size, distances, words in (
     print(f"{name}, size unsaid: {held[False]} of {SEEDS} held, +- {100 * np.median(widths[False]):.0f} %; "
           f"with a card {held[True]}, +- {100 * np.median(widths[True]):.0f} %")
     assert held[False] >= 36 and held[True] >= 36, name
+
+# In the dark no wall carries what the lamp may measure.
+for name, law, size, distances, words in (
+        ("panel 60 x 60", rect, (0.6, 0.6), (0.5, 1.0, 2.0), ("--fixture", "panel")),
+        ("panel 120 x 30", rect, (1.2, 0.3), (0.5, 1.0, 2.0), ("--fixture", "panel")),
+        ("softbox 90 x 60", rect, (0.9, 0.6), (0.7, 1.0, 2.0), ("--fixture", "softbox")),
+        ("anything of 60 x 60", rect, (0.6, 0.6), (0.5, 1.0, 2.0), ()),
+        ("tube of 1.2 m", tube, (1.2, 0.0), (0.5, 1.0, 2.0), ()),
+        ("bulb", rect, (0.02, 0.02), (0.5, 1.0, 2.0), ())):
+    held, widths = 0, []
+    for seed in range(SEEDS):
+        random = np.random.default_rng([20261130, seed])
+        candela = float(np.exp(random.uniform(np.log(30), np.log(3000))))
+        gain = 1 + 0.03 * random.standard_normal()
+        readings = []
+        for distance in distances:
+            lux = candela * law(*size, distance + 0.004 * random.standard_normal()) * gain
+            readings.append(f"{lux * (1 + 0.01 * random.standard_normal()):.4g}lx@{distance}m")
+        answer = quick(*readings, *words, "--room", "dark", "--meter", "6%")
+        low, high = ends(answer) if "lights" in answer else (0.0, 0.0)
+        held += low <= candela <= high
+        widths.append((high - low) / 2 / candela)
+    print(f"{name} in the dark, size unsaid: {held} of {SEEDS} held, +- {100 * np.median(widths):.0f} %")
+    assert held >= 35 and np.median(widths) < 0.12, name
 
 # A fresnel of 400 000 cd, 40 degrees wide, on a stage of 40 x 30 x 12 m and reflectance .3: at 20 m the path
 # traced walls add 2.3 %.

@@ -88,6 +88,7 @@ struct Scene {
   bool no_walls = false;              // outdoors, or draped in black
   bool dark = false;                  // draped in black, and nothing else shines
   std::vector<WallHypothesis> walls;  // what a fit knows of their light; empty: no fit asks
+  std::vector<LampMake> makes;        // what the lamp may be, where no wall shines
   std::vector<OffsetPart> offsets;    // where such a lamp's light starts; empty: 15 % of d
   std::optional<double> spectral_f1;  // of the worst meter that states it, fraction
   std::optional<double> cosine_f2;

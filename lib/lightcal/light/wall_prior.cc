@@ -264,6 +264,27 @@ std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
   return walls;
 }
 
+std::vector<LampMake> PossibleMakes(const LampSpread& lamp) {
+  // Smaller ones of an unknown make are as points to its offsets (OffsetParts of no fixture).
+  constexpr double kTellsItself_m = 0.5;
+  std::vector<LampMake> out;
+  for (const WallHypothesis& one : WallPriors(lamp, {})) {
+    const bool a_point = one.offset && one.width_m < kTellsItself_m;
+    const LampMake make = a_point ? LampMake{one.weight}
+                                  : LampMake{one.weight, one.width_m, one.height_m, one.offset};
+    const auto same = std::ranges::find_if(out, [&](const LampMake& other) {
+      return other.width_m == make.width_m && other.height_m == make.height_m;
+    });
+    if (same == out.end()) {
+      out.push_back(make);
+    } else {
+      same->weight += make.weight;
+    }
+  }
+  if (std::ranges::none_of(out, [](const LampMake& make) { return make.width_m > 0.0; })) out = {};
+  return out;
+}
+
 std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls) {
   if (walls.empty()) return std::nullopt;
   WallPrior out = walls.front().prior;

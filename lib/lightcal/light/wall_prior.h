@@ -39,6 +39,13 @@ struct WallHypothesis {
   std::optional<OffsetPart> offset = std::nullopt;
 };
 
+// What the lamp may be where no wall shines, of which one is: as in WallHypothesis.
+struct LampMake {
+  double weight = 1.0;
+  double width_m = 0.0, height_m = 0.0;
+  std::optional<OffsetPart> offset = std::nullopt;
+};
+
 // What is known of where a lamp sends its light.
 struct LampSpread {
   LightKind kind = LightKind::kPoint;
@@ -70,6 +77,11 @@ struct RoomPart {
 [[nodiscard]] std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
                                                      const std::optional<StatedRoom>& room,
                                                      Metres farthest = Metres(0.0));
+
+// The same lamps in the dark: each size once, an offset that goes with it where the make is
+// unknown. Of an unknown make only sizes that no such lamp's offset makes up for. Empty where no
+// size is in question.
+[[nodiscard]] std::vector<LampMake> PossibleMakes(const LampSpread& lamp);
 
 // One normal of all that a lamp may be, its bend and scatter the first one's. Absent of none.
 [[nodiscard]] std::optional<WallPrior> OneNormalOf(const std::vector<WallHypothesis>& walls);

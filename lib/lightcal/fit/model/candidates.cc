@@ -402,14 +402,13 @@ std::vector<LampInRoom> InRoom(const std::vector<Candidate>& candidates,
     told.ambient_lx = theta[kAmbient];
     told.covariance = CovarianceInRoom(one.covariance);
     whole += shares[i];
+    told.width_m = one.hypothesis.width_m;
+    told.height_m = one.hypothesis.height_m;
     if (!walls_shine) continue;
-    const WallHypothesis& walls = *one.hypothesis.walls;
     told.ln_b = theta[kLnWalls];
     told.slope = theta[kWallsSlope];
-    told.bend = walls.prior.bend;
-    told.scatter = walls.prior.scatter;
-    told.width_m = walls.width_m;
-    told.height_m = walls.height_m;
+    told.bend = one.hypothesis.walls->bend;
+    told.scatter = one.hypothesis.walls->scatter;
   }
   for (LampInRoom& one : out) one.weight /= whole;
   return out;

@@ -26,22 +26,24 @@ WallsOfRow WallsAt(const WallPrior& prior, double distance_m, double length_m) {
 
 std::vector<LampHypothesis> HypothesesOf(const ForwardModel& model) {
   std::vector<LampHypothesis> offsets;
-  for (const OffsetPart& part : model.offsets) offsets.push_back({part.weight, part, {}});
+  for (const OffsetPart& part : model.offsets) offsets.push_back({part.weight, part, 0.0, 0.0, {}});
   if (offsets.empty() || !model.fit_offset) offsets = {{}};
-  if (model.walls.empty()) return offsets;
-  // Of several offsets, the one that goes with the walls' light.
+  // Of several offsets, the one that goes with the make.
   const bool any_make = offsets.size() > 1;
   std::vector<LampHypothesis> out;
-  for (const WallHypothesis& walls : model.walls) {
-    if (any_make && walls.offset) {
-      out.push_back({walls.weight, walls.offset, walls});
-      continue;
+  const auto add = [&](const auto& lamp, const std::optional<WallPrior>& walls) {
+    if (any_make && lamp.offset) {
+      out.push_back({lamp.weight, lamp.offset, lamp.width_m, lamp.height_m, walls});
+      return;
     }
     for (const LampHypothesis& one : offsets) {
-      out.push_back({one.weight * walls.weight, one.offset, walls});
+      out.push_back({one.weight * lamp.weight, one.offset, lamp.width_m, lamp.height_m, walls});
     }
-  }
-  return out;
+  };
+  for (const WallHypothesis& one : model.walls) add(one, one.prior);
+  if (!out.empty()) return out;
+  for (const LampMake& make : model.makes) add(make, std::nullopt);
+  return out.empty() ? offsets : out;
 }
 
 Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
@@ -54,21 +56,21 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
         std::max(hypothesis.offset->mean_m / unit, kNearestSource * prepared.shortest);
     offset.prior_sd = hypothesis.offset->sd_m / unit;
   }
-  if (!hypothesis.walls) return out;
-  const WallPrior& prior = hypothesis.walls->prior;
+  if (!hypothesis.walls && !(hypothesis.width_m > 0.0)) return out;
   std::vector<ReadingOfWalls> seeing;
   for (std::size_t i = 0; i < out.rows.size(); ++i) {
     ReadingRow& row = out.rows[i];
     const Observation& observation =
         observations.rows[static_cast<std::size_t>(prepared.observation[i])];
     const bool lit_row = row.direct_gain > 0.0;
-    if (lit_row && hypothesis.walls->width_m > 0.0) {
+    if (lit_row && hypothesis.width_m > 0.0) {
       SourceSize size;
-      size.width = Metres(hypothesis.walls->width_m / prepared.scales.length_m);
-      size.height = Metres(hypothesis.walls->height_m / prepared.scales.length_m);
+      size.width = Metres(hypothesis.width_m / prepared.scales.length_m);
+      size.height = Metres(hypothesis.height_m / prepared.scales.length_m);
       row.shape = AxialShapeOf(LightKind::kRect, size);
     }
-    if (!SeesWalls(observation, lit_row)) continue;
+    if (!hypothesis.walls || !SeesWalls(observation, lit_row)) continue;
+    const WallPrior& prior = *hypothesis.walls;
     row.walls = WallsAt(prior, observation.distance_m, prepared.scales.length_m);
     if (observation.tilt_rad > kTurned_rad) {
       row.walls->scatter = std::hypot(prior.scatter, kTurnedScatter);
@@ -77,8 +79,8 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
   }
   if (seeing.empty()) return out;
   ShareScatter(std::move(seeing));
-  out.rules[kLnWalls] = {true, prior.ln_b, prior.sd_ln_b};
-  out.rules[kWallsSlope] = {true, prior.slope, prior.sd_slope};
+  out.rules[kLnWalls] = {true, hypothesis.walls->ln_b, hypothesis.walls->sd_ln_b};
+  out.rules[kWallsSlope] = {true, hypothesis.walls->slope, hypothesis.walls->sd_slope};
   return out;
 }
 

@@ -15,11 +15,13 @@ namespace lightcal::fit {
 
 struct LampHypothesis {
   double weight = 1.0;
-  std::optional<OffsetPart> offset;     // absent: 15 % of the shortest distance
-  std::optional<WallHypothesis> walls;  // absent: none shine
+  std::optional<OffsetPart> offset;      // absent: 15 % of the shortest distance
+  double width_m = 0.0, height_m = 0.0;  // of the luminous rectangle it would be; 0 = as stated
+  std::optional<WallPrior> walls;        // absent: none shine
 };
 
-// Every pair of a fixture's offset and a family of rooms the model names; weights make 1.
+// Every pair of a fixture's offset and a family of rooms the model names, or a make where no wall
+// shines; weights make 1.
 [[nodiscard]] std::vector<LampHypothesis> HypothesesOf(const ForwardModel& model);
 
 // The rows and priors as they are if it holds.

@@ -107,6 +107,10 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
       (effect.state == GateState::kFitted || bound == 0.0 || effects::AllBehindCards(scene))) {
     model.walls = scene.walls;
   }
+  // Who switches its size off by name has a point.
+  if (effect.name == "finite_source" && (effect.state != GateState::kOff || effect.ignored)) {
+    model.makes = scene.makes;
+  }
   if (effect.name == "ambient" && effect.state == GateState::kOff) model.fit_ambient = false;
   if (const double sd = WidensBy(effect); sd > 0.0) {
     model.considered.push_back(Widening(scene, effect, sd));

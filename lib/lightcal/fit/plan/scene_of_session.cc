@@ -163,6 +163,10 @@ std::optional<double> FluxOverIntensity(const LightDescription& light) {
   return SolidAngleOfSpot(cone, SpotFalloff::kSquaredLinear).value();
 }
 
+LampSpread SpreadOf(const LightDescription& light) {
+  return {light.kind, light.fixture, light.beam, FluxOverIntensity(light)};
+}
+
 // The largest distance that somebody stood from the lamp.
 Metres FarthestRead(const Session& session, const LightDescription& light) {
   double farthest = 0.0;
@@ -186,6 +190,7 @@ void AddPriors(const Session& session, const LightDescription& light,
   // A table of a film fixture gives its offset with its own first distance.
   const auto held = [](const Observation& o) { return o.lit && !o.data_sheet; };
   if (!light.fixture && std::ranges::none_of(observations.rows, held)) return;
+  if (HasDistanceLaw(light.kind)) scene.makes = PossibleMakes(SpreadOf(light));
   const auto parts = OffsetParts(FixtureOf(light));
   scene.offsets.assign(parts.begin(), parts.end());
   // Distances end at a ball's surface or at its centre; nobody said.
@@ -219,8 +224,7 @@ std::optional<StatedRoom> StatedRoomOf(const Session& session) {
 }
 
 std::vector<WallHypothesis> WallPriorsOf(const Session& session, const LightDescription& light) {
-  return WallPriors({light.kind, light.fixture, light.beam, FluxOverIntensity(light)},
-                    StatedRoomOf(session), FarthestRead(session, light));
+  return WallPriors(SpreadOf(light), StatedRoomOf(session), FarthestRead(session, light));
 }
 
 Scene SceneOfSession(const Session& session, const LightDescription& light,

@@ -63,11 +63,11 @@ struct OutlineMoments {
   }
   const AxialShape shape = AxialShapeOf(scene.kind, scene.size);
   const bool a_panel =
-      !scene.walls.empty() &&
-      std::ranges::all_of(scene.walls, [](const auto& one) { return one.width_m > 0.0; });
+      !scene.makes.empty() &&
+      std::ranges::all_of(scene.makes, [](const auto& one) { return one.width_m > 0.0; });
   if (shape.outline == AxialShape::Outline::kPoint && a_panel) {
     double bound = 0.0;
-    for (const WallHypothesis& one : scene.walls) {
+    for (const LampMake& one : scene.makes) {
       SourceSize size;
       size.width = Metres(one.width_m);
       size.height = Metres(one.height_m);
