@@ -156,8 +156,8 @@ std::string WallsPart(const FittedLight& light, const Session& session) {
       std::ranges::find(light.fit.learned, "room_bounce") != light.fit.learned.end();
   return "about " + Rounded(share * farthest->measured_lx, share < 0.1 ? 1 : 2) + " of the " +
          Rounded(farthest->measured_lx, 3) + " lx at " +
-         ShortestText(std::round(*farthest->distance_m * 100.0) / 100.0) +
-         " m came off the walls: " +
+         ShortestText(std::round(*farthest->distance_m * 100.0) / 100.0) + " m came off the " +
+         (session.surroundings == Surroundings::kOutdoors ? "ground: " : "walls: ") +
          (card ? "the card tells" : (learned ? "as the readings fall" : "assumed"));
 }
 

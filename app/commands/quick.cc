@@ -30,12 +30,14 @@ namespace {
 std::string ValueAndRange(const Uncertain& lx) { return ValueText(lx) + " lx   " + RangeText(lx); }
 
 // "at 3 m   lamp alone 5.2 lx   4.6 … 5.9   in the room 12 lx   8 … 17"
-std::string PredictionLines(const std::vector<QuickPrediction>& predictions) {
+std::string PredictionLines(const QuickAnswer& answer) {
+  const bool outdoors = answer.session.surroundings == Surroundings::kOutdoors;
+  const std::string where = outdoors ? "over the ground " : "in the room ";
   std::string text;
-  for (const QuickPrediction& p : predictions) {
+  for (const QuickPrediction& p : answer.predictions) {
     std::string line = "a meter reads " + ValueAndRange(p.predicted.reading_lx);
     if (p.in_room) {
-      line = "lamp alone " + ValueAndRange(p.predicted.reading_lx) + "   in the room " +
+      line = "lamp alone " + ValueAndRange(p.predicted.reading_lx) + "   " + where +
              ValueAndRange(p.in_room->reading_lx);
     }
     text += LabelledLine("at " + ShortestText(p.distance.value()) + " m", line);
@@ -70,7 +72,7 @@ void PrintAnswer(const QuickOptions& options, const QuickAnswer& answer, Console
   const LightFile& lights = answer.fitted.lights;
   if (answer.behind) console.Print(ThroughText(*answer.behind) + "\n\n");
   console.Print(LampAnswersText(answer.answers, answer.session));
-  console.Print(PredictionLines(answer.predictions));
+  console.Print(PredictionLines(answer));
   if (console.verbose()) {
     console.Print(ColorLines(answer.answers.front().figures));
     console.Print("\n" + LightTable(lights) + "\n" + FitTable(lights) + "\n" +

@@ -38,7 +38,10 @@ std::string RoomText(const std::optional<Room>& room, const std::string& surroun
       "# Walls send light back to the meter; the room bounds how much (or dark, outdoors = "
       "true).\n";
   if (!surroundings.empty()) {
-    return "[room]\n" + TomlLine(surroundings, "true", "nothing sends the lamp's light back") +
+    return "[room]\n" +
+           TomlLine(surroundings, "true",
+                    surroundings == "dark" ? "nothing sends the lamp's light back"
+                                           : "the ground alone sends light back") +
            "\n";
   }
   if (!room) {

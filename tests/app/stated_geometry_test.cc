@@ -26,6 +26,7 @@ constexpr double kDegree = kPi / 180.0;
 
 const char* const kDark = "[room]\ndark = true\n";
 const char* const kOutdoors = "[room]\noutdoors = true\n";
+const char* const kDark = "[room]\ndark = true\n";
 
 struct Read {
   std::string where;  // keys of the reading
@@ -138,7 +139,7 @@ TEST(StatedGeometry, LampOffAtEachPlaceIsAsGoodAsACardThere) {
   const auto with = [&](const std::vector<std::vector<Read>>& more) {
     std::vector<Read> all = lit;
     for (const auto& rows : more) all.insert(all.end(), rows.begin(), rows.end());
-    return FitOf(SessionOf(kOutdoors, bulb, all))["intensity_cd"];
+    return FitOf(SessionOf(kDark, bulb, all))["intensity_cd"];
   };
   const json by_off = with({off}), by_card = with({card}), by_both = with({card, off});
   for (const json& one : {by_off, by_card, by_both}) {

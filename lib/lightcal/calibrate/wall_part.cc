@@ -26,7 +26,7 @@ double WallsAt(const FittedLight& reference, const Reading& reading) {
 }  // namespace
 
 double WallPartOf(const Session& session, const FittedLight& lamp, const ResidualRow& row) {
-  const bool walls = session.surroundings == Surroundings::kIndoors;
+  const bool walls = session.surroundings != Surroundings::kDark;
   if (!walls || row.index < 0) return 0.0;
   int index = 0;
   const Reading* reading = nullptr;

@@ -35,6 +35,7 @@ struct ForwardModel {
   bool fit_ambient = true;                 // false: E0 = 0, and lamp-off readings say nothing
   std::vector<double> bounce_per_candela;  // lx/cd beside the observations; empty = none
   std::vector<WallHypothesis> walls;       // light from the walls, to be fitted; empty = none
+  bool over_ground = false;                // of the ground alone
   std::vector<LampMake> makes;             // what the lamp may be, where walls is empty
   std::vector<OffsetPart> offsets;         // of such a lamp; empty = 15 % of the shortest distance
   std::vector<Consider> considered;        // influences that widen the interval

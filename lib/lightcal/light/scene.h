@@ -85,7 +85,8 @@ struct Scene {
   int distances = 1;                    // distinct
   std::optional<double> ambient_ratio;  // lamp-off illuminance over the dimmest reading
   std::optional<RoomBox> room;
-  bool no_walls = false;              // outdoors, or draped in black
+  bool no_walls = false;              // draped in black, or outdoors behind cards
+  bool over_ground = false;           // outdoors: of all walls the ground alone
   bool dark = false;                  // draped in black, and nothing else shines
   std::vector<WallHypothesis> walls;  // what a fit knows of their light; empty: no fit asks
   std::vector<LampMake> makes;        // what the lamp may be, where no wall shines

@@ -19,12 +19,27 @@ struct Family {
   double in_room;     // k, 1/(m^2 sr)
   double sd_in_room;  // of ln k
   double flux;        // over intensity, sr
+  // Over open ground: a floor integrated under lamps .8 to 3 m above it that are read about level
+  // (tests/app/open_ground.py), of reflectance .2 e^(+- .6): soil .1, lawn .2, sand .4; snow's .8
+  // lies two deviations above. Panels and beams that hang above their meter light more of it.
+  WallPrior over_ground;
 };
-const Family kBulb = {
-    {std::log(0.122), 0.42, -1.00, 0.36, -0.27, 0.07}, 0.0113, 0.27, 0.86 * 4 * kPi};
-const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14}, 0.0120, 0.31, kPi};
+const Family kBulb = {{std::log(0.122), 0.42, -1.00, 0.36, -0.27, 0.07},
+                      0.0113,
+                      0.27,
+                      0.86 * 4 * kPi,
+                      {-5.20, 0.75, -0.70, 0.50, -0.40, 0.10}};
+const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14},
+                       0.0120,
+                       0.31,
+                       kPi,
+                       {-6.40, 1.00, 0.30, 0.75, -0.80, 0.15}};
 // Of unknown angle.
-const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25}, 0.0082, 0.63, 0.0};
+const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25},
+                      0.0082,
+                      0.63,
+                      0.0,
+                      {-8.20, 1.50, 1.00, 0.80, 0.0, 0.25}};
 // ln b over flux/I of a beam whose angle is known.
 constexpr double kBeamOverFlux = 0.0092;
 constexpr double kSdOfBeam = 0.75;
@@ -41,6 +56,12 @@ constexpr double kLargestRoom_m2 = 202.0, kFarthestInRoom_m = 6.0;
 constexpr double kLeastOfBulb = 7.0;
 constexpr double kLeastOfPanel = 2.0;
 
+// What stands about the lamp.
+struct Around {
+  std::optional<StatedRoom> room;
+  bool open = false;  // the ground alone
+};
+
 WallPrior InRoom(const Family& family, double flux, const StatedRoom& room) {
   const RoomPart part = PartOfRoom(room);
   WallPrior prior = family.prior;
@@ -49,9 +70,14 @@ WallPrior InRoom(const Family& family, double flux, const StatedRoom& room) {
   return prior;
 }
 
-WallPrior PriorOf(const Family& family, std::optional<double> flux,
-                  const std::optional<StatedRoom>& room) {
+WallPrior PriorOf(const Family& family, std::optional<double> flux, const Around& around) {
+  const std::optional<StatedRoom>& room = around.room;
   const bool beam = family.flux == 0.0;
+  if (around.open) {
+    WallPrior prior = family.over_ground;
+    if (flux && !beam) prior.ln_b += std::log(*flux / family.flux);
+    return prior;
+  }
   if (beam && !flux) {  // its angle is the larger doubt, which holds what is not known of the room
     WallPrior prior = family.prior;
     if (room) prior.ln_b += PartOfRoom(*room).ln;
@@ -110,9 +136,11 @@ const Family* FamilyOf(const LampSpread& lamp) {
 // lamp, whose light adds most where the meter is nearest: more b3 and the slopes below are their
 // integrals (tests/bench/rooms/near_wall.py), not figures of the rooms that judge. One room in
 // twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
-std::vector<WallHypothesis> WithOtherPlaces(const Family& family, const WallPrior& prior) {
+std::vector<WallHypothesis> PlacesOf(const Family& family, std::optional<double> flux,
+                                     const Around& around) {
   constexpr double kNear = 0.20, kCorner = 0.05, kFar = 0.05;
-  if (family.flux == 0.0) return {{1.0, prior}};
+  const WallPrior prior = PriorOf(family, flux, around);
+  if (family.flux == 0.0 || around.open) return {{1.0, prior}};
   const bool bulb = &family == &kBulb;
   const auto beside_walls = [&](double more_ln_b, double slope) {
     WallPrior beside = prior;
@@ -171,10 +199,10 @@ std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places
 // behind its cloth; a reflector's before its rim, a lens's behind it. Weights by judgement;
 // together the offsets lie where `OffsetParts` of no fixture do. No two weigh alike, so that an
 // answer's list has one order.
-std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
+std::vector<WallHypothesis> OfAnyMake(const Around& around) {
   const auto offset_of = [](Fixture fixture) { return OffsetParts(fixture).front(); };
   const auto shines_all_round = [&](double weight, Fixture fixture) {
-    std::vector<WallHypothesis> places = WithOtherPlaces(kBulb, PriorOf(kBulb, {}, room));
+    std::vector<WallHypothesis> places = PlacesOf(kBulb, {}, around);
     for (WallHypothesis& one : places) {
       one.weight *= weight;
       one.offset = offset_of(fixture);
@@ -183,9 +211,9 @@ std::vector<WallHypothesis> OfAnyMake(const std::optional<StatedRoom>& room) {
   };
   std::vector<WallHypothesis> any = shines_all_round(0.383, Fixture::kBulb);
   std::ranges::copy(shines_all_round(0.058, Fixture::kSoftbox), std::back_inserter(any));
-  const WallPrior all_round = PriorOf(kBulb, {}, room);
-  const WallPrior panel = PriorOf(kPanel, {}, room);
-  const WallPrior beam = PriorOf(kBeam, {}, room);
+  const WallPrior all_round = PriorOf(kBulb, {}, around);
+  const WallPrior panel = PriorOf(kPanel, {}, around);
+  const WallPrior beam = PriorOf(kBeam, {}, around);
   // A globe, from its glass; tubes, broadside.
   any.push_back({0.025, all_round, 0.0, 0.0, OffsetPart{1.0, 0.12, 0.05}});
   any.push_back({0.020, all_round, 1.20, 0.03, offset_of(Fixture::kBulb)});
@@ -223,25 +251,24 @@ WallPrior Enlarged(WallPrior prior, double scale, Metres farthest) {
   return prior;
 }
 
-// In an ordinary room, or in the largest one of the stated room's shape.
-std::vector<WallHypothesis> OrdinaryPriors(const LampSpread& lamp,
-                                           const std::optional<StatedRoom>& room) {
+// In an ordinary room, in the largest one of the stated room's shape, or over the ground.
+std::vector<WallHypothesis> OrdinaryPriors(const LampSpread& lamp, const Around& around) {
   std::optional<double> flux = lamp.flux_over_intensity;
   if (lamp.beam && lamp.beam->value() > 0.0) flux = FluxOfBeam(*lamp.beam);
   if (flux) {
     const Family& family = *flux > kLeastOfBulb ? kBulb : (*flux > kLeastOfPanel ? kPanel : kBeam);
-    return WithOtherPlaces(family, PriorOf(family, flux, room));
+    return PlacesOf(family, flux, around);
   }
   if (lamp.kind == LightKind::kPoint && lamp.fixture == Fixture::kPanel) {
-    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)), kPanelSizes);
+    return OfSomeSize(PlacesOf(kPanel, {}, around), kPanelSizes);
   }
   if (lamp.kind == LightKind::kPoint && lamp.fixture == Fixture::kSoftbox) {
-    return OfSomeSize(WithOtherPlaces(kPanel, PriorOf(kPanel, {}, room)), kSoftboxSizes);
+    return OfSomeSize(PlacesOf(kPanel, {}, around), kSoftboxSizes);
   }
   if (const Family* family = FamilyOf(lamp)) {
-    return WithOtherPlaces(*family, PriorOf(*family, {}, room));
+    return PlacesOf(*family, {}, around);
   }
-  return OfAnyMake(room);
+  return OfAnyMake(around);
 }
 
 }  // namespace
@@ -256,12 +283,17 @@ RoomPart PartOfRoom(const StatedRoom& room) {
 std::vector<WallHypothesis> WallPriors(const LampSpread& lamp,
                                        const std::optional<StatedRoom>& room, Metres farthest) {
   if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return {};
-  std::vector<WallHypothesis> walls = OrdinaryPriors(lamp, room);
+  std::vector<WallHypothesis> walls = OrdinaryPriors(lamp, {room});
   const double scale = ScaleOf(room, farthest);
   if (scale > 1.0) {
     for (WallHypothesis& one : walls) one.prior = Enlarged(one.prior, scale, farthest);
   }
   return walls;
+}
+
+std::vector<WallHypothesis> GroundPriors(const LampSpread& lamp) {
+  if (lamp.kind == LightKind::kDirectional || lamp.kind == LightKind::kDome) return {};
+  return OrdinaryPriors(lamp, {.room = {}, .open = true});
 }
 
 std::vector<LampMake> PossibleMakes(const LampSpread& lamp) {

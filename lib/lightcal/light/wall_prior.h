@@ -78,6 +78,10 @@ struct RoomPart {
                                                      const std::optional<StatedRoom>& room,
                                                      Metres farthest = Metres(0.0));
 
+// Outdoors: what the ground throws back, of lawn, asphalt or sand under a lamp .8 to 3 m above it
+// that is read about level.
+[[nodiscard]] std::vector<WallHypothesis> GroundPriors(const LampSpread& lamp);
+
 // The same lamps in the dark: each size once, an offset that goes with it where the make is
 // unknown. Of an unknown make only sizes that no such lamp's offset makes up for. Empty where no
 // size is in question.

@@ -30,7 +30,7 @@ struct Room {
 // What surrounds lamp and meter.
 enum class Surroundings : std::uint8_t {
   kIndoors,   // walls send the lamp's light back; `room` says which, where it is known
-  kOutdoors,  // no walls
+  kOutdoors,  // no walls but the ground
   kDark,      // walls draped in black, and nothing else shines
 };
 

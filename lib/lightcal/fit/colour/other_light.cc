@@ -176,7 +176,9 @@ OtherShares OtherLight::SharesIn(const SessionReading& row) const {
   const Reading& reading = row.reading;
   if (!MeasuresColor(reading) || !row.others_lit.empty()) return {};
   if (reading.meter == kDataSheetMeter) return {};
-  const bool walls_shine = !reading.of_luminance && HoldsWallLight(session_, description_, reading);
+  // No paint is known of the ground.
+  const bool walls_shine = session_.surroundings == Surroundings::kIndoors &&
+                           !reading.of_luminance && HoldsWallLight(session_, description_, reading);
   const double ambient_lx = AmbientIn(reading);
   if (!walls_shine && !(ambient_lx > 0.0)) return {};
   if (reading.lamp == LampState::kOff || reading.shadow_card) return Unlit(reading);

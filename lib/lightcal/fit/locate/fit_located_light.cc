@@ -103,6 +103,7 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   if (!rough) return Propagate(std::move(rough));
   ForwardModel rough_model;
   rough_model.walls = rough->model.walls;
+  rough_model.over_ground = rough->model.over_ground;
   rough_model.gradient_sd = GradientOf(light);
   Result<LampLocation> first = LocateLamp(observations, light, rough_model);
   if (!first) return Propagate(std::move(first));

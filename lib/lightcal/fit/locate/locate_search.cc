@@ -148,8 +148,8 @@ void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   if (problem.ambient_told) {
     problem.estimation.rules[kPlacedAmbient].free = true;
     problem.ambient_start = std::max(0.0, off / offs);
-  } else if (model.fit_ambient && model.walls.empty() && problem.lit >= kReadingsForAmbient &&
-             std::isfinite(dimmest)) {
+  } else if (model.fit_ambient && (model.walls.empty() || model.over_ground) &&
+             problem.lit >= kReadingsForAmbient && std::isfinite(dimmest)) {
     problem.estimation.rules[kPlacedAmbient] = {true, 0.0, dimmest};
   }
   if (model.fit_offset && std::isfinite(shortest)) {

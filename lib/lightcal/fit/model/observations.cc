@@ -188,7 +188,7 @@ int CountDistinctDistances(const std::vector<Observation>& rows) {
 }
 
 bool HoldsWallLight(const Session& session, const LightDescription& light, const Reading& reading) {
-  if (session.surroundings != Surroundings::kIndoors || reading.meter == kDataSheetMeter ||
+  if (session.surroundings == Surroundings::kDark || reading.meter == kDataSheetMeter ||
       !HasDistanceLaw(light.kind)) {
     return false;
   }

@@ -91,8 +91,8 @@ struct Observations {
 [[nodiscard]] Result<Observations> CollectObservations(const Session& session,
                                                        const LightDescription& light);
 
-// Whether the walls shine in a reading: not outdoors, in the dark or in a maker's figure, nor in a
-// picture of the lamp itself.
+// Whether walls, or outdoors the ground, shine in a reading: not in the dark or in a maker's
+// figure, nor in a picture of the lamp itself.
 [[nodiscard]] bool HoldsWallLight(const Session& session, const LightDescription& light,
                                   const Reading& reading);
 

@@ -222,8 +222,9 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   out.estimation.least_distance_offset = kLeastOffset * out.shortest;
   if (out.ambient_told) {
     rules[kAmbient].free = true;
-  } else if (model.fit_ambient && model.distance_law && model.walls.empty() &&
-             out.distances >= kDistancesForAmbient && std::isfinite(dimmest)) {
+  } else if (model.fit_ambient && model.distance_law &&
+             (model.walls.empty() || model.over_ground) && out.distances >= kDistancesForAmbient &&
+             std::isfinite(dimmest)) {
     // Ambient light cannot exceed the dimmest reading.
     rules[kAmbient] = {true, 0.0, dimmest};
   }

@@ -106,6 +106,7 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
   if (effect.name == "room_bounce" &&
       (effect.state == GateState::kFitted || bound == 0.0 || effects::AllBehindCards(scene))) {
     model.walls = scene.walls;
+    model.over_ground = scene.over_ground;
   }
   // Who switches its size off by name has a point.
   if (effect.name == "finite_source" && (effect.state != GateState::kOff || effect.ignored)) {

@@ -185,7 +185,11 @@ Metres FarthestRead(const Session& session, const LightDescription& light) {
 void AddPriors(const Session& session, const LightDescription& light,
                const Observations& observations, Scene& scene) {
   const auto own = [](const Observation& o) { return o.lit && o.sees_walls; };
-  scene.no_walls = std::ranges::none_of(observations.rows, own);
+  scene.over_ground = session.surroundings == Surroundings::kOutdoors;
+  // Behind a card outdoors lies what else shines there more than the ground.
+  const auto carded = [](const Observation& o) { return o.differenced || o.behind_card; };
+  scene.no_walls = std::ranges::none_of(observations.rows, own) ||
+                   (scene.over_ground && std::ranges::any_of(observations.rows, carded));
   if (HasDistanceLaw(light.kind) && !scene.no_walls) scene.walls = WallPriorsOf(session, light);
   // A table of a film fixture gives its offset with its own first distance.
   const auto held = [](const Observation& o) { return o.lit && !o.data_sheet; };
@@ -224,6 +228,7 @@ std::optional<StatedRoom> StatedRoomOf(const Session& session) {
 }
 
 std::vector<WallHypothesis> WallPriorsOf(const Session& session, const LightDescription& light) {
+  if (session.surroundings == Surroundings::kOutdoors) return GroundPriors(SpreadOf(light));
   return WallPriors(SpreadOf(light), StatedRoomOf(session), FarthestRead(session, light));
 }
 

@@ -26,8 +26,9 @@ inline constexpr double kAmbientDefault = 0.05;
     return {std::max(0.0, *scene.ambient_ratio), Treatment::kFitted, 0.0,
             "measured by lamp-off readings"};
   }
-  // A constant and light from walls that grows with distance are one to a handful of readings.
-  if (scene.distances >= 4 && scene.walls.empty()) {
+  // A constant and light from walls that grows with distance are one to a handful of readings; the
+  // ground gives little.
+  if (scene.distances >= 4 && (scene.walls.empty() || scene.over_ground)) {
     return {1.0, Treatment::kFitted, 0.0,
             "fitted: four distances tell it from the lamp; it cannot exceed the dimmest reading"};
   }

@@ -66,7 +66,9 @@ struct CardShade {
   }
   if (scene.no_walls) {
     return NotApplicable(
-        "no walls: [room] says outdoors or dark, or the figures are a data sheet's");
+        "no walls: [room] says dark, cards subtract the ground's light outdoors, or the figures "
+        "are "
+        "a data sheet's");
   }
   if (!scene.walls.empty()) {
     double bound = 0.0;
@@ -78,8 +80,9 @@ struct CardShade {
     return {.bound = bound,
             .treatment = Treatment::kFitted,
             .distance_power = 2.0,
-            .reason = std::string(scene.room ? "what the [room] given adds"
-                                             : "what an ordinary room adds") +
+            .reason = std::string(scene.over_ground ? "what the ground adds outdoors"
+                                  : scene.room      ? "what the [room] given adds"
+                                                    : "what an ordinary room adds") +
                       " at the worst reading, in 19 of 20; fitted under its prior, and a "
                       "shadow-card reading measures it",
             .cost_ns = kFittedWalls_ns};
