@@ -5,6 +5,7 @@ The world: x right of the panorama's centre, y into its centre, z up. A view's t
 are its right, forward and up. Lens: r = f tan(theta) (rect) or r = f theta (equidistant), radially bent by
 r (1 + k ((r/R)^2 - 1)), then shifted as a tilted lens does (Brown's decentring p, q, in R), darkened by (1 + v (r/R)^2)^-2, R being the corner of a rect and the circle of a fisheye.
 """
+import functools
 import json
 import math
 import pathlib
@@ -163,41 +164,50 @@ def scale_errors(factors, exposures):
     return off - off.mean()
 
 
-def illuminance(panorama, normal):
-    """Sum of Y cos over the panorama's pixels, Rec. 709."""
-    height, width, _ = panorama.shape
+@functools.lru_cache(maxsize=2)
+def middles(height, width):
+    """Directions of a lat-long's pixels, and the solid angle of one in each row."""
     zenith = (np.arange(height) + .5) / height * np.pi
     azimuth = ((np.arange(width) + .5) / width - .5) * 2 * np.pi
     edge = np.cos(np.arange(height + 1) / height * np.pi)
-    omega = (edge[:-1] - edge[1:]) * 2 * np.pi / width
     ray = np.stack(np.broadcast_arrays(np.sin(zenith)[:, None] * np.sin(azimuth), np.sin(zenith)[:, None] * np.cos(azimuth),
                                        np.cos(zenith)[:, None] + 0 * azimuth), -1)
-    luminance = panorama @ np.array([.2126, .7152, .0722])
-    return float((luminance * np.maximum(ray @ np.asarray(normal, float), 0) * omega[:, None]).sum())
+    return ray, (edge[:-1] - edge[1:]) * 2 * np.pi / width
+
+
+BETWEEN = []  # (panorama, its light in twice as many pixels each way) of the panorama judged last
+
+
+def between_pixels(panorama):
+    if not BETWEEN or BETWEEN[0][0] is not panorama:
+        ray, omega = middles(2 * panorama.shape[0], 2 * panorama.shape[1])
+        luminance = np.concatenate([lookup(panorama, ray[y:y + 32]) @ np.array([.2126, .7152, .0722])
+                                    for y in range(0, len(ray), 32)])  # a few rows stay in a cache
+        BETWEEN[:] = [(panorama, luminance * omega[:, None])]
+    return BETWEEN[0][1]
 
 
 def seen_by(cameras, width, height):
     """1 where some camera of (Camera, rows) shows the middle of a lat-long pixel."""
-    zenith = (np.arange(height) + .5) / height * np.pi
-    azimuth = ((np.arange(width) + .5) / width - .5) * 2 * np.pi
-    ray = np.stack(np.broadcast_arrays(np.sin(zenith)[:, None] * np.sin(azimuth), np.sin(zenith)[:, None] * np.cos(azimuth),
-                                       np.cos(zenith)[:, None] + 0 * azimuth), -1)
-    seen = np.zeros((height, width), bool)
+    ray = middles(height, width)[0].reshape(-1, 3)
+    seen = np.zeros(height * width, bool)
     for camera, rows in cameras:
-        right, forward, up = np.moveaxis(ray @ np.asarray(rows).T, -1, 0)
+        before = ray @ np.asarray(rows)[1] > (0 if camera.kind == "rect" else -2)
+        left = np.flatnonzero(before & ~seen)
+        right, forward, up = np.asarray(rows) @ ray[left].T
         aside = np.maximum(np.hypot(right, up), 1e-12)
         if camera.kind == "rect":
-            ideal = np.where(forward > 0, aside / np.maximum(forward, 1e-9) * camera.focal, 1e9)
+            ideal = aside / np.maximum(forward, 1e-9) * camera.focal
         else:
             ideal = np.arctan2(aside, forward) * camera.focal
         r = ideal
         for _ in range(8):
             r = ideal / (1 + camera.bend * (np.minimum(r / camera.rim, 2) ** 2 - 1))
         if camera.kind == "rect":
-            seen |= (forward > 0) & (abs(right / aside * r) < camera.width / 2) & (abs(up / aside * r) < camera.height / 2)
+            seen[left] = (abs(right / aside * r) < camera.width / 2) & (abs(up / aside * r) < camera.height / 2)
         else:
-            seen |= r < camera.rim - 2
-    return seen
+            seen[left] = r < camera.rim - 2
+    return seen.reshape(height, width)
 
 
 PLANES = {"up": (0, 0, 1), "down": (0, 0, -1), "front": (0, 1, 0), "right": (1, 0, 0), "back": (0, -1, 0),
@@ -214,14 +224,13 @@ def judge(answer, truth, panorama, camera):
     gain = math.exp(np.mean(np.log([t["exposure"] for t in truth])))
     # The world between the panorama's pixels is as the cameras were shown it.
     height, width = 2 * panorama.shape[0], 2 * panorama.shape[1]
-    zenith, azimuth = np.meshgrid((np.arange(height) + .5) / height * np.pi,
-                                  ((np.arange(width) + .5) / width - .5) * 2 * np.pi, indexing="ij")
-    ray = np.stack([np.sin(zenith) * np.sin(azimuth), np.sin(zenith) * np.cos(azimuth), np.cos(zenith)], -1)
-    shown = lookup(panorama, ray) * seen_by([(camera, t) for t in true], width, height)[..., None]
-    largest = max(illuminance(shown, np.array(n) @ turn) for n in PLANES.values())
+    seen = seen_by([(camera, t) for t in true], width, height)
+    light, ray = between_pixels(panorama)[seen], middles(height, width)[0][seen]
+    wanted = {name: float(light @ np.maximum(ray @ (np.array(normal, float) @ turn), 0))
+              for name, normal in PLANES.items()}
+    largest = max(wanted.values())
     lux = {}
-    for name, normal in PLANES.items():
-        want = illuminance(shown, np.array(normal) @ turn)
+    for name, want in wanted.items():
         if want > 0.2 * largest:
             # the dome's fall-off and scale have one factor in common that no view can tell
             lux[name] = answer["illuminance_lx"][name]["total"] / want / gain - 1
