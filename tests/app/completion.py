@@ -54,7 +54,7 @@ class Shell:
     def send(self, text):
         os.write(self.terminal, text.encode())
 
-    def until(self, pattern, seconds=10):
+    def until(self, pattern, seconds=60):  # until it counts as hung
         """Everything shown until the pattern has been."""
         shown, end = "", time.monotonic() + seconds
         while not re.search(pattern, shown, re.S):
