@@ -90,7 +90,8 @@ SyntheticIntensity PatternOf(const Task& task) {
     const double step = std::clamp((from_base - angle) / 15.0, 0.0, 1.0);
     return (1.0 - slope * cosine) * step * step * (3.0 - 2.0 * step);
   };
-  return [pattern](const Point3& d) { return pattern(d) / pattern({0, 1, 0}); };
+  const double ahead = pattern({0, 1, 0});
+  return [=](const Point3& d) { return pattern(d) / ahead; };
 }
 
 // A camera and a board for a lamp one metre from the wall, times `distance`.
@@ -121,12 +122,15 @@ std::vector<float> InColours(const Task& task, SyntheticWall wall) {
   wall.other_lx = [](double, double) { return 0.0; };
   ++others.seed;
   const std::vector<float> by_lamp = PhotographWall(wall), by_others = PhotographWall(others);
+  std::vector<std::array<double, 2>> parts;  // of lamp and room in each channel
+  for (const char* channel : {"red", "green", "blue"}) {
+    parts.push_back({task.Of(std::string("lamp_") + channel, 1.0),
+                     task.Of(std::string("room_") + channel, 1.0)});
+  }
   std::vector<float> out;
   for (std::size_t i = 0; i < by_lamp.size(); ++i) {
-    for (const char* channel : {"red", "green", "blue"}) {
-      const double value = by_lamp[i] * task.Of(std::string("lamp_") + channel, 1.0) +
-                           by_others[i] * task.Of(std::string("room_") + channel, 1.0);
-      out.push_back(static_cast<float>(value));
+    for (const auto& [lamp, room] : parts) {
+      out.push_back(static_cast<float>(by_lamp[i] * lamp + by_others[i] * room));
     }
   }
   return out;
@@ -152,12 +156,13 @@ int PhotographLitWall(const std::string& board_svg, const std::string& out) {
     return std::hypot(x - shadow_x, z - shadow_z) < shadow_tan ? 0.0 : candela * pattern(d);
   };
   const double ambient = task.Of("ambient", 0.0);
+  const bool off = task.Of("off", 0.0) > 0.0;
   wall.other_lx = [&](double x, double z) {
-    return ambient + (task.Of("off", 0.0) > 0.0 ? 0.0
-                                                : Between(task.places, (x - stated[0]) / distance,
-                                                          (z - stated[2]) / distance));
+    return ambient +
+           (off ? 0.0
+                : Between(task.places, (x - stated[0]) / distance, (z - stated[2]) / distance));
   };
-  if (task.Of("off", 0.0) > 0.0) wall.intensity = [](const Point3&) { return 0.0; };
+  if (off) wall.intensity = [](const Point3&) { return 0.0; };
   if (shadow_tan > 0.0) {
     const double far = -wall.lamp[1];
     const auto box = PixelsAround(wall, wall.lamp[0] + shadow_x * far,

@@ -50,8 +50,10 @@ std::array<double, 2> Ray(const SyntheticWall& wall, double px, double py) {
     const double r2 = x * x + y * y;
     const double radial = 1.0 + wall.k1 * r2 + wall.k2 * r2 * r2;
     const double dx = 2.0 * wall.p1 * x * y, dy = wall.p1 * (r2 + 2.0 * y * y);
+    const double before_x = x, before_y = y;
     x = (u - dx) / radial;
     y = (v - dy) / radial;
+    if (x == before_x && y == before_y) break;  // and so for ever
   }
   return {x, y};
 }
