@@ -2,6 +2,7 @@
 // What a merge of codes (JPEG, PNG) is wrong by, beyond the noise of its samples.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,14 +27,22 @@ struct ScatterOfPlaces {
   void Row(int y, std::size_t first, int channels, std::span<float> out) const;
 };
 
+// The darkest codes: noise is cut off at black there, so the curve is carried on by its smoothness.
+struct Toe {
+  double slope_sd = 0.0;          // t: of ln(signal) over ln(signal); 0 of a curve that is stated
+  std::array<double, 3> below{};  // X of its highest code in the longest frame, of each channel
+};
+
 // sigma^2 of a pixel's luminance Y = sum k_c X_c:
-//   (1 - r) sum k_c^2 v_c + r (sum |k_c| v_c^.5)^2 + (m Y)^2 + (h D)^2
+//   (1 - r) sum k_c^2 v_c + r (sum |k_c| v_c^.5)^2 + (m Y)^2 + (t ln(Y0 / Y) Y)^2 + (h D)^2
 // v_c the variance of a channel (its noise times the place's factor, and the pixels' unequal
-// sensitivity), D the standard deviation of Y in the 3 x 3 pixels around.
+// sensitivity), D the standard deviation of Y in the 3 x 3 pixels around; Y0 the light of the toe's
+// highest code in the longest frame, whose term is 0 above.
 struct EncodedErrors {
   double misfit = 0.0;  // m: of curve and exposures, alike in all pixels of one level; relative
   double shared = 0.0;  // r: of the noise, alike in all channels; luminance is compressed as one
   ScatterOfPlaces places;
+  Toe toe{};
 };
 
 // h: this share of what a picture shows from pixel to pixel is not as it was, and alike in every
@@ -61,7 +70,10 @@ inline constexpr double kMostMisfit = 0.05, kLeastStatedMisfit = 0.02;
 // by more than kMostMisfit.
 void CheckStatedCurve(EncodedErrors& errors, const std::string& file, Warnings& warnings);
 
-// All of it, of the frames and the plan that the merger has. `done` as in signal.h.
+// Of 8 bit codes whose curve was recovered; of more bits the toe is too dark to be seen.
+[[nodiscard]] Toe ToeOf(const ResponseCurves& response, int channels, double longest_exposure);
+
+// All of it but the toe, of the frames and the plan that the merger has. `done` as in signal.h.
 [[nodiscard]] EncodedErrors MeasureEncodedErrors(const BracketMerger& merger,
                                                  const SampledSignals& signals,
                                                  const FrameDone& done = {});

@@ -201,6 +201,11 @@ void EncodedVariances(const float* variances, int channels, const std::array<dou
   const auto shared = static_cast<float>(errors.shared);
   const auto misfit2 = static_cast<float>(errors.misfit * errors.misfit);
   constexpr auto kHidden2 = static_cast<float>(kHiddenDetail * kHiddenDetail);
+  const auto toe_sd = static_cast<float>(errors.toe.slope_sd);
+  float toe = 0.0F;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+    toe += static_cast<float>(std::abs(row[c]) * errors.toe.below[c]);
+  }
   for (std::size_t x = 0; x < out.size(); ++x) {
     const float* pixel = variances + x * static_cast<std::size_t>(channels);
     float squares = 0.0F, sum = 0.0F;
@@ -220,7 +225,9 @@ void EncodedVariances(const float* variances, int channels, const std::array<dou
       }
     }
     const float detail = std::max(0.0F, square - mean * mean);
-    out[x] = (1.0F - shared) * squares + shared * sum * sum + misfit2 * y * y + kHidden2 * detail;
+    const float in_toe = y > 0.0F && y < toe ? toe_sd * std::log(toe / y) : 0.0F;
+    out[x] = (1.0F - shared) * squares + shared * sum * sum + (misfit2 + in_toe * in_toe) * y * y +
+             kHidden2 * detail;
   }
 }
 

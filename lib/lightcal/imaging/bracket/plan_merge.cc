@@ -72,6 +72,14 @@ NoiseProfile NoiseOfCodes(const ResponseCurves& response, int channels) {
   return noise;
 }
 
+// The variance that the rounding of dark codes leaves, which levels above hide when noise is found.
+double RoundingOf(const ResponseCurves& response, int channels) {
+  constexpr std::size_t kDark = 6;  // codes; a power law's first step is far below its second
+  const auto& curve = response.signal_of_code[channels == 3 ? 1 : 0];
+  const double step = double{curve[std::min(kDark, curve.size() - 1)]} / kDark;
+  return step * step / 12.0;
+}
+
 // Noise of every frame in the merge's order, and where it is from.
 Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& request,
                          std::span<const SignalFrame> frames, PlannedMerge& planned) {
@@ -105,6 +113,13 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   planned.noise_source = NoiseSource::kEstimated;
   planned.plan.noise.assign(
       n, estimate.value_or(NoiseOfMean(kMiddlingNoise, request.samples_averaged)));
+  if (frames[0].response != nullptr) {
+    for (NoiseProfile& noise : planned.plan.noise) {
+      noise.offset =
+          std::max(noise.offset, RoundingOf(*frames[0].response, frames[0].channels) /
+                                     (request.samples_averaged * request.samples_averaged));
+    }
+  }
   if (estimate) return {};
   if (n == 1 && frames[0].response != nullptr) {
     planned.plan.noise.assign(1, NoiseOfCodes(*frames[0].response, frames[0].channels));
@@ -341,6 +356,8 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
     if (request.stated_response) {
       CheckStatedCurve(errors, frames.front().name, planned.warnings);
     } else {
+      errors.toe = ToeOf(*frames.front().response, std::min(frames.front().channels, 3),
+                         planned.plan.exposure.back());
       errors.misfit = std::min(errors.misfit, kMostMisfit);
     }
     planned.plan.encoded = std::make_shared<const EncodedErrors>(std::move(errors));

@@ -24,6 +24,9 @@ constexpr double kHighestShare = 249.0 / 255.0;  // of the top code; above, the 
 constexpr double kGamma = 2.2;                   // what most cameras' curves are near
 constexpr double kStepSd = 1.0;
 constexpr double kSmoothness = 2e3;
+// Code below which curves may have a toe; sRGB's slope over ln(code) is 1 at 10, 1.6 at 32. Softer
+// above, a curve follows what compression rounded plain parts to.
+constexpr double kToeEnd = 32.0;
 constexpr double kMovedLn = 0.25;  // a residual from which a pixel probably shows something else
 constexpr int kTurns = 5;
 constexpr double kLeastCodeShare = 1.0 / 3.0;
@@ -55,8 +58,13 @@ class CodeSteps {
     }
     return steps;
   }
-  // Of a step, in steps of 8 bit codes.
-  [[nodiscard]] double Width(int step) const { return fine_ ? 2.0 * step / (kSteps - 1) : 1.0; }
+  // How little a curve's slope over ln(step) changes from this step to the next, 1 in the middle:
+  // in the toe of 8 bit codes with every ln(step) alike; where steps are fine, by what they are of
+  // 8 bit codes.
+  [[nodiscard]] double Stiffness(int step) const {
+    if (!fine_) return std::pow(std::min(1.0, step / kToeEnd), 3);
+    return 1.0 / std::pow(std::max(1.0, 2.0 * step / (kSteps - 1)), 3);
+  }
   [[nodiscard]] double top() const { return top_; }
 
  private:
@@ -131,7 +139,7 @@ Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const CodeSteps& steps,
     const double before = 1.0 / (step * (LnStep(step) - LnStep(step - 1)));
     const double after = 1.0 / (step * (LnStep(step + 1) - LnStep(step)));
     const std::array<double, 3> k = {before, -before - after, after};
-    const double weight = smooth / std::pow(std::max(1.0, steps.Width(step)), 3);
+    const double weight = smooth * steps.Stiffness(step);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         normal(step - 1 + i, step - 1 + j) +=

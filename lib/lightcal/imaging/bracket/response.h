@@ -19,7 +19,8 @@ namespace lightcal {
 // of code means in ln(signal) and, in a second turn, small for pixels where something moved. This
 // is Debevec and Malik's objective (SIGGRAPH 1997) with every pixel in it, the scene's luminances
 // eliminated pairwise, and weights of a known noise instead of a hat. Then made increasing (pool
-// adjacent violators). Its slope over ln(code) changes little: no power law is preferred, be the
+// adjacent violators). Its slope over ln(code) changes little, below code 32 of 8 bits alike in
+// every ln(code), so that a straight toe (sRGB's) is followed: no power law is preferred, be the
 // codes a display's or linear. The top code is signal 1.
 // `exposure` of each frame, > 0, in any unit; an error of 6 % in one ratio bends the curve as much.
 // Codes of more than 8 bits are seen through 256 steps of their square root, finer in the dark.
