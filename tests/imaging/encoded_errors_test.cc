@@ -193,9 +193,12 @@ std::array<Half, 2> HalvesOf(unsigned seed, double step) {
   const auto curves = RecoverResponse(frames, exposure);
   EXPECT_TRUE(curves.has_value());
   std::vector<SignalFrame> signals;
-  for (const Frame& frame : frames) signals.push_back(*SignalOf(frame, &*curves));
+  for (const Frame& frame : frames) signals.push_back(*SignalOf(frame, &curves->curves));
   MergeRequest request;
-  request.label_exposure = exposure;
+  for (const double ln : curves->exposures.ln_exposure) {
+    request.label_exposure.push_back(std::exp(ln));
+  }
+  request.power_sd = curves->exposures.power_sd;
   request.keep_labels = true;
   const auto planned = PlanMerge(signals, request);
   EXPECT_TRUE(planned.has_value());

@@ -72,7 +72,7 @@ TEST_P(Response, IsRecoveredToThreePercentOverTheMiddleCodesAndIncreases) {
   const auto frames = Shoot(GetParam().curve, exposures, GetParam().top);
   const auto curves = RecoverResponse(frames, exposures);
   ASSERT_TRUE(curves.has_value()) << curves.error().message;
-  const auto& signal = curves->signal_of_code[0];
+  const auto& signal = curves->curves.signal_of_code[0];
   ASSERT_EQ(signal.size(), static_cast<std::size_t>(GetParam().top) + 1);
   for (std::size_t code = 1; code < signal.size(); ++code) {
     ASSERT_GT(signal[code], signal[code - 1]) << code;
@@ -120,6 +120,89 @@ TEST(RecoverResponse, ExposuresInAnotherOrderAreRefused) {
       EXPECT_EQ(curves.error().code, "exposures_disagree");
     }
   }
+}
+
+// A world of five frames one of whose labels is wrong by up to a stop: the exposures come back.
+TEST(RecoverResponse, AnOddLabelIsMeasured) {
+  const std::vector<double> exposures = {0.0625, 0.25, 1.0, 4.0, 16.0};
+  for (const Curve& curve : {Curve(SrgbCurve), Curve(FilmCurve)}) {
+    const auto frames = Shoot(curve, exposures, 255);
+    for (std::size_t odd = 0; odd < exposures.size(); ++odd) {
+      for (const double factor : {0.5, 0.75, 1.33, 2.0}) {
+        std::vector<double> given = exposures;
+        given[odd] *= factor;
+        const auto recovered = RecoverResponse(frames, given);
+        ASSERT_TRUE(recovered.has_value());
+        const CodeExposures& found = recovered->exposures;
+        for (std::size_t i = 1; i < exposures.size(); ++i) {
+          EXPECT_NEAR(found.ln_exposure[i] - found.ln_exposure[i - 1], std::log(4.0), 0.02)
+              << i << " of " << odd << " times " << factor;
+        }
+        EXPECT_NEAR(found.off[odd], -std::log(factor), 0.02) << odd;
+        EXPECT_LT(found.power_sd, 0.02) << odd;
+      }
+    }
+  }
+}
+
+// A disc of .14 to .2 before a ground of .004 to .02, of a film's curve: they share few codes, and
+// some other exposures agree as well with another bend. True labels stand; an odd one does not.
+TEST(RecoverResponse, TrueLabelsStandWhereFewCodesAreShared) {
+  constexpr int width = 160, height = 120;
+  for (const Curve& curve : {Curve(SrgbCurve), Curve(FilmCurve)}) {
+    for (const std::vector<double>& exposures :
+         {std::vector{1.0, 4.0, 16.0}, std::vector{0.25, 1.0, 4.0, 16.0, 64.0}}) {
+      std::mt19937_64 random(8);
+      std::normal_distribution<double> normal;
+      std::vector<Frame> frames;
+      for (const double exposure : exposures) {
+        std::vector<std::uint16_t> codes;
+        for (int i = 0; i < width * height; ++i) {
+          const double x = i % width, y = i / width, r = std::hypot(x - 80, y - 60) / 30.0;
+          const double scene =
+              r < 1.0 ? 0.2 * (1.0 - 0.3 * r * r)
+                      : 0.01 * (1.0 + 0.5 * x / width) * (1.0 + 0.3 * std::sin(y / 9.0));
+          const double mean = scene * exposure / 4.0;
+          const double signal = mean + std::sqrt(mean / 2e4 + 4e-8) * normal(random);
+          codes.push_back(
+              static_cast<std::uint16_t>(std::lround(255.0 * curve(std::clamp(signal, 0.0, 1.0)))));
+        }
+        frames.push_back(FrameOf(codes, width, height, 255));
+      }
+      const auto recovered = RecoverResponse(frames, exposures);
+      ASSERT_TRUE(recovered.has_value());
+      EXPECT_EQ(recovered->exposures.off, std::vector(exposures.size(), 0.0));
+      EXPECT_EQ(recovered->exposures.power_sd, 0.0);
+    }
+  }
+}
+
+// All but a hundredth of the longest frame is clipped: it tells nothing of the others' labels.
+TEST(RecoverResponse, AFrameThatSharesFewPixelsKeepsItsLabel) {
+  const std::vector<double> exposures = {0.0625, 0.25, 1.0, 4.0, 900.0};
+  const auto frames = Shoot(SrgbCurve, exposures, 255);
+  for (const double factor : {1.0, 1.33}) {
+    std::vector<double> given = exposures;
+    given[1] *= factor;
+    const auto recovered = RecoverResponse(frames, given);
+    ASSERT_TRUE(recovered.has_value());
+    EXPECT_NEAR(recovered->exposures.off[1], -std::log(factor), 0.02);
+    EXPECT_EQ(recovered->exposures.off[4], 0.0);
+  }
+}
+
+// Two frames tell nothing of their labels, three not which one is odd.
+TEST(RecoverResponse, FewFramesTellLessOfTheirLabels) {
+  const auto two = RecoverResponse(Shoot(SrgbCurve, {0.5, 2.0}, 255), std::vector{0.5, 2.6});
+  ASSERT_TRUE(two.has_value());
+  EXPECT_EQ(two->exposures.off, std::vector(2, 0.0));
+  const auto three =
+      RecoverResponse(Shoot(SrgbCurve, {0.25, 1.0, 4.0}, 255), std::vector{0.25, 1.4, 4.0});
+  ASSERT_TRUE(three.has_value());
+  EXPECT_NEAR(three->exposures.off[1], -std::log(1.4), 0.03);
+  // An end may be off by twice as much instead: all ratios are then off by ln 1.4 / ln 4.
+  EXPECT_GT(three->exposures.power_sd, 0.05);
+  EXPECT_LT(three->exposures.power_sd, std::log(1.4) / std::log(4.0));
 }
 
 TEST(RecoverResponse, AFrameThatGotNoLightIsRefused) {

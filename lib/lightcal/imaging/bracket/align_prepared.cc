@@ -85,8 +85,24 @@ Warnings LeaveOut(BracketMotion& motion, PreparedFrames& prepared) {
   return warnings;
 }
 
+// Response and exposures of frames that are in one place.
+Result<void> FindAgain(const BracketMotion& motion, std::span<const double> labels,
+                       const Region& region, MergeRequest& merge, PreparedFrames& prepared) {
+  auto recovered = CurveInPlace(CodesOf(prepared, labels), motion, region);
+  if (!recovered) return Propagate(std::move(recovered));
+  prepared.response = std::move(recovered->curves);
+  merge.power_sd = recovered->exposures.power_sd;
+  prepared.label_errors.assign(prepared.frames.size(), 0.0);  // nothing of frames left out
+  for (std::size_t k = 0; k < prepared.planned.order.size(); ++k) {
+    const std::size_t frame = prepared.planned.order[k];
+    merge.label_exposure[frame] = std::exp(recovered->exposures.ln_exposure[k]);
+    prepared.label_errors[frame] = recovered->exposures.off[k];
+  }
+  return {};
+}
+
 Result<void> Interpolate(const BracketMotion& motion, std::span<const double> labels,
-                         bool stated_response, PreparedFrames& prepared) {
+                         MergeRequest& merge, PreparedFrames& prepared) {
   const int width = prepared.signals.front().width, height = prepared.signals.front().height;
   FrameAlignment alignment;
   alignment.interpolated = alignment.evidence = true;
@@ -104,10 +120,8 @@ Result<void> Interpolate(const BracketMotion& motion, std::span<const double> la
   alignment.y = region.y;
   alignment.width = region.width;
   alignment.height = region.height;
-  if (IsEncoded(prepared) && !stated_response) {
-    auto response = CurveInPlace(CodesOf(prepared, labels), motion, region);
-    if (!response) return Propagate(std::move(response));
-    prepared.response = std::move(*response);
+  if (IsEncoded(prepared) && !merge.stated_response) {
+    if (auto found = FindAgain(motion, labels, region, merge, prepared); !found) return found;
   }
   FindClipping(prepared.signals);
   for (std::size_t k = 0; k < prepared.signals.size(); ++k) {
@@ -181,7 +195,7 @@ Result<void> AlignPrepared(MergeRequest merge, std::span<const double> labels,
     return PlanAgain(std::move(merge), prepared);
   }
   const Warnings left_out = LeaveOut(*motion, prepared);
-  if (auto done = Interpolate(*motion, labels, merge.stated_response, prepared); !done) return done;
+  if (auto done = Interpolate(*motion, labels, merge, prepared); !done) return done;
   if (auto planned = PlanAgain(std::move(merge), prepared); !planned) return planned;
   Append(left_out, prepared.planned.warnings);
   return {};

@@ -112,8 +112,8 @@ Region RegionOf(const BracketMotion& motion, const SignalFrame& like) {
   return SharedRegion(from_reference, like.width, like.height, kBorderPeriods * ColorPeriod(like));
 }
 
-Result<ResponseCurves> CurveInPlace(const MovedCodes& codes, const BracketMotion& motion,
-                                    const Region& region) {
+Result<RecoveredResponse> CurveInPlace(const MovedCodes& codes, const BracketMotion& motion,
+                                       const Region& region) {
   std::vector<Frame> in_place;
   std::vector<double> exposure;
   for (std::size_t k = 0; k < codes.frames.size(); ++k) {
@@ -136,7 +136,7 @@ Result<BracketMotion> MotionOfCodes(const MovedCodes& codes) {
     return CurveInPlace(codes, *rough, region);
   });
   if (!curves) return LookThrough(nominal, codes, {});
-  return LookThrough(NearNominal(std::move(*curves)), codes, {.known = &*rough});
+  return LookThrough(NearNominal(std::move(curves->curves)), codes, {.known = &*rough});
 }
 
 }  // namespace lightcal

@@ -25,9 +25,9 @@ struct MovedCodes {
 [[nodiscard]] Region RegionOf(const BracketMotion& motion, const SignalFrame& like);
 
 // The response of codes that are brought to one place first. Refused: as RecoverResponse.
-[[nodiscard]] Result<ResponseCurves> CurveInPlace(const MovedCodes& codes,
-                                                  const BracketMotion& motion,
-                                                  const Region& region);
+[[nodiscard]] Result<RecoveredResponse> CurveInPlace(const MovedCodes& codes,
+                                                     const BracketMotion& motion,
+                                                     const Region& region);
 
 // MeasureMotion in two looks: through a power law of 2.2, which most cameras' curves are near, for
 // places within a pixel; then through the curve that the codes have there. A curve's bend that is

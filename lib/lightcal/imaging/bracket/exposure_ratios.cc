@@ -273,24 +273,29 @@ Result<void> CompareWithLabels(std::span<const double> label, std::span<const st
   const double gauge = sum / count;
   for (std::size_t i = 0; i < label.size(); ++i) {
     answer.ln_exposure[i] -= gauge;
-    const double ev = std::abs(off[i] - gauge) / std::numbers::ln2;
-    if (ev > kRefuseEv) {
-      return Refused(
-          "exposures_disagree", names[i],
-          "its picture was exposed " + EvText(off[i] - gauge) +
-              " from what its tags or {merge.exposures} say, beside the other frames; give "
-              "the exposures in the order of the files, or leave this frame out");
-    }
-    if (ev > kWarnEv) {
-      answer.warnings.push_back({"exposure_off", names[i],
-                                 "its picture was exposed " + EvText(off[i] - gauge) +
-                                     " from what its tags say; the measured exposure is used"});
-    }
+    if (auto named = NameOddLabel(off[i] - gauge, names[i], answer.warnings); !named) return named;
   }
   return {};
 }
 
 }  // namespace
+
+Result<void> NameOddLabel(double off, const std::string& name, Warnings& warnings) {
+  const double ev = std::abs(off) / std::numbers::ln2;
+  if (ev > kRefuseEv) {
+    return Refused(
+        "exposures_disagree", name,
+        "its picture was exposed " + EvText(off) +
+            " from what its tags or {merge.exposures} say, beside the other frames; give "
+            "the exposures in the order of the files, or leave this frame out");
+  }
+  if (ev > kWarnEv) {
+    warnings.push_back({"exposure_off", name,
+                        "its picture was exposed " + EvText(off) +
+                            " from what its tags say; the measured exposure is used"});
+  }
+  return {};
+}
 
 Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
                                              std::span<const double> label,

@@ -12,6 +12,9 @@
 
 namespace lightcal {
 
+// Of one label's ln: a third stop's rounding, a shutter's 3 %.
+inline constexpr double kLabelSd = 0.04;
+
 struct ExposureRatios {
   // ln of each frame's exposure; their mean difference to the labels is 0 over the frames that are
   // joined by measurements, so that no single frame's error becomes the scale.
@@ -34,5 +37,9 @@ struct ExposureRatios {
 [[nodiscard]] Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
                                                            std::span<const double> label,
                                                            std::span<const std::string> names);
+
+// Of a measured exposure, whose ln is off by `off` from its label's. Refused: exposures_disagree,
+// by more than 1 EV. Warns: exposure_off, by more than .25 EV.
+[[nodiscard]] Result<void> NameOddLabel(double off, const std::string& name, Warnings& warnings);
 
 }  // namespace lightcal

@@ -17,7 +17,6 @@ namespace lightcal {
 namespace {
 
 constexpr std::size_t kSamples = 300'000;
-constexpr double kLabelSd = 0.04;  // of one label: a third stop's rounding, a shutter's 3 %
 constexpr double kNoiseDisagreement = 0.2;  // relative, of variances
 constexpr double kMiddleSignal = 0.2;
 constexpr double kStandsOut = 8.0;    // standard deviations of the dark
@@ -134,6 +133,11 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
                               "sensor" +
                                   std::string(n == 1 ? ", or a code," : "") + " is assumed"});
   return {};
+}
+
+// The standard deviation of ln(level) over all that a bracket of codes sees, each as often.
+double SpreadOfLevels(const MergePlan& plan) {
+  return std::log(plan.exposure.back() / plan.exposure.front() / kEncodedFloor) / std::sqrt(12.0);
 }
 
 // Frames whose samples are all the same as another's: the same file twice.
@@ -358,7 +362,8 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
     } else {
       errors.toe = ToeOf(*frames.front().response, std::min(frames.front().channels, 3),
                          planned.plan.exposure.back());
-      errors.misfit = std::min(errors.misfit, kMostMisfit);
+      errors.misfit = std::hypot(std::min(errors.misfit, kMostMisfit),
+                                 request.power_sd * SpreadOfLevels(planned.plan));
     }
     planned.plan.encoded = std::make_shared<const EncodedErrors>(std::move(errors));
   }

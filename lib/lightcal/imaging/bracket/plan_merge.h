@@ -17,9 +17,10 @@ namespace lightcal {
 struct MergeRequest {
   // Of each frame, from tags: any common unit (time ISO / N^2), above 0.
   std::vector<double> label_exposure;
-  // Encoded frames: their response was found with the labels, so the labels stand.
+  // Encoded frames: exposures were found with their response, or are labels beside a stated one.
   bool keep_labels = false;
   bool stated_response = false;       // or it was not found from the frames, but stated
+  double power_sd = 0.0;              // of encoded frames: CodeExposures
   std::optional<NoiseProfile> noise;  // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files

@@ -8,6 +8,7 @@
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/imaging/bracket/align_prepared.h"
+#include "lightcal/imaging/bracket/exposure_ratios.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/release_rows.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
@@ -120,13 +121,34 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
   return {};
 }
 
-// The one that is stated, or what the frames tell.
-Result<ResponseCurves> ResponseOf(const BracketMergeRequest& request, std::span<const Frame> frames,
-                                  std::span<const double> labels) {
-  if (!request.response) return RecoverResponse(frames, labels);
-  const FrameInfo& info = frames.front().info;
-  return ResponseOfCodes(*request.response, static_cast<int>(HighestCode(info)),
-                         std::min(info.channels, 3));
+// The one that is stated, beside which labels stand; or what the frames tell.
+Result<void> FindResponse(const BracketMergeRequest& request, PreparedFrames& prepared,
+                          MergeRequest& merge) {
+  merge.keep_labels = true;
+  merge.stated_response = request.response.has_value();
+  if (request.response) {
+    const FrameInfo& info = prepared.frames.front().info;
+    prepared.response = ResponseOfCodes(*request.response, static_cast<int>(HighestCode(info)),
+                                        std::min(info.channels, 3));
+    return {};
+  }
+  auto recovered = RecoverResponse(prepared.frames, merge.label_exposure);
+  if (!recovered) return Propagate(std::move(recovered));
+  prepared.response = std::move(recovered->curves);
+  prepared.label_errors = std::move(recovered->exposures.off);
+  merge.power_sd = recovered->exposures.power_sd;
+  for (std::size_t i = 0; i < merge.label_exposure.size(); ++i) {
+    merge.label_exposure[i] = std::exp(recovered->exposures.ln_exposure[i]);
+  }
+  return {};
+}
+
+Result<void> NameOddLabels(const PreparedFrames& prepared, Warnings& warnings) {
+  for (std::size_t i = 0; i < prepared.label_errors.size(); ++i) {
+    auto named = NameOddLabel(prepared.label_errors[i], prepared.frames[i].info.file, warnings);
+    if (!named) return named;
+  }
+  return {};
 }
 
 }  // namespace
@@ -168,11 +190,9 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
   merge.noise = request.noise;
   merge.keep_labels = !request.work.measure_ratios;
   if (bracket.frames.front().meaning == SampleMeaning::kEncoded) {
-    auto response = ResponseOf(request, prepared->frames, *labels);
-    if (!response) return Propagate(std::move(response));
-    prepared->response = std::move(*response);
-    merge.keep_labels = true;
-    merge.stated_response = request.response.has_value();
+    if (auto found = FindResponse(request, *prepared, merge); !found) {
+      return Propagate(std::move(found));
+    }
   } else if (request.response) {
     return Refused("no_codes", bracket.frames.front().file,
                    "holds what its sensor saw, or linear values: there is no response to state; "
@@ -213,6 +233,7 @@ Result<std::unique_ptr<PreparedFrames>> PrepareFrames(const BracketMergeRequest&
       return Propagate(std::move(aligned));
     }
   }
+  if (auto named = NameOddLabels(*prepared, warnings); !named) return Propagate(std::move(named));
   prepared->planned.plan.estimator = request.work.estimator;
   Append(prepared->planned.warnings, warnings);
   if (auto set = SetCorrections(request, bracket.frames.front(), *prepared); !set)

@@ -25,6 +25,7 @@ struct PreparedFrames {
   std::vector<Frame> frames;  // as they are merged: made smaller where asked
   Thinning thinning;
   ResponseCurves response;
+  std::vector<double> label_errors;  // CodeExposures::off of each frame, where they were measured
   std::vector<SignalFrame> signals;
   PlannedMerge planned;
   std::optional<FrameAlignment> alignment;

@@ -13,181 +13,25 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/imaging/bracket/all_saturated.h"
+#include "lightcal/imaging/bracket/code_pairs.h"
 
 namespace lightcal {
 namespace {
 
-constexpr int kSteps = 256;
-constexpr double kLeastStep = 0.5;               // ln of a step has no end at 0
-constexpr int kLowestStep = 3;                   // below, noise is cut off at black
-constexpr double kHighestShare = 249.0 / 255.0;  // of the top code; above, the codes fill up
-constexpr double kGamma = 2.2;                   // what most cameras' curves are near
-constexpr double kStepSd = 1.0;
-constexpr double kSmoothness = 2e3;
-// Code below which curves may have a toe; sRGB's slope over ln(code) is 1 at 10, 1.6 at 32. Softer
-// above, a curve follows what compression rounded plain parts to.
-constexpr double kToeEnd = 32.0;
-constexpr double kMovedLn = 0.25;  // a residual from which a pixel probably shows something else
-constexpr int kTurns = 5;
 constexpr double kLeastCodeShare = 1.0 / 3.0;
-constexpr double kLeastRise = 1e-4;  // of g a step: curves increase
 
-using CodeView = View2d<const std::uint16_t>;
-
-// n(a, b): how often one pixel shows step a in the first and step b in the second frame.
-struct PairCounts {
-  double ln_ratio = 0.0;
-  std::vector<double> count = std::vector<double>(kSteps * kSteps, 0.0);
-};
-
-// Where a code lies among the steps: codes of 8 bits are steps; of more, steps are finer in the
-// dark, where linear codes have most of a scene.
-class CodeSteps {
- public:
-  explicit CodeSteps(double top) : top_(top), fine_(top > 255.0) {}
-  [[nodiscard]] double At(double code) const {
-    const double share = code / top_;
-    return (kSteps - 1) * (fine_ ? std::sqrt(share) : share);
-  }
-  // Of each code, 0 where it does not count.
-  [[nodiscard]] std::vector<int> Nearest() const {
-    std::vector<int> steps;
-    for (int code = 0; code <= static_cast<int>(top_); ++code) {
-      const int step = static_cast<int>(At(code) + 0.5);
-      steps.push_back(step < kLowestStep || code > kHighestShare * top_ ? 0 : step);
-    }
-    return steps;
-  }
-  // How little a curve's slope over ln(step) changes from this step to the next, 1 in the middle:
-  // in the toe of 8 bit codes with every ln(step) alike; where steps are fine, by what they are of
-  // 8 bit codes.
-  [[nodiscard]] double Stiffness(int step) const {
-    if (!fine_) return std::pow(std::min(1.0, step / kToeEnd), 3);
-    return 1.0 / std::pow(std::max(1.0, 2.0 * step / (kSteps - 1)), 3);
-  }
-  [[nodiscard]] double top() const { return top_; }
-
- private:
-  double top_;
-  bool fine_;
-};
-
-// ln of a step; a power law's curve is straight over it.
-double LnStep(double step) { return std::log(std::max(step, kLeastStep)); }
-
-PairCounts CountPair(const CodeView& a, const CodeView& b, int channel,
-                     const std::vector<int>& steps, double ln_ratio) {
-  const auto step_of = [&](std::uint16_t code) {
-    return steps[std::min<std::size_t>(code, steps.size() - 1)];
-  };
-  PairCounts pair;
-  pair.ln_ratio = ln_ratio;
-  for (int y = 0; y < a.height(); ++y) {
-    for (int x = 0; x < a.width(); ++x) {
-      const int first = step_of(a(x, y, channel)), second = step_of(b(x, y, channel));
-      if (first == 0 || second == 0) continue;
-      pair.count[static_cast<std::size_t>(first * kSteps + second)] += 1.0;
-    }
-  }
-  return pair;
-}
-
-// The variance of ln(signal) that an uncertainty of one code means there.
-double StepVariance(const Eigen::VectorXd& g, int step) {
-  const int low = std::max(step - 2, 0), high = std::min(step + 2, kSteps - 1);
-  const double slope = std::max((g(high) - g(low)) / (high - low), kLeastRise);
-  return slope * slope * kStepSd * kStepSd;
-}
-
-Eigen::VectorXd StartCurve() {
-  Eigen::VectorXd g(kSteps);
-  for (int step = 0; step < kSteps; ++step) {
-    g(step) = kGamma * (LnStep(step) - LnStep(kSteps - 1));
-  }
-  return g;
-}
-
-// One weighted least squares solution, with weights of the curve so far.
-Eigen::VectorXd Solve(std::span<const PairCounts> pairs, const CodeSteps& steps,
-                      const Eigen::VectorXd& so_far, bool trust_residuals) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kSteps, kSteps);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(kSteps);
-  for (const PairCounts& pair : pairs) {
-    for (int a = kLowestStep; a < kSteps; ++a) {
-      const double variance_a = StepVariance(so_far, a);
-      for (int b = kLowestStep; b < kSteps; ++b) {
-        const double count = pair.count[static_cast<std::size_t>(a * kSteps + b)];
-        if (count == 0.0) continue;
-        double weight = count / (variance_a + StepVariance(so_far, b));
-        if (trust_residuals) {
-          const double residual = (so_far(b) - so_far(a) - pair.ln_ratio) / kMovedLn;
-          weight /= (1.0 + residual * residual) * (1.0 + residual * residual);
-        }
-        normal(a, a) += weight;
-        normal(b, b) += weight;
-        normal(a, b) -= weight;
-        normal(b, a) -= weight;
-        right(b) += weight * pair.ln_ratio;
-        right(a) -= weight * pair.ln_ratio;
-      }
-    }
-  }
-  // Little change of slope over ln(step), so that any power law is free; by step, as in
-  // (g'' + g'/z)^2.
-  const double smooth = kSmoothness * normal.diagonal().mean();
-  for (int step = 1; step + 1 < kSteps; ++step) {
-    const double before = 1.0 / (step * (LnStep(step) - LnStep(step - 1)));
-    const double after = 1.0 / (step * (LnStep(step + 1) - LnStep(step)));
-    const std::array<double, 3> k = {before, -before - after, after};
-    const double weight = smooth * steps.Stiffness(step);
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        normal(step - 1 + i, step - 1 + j) +=
-            weight * k[static_cast<std::size_t>(i)] * k[static_cast<std::size_t>(j)];
-      }
-    }
-  }
-  // Gauge: the top step is signal 1.
-  normal(kSteps - 1, kSteps - 1) += normal.diagonal().maxCoeff();
-  return normal.ldlt().solve(right);
-}
-
-// The nearest increasing curve: neighbours that fall are replaced by their mean.
-void MakeIncreasing(Eigen::VectorXd& g) {
-  struct Block {
-    double mean;
-    int count;
-  };
-  std::vector<Block> blocks;
-  for (int step = 0; step < kSteps; ++step) {
-    blocks.push_back({g(step) - kLeastRise * step, 1});
-    while (blocks.size() > 1 && blocks[blocks.size() - 2].mean > blocks.back().mean) {
-      const Block last = blocks.back();
-      blocks.pop_back();
-      Block& merged = blocks.back();
-      merged.mean =
-          (merged.mean * merged.count + last.mean * last.count) / (merged.count + last.count);
-      merged.count += last.count;
-    }
-  }
-  int step = 0;
-  for (const Block& block : blocks) {
-    for (int i = 0; i < block.count; ++i, ++step) g(step) = block.mean + kLeastRise * step;
-  }
-}
-
-bool SharesEnough(std::span<const PairCounts> pairs) {
-  std::vector<bool> seen(kSteps, false);
-  for (const PairCounts& pair : pairs) {
-    for (int a = 0; a < kSteps; ++a) {
-      for (int b = 0; b < kSteps; ++b) {
-        if (pair.count[static_cast<std::size_t>(a * kSteps + b)] == 0.0) continue;
+bool SharesEnough(std::span<const CodePair> pairs) {
+  std::vector<bool> seen(kCodeSteps, false);
+  for (const CodePair& pair : pairs) {
+    for (int a = 0; a < kCodeSteps; ++a) {
+      for (int b = 0; b < kCodeSteps; ++b) {
+        if (pair.count[static_cast<std::size_t>(a * kCodeSteps + b)] == 0.0) continue;
         seen[static_cast<std::size_t>(a)] = seen[static_cast<std::size_t>(b)] = true;
       }
     }
   }
   const auto shared = static_cast<double>(std::count(seen.begin(), seen.end(), true));
-  return shared >= kLeastCodeShare * kSteps;
+  return shared >= kLeastCodeShare * kCodeSteps;
 }
 
 // Signals of all codes, between the steps a power law.
@@ -195,9 +39,9 @@ std::vector<float> SignalsOf(const Eigen::VectorXd& g, const CodeSteps& steps) {
   std::vector<float> signals;
   for (int code = 0; code <= static_cast<int>(steps.top()); ++code) {
     const double at = steps.At(std::max(kLeastStep, static_cast<double>(code)));
-    const int low = std::clamp(static_cast<int>(at), 1, kSteps - 2);
+    const int low = std::clamp(static_cast<int>(at), 1, kCodeSteps - 2);
     const double share = (std::log(at) - LnStep(low)) / (LnStep(low + 1) - LnStep(low));
-    const double ln = g(low) + share * (g(low + 1) - g(low)) - g(kSteps - 1);
+    const double ln = g(low) + share * (g(low + 1) - g(low)) - g(kCodeSteps - 1);
     signals.push_back(static_cast<float>(std::exp(ln)));
   }
   return signals;
@@ -283,14 +127,37 @@ tl::unexpected<Error> NoResponse(const std::string& file, const std::string& why
                      "({merge.response}, or response in a [[capture]])");
 }
 
+// Neighbours in exposure and next neighbours, of every channel.
+using ChannelPairs = std::vector<std::vector<CodePair>>;
+
+Result<ChannelPairs> CountPairs(std::span<const Frame> frames, std::span<const std::size_t> order,
+                                const CodeSteps& steps) {
+  const FrameInfo& info = frames[0].info;
+  const std::vector<int> nearest = steps.Nearest();
+  ChannelPairs pairs(static_cast<std::size_t>(std::min(info.channels, 3)));
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      for (std::size_t j = i + 1; j < std::min(i + 3, order.size()); ++j) {
+        const auto* a = std::get_if<CodeView>(&frames[order[i]].samples);
+        const auto* b = std::get_if<CodeView>(&frames[order[j]].samples);
+        if (a == nullptr || b == nullptr) return NoResponse(info.file, "its samples are no codes");
+        pairs[c].push_back(CountPair(*a, *b, static_cast<int>(c), nearest));
+        pairs[c].back().first = order[i];
+        pairs[c].back().second = order[j];
+      }
+    }
+  }
+  return pairs;
+}
+
 }  // namespace
 
 double HighestCode(const FrameInfo& info) {
   return info.levels ? double{info.levels->white[0]} : 255.0;
 }
 
-Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
-                                       std::span<const double> exposure) {
+Result<RecoveredResponse> RecoverResponse(std::span<const Frame> frames,
+                                          std::span<const double> exposure) {
   if (!frames.empty()) {
     auto seen = CheckCodes(frames, HighestCode(frames[0].info));
     if (!seen) return Propagate(std::move(seen));
@@ -301,36 +168,25 @@ Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
   }
   std::vector<std::size_t> order(frames.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return exposure[i] < exposure[j]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return exposure[i]; });
   const FrameInfo& info = frames[0].info;
   const CodeSteps steps(HighestCode(info));
-  const std::vector<int> nearest = steps.Nearest();
   if (auto ordered = CheckOrder(frames, exposure, order, steps.top()); !ordered) {
     return Propagate(std::move(ordered));
   }
-  ResponseCurves curves;
-  for (int channel = 0; channel < std::min(info.channels, 3); ++channel) {
-    std::vector<PairCounts> pairs;
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const auto* a = std::get_if<CodeView>(&frames[order[i - 1]].samples);
-      const auto* b = std::get_if<CodeView>(&frames[order[i]].samples);
-      if (a == nullptr || b == nullptr) return NoResponse(info.file, "its samples are no codes");
-      const double ln_ratio = std::log(exposure[order[i]] / exposure[order[i - 1]]);
-      if (ln_ratio < 0.1) continue;
-      pairs.push_back(CountPair(*a, *b, channel, nearest, ln_ratio));
-    }
-    if (!SharesEnough(pairs)) {
+  const auto pairs = CountPairs(frames, order, steps);
+  if (!pairs) return tl::unexpected(pairs.error());
+  RecoveredResponse recovered;
+  recovered.exposures = MeasureCodeExposures(*pairs, steps, exposure);
+  const std::vector<double>& ln_exposure = recovered.exposures.ln_exposure;
+  for (std::size_t c = 0; c < pairs->size(); ++c) {
+    const std::vector<CodePair> neighbours = Neighbours((*pairs)[c], ln_exposure);
+    if (!SharesEnough(neighbours)) {
       return NoResponse(info.file, "the frames share too few codes to tell the camera's curve");
     }
-    Eigen::VectorXd g = StartCurve();
-    for (int turn = 0; turn < kTurns; ++turn) {
-      g = Solve(pairs, steps, g, turn >= kTurns / 2);
-      MakeIncreasing(g);
-    }
-    curves.signal_of_code[static_cast<std::size_t>(channel)] = SignalsOf(g, steps);
+    recovered.curves.signal_of_code[c] = SignalsOf(CurveOf(neighbours, ln_exposure, steps), steps);
   }
-  return curves;
+  return recovered;
 }
 
 }  // namespace lightcal

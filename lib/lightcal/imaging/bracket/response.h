@@ -5,6 +5,7 @@
 #include <span>
 
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/bracket/code_exposures.h"
 #include "lightcal/imaging/bracket/signal.h"
 #include "lightcal/records/frame.h"
 
@@ -12,6 +13,11 @@ namespace lightcal {
 
 // Of codes: the top one; 255 where nothing says it.
 [[nodiscard]] double HighestCode(const FrameInfo& info);
+
+struct RecoveredResponse {
+  ResponseCurves curves;
+  CodeExposures exposures;
+};
 
 // For each channel the curve g = ln(signal) over codes that makes neighbours in exposure agree:
 //   min sum n(a, b) w (g(b) - g(a) - ln(e_b/e_a))^2 + s sum_z ((dg/dln z)' / z)^2
@@ -22,12 +28,13 @@ namespace lightcal {
 // adjacent violators). Its slope over ln(code) changes little, below code 32 of 8 bits alike in
 // every ln(code), so that a straight toe (sRGB's) is followed: no power law is preferred, be the
 // codes a display's or linear. The top code is signal 1.
-// `exposure` of each frame, > 0, in any unit; an error of 6 % in one ratio bends the curve as much.
-// Codes of more than 8 bits are seen through 256 steps of their square root, finer in the dark.
-// Refused: no_response (not encoded, fewer than two exposures, or too few codes that two frames
-// share: less than a third of them in some channel), exposures_disagree (codes fall, nearly
+// `exposure` of each frame, > 0, in any unit, are labels; where frames contradict them, exposures
+// are measured (code_exposures.h). With two frames an error of 6 % in their ratio bends the curve
+// as much. Codes of more than 8 bits are seen through 256 steps of their square root, finer in the
+// dark. Refused: no_response (not encoded, fewer than two exposures, or too few codes that two
+// frames share: less than a third of them in some channel), exposures_disagree (codes fall, nearly
 // everywhere they change, in a frame that should have half a stop more light or above).
-[[nodiscard]] Result<ResponseCurves> RecoverResponse(std::span<const Frame> frames,
-                                                     std::span<const double> exposure);
+[[nodiscard]] Result<RecoveredResponse> RecoverResponse(std::span<const Frame> frames,
+                                                        std::span<const double> exposure);
 
 }  // namespace lightcal
