@@ -254,6 +254,11 @@ class Placer {
                           ? FrameOfTable(z, axis)
                           : SourceFrame::Facing(z, axis);
     lamp.pose.offset_m = light.distance_offset_m ? light.distance_offset_m->value : 0.0;
+    if (light.beam && std::holds_alternative<TableSource>(lamp.source)) {
+      // A beam's curve was found about where its light starts, on its axis.
+      lamp.pose.position_m = lamp.pose.position_m - lamp.pose.frame.z * lamp.pose.offset_m;
+      lamp.pose.offset_m = 0.0;
+    }
     lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name));
     if (OffsetHoldsRadius(light)) {
       lamp.pose.offset_m = 0.0;
