@@ -8,10 +8,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <vector>
 
+#include "compressed_codes.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/merge_picture.h"
@@ -77,45 +77,7 @@ TEST(SharedNoise, IsTheChannelsCorrelation) {
   EXPECT_EQ(SharedNoise(Sampled({0.0, 0.0}, kSd, 0.5), 1, TwoStopsApart(2, kSd)), 0.0);
 }
 
-constexpr int kWidth = 240, kHeight = 160, kBlock = 8;
-
-// Every 8 x 8 block of a channel through a cosine transform whose waves are rounded to `step`
-// codes, as compression does.
-void Compress(std::vector<double>& codes, int channel, double step) {
-  std::array<std::array<double, kBlock>, kBlock> wave{};
-  for (int u = 0; u < kBlock; ++u) {
-    for (int x = 0; x < kBlock; ++x) {
-      wave[u][x] = (u == 0 ? std::sqrt(1.0 / kBlock) : std::sqrt(2.0 / kBlock)) *
-                   std::cos((2 * x + 1) * u * std::numbers::pi / (2.0 * kBlock));
-    }
-  }
-  const auto at = [&](int x, int y) -> double& {
-    return codes[static_cast<std::size_t>((y * kWidth + x) * 3 + channel)];
-  };
-  for (int by = 0; by < kHeight; by += kBlock) {
-    for (int bx = 0; bx < kWidth; bx += kBlock) {
-      std::array<std::array<double, kBlock>, kBlock> rounded{};
-      for (int v = 0; v < kBlock; ++v) {
-        for (int u = 0; u < kBlock; ++u) {
-          double sum = 0.0;
-          for (int y = 0; y < kBlock; ++y) {
-            for (int x = 0; x < kBlock; ++x) sum += wave[v][y] * wave[u][x] * at(bx + x, by + y);
-          }
-          rounded[v][u] = step * std::round(sum / step);
-        }
-      }
-      for (int y = 0; y < kBlock; ++y) {
-        for (int x = 0; x < kBlock; ++x) {
-          double sum = 0.0;
-          for (int v = 0; v < kBlock; ++v) {
-            for (int u = 0; u < kBlock; ++u) sum += wave[v][y] * wave[u][x] * rounded[v][u];
-          }
-          at(bx + x, by + y) = sum;
-        }
-      }
-    }
-  }
-}
+constexpr int kWidth = 240, kHeight = 160;
 
 // Plain patches in the left half, texture of 8 % in the right one; over two decades.
 std::vector<double> PatchesAndTexture(std::mt19937_64& random) {
@@ -144,7 +106,7 @@ std::vector<Frame> Photographs(const std::vector<double>& scene,
         codes.push_back(255.0 * std::pow(std::clamp(signal, 0.0, 1.0), 1.0 / 2.2));
       }
     }
-    for (int c = 0; c < 3; ++c) Compress(codes, c, step);
+    for (int c = 0; c < 3; ++c) test::Compress(codes, kWidth, c, step);
     auto kept = std::make_shared<std::vector<std::uint16_t>>();
     for (const double code : codes) {
       kept->push_back(static_cast<std::uint16_t>(std::lround(std::clamp(code, 0.0, 255.0))));
