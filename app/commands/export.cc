@@ -15,6 +15,7 @@
 #include "output_files.h"
 #include "page_file.h"
 #include "preset_flags.h"
+#include "progress_line.h"
 #include "target_words.h"
 
 namespace lightcal::app {
@@ -53,13 +54,17 @@ Result<void> RunExport(const ExportOptions& options, Console& console) {
   if (!options.into.empty() && options.inputs.size() > 1) {
     return WrongUsage("--into", "sets the lights of one scene: export one file of lamps at a time");
   }
-  const auto preset = PresetOptionsOf(options);
+  auto preset = PresetOptionsOf(options);
   if (!preset) return tl::unexpected(preset.error());
+  ProgressLine line("writing presets", !console.quiet());
   std::vector<OutputFile> all;
   std::vector<std::string> pastes;
   for (const std::string& input : options.inputs) {
+    if (options.inputs.size() > 1) line.Begin("writing presets of " + input);
+    preset->progress = line.Watcher();
     auto presets = PresetsOfInput(input, options, *preset, console);
     if (!presets) return Propagate(std::move(presets));
+    line.Wipe();
     console.Warn(presets->warnings);
     for (PresetFile& file : presets->files) {
       all.push_back({std::move(file.name), std::move(file.contents)});

@@ -5,6 +5,7 @@ soon they end when they are told to.
 
     long_runs.py LIGHTCAL
 """
+import json
 import os
 import pathlib
 import pty
@@ -95,6 +96,16 @@ def a_terminal_is_told_how_far(words, what, within_s=30.0):
     assert f"{what} ".encode() in said and b" %" in said, said
 
 
+def many_lamps(name, count):
+    session("one", [0.5, 1.0], [400.0, 100.0], [0.01, 0.01])
+    document = answer("fit", "one")
+    [lamp] = document["lights"]
+    document["lights"] = [{**lamp, "name": f"lamp {i}"} for i in range(count)]
+    (HOME / name).write_text(json.dumps({k: v for k, v in document.items() if k != "warnings"}))
+
+
 samples_of_many_readings_cost_as_those_of_their_means()
 a_signal_ends_a_study_at_once()
 a_terminal_is_told_how_far(["fit", "long", "--monte-carlo", "-o", "l.json"], "sampling intervals")
+many_lamps("set.json", 3000)
+a_terminal_is_told_how_far(["export", "set.json", "-o", "presets"], "writing presets")

@@ -169,6 +169,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
   auto rigs = RigsOf(lights, options);
   if (!rigs) return Propagate(std::move(rigs));
   std::vector<Substituted> said;
+  CountedProgress progress(options.progress, static_cast<int>(chosen->size() * rigs->size()));
   for (const PresetTarget& target : *chosen) {
     for (const std::optional<RigPlace>& rig : *rigs) {
       PresetOptions one = options;
@@ -177,6 +178,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       auto preset = target.exporter(lights, stem, one);
       if (!preset) return Propagate(std::move(preset));
       NoteSubstitutes(target.name, preset->warnings, said);
+      progress.Done();
       if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
       AddOnce(preset->warnings, all.warnings);
       std::ranges::move(preset->files, std::back_inserter(all.files));

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightcal/core/progress.h"
 #include "lightcal/core/result.h"
 #include "lightcal/core/units.h"
 #include "lightcal/presets/derived_light.h"
@@ -66,6 +67,7 @@ struct PresetOptions {
   // ExportPresets finds them out.
   std::vector<ControlSweep> sweeps{};
   bool figures_only = false;  // pictures are not encoded: their files stay empty
+  Progress progress{};        // of all that is written, target by target
 };
 
 struct PresetFile {
