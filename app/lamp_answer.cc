@@ -21,6 +21,7 @@
 #include "lightcal/light/fixture.h"
 #include "lightcal/presets/check/engine_answers.h"
 #include "lightcal/presets/preset_table.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal::app {
 namespace {
@@ -159,6 +160,18 @@ std::string WallsPart(const FittedLight& light, const Session& session) {
          ShortestText(std::round(*farthest->distance_m * 100.0) / 100.0) + " m came off the " +
          (session.surroundings == Surroundings::kOutdoors ? "ground: " : "walls: ") +
          (card ? "the card tells" : (learned ? "as the readings fall" : "assumed"));
+}
+
+// What nobody read of its cone, and where the angles come from.
+std::string ConeDrawn(const FittedLight& light, const Session& session) {
+  const LightDescription* described = FindLight(session, light.name);
+  if (described == nullptr) return "";
+  if (OfStatedBeam(light) && described->beam) {
+    return "cones are drawn from its stated beam of " + DegreesText(*described->beam) + "°";
+  }
+  const bool unread = light.fit.used == 0 && !described->inner;
+  if (!unread || light.kind != LightKind::kSpot || !light.inner_deg) return "";
+  return "the inner angle, " + RoundedText(*light.inner_deg, 2) + "°, is the one of its lumens";
 }
 
 // ---- what next ----
@@ -342,6 +355,9 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
   if (const std::string typed = TypeIn(answer.figures); !typed.empty()) {
     text += LabelledLine("type in", typed);
     if (const std::string why = WhyTheyDiffer(answer); !why.empty()) text += LabelledLine("", why);
+  }
+  if (const std::string cone = ConeDrawn(light, session); !cone.empty()) {
+    text += LabelledLine("", cone);
   }
   const std::string parts = Parts(light);
   const std::string stops = strength.value == nullptr ? "" : StopsText(*strength.value);

@@ -66,6 +66,16 @@ def a_stated_beam_is_what_is_exported():
         assert abs(float(gdtf["LuminousFlux"]) / 806 - 1) < 0.01, gdtf
 
 
+def that_it_is_drawn_is_said():
+    said = run("quick", "--lumens", 806, "--beam", 36, "--to", "ies,gdtf", "-o", HOME / "said").stdout
+    assert "drawn from its stated beam of 36°" in said, said
+    words = "a beam drawn from its stated angle"
+    assert words in next((HOME / "said").glob("*.ies")).read_text()
+    with zipfile.ZipFile(next((HOME / "said").glob("*.gdtf"))) as package:
+        assert words in package.read("description.xml").decode()
+    assert "is the one of its lumens" in run("quick", "--lumens", 806, "--outer", 30).stdout
+
+
 def a_stated_field_is_in_it_too():
     _, _, table = files_of("field", "--lumens", 806, "--beam", 36, "--field", 60)
     assert abs(lumens(*table) / 806 - 1) < 0.005, lumens(*table)
@@ -109,7 +119,7 @@ def the_beam_of_a_lambertian_face_is_lamberts():
     assert 1.02 * spread[0] < spread[1] < 0.5, spread
 
 
-PARTS = {"beams": (a_stated_beam_is_what_is_exported, a_stated_field_is_in_it_too,
+PARTS = {"beams": (a_stated_beam_is_what_is_exported, that_it_is_drawn_is_said, a_stated_field_is_in_it_too,
                    an_outer_angle_carries_the_lumens, a_reading_on_the_axis_leaves_the_beam),
          "faces": (the_beam_of_a_lambertian_face_is_lamberts,)}
 for part in PARTS[sys.argv[2]]:

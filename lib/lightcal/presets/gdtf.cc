@@ -21,6 +21,7 @@
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/light_distribution.h"
 #include "lightcal/presets/stored_zip.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal {
 namespace {
@@ -244,7 +245,8 @@ Result<Described> FixtureOf(const FittedLight& lamp, const Provenance& provenanc
   fixture.manufacturer = "lightcal";
   fixture.description = "Measured: " + RoundedText(lamp.intensity_cd->value, 4) + " cd +- " +
                         RoundedText(100.0 * lamp.intensity_cd->u95 / lamp.intensity_cd->value, 2) +
-                        " % (95 %), " + provenance.generator;
+                        " % (95 %), " + (OfStatedBeam(lamp) ? DistributionWords(lamp) + ", " : "") +
+                        provenance.generator;
   fixture.emitters = EmittersOf(lamp);
   beam->emitter = fixture.emitters.front().name;
   fixture.beams = {*std::move(beam)};

@@ -11,6 +11,7 @@
 #include "lightcal/presets/light_distribution.h"
 #include "lightcal/presets/photometric_files.h"
 #include "lightcal/records/photometric_codec.h"
+#include "lightcal/records/stated_beam.h"
 
 namespace lightcal {
 namespace {
@@ -20,7 +21,8 @@ std::string PeakText(const FittedLight& lamp) {
   if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return {};
   const Uncertain& u = *lamp.intensity_cd;
   return "intensity " + RoundedText(u.value, 4) + " cd +- " +
-         RoundedText(100.0 * u.u95 / u.value, 2) + " % (95 %)";
+         RoundedText(100.0 * u.u95 / u.value, 2) + " % (95 %)" +
+         (OfStatedBeam(lamp) ? ", " + DistributionWords(lamp) : "");
 }
 
 PhotometricFile FileOf(const FittedLight& lamp, IntensityTable table,
