@@ -16,6 +16,7 @@
 #include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/meter_calibration.h"
+#include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/uneven_light.h"
 #include "lightcal/fit/plan/plan_forward.h"
 #include "lightcal/light/effects/cosine_response.h"
@@ -33,8 +34,16 @@ void NameOffsetFound(std::vector<EffectReport>& effects) {
   }
 }
 
-// Off its axis the finite size of a flat lamp changes what a meter sees by about as much as on it.
-void WidenByShape(const Observations& seen, ForwardModel& model) {
+bool IsFlat(const LightDescription& light) {
+  return light.kind == LightKind::kDisk || light.kind == LightKind::kRect;
+}
+
+// How a rect that is no square is turned about its aim is known by its axis alone. Without one,
+// what a meter beside the aim sees of its size may be as far off as on it.
+void WidenByTurn(const LightDescription& light, const Observations& seen, ForwardModel& model) {
+  const bool turned = light.kind == LightKind::kRect && !light.axis && light.width &&
+                      light.height && light.width->value() != light.height->value();
+  if (!turned) return;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Observation& o : seen.rows) {
     if (o.lit) nearest = std::min(nearest, o.distance_m);
@@ -104,15 +113,19 @@ Result<FittedLight> FitLocatedLight(const Session& session, const LightDescripti
   ForwardModel rough_model;
   rough_model.walls = rough->model.walls;
   rough_model.over_ground = rough->model.over_ground;
+  rough_model.shape = rough->model.shape;
   rough_model.gradient_sd = GradientOf(light);
   Result<LampLocation> first = LocateLamp(observations, light, rough_model);
   if (!first) return Propagate(std::move(first));
   LightDescription placed = even;
   placed.position_m = first->position_m;
-  const Observations seen = PlaceObservations(observations, first->position_m);
+  Observations seen = PlaceObservations(observations, first->position_m);
+  if (const auto source = PlacedSourceOf(placed); source && IsFlat(light)) {
+    PoseBefore(*source, light.kind, seen);
+  }
   Result<ForwardPlan> plan = PlanForward(session, placed, seen, settings);
   if (!plan) return Propagate(std::move(plan));
-  WidenByShape(seen, plan->model);
+  WidenByTurn(light, seen, plan->model);
   WidenByCosine(seen, *plan);
   plan->model.gradient_sd = rough_model.gradient_sd;
   Result<LampLocation> location = LocateLamp(seen, light, plan->model, &*first);

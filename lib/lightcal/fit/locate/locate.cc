@@ -85,6 +85,10 @@ bool RejectOne(Kept& kept) {
 std::optional<double> FacingOf(PlacedRow row, const std::optional<Vec3>& aim, double tilt_rad,
                                const PlacedTheta& theta) {
   if (tilt_rad == 0.0 && !(row.position && (row.normal || aim))) return std::nullopt;
+  if (row.face) {  // on its axis, as far away
+    row.distance = DistanceOf(row, theta.data()) - theta[kPlacedOffset];
+    row.position.reset();
+  }
   row.normal.reset();
   row.direct_gain = 1.0;
   double lux = 0.0;

@@ -28,7 +28,8 @@ struct LampLocation {
 // lamp-off readings or, without walls, six readings tell it, E0, from a closed form where the
 // layout has one and a scan of directions and distances. Readings without a normal face the lamp;
 // readings that give a distance alone join with an offset of their own, N(0, (0.15 d_min)^2).
-// Points and spheres shine evenly, disks and rectangles as cos from their aim. With more readings
+// Points and spheres shine evenly, disks and rectangles as cos from their aim, by their exact form
+// where `model.shape` says that their size counts. With more readings
 // than parameters by two, one beyond 4.7 sigma is rejected when the rest agree without it, again
 // while any is. Each of model.walls is weighed by its evidence, the answer mean and covariance of
 // all. `model` adds what the effect gate decided (head size, influences that widen). Refused, each

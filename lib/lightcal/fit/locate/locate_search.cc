@@ -69,6 +69,21 @@ PlacedRow CardRowOf(const Observation& o, const PlacedFrame& frame) {
   return row;
 }
 
+// Where the lamp's size counts. Turned about its aim as a lamp of stated place is.
+std::optional<PlacedFace> FaceOf(const LightDescription& light, const ForwardModel& model,
+                                 double unit_m) {
+  if (!light.aim || model.shape.outline == AxialShape::Outline::kPoint) return std::nullopt;
+  const SourceFrame frame = SourceFrame::Facing(*light.aim, light.axis.value_or(Vec3{}));
+  const auto half = [&](Metres length) { return 0.5 * length.value() / unit_m; };
+  if (light.kind == LightKind::kDisk && light.diameter) {
+    return PlacedFace{DiskSource{half(*light.diameter)}, frame};
+  }
+  if (light.kind == LightKind::kRect && light.width && light.height) {
+    return PlacedFace{RectSource{half(*light.width), half(*light.height)}, frame};
+  }
+  return std::nullopt;
+}
+
 // One normal of all that the lamp may be.
 void AddWalls(const Observations& observations, const WallPrior& prior, PlacedProblem& problem) {
   std::vector<PlacedRow>& rows = problem.estimation.rows;
@@ -213,9 +228,11 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
   if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) {
     out.estimation.aim = light.aim;
   }
+  const std::optional<PlacedFace> face = FaceOf(light, model, out.frame.length_m);
   for (std::size_t i = 0; i < observations.rows.size(); ++i) {
     if (!observations.rows[i].lit && !model.fit_ambient) continue;
     out.estimation.rows.push_back(RowOf(observations, i, model, out.frame));
+    if (observations.rows[i].lit) out.estimation.rows.back().face = face;
     out.observation.push_back(static_cast<int>(i));
     if (observations.rows[i].lit) ++out.lit;
   }

@@ -119,6 +119,9 @@ class Judge {
     const auto seeing = std::ranges::find_if(
         estimation.rows, [](const PlacedRow& one) { return one.direct_gain > 0.0 && one.walls; });
     if (seeing != estimation.rows.end()) row.walls = seeing->walls;
+    const auto lit = std::ranges::find_if(
+        estimation.rows, [](const PlacedRow& one) { return one.direct_gain > 0.0; });
+    if (lit != estimation.rows.end()) row.face = lit->face;
     with_.rows.push_back(row);
   }
 

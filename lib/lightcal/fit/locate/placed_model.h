@@ -2,13 +2,19 @@
 // One row of the problem whose lamp stands at an unknown place, and the law its cost follows.
 #pragma once
 
+#include <ceres/jet.h>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "lightcal/core/vec3.h"
 #include "lightcal/fit/model/reading_model.h"
+#include "lightcal/light/models/disk_source.h"
+#include "lightcal/light/models/rect_source.h"
 
 namespace lightcal::fit {
 
@@ -39,6 +45,12 @@ struct PlacedWalls : WallsOfRow {
   double bend = 0.0;
 };
 
+// The face of a flat lamp of known size, in the solver's unit.
+struct PlacedFace {
+  std::variant<DiskSource, RectSource> outline;
+  SourceFrame frame;
+};
+
 struct PlacedRow {
   RowForm form = RowForm::kLog;
   std::optional<Vec3> position;  // of the meter; absent: `distance` from the lamp, facing it
@@ -46,8 +58,9 @@ struct PlacedRow {
   double distance = 1.0;
   double tilt_cosine = 1.0;  // stated, where no normal is given
   int instrument = 0;
-  double direct_gain = 1.0;  // what tilt, head and source size leave; 0 without the lamp
-  double bounce = 0.0;       // illuminance from the room's walls per candela, known
+  double direct_gain = 1.0;        // what tilt, head and source size leave; 0 without the lamp
+  double bounce = 0.0;             // illuminance from the room's walls per candela, known
+  std::optional<PlacedFace> face;  // absent: a point, or, with an aim, a small flat lamp
   std::optional<PlacedWalls> walls;
   std::optional<Vec3> middle;  // of a lamp that shines unevenly: the mean direction from it
   double ambient_gain = 1.0;   // 0 where a shadow-card reading was subtracted
@@ -78,11 +91,49 @@ template <class T>
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+// Of the whole face, exactly, at a place in its own frame; the meter faces it where no normal is
+// given. Only the place depends on theta: three derivatives, which the chain rule carries on, cost
+// a third of all.
+template <class T>
+[[nodiscard]] T LuxOfFace(const PlacedFace& face, const Vec3Of<T>& at,
+                          const std::optional<Vec3>& normal) {
+  const auto lux = [&](const auto& place) {
+    using S = std::decay_t<decltype(place[0])>;
+    using std::sqrt;
+    Receiver<S> receiver{place, place * (S(-1.0) / sqrt(Dot(place, place)))};
+    if (normal) {
+      const Vec3 turned = face.frame.Of(*normal);
+      receiver.normal = {S(turned[0]), S(turned[1]), S(turned[2])};
+    }
+    return std::visit([&](const auto& one) { return LuxPerCandela(one, receiver); }, face.outline);
+  };
+  if constexpr (std::is_same_v<T, double>) {
+    return lux(at);
+  } else {
+    using ByPlace = ceres::Jet<double, 3>;
+    const ByPlace here =
+        lux(Vec3Of<ByPlace>{ByPlace(at[0].a, 0), ByPlace(at[1].a, 1), ByPlace(at[2].a, 2)});
+    T out(here.a);
+    for (int k = 0; k < 3; ++k) out.v += here.v[k] * at[k].v;
+    return out;
+  }
+}
+
 // Of the lamp itself, per candela, at the distance r. False where the meter or the lamp faces away.
 template <class T>
 [[nodiscard]] bool DirectPerCandela(const PlacedRow& row, const std::optional<Vec3>& aim,
                                     const T& r, const T* theta, T* direct) {
   using std::exp;
+  if (row.face) {
+    Vec3Of<T> at = {T(0.0), T(0.0), r};  // on the axis
+    if (row.position) {
+      at = row.face->frame.Of(Vec3Of<T>{(*row.position)[0] - theta[kPlacedX],
+                                        (*row.position)[1] - theta[kPlacedY],
+                                        (*row.position)[2] - theta[kPlacedZ]});
+    }
+    *direct = row.direct_gain * LuxOfFace(*row.face, at, row.position ? row.normal : std::nullopt);
+    return *direct > T(0.0);
+  }
   *direct = row.direct_gain / (r * r);
   if (!row.position) return true;
   const auto along = [&](const Vec3& u) {
@@ -122,9 +173,9 @@ template <class T>
 
 // E = exp(ln I) [ gain exp(g.(-v/r - middle)) (n.v/r) (-a.v/r)/r^2 + bounce + walls ] + ambient,
 // v = lamp - meter, r = |v|; the cosine n.v/r is 1 for a meter that faces the lamp, -a.v/r (a flat
-// Lambertian source shining along a) is 1 where no aim is given. False where the meter or the lamp
-// faces away. theta: kPlacedParameters of T, which is double or an automatic-differentiation
-// scalar.
+// Lambertian source shining along a) is 1 where no aim is given; of a face of known size the exact
+// form stands for all three factors. False where the meter or the lamp faces away. theta:
+// kPlacedParameters of T, which is double or an automatic-differentiation scalar.
 template <class T>
 [[nodiscard]] bool PlacedIlluminance(const PlacedRow& row, const std::optional<Vec3>& aim,
                                      const T* theta, T* lux) {

@@ -195,7 +195,9 @@ std::optional<PlacedTheta> PlacedStartAt(const PlacedEstimation& estimation, con
   return ThetaOf(estimation, std::exp(point.ln_intensity), lamp, ambient);
 }
 
-std::vector<PlacedTheta> ScanPlacedStarts(const PlacedEstimation& estimation, double ambient) {
+std::vector<PlacedTheta> ScanPlacedStarts(PlacedEstimation estimation, double ambient) {
+  // For a start a small flat lamp is near enough, and so many faces would take long.
+  for (PlacedRow& row : estimation.rows) row.face.reset();
   const Layout layout = LayoutOf(estimation.rows);
   std::vector<ScanPoint> points;
   for (int k = 0; k < kDistances; ++k) {

@@ -36,7 +36,7 @@ struct CommonPlane {
 
 // Up to eight of the best of a scan over directions from the meters' middle and distances of 0.15
 // to 40 times their extent, unlike each other.
-[[nodiscard]] std::vector<PlacedTheta> ScanPlacedStarts(const PlacedEstimation& estimation,
+[[nodiscard]] std::vector<PlacedTheta> ScanPlacedStarts(PlacedEstimation estimation,
                                                         double ambient);
 
 // Middle of the meters' positions and the root of their mean squared distance from it (1 where all

@@ -61,6 +61,16 @@ OffAxisPose PoseOf(const PlacedSource& source, OffsetWay way, const Observation&
           way};
 }
 
+// E/I in such a pose over that of a small source that shines alike all round.
+double EmissionIn(const OffAxisPose& pose, const Observation& row) {
+  const double even = std::cos(row.normal ? row.tilt_rad : 0.0) / (row.distance_m * row.distance_m);
+  return LuxPerCandela(pose, 0.0) / even;
+}
+
+bool IsPosed(const Observation& row) {
+  return row.lit && row.position_m && row.measured_from_center;
+}
+
 // Every reading stands where the lamp falls so steeply that the angle decides what was read.
 void RejectAtEdge(const LightDescription& light, Observations& observations) {
   for (const Observation& row : observations.rows) {
@@ -130,6 +140,14 @@ std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
   return PlacedSource{*model, *light.position_m, SourceFrame::Facing(z, *light.axis)};
 }
 
+void PoseBefore(const PlacedSource& source, LightKind kind, Observations& observations) {
+  for (Observation& row : observations.rows) {
+    if (!IsPosed(row)) continue;
+    row.off_axis = PoseOf(source, WayOf(kind), row);
+    row.emission = EmissionIn(*row.off_axis, row);
+  }
+}
+
 int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& observations) {
   // Half way between the two sides of a rect, for which a reading by its angle stands.
   constexpr double kBetweenSides = 0.25 * std::numbers::pi;
@@ -142,7 +160,7 @@ int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& 
   std::vector<Observation> kept;
   for (Observation& row : observations.rows) {
     std::optional<OffAxisPose> pose;
-    if (placed && row.lit && row.position_m && row.measured_from_center) {
+    if (placed && IsPosed(row)) {
       pose = PoseOf(*placed, WayOf(light.kind), row);
     } else if (aimed && ByAngle(row)) {
       pose = PoseAt(*aimed, row.distance_m, row.off_axis_rad, kBetweenSides);
@@ -151,9 +169,7 @@ int PlaceOnSource(const LightDescription& light, bool cone_found, Observations& 
       kept.push_back(std::move(row));
       continue;
     }
-    const double even =
-        std::cos(row.normal ? row.tilt_rad : 0.0) / (row.distance_m * row.distance_m);
-    row.emission = LuxPerCandela(*pose, 0.0) / even;
+    row.emission = EmissionIn(*pose, row);
     if (!(row.emission > (spot ? kDarkShare : 0.0))) {
       ++dark;
       if (cone_found) continue;

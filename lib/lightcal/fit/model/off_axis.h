@@ -20,6 +20,10 @@ namespace lightcal::fit {
 // outer_deg; and for kinds that shine evenly from a point.
 [[nodiscard]] std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light);
 
+// Gives every lit row that is placed its pose before a lamp whose place was found, and how strongly
+// it shines there.
+void PoseBefore(const PlacedSource& source, LightKind kind, Observations& observations);
+
 // Gives every lit row that is placed, or read by its angle off the axis of a disk, rect or spot
 // with outer_deg, its pose before the source and how strongly the source shines there
 // (Observation::emission). What is not known of such an angle, AngleSigma and the side of the lamp,
