@@ -22,7 +22,7 @@ class RandomSession {
     for (int i = Count(1, 4); i > 0; --i) session.lights.push_back(Light(i));
     for (int i = Count(0, 3); i > 0; --i) {
       session.meters.push_back({"m" + std::to_string(i) + Name(), 0.001 + 0.9 * Unit(),
-                                std::nullopt, Maybe(Unit()), Maybe(Unit()),
+                                std::nullopt, Maybe(Unit()), Maybe(Unit()), Maybe(Unit()),
                                 Maybe(Metres(Positive()))});
     }
     for (int i = Count(0, 12); i > 0; --i) session.readings.push_back({OneReading(session), ""});
