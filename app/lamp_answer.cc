@@ -43,7 +43,7 @@ std::string ColorText(const LampQuestion& question, const FittedLight& light) {
   const auto& cct = light.color.cct_K;
   if (!cct) return "";
   if (question.typed_color) return RoundedText(cct->value, 4) + " K as typed";
-  std::string text = ValueWithAbsolute(cct->value, cct->u95, "K");
+  std::string text = KelvinText(*cct);
   const auto& duv = light.color.duv;
   if (duv && WasRead(*question.session, light.name)) {
     text += ", Duv " + ValueWithAbsolute(duv->value, duv->u95, "");

@@ -171,8 +171,13 @@ std::string ValueText(const Uncertain& u) {
 }
 
 std::string ValueAndInterval(const Uncertain& u, std::string_view unit) {
-  if (IsEven(u)) return ValueWithPercent(u.value, u.u95, unit);
+  if (IsEven(u)) return ValueWithPercent(u.value, 0.5 * (HighOf(u) - LowOf(u)), unit);
   return ValueText(u) + " " + std::string(unit) + ", " + RangeText(u);
+}
+
+std::string KelvinText(const Uncertain& cct) {
+  if (IsEven(cct)) return ValueWithAbsolute(cct.value, cct.u95, "K");
+  return ValueText(cct) + " K, " + RangeText(cct);
 }
 
 std::string UpperEndText(const Uncertain& u) { return Rounded(HighOf(u), 2); }

@@ -30,6 +30,9 @@ struct Strength {
 // "501 cd ± 12 %" where the interval is even about the value, "45 cd, 20 … 67" where it is not.
 [[nodiscard]] std::string ValueAndInterval(const Uncertain& u, std::string_view unit);
 
+// "2900 ± 60 K", "2900 K, 2500 … 3700" where it is not even.
+[[nodiscard]] std::string KelvinText(const Uncertain& cct);
+
 // The upper end of its interval, two digits: what "below" an upper limit names.
 [[nodiscard]] std::string UpperEndText(const Uncertain& u);
 

@@ -27,7 +27,7 @@ std::string Flux(const FittedLight& light) {
 
 std::string Cct(const FittedLight& light) {
   const auto& cct = light.color.cct_K;
-  return cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone;
+  return cct ? KelvinText(*cct) : kNone;
 }
 
 std::string Duv(const FittedLight& light) {

@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "joint_progress.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/units_text.h"
@@ -16,7 +17,15 @@
 namespace lightcal::app {
 namespace {
 
-std::string U95Text(double relative) { return "± " + PercentText(relative); }
+std::string LeftAfter(const PlannedReading& reading) {
+  return RelativeText(IntervalOfWidths(reading.u95_relative, reading.u95_stops));
+}
+// "" before any reading.
+std::string Now(const MinutesLadder& ladder) {
+  return ladder.u95_relative
+             ? RelativeText(IntervalOfWidths(*ladder.u95_relative, ladder.u95_stops))
+             : "";
+}
 
 const char* WordOf(PlannedAction action) {
   if (action == PlannedAction::kShadowCard) return "shadow_card";
@@ -54,20 +63,19 @@ const LadderStep* MeterStep(const MinutesLadder& ladder) {
 
 std::string Sentence(const MinutesLadder& ladder) {
   const double meter = ladder.meter_u95_relative;
-  const std::string own = "the meter's own " + U95Text(meter);
+  const std::string own = "the meter's own " + RelativeText(IntervalOfFactor(meter));
   if (ladder.steps.empty()) {
-    const std::string now = ladder.u95_relative ? " (" + U95Text(*ladder.u95_relative) + ")" : "";
+    const std::string now = ladder.u95_relative ? " (" + Now(ladder) + ")" : "";
     return ladder.light + ": no reading within reach would take 2 % off what is left" + now +
            (meter > 0.0 ? "; " + own + " stays however often it reads" : "") + ".";
   }
   const LadderStep& first = ladder.steps.front();
   const LadderStep& last = ladder.steps.back();
   std::string text = ladder.light + ": ";
-  text += ladder.u95_relative ? "now " + U95Text(*ladder.u95_relative) + "; " : "";
-  text += Minutes(first.total_minutes) + " (" + first.say + ") leave " +
-          U95Text(first.reading.u95_relative);
+  text += ladder.u95_relative ? "now " + Now(ladder) + "; " : "";
+  text += Minutes(first.total_minutes) + " (" + first.say + ") leave " + LeftAfter(first.reading);
   if (&first != &last) {
-    text += ", " + Minutes(last.total_minutes) + " " + U95Text(last.reading.u95_relative);
+    text += ", " + Minutes(last.total_minutes) + " " + LeftAfter(last.reading);
   }
   if (const LadderStep* at = MeterStep(ladder)) {
     text += "; from minute " + ShortestText(at->total_minutes) + " on " + own +
@@ -132,10 +140,10 @@ std::vector<MinutesLadder> LaddersOf(const Session& session, const FitSettings& 
 std::vector<std::vector<std::string>> MinutesCells(const MinutesLadder& ladder) {
   std::vector<std::vector<std::string>> rows = {
       {"minutes", "what they buy: " + ladder.light, "leaves", "limit"}};
-  if (ladder.u95_relative) rows.push_back({"0", "as it is", U95Text(*ladder.u95_relative), ""});
+  if (ladder.u95_relative) rows.push_back({"0", "as it is", Now(ladder), ""});
   for (const LadderStep& step : ladder.steps) {
-    rows.push_back({ShortestText(step.total_minutes), step.say, U95Text(step.reading.u95_relative),
-                    StepMark(step)});
+    rows.push_back(
+        {ShortestText(step.total_minutes), step.say, LeftAfter(step.reading), StepMark(step)});
   }
   return rows;
 }

@@ -8,6 +8,7 @@
 
 #include "calibration_options.h"
 #include "joint_progress.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/fit/fit_light.h"
@@ -111,11 +112,13 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
   return advice;
 }
 
-std::string PlusMinus(double part) { return "± " + RoundedText(100.0 * part, 2) + " %"; }
-
-std::string PlusMinus(double part, const std::optional<double>& beam_deg) {
+std::string IntervalsText(double u95_relative, double u95_stops,
+                          const std::optional<double>& beam_deg) {
   const std::string beam = beam_deg ? ", beam angle ± " + RoundedText(*beam_deg, 2) + "°" : "";
-  return PlusMinus(part) + beam;
+  return RelativeText(IntervalOfWidths(u95_relative, u95_stops)) + beam;
+}
+std::string IntervalsText(const PlannedReading& one) {
+  return IntervalsText(one.u95_relative, one.u95_stops, one.beam_u95_deg);
 }
 
 Node NodeOf(const PlannedLight& planned, const Session& session) {
@@ -141,7 +144,8 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
   if (!planned.plan) return text + planned.plan.error().message + "\n";
   const ReadingPlan& plan = *planned.plan;
   text += plan.u95_relative
-              ? "now " + PlusMinus(*plan.u95_relative, plan.beam_u95_deg) + " (95 %)\n"
+              ? "now " + IntervalsText(*plan.u95_relative, plan.u95_stops, plan.beam_u95_deg) +
+                    " (95 %)\n"
               : std::string("no reading yet\n");
   if (!planned.next.empty()) {
     text += "next, for its minutes: " + planned.next + "\nwhatever the minutes:\n";
@@ -149,15 +153,14 @@ std::string TextOf(const PlannedLight& planned, const Session& session, bool ver
   std::vector<std::vector<std::string>> rows;
   for (const PlannedReading& step : plan.steps) {
     rows.push_back({std::to_string(rows.size() + 1), SayPlannedReading(step),
-                    RoundedText(step.expected.value(), 3) + " lx",
-                    PlusMinus(step.u95_relative, step.beam_u95_deg)});
+                    RoundedText(step.expected.value(), 3) + " lx", IntervalsText(step)});
   }
   text += TextTable({"step", "take this reading", "expect about", "then"}, rows);
   if (verbose) {
     rows.clear();
     for (const PlannedReading& one : plan.candidates) {
       if (rows.size() == kCandidatesShown) break;
-      rows.push_back({SayPlannedReading(one), PlusMinus(one.u95_relative, one.beam_u95_deg)});
+      rows.push_back({SayPlannedReading(one), IntervalsText(one)});
     }
     text += "\n" + TextTable({"or first", "then"}, rows);
   }

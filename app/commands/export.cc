@@ -56,15 +56,15 @@ Result<void> RunExport(const ExportOptions& options, Console& console) {
   }
   auto preset = PresetOptionsOf(options);
   if (!preset) return tl::unexpected(preset.error());
-  ProgressLine line("writing presets", !console.quiet());
+  ProgressLine progress("writing presets", !console.quiet());
   std::vector<OutputFile> all;
   std::vector<std::string> pastes;
   for (const std::string& input : options.inputs) {
-    if (options.inputs.size() > 1) line.Begin("writing presets of " + input);
-    preset->progress = line.Watcher();
+    if (options.inputs.size() > 1) progress.Begin("writing presets of " + input);
+    preset->progress = progress.Watcher();
     auto presets = PresetsOfInput(input, options, *preset, console);
     if (!presets) return Propagate(std::move(presets));
-    line.Wipe();
+    progress.Wipe();
     console.Warn(presets->warnings);
     for (PresetFile& file : presets->files) {
       all.push_back({std::move(file.name), std::move(file.contents)});

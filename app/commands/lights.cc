@@ -68,8 +68,8 @@ std::string Table(const std::vector<LibraryLight>& lights) {
     const std::string day = DayOf(entry.provenance.time);
     rows.push_back({light.name, std::string(LightKindName(light.kind)), Headline(light),
                     light.flux_lm ? ValueAndInterval(*light.flux_lm, "lm") : kNone,
-                    cct ? ValueWithAbsolute(cct->value, cct->u95, "K") : kNone,
-                    day.empty() ? kNone : day, fs::path(entry.path).filename().string()});
+                    cct ? KelvinText(*cct) : kNone, day.empty() ? kNone : day,
+                    fs::path(entry.path).filename().string()});
   }
   return TextTable({"light", "kind", "intensity (95 %)", "flux", "CCT", "measured", "file"}, rows);
 }

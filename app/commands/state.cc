@@ -13,6 +13,7 @@
 #include "lamp_state.h"
 #include "lamp_words.h"
 #include "light_input.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/states/state_answer.h"
@@ -190,6 +191,7 @@ Node AnswerNode(const FittedLight& light, const StateAnswer& answer) {
 // A state that was read against what the others say of it.
 struct LeftOut {
   double light = 0.0, half_width = 0.0;
+  std::string interval;
   std::optional<double> cct_K;
 };
 std::optional<LeftOut> LeftOutOf(const FittedLight& light, std::size_t index) {
@@ -199,6 +201,7 @@ std::optional<LeftOut> LeftOutOf(const FittedLight& light, std::size_t index) {
   LeftOut out;
   out.light = without->relative.value / read.relative.value - 1.0;
   out.half_width = without->relative.u95 / without->relative.value;
+  out.interval = RelativeText(without->relative);
   if (without->color.cct_K && read.color.cct_K) {
     out.cct_K = without->color.cct_K->value - read.color.cct_K->value;
   }
@@ -220,9 +223,9 @@ Result<Node> TellAll(const FittedLight& light, Console& console) {
     rows.push_back({StateText(answer->state), strength == nullptr ? kNone : ValueText(*strength),
                     OfFull(answer->relative_to_full), LabelOfLight(*answer),
                     color.cct_K ? ValueText(*color.cct_K) + " K" : kNone, LabelOfColor(*answer),
-                    left_out ? Signed(100.0 * left_out->light, 2, "%") + " (± " +
-                                   RoundedText(100.0 * left_out->half_width, 2) + " %)"
-                             : kNone});
+                    left_out
+                        ? Signed(100.0 * left_out->light, 2, "%") + " (" + left_out->interval + ")"
+                        : kNone});
     Node node = AnswerNode(light, *answer);
     if (left_out) {
       Node without = {{"relative_error", left_out->light}, {"u95_relative", left_out->half_width}};

@@ -15,6 +15,7 @@
 #include "guide/sweep_plan.h"
 #include "input_files.h"
 #include "interrupt.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/states/state_answer.h"
@@ -186,11 +187,10 @@ class Sweep {
       }
       const auto worst = LeastSure(candidates);
       if (!worst) return tl::unexpected(worst.error());
-      worst_ = worst->second;
-      if (worst->second <= until_) break;
+      worst_ = worst->half_width;
+      if (worst->half_width <= until_) break;
       ++others;
-      const auto more =
-          take(candidates[worst->first], "± " + PercentText(worst->second) + " until it is read");
+      const auto more = take(candidates[worst->index], worst->interval + " until it is read");
       if (!more) return tl::unexpected(more.error());
       if (!*more) return {};
     }
@@ -198,8 +198,13 @@ class Sweep {
     return {};
   }
 
-  // Of the states that were not read, the one whose light is known least; its half width.
-  Result<std::pair<std::size_t, double>> LeastSure(const std::vector<FixtureState>& candidates) {
+  // Of the states that were not read, the one whose light is known least.
+  struct Unsure {
+    std::size_t index = 0;
+    double half_width = HUGE_VAL;
+    std::string interval{};
+  };
+  Result<Unsure> LeastSure(const std::vector<FixtureState>& candidates) {
     Console muted({.json = false,
                    .quiet = true,
                    .verbose = false,
@@ -209,13 +214,15 @@ class Sweep {
     const auto fitted = CalibrateAloud(options_.session, CalibrationSettings{}, muted);
     if (!fitted) return tl::unexpected(fitted.error());
     const auto light = std::ranges::find(fitted->lights.lights, frame_.light, &FittedLight::name);
-    if (light == fitted->lights.lights.end()) return std::pair<std::size_t, double>{0, HUGE_VAL};
+    if (light == fitted->lights.lights.end()) return Unsure{};
     StateAnswers answers(*light);
-    std::pair<std::size_t, double> worst{0, -1.0};
+    Unsure worst{0, -1.0};
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const auto answer = answers.At(candidates[i]);
       const double half = answer ? answer->relative.u95 / answer->relative.value : HUGE_VAL;
-      if (half > worst.second) worst = {i, half};
+      if (half > worst.half_width) {
+        worst = {i, half, answer ? RelativeText(answer->relative) : "unknown"};
+      }
     }
     return worst;
   }

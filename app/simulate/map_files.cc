@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/illuminance_figure.h"
 #include "lightcal_devices/captures/picture.h"
@@ -60,8 +61,9 @@ std::string SvgOf(const Simulated& s, const MapPictureWords& words) {
   const MapSummary summary = Summarize(s.map, plane, s.border_m);
   const auto text = [](double v) { return RoundedText(v, 3); };
   figure.notes.push_back("illuminance: mean " + text(summary.mean_lx) + " lx, least " +
-                         text(summary.least_lx) + " lx, most " + text(summary.most_lx) + " lx; ± " +
-                         PercentText(summary.median_u95_relative) + " (95 %, median)");
+                         text(summary.least_lx) + " lx, most " + text(summary.most_lx) + " lx; " +
+                         RelativeText(IntervalOfFactor(summary.median_u95_relative)) +
+                         " (95 %, median)");
   figure.notes.push_back(s.settings.room ? "direct light and what the walls return (reflectance " +
                                                RoundedText(s.settings.room->reflectance, 2) +
                                                "), nothing in between"

@@ -7,6 +7,7 @@
 
 #include "console.h"
 #include "lamp_words.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "simulate/effect_rows.h"
 
@@ -36,8 +37,10 @@ Total TotalOf(const PredictedPoint& point, double ambient_lx) {
   return total;
 }
 
+// Unsure as a lamp's intensity is, by a factor.
 std::string LuxText(double lux, double u95) {
-  return lux > 0.0 ? ValueWithPercent(lux, u95, "lx") : "0 lx";
+  if (!(lux > 0.0)) return "0 lx";
+  return ValueAndInterval(UncertainFromLog(std::log(lux), std::asinh(u95 / lux) / kZ95), "lx");
 }
 
 // In the room its lamps were measured in: every lamp's part must be known there.
@@ -114,7 +117,12 @@ std::string PlaneText(const Simulated& s) {
       {"most at x, y, z", PlaceText(summary.brightest_m), "m"}};
   if (summary.mean_lx > 0.0) {
     rows.push_back({"U0 (least / mean)", RoundedText(summary.least_lx / summary.mean_lx, 3), ""});
-    rows.push_back({"± (95 %, median)", RoundedText(100.0 * summary.median_u95_relative, 2), "%"});
+    const Uncertain part = IntervalOfFactor(summary.median_u95_relative);
+    if (IsEven(part)) {
+      rows.push_back({"± (95 %, median)", RoundedText(100.0 * part.u95, 2), "%"});
+    } else {
+      rows.push_back({"95 % (median)", RelativeText(part), ""});
+    }
   }
   if (s.border_m > 0.0) out += "without a border of " + MetresText(s.border_m) + " m\n";
   out += TextTable({"illuminance", "value", "unit"}, rows);

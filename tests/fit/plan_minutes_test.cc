@@ -103,7 +103,7 @@ TEST(PlanMinutes, EachRungLeavesLessAndNoneStandsOutOfReach) {
 
 TEST(PlanMinutes, TheMetersOwnCalibrationIsTheFloor) {
   const MinutesLadder ladder = LadderOf(EmptySession(0.019));
-  EXPECT_NEAR(ladder.meter_u95_relative, std::expm1(kZ95 * 0.019), 1e-12);
+  EXPECT_NEAR(ladder.meter_u95_relative, std::sinh(kZ95 * 0.019), 1e-12);
   ASSERT_FALSE(ladder.steps.empty());
   EXPECT_FALSE(ladder.steps.front().meter_limits) << "the offset is open";
   EXPECT_TRUE(ladder.steps.back().meter_limits);
@@ -117,7 +117,7 @@ TEST(PlanMinutes, TheMetersOwnCalibrationIsTheFloor) {
   two.readings.front().reading.meter = "n";
   two.readings.push_back(two.readings.front());
   two.readings.back().reading.meter = "m";
-  EXPECT_NEAR(LadderOf(two).meter_u95_relative, std::expm1(kZ95 * 0.019 / std::sqrt(2.0)), 1e-12);
+  EXPECT_NEAR(LadderOf(two).meter_u95_relative, std::sinh(kZ95 * 0.019 / std::sqrt(2.0)), 1e-12);
   const MinutesLadder own = LadderOf(EmptySession(0.0));
   EXPECT_EQ(own.meter_u95_relative, 0.0);
   for (const LadderStep& step : own.steps) EXPECT_FALSE(step.meter_limits);

@@ -15,6 +15,7 @@
 #include "lightcal/core/crc32.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/generator_name.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/light_kind.h"
@@ -243,9 +244,8 @@ Result<Described> FixtureOf(const FittedLight& lamp, const Provenance& provenanc
   GdtfFixture& fixture = out.fixture;
   fixture.name = lamp.name;
   fixture.manufacturer = "lightcal";
-  fixture.description = "Measured: " + RoundedText(lamp.intensity_cd->value, 4) + " cd +- " +
-                        RoundedText(100.0 * lamp.intensity_cd->u95 / lamp.intensity_cd->value, 2) +
-                        " % (95 %), " + (OfStatedBeam(lamp) ? DistributionWords(lamp) + ", " : "") +
+  fixture.description = "Measured: " + PlainInterval(*lamp.intensity_cd, "cd") + ", " +
+                        (OfStatedBeam(lamp) ? DistributionWords(lamp) + ", " : "") +
                         provenance.generator;
   fixture.emitters = EmittersOf(lamp);
   beam->emitter = fixture.emitters.front().name;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/presets/light_distribution.h"
@@ -19,9 +20,7 @@ namespace {
 // A name as part of a file name that no shell or file system minds.
 std::string PeakText(const FittedLight& lamp) {
   if (!lamp.intensity_cd || !(lamp.intensity_cd->value > 0.0)) return {};
-  const Uncertain& u = *lamp.intensity_cd;
-  return "intensity " + RoundedText(u.value, 4) + " cd +- " +
-         RoundedText(100.0 * u.u95 / u.value, 2) + " % (95 %)" +
+  return "intensity " + PlainInterval(*lamp.intensity_cd, "cd") +
          (OfStatedBeam(lamp) ? ", " + DistributionWords(lamp) : "");
 }
 

@@ -20,8 +20,8 @@ struct PlannedReading {
   std::optional<Vec3> position_m;  // or at this place
   std::optional<Vec3> normal;
   Lux expected{0.0};                  // what the meter will show if the lamp is what it now seems
-  double u95_relative = 0;            // of the intensity (illuminance) once it is taken
-  double u95_stops = 0;               // the same: 1/2 log2(high/low)
+  double u95_relative = 0;            // of the intensity (illuminance) once it is taken: half
+  double u95_stops = 0;               // the same: 1/2 log2(high/low), infinite down to 0
   std::optional<Radians> off_axis{};  // with distance: seen from the lamp, from its axis
   std::optional<double> beam_u95_deg{};  // of a beam's full angle once it is taken
 };
@@ -43,7 +43,8 @@ struct LadderStep {
 // What the next minutes of measuring one light buy, each step on top of the former.
 struct MinutesLadder {
   std::string light;
-  std::optional<double> u95_relative;  // now; absent before any reading
+  std::optional<double> u95_relative;  // now, half the interval's width; absent before any reading
+  double u95_stops = 0.0;              // the same in stops; infinite: it reaches down to 0
   // What the calibration of the meter (of all that read) leaves however often it reads; 0 where
   // readings of one share nothing.
   double meter_u95_relative = 0.0;

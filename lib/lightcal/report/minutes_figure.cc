@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/report/label_placement.h"
 #include "lightcal/report/style.h"
@@ -69,7 +70,7 @@ class Staircase {
       const double at = y_.At(PercentOf(u95));
       svg_.Line("second", {area.left, at}, {area.right, at});
       ground_.lines.push_back({{area.left, at}, {area.right, at}});
-      const std::string text = "the meter itself ± " + PercentText(u95);
+      const std::string text = "the meter itself " + RelativeText(IntervalOfFactor(u95));
       const double right = area.left + 4.0 + NoteWidth(text);
       notes_.push_back({{area.left + 4.0, at + 14.0}, text});
       ground_.taken.push_back({area.left + 4.0, at + 1.0, right, at + 1.0 + kNoteLine});
@@ -94,9 +95,10 @@ class Staircase {
     for (const MinutesLadder& ladder : ladders_) {
       for (const LadderStep& step : ladder.steps) {
         const auto [x, y] = At(step);
-        svg_.Circle("used", {x, y}, kStepRadius,
-                    Figure(step.total_minutes) + " min: " + step.say + ", ± " +
-                        PercentText(step.reading.u95_relative));
+        svg_.Circle(
+            "used", {x, y}, kStepRadius,
+            Figure(step.total_minutes) + " min: " + step.say + ", " +
+                RelativeText(IntervalOfWidths(step.reading.u95_relative, step.reading.u95_stops)));
         ground_.taken.push_back(
             {x - kStepRadius, y - kStepRadius, x + kStepRadius, y + kStepRadius});
       }

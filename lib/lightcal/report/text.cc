@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::report {
@@ -145,16 +146,9 @@ std::string PlusMinus(const Uncertain& u, std::string_view unit, double scale) {
 }
 
 std::string RelativePlusMinus(const Uncertain& u) {
-  if (!(u.u95 > 0.0) || u.value == 0.0) return "";
-  const double percent = std::abs(u.u95 / u.value) * 100.0;
-  if (IsEven(u)) return "± " + Fixed(percent, DecimalsFor(percent)) + "\u00A0%";
-  const auto arm = [&](double end) {
-    const double part = (end / u.value - 1.0) * 100.0;
-    const int decimals = part == 0.0 ? 0 : std::max(0, DecimalsFor(std::abs(part)));
-    return (part > 0.0 ? "+" : "") + Fixed(part, decimals);
-  };
-  return arm(u.low.value_or(u.value - u.u95)) + " … " + arm(u.high.value_or(u.value + u.u95)) +
-         "\u00A0%";
+  std::string text = RelativeText(u);
+  if (text.ends_with(" %")) text.replace(text.size() - 2, 1, "\u00A0");
+  return text;
 }
 
 std::string Interval(const Uncertain& u, std::string_view unit) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/model/observations.h"
@@ -60,7 +61,16 @@ std::optional<std::string> AboutRejected(const FittedLight& light) {
   return std::nullopt;
 }
 
-std::string Within(double relative) { return "± " + PercentText(relative); }
+std::string LeftAfter(const PlannedReading& reading) {
+  return RelativeText(IntervalOfWidths(reading.u95_relative, reading.u95_stops));
+}
+
+// Of a plan or a ladder, "" before any reading.
+template <class Plan>
+std::string Now(const Plan& plan) {
+  return plan.u95_relative ? RelativeText(IntervalOfWidths(*plan.u95_relative, plan.u95_stops))
+                           : "";
+}
 
 NextStepAdvice Say(std::string sentence) {
   NextStepAdvice advice;
@@ -81,11 +91,11 @@ NextStepAdvice SayReadNearer(double nearest_m) {
   return advice;
 }
 
-NextStepAdvice Take(PlannedReading reading, double minutes, std::optional<double> now) {
+NextStepAdvice Take(PlannedReading reading, double minutes, const std::string& now) {
   NextStepAdvice advice;
   advice.kind = NextStepAdvice::Kind::kReading;
-  advice.say = SayPlannedReading(reading) + ": " + (now ? Within(*now) + " → " : "") +
-               Within(reading.u95_relative);
+  advice.say =
+      SayPlannedReading(reading) + ": " + now + (now.empty() ? "" : " → ") + LeftAfter(reading);
   advice.reading = std::move(reading);
   advice.minutes = minutes;
   return advice;
@@ -97,7 +107,7 @@ std::optional<NextStepAdvice> AboutPlace(const Session& session, const FittedLig
   auto plan = PlanReadings(session, light.name, {}, 1);
   if (!plan || plan->steps.empty() || !plan->u95_relative) return std::nullopt;
   const MeasuringMinutes minutes;
-  return Take(std::move(plan->steps.front()), minutes.move + minutes.reading, plan->u95_relative);
+  return Take(std::move(plan->steps.front()), minutes.move + minutes.reading, Now(*plan));
 }
 
 // A beam is told at another angle.
@@ -113,11 +123,11 @@ std::optional<AngleAdvice> AboutBeam(const Session& session, const FittedLight& 
   if (!step.beam_u95_deg) return std::nullopt;
   const auto degrees = [](double u95) { return "± " + RoundedText(u95, 2) + "°"; };
   const std::string beam = ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
-                           degrees(*step.beam_u95_deg) + ", intensity " +
-                           Within(*plan->u95_relative) + " → " + Within(step.u95_relative);
+                           degrees(*step.beam_u95_deg) + ", intensity " + Now(*plan) + " → " +
+                           LeftAfter(step);
   const double gain = std::log(*plan->beam_u95_deg / *step.beam_u95_deg);
   const MeasuringMinutes minutes;
-  NextStepAdvice advice = Take(std::move(step), minutes.move + minutes.reading, std::nullopt);
+  NextStepAdvice advice = Take(std::move(step), minutes.move + minutes.reading, "");
   advice.say = SayPlannedReading(*advice.reading) + beam;
   return AngleAdvice{std::move(advice), gain};
 }
@@ -150,12 +160,12 @@ NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light,
       (!meter_is_most || ladder->steps.front().reading.u95_relative < kWorthWhile * now);
   if (helps) {
     LadderStep& step = ladder->steps.front();
-    return Take(std::move(step.reading), step.minutes, ladder->u95_relative);
+    return Take(std::move(step.reading), step.minutes, Now(*ladder));
   }
   if (!meter_is_most) return nothing;
   NextStepAdvice advice;
   advice.kind = NextStepAdvice::Kind::kMeter;
-  advice.say = "the meter is the limit: its own " + Within(meter) +
+  advice.say = "the meter is the limit: its own " + RelativeText(IntervalOfFactor(meter)) +
                " stays however often it reads; only another meter helps";
   return advice;
 }
@@ -211,8 +221,8 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
                " m: so far only the manufacturer's figures speak");
   }
   NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
-  // A step that leaves the interval down to nothing tells the lamp as little as none.
-  if (bought.reading && bought.reading->u95_relative >= 1.0) {
+  // A step that leaves the lamp unknown to a factor of two either way tells as little as none.
+  if (bought.reading && bought.reading->u95_stops >= 1.0) {
     return SayReadNearer(nearest);
   }
   return bought;

@@ -58,17 +58,17 @@ double OpenAfter(const PlannedReading& planned) {
   return planned.u95_relative * planned.beam_u95_deg.value_or(1.0);
 }
 
-// Half of the interval that is left: in stops, and its larger side over the value.
+// Half of the interval that is left: in stops, and over the value.
 struct Left {
   double relative = 0.0;
   double stops = std::numeric_limits<double>::infinity();
 };
 
 // Of an intensity known to so much, 1 sigma, relative.
-Left LeftBy(double deviation) { return {std::expm1(kZ95 * deviation), StopsOfSd(deviation)}; }
+Left LeftBy(double deviation) { return {std::sinh(kZ95 * deviation), StopsOfSd(deviation)}; }
 
 // ln of how much shorter an interval is afterwards: in stops, as people are told; where one of
-// them reaches down to nothing, by its larger side.
+// them reaches down to nothing, by its width.
 double GainOf(const Left& before, const PlannedReading& after) {
   const bool told = std::isfinite(before.stops) && std::isfinite(after.u95_stops);
   return told ? std::log(before.stops / after.u95_stops)
@@ -93,7 +93,10 @@ class Planner {
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
     if (auto begun = Begin(plan.u95_relative); !begun) return Propagate(std::move(begun));
-    if (now_ && plan.u95_relative) plan.beam_u95_deg = fit::BeamLeft(*now_);
+    if (now_ && plan.u95_relative) {
+      plan.u95_stops = fit::StopsLeft(*now_);
+      plan.beam_u95_deg = fit::BeamLeft(*now_);
+    }
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
       BeginStep(i, steps);
@@ -112,7 +115,10 @@ class Planner {
     if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
     ladder.meter_u95_relative = LeftBy(SharedCalibration()).relative;
     std::optional<Left> left;
-    if (ladder.u95_relative) left = Left{*ladder.u95_relative, fit::StopsLeft(*now_)};
+    if (ladder.u95_relative) {
+      ladder.u95_stops = fit::StopsLeft(*now_);
+      left = Left{*ladder.u95_relative, ladder.u95_stops};
+    }
     double total = 0.0;
     for (int i = 0; i < wishes.steps; ++i) {
       BeginStep(i, wishes.steps);
@@ -368,7 +374,7 @@ class Planner {
 std::optional<double> RelativeUncertainty(const FittedLight& light) {
   const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
   if (!u || !(u->value > 0.0)) return std::nullopt;
-  return (u->high ? std::max(*u->high - u->value, u->u95) : u->u95) / u->value;
+  return (u->low && u->high ? 0.5 * (*u->high - *u->low) : u->u95) / u->value;
 }
 
 namespace {

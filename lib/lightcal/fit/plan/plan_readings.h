@@ -16,6 +16,7 @@ namespace lightcal {
 
 struct ReadingPlan {
   std::optional<double> u95_relative;      // now; absent before any reading
+  double u95_stops = 0.0;                  // the same in stops, as of a PlannedReading
   std::optional<double> beam_u95_deg;      // now, where readings off the axis tell a beam
   std::vector<PlannedReading> steps;       // in order, each on top of the former
   std::vector<PlannedReading> candidates;  // for the first step, best first
@@ -65,7 +66,7 @@ struct LadderWishes {
 // "read at 1.41 m, facing the lamp", "hold a shadow card at 0.5 m ...".
 [[nodiscard]] std::string SayPlannedReading(const PlannedReading& reading);
 
-// Half of the 95 % interval of intensity or illuminance over its value; the larger side.
+// Half the width of the 95 % interval of intensity or illuminance, over its value.
 [[nodiscard]] std::optional<double> RelativeUncertainty(const FittedLight& light);
 
 }  // namespace lightcal

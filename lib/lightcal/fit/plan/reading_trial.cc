@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "lightcal/core/stops.h"
@@ -83,20 +84,17 @@ std::optional<ReadingTrial> TryExpected(const KnownSoFar& known, const PlannedRe
 
 namespace {
 
-// Each width of the three trials is the median of theirs.
+// The interval of the three trials is the median one, by its width; one that failed leaves all.
 ReadingTrial MedianOf(const std::optional<ReadingTrial>& low, ReadingTrial middle,
                       const std::optional<ReadingTrial>& high) {
-  const auto median = [&](double PlannedReading::* width) {
-    constexpr double kAll = std::numeric_limits<double>::infinity();
-    std::array<double, 3> all = {low ? low->planned.*width : kAll, middle.planned.*width,
-                                 high ? high->planned.*width : kAll};
-    std::ranges::sort(all);
-    return all[1];
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  const auto widths = [&](const std::optional<ReadingTrial>& trial) {
+    return trial ? std::pair(trial->planned.u95_relative, trial->planned.u95_stops)
+                 : std::pair(kAll, kAll);
   };
-  const double relative = median(&PlannedReading::u95_relative);
-  const double stops = median(&PlannedReading::u95_stops);
-  middle.planned.u95_relative = relative;
-  middle.planned.u95_stops = stops;
+  std::array<std::pair<double, double>, 3> all = {widths(low), widths(middle), widths(high)};
+  std::ranges::sort(all);
+  std::tie(middle.planned.u95_relative, middle.planned.u95_stops) = all[1];
   return middle;
 }
 
