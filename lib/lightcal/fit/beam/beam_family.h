@@ -92,13 +92,16 @@ struct ReadFrom {
   [[nodiscard]] T SquaresRatio(const T& a, const T& offset) const {
     using std::cos;
     using std::sin;
-    const T along = cos(a) + Relative(offset) * (plane ? T(cos(a)) : T(1.0));
-    return sin(a) * sin(a) + along * along;
+    const T ahead = cos(a);
+    const T across = sin(a);
+    const T along = ahead + Relative(offset) * (plane ? ahead : T(1.0));
+    return across * across + along * along;
   }
 };
 
 struct BeamShape {
-  static constexpr int kNodes = 20;  // of the smooth curve; other families use the first few
+  static constexpr int kNodes = 20;  // of the smooth curve
+  static constexpr int kFew = 3;     // of them are used by all other families
   static constexpr double kSoft = 0.08;
   // Of f on the axis: most lamps are brightest there, some have a hole.
   static constexpr ParameterRule kAxialPrior = {true, 0.8, 0.6};

@@ -3,6 +3,10 @@
 // Internal to this room.
 #pragma once
 
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -134,6 +138,25 @@ struct BeamProblem {
     }
     *residual = shape.PriorRow(i - sheet.size(), p + kBeamCommon);
     return true;
+  }
+  // The same and its derivatives: by the few parameters of a family that has few.
+  bool Differentiate(std::size_t i, const double* p, double* residual, double* gradient) const {
+    return shape.family == BeamFamily::kSmooth
+               ? DifferentiateBy<kCount>(i, p, residual, gradient)
+               : DifferentiateBy<kBeamCommon + BeamShape::kFew>(i, p, residual, gradient);
+  }
+
+ private:
+  template <int kFirst>
+  bool DifferentiateBy(std::size_t i, const double* p, double* residual, double* gradient) const {
+    using Jet = ceres::Jet<double, kFirst>;
+    std::array<Jet, kFirst> variables;
+    for (int k = 0; k < kFirst; ++k) variables[k] = Jet(p[k], k);
+    Jet out(0.0);
+    const bool has_value = Residual(i, variables.data(), &out);
+    *residual = out.a;
+    std::fill(std::copy_n(out.v.data(), kFirst, gradient), gradient + kCount, 0.0);
+    return has_value;
   }
 };
 

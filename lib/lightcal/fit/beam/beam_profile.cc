@@ -56,17 +56,31 @@ double WidthAt(const std::vector<double>& gamma_deg, const std::vector<double>& 
 }
 
 // 2 pi int I sin(gamma) dgamma, exact for lines between the nodes.
-double FluxOf(const std::vector<double>& gamma_deg, const std::vector<double>& candela) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i + 1 < candela.size(); ++i) {
-    const double a = gamma_deg[i] * kPi / 180.0;
-    const double b = gamma_deg[i + 1] * kPi / 180.0;
-    const double slope = (candela[i + 1] - candela[i]) / (b - a);
-    sum += candela[i] * (std::cos(a) - std::cos(b)) +
-           slope * (std::sin(b) - std::sin(a) - (b - a) * std::cos(b));
+class FluxThrough {
+ public:
+  explicit FluxThrough(const std::vector<double>& gamma_deg) {
+    for (std::size_t i = 0; i + 1 < gamma_deg.size(); ++i) {
+      const double a = gamma_deg[i] * kPi / 180.0;
+      const double b = gamma_deg[i + 1] * kPi / 180.0;
+      const double to = std::cos(b);
+      rings_.push_back({b - a, std::cos(a) - to, std::sin(b) - std::sin(a) - (b - a) * to});
+    }
   }
-  return 2.0 * kPi * sum;
-}
+  [[nodiscard]] double Of(const std::vector<double>& candela) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < rings_.size(); ++i) {
+      const double slope = (candela[i + 1] - candela[i]) / rings_[i].width;
+      sum += candela[i] * rings_[i].even + slope * rings_[i].rising;
+    }
+    return 2.0 * kPi * sum;
+  }
+
+ private:
+  struct Ring {
+    double width, even, rising;  // of an intensity that is the same, and of its slope
+  };
+  std::vector<Ring> rings_;
+};
 
 // ---- draws ----
 
@@ -126,6 +140,7 @@ Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int
                std::mt19937_64& random, StandardNormal& normal) {
   Drawn out;
   const Eigen::Index n = beam.theta.size();
+  const FluxThrough flux(gamma_deg);
   Eigen::VectorXd z(n);
   for (int i = 0; i < count; ++i) {
     for (Eigen::Index k = 0; k < n; ++k) z[k] = normal(random);
@@ -134,7 +149,7 @@ Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int
     draw.candela = CurveOf(beam, p, gamma_deg);
     draw.axial_cd = draw.candela.front();
     if (!std::isfinite(draw.axial_cd)) continue;
-    draw.flux_lm = FluxOf(gamma_deg, draw.candela);
+    draw.flux_lm = flux.Of(draw.candela);
     if (!std::isfinite(draw.flux_lm)) continue;
     draw.beam_deg = WidthAt(gamma_deg, draw.candela, 0.5);
     draw.field_deg = WidthAt(gamma_deg, draw.candela, 0.1);
