@@ -127,14 +127,20 @@ std::string PartWord(const std::string& name) {
   return word;
 }
 
-std::string Parts(const FittedLight& light) {
-  std::vector<std::pair<std::string, double>> parts;
-  for (const BudgetPart& part : light.budget) parts.emplace_back(part.name, part.sd_relative);
+// Their squares make that of the interval. Where lamps of several kinds stay possible the unlikely
+// ones weigh more in a variance than in 95 %: all parts shrink alike then.
+std::string Parts(const FittedLight& light, const Uncertain& value) {
+  const std::vector<BudgetPart>& parts = light.budget;
+  double variance = 0.0;
+  for (const BudgetPart& part : parts) variance += part.sd_relative * part.sd_relative;
+  const double together = StopsOfSd(std::sqrt(variance));
+  const double whole = HalfWidthStops(value).value_or(together);
+  const double shrunk = together > whole ? whole / together : 1.0;
   std::string text;
   for (std::size_t i = 0; i < std::min(kPartsShown, parts.size()); ++i) {
-    const double stops = StopsOfSd(parts[i].second);
+    const double stops = shrunk * StopsOfSd(parts[i].sd_relative);
     if (i > 0 && stops < kLeastPartStops) break;
-    text += (text.empty() ? "" : " · ") + PartWord(parts[i].first) + " " + BareStops(stops);
+    text += (text.empty() ? "" : " · ") + PartWord(parts[i].name) + " " + BareStops(stops);
   }
   return text;
 }
@@ -359,9 +365,9 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
   if (const std::string cone = ConeDrawn(light, session); !cone.empty()) {
     text += LabelledLine("", cone);
   }
-  const std::string parts = Parts(light);
   const std::string stops = strength.value == nullptr ? "" : StopsText(*strength.value);
-  if (!parts.empty() && !stops.empty()) {
+  const std::string parts = stops.empty() ? "" : Parts(light, *strength.value);
+  if (!parts.empty()) {
     text += LabelledLine("why " + stops.substr(0, stops.find(" stop")), parts);
   }
   if (const std::string walls = WallsPart(light, session); !walls.empty()) {

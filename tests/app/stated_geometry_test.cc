@@ -26,7 +26,6 @@ constexpr double kDegree = kPi / 180.0;
 
 const char* const kDark = "[room]\ndark = true\n";
 const char* const kOutdoors = "[room]\noutdoors = true\n";
-const char* const kDark = "[room]\ndark = true\n";
 
 struct Read {
   std::string where;  // keys of the reading
